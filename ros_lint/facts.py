@@ -1,0 +1,229 @@
+"""What collectors find out: plain frozen values. No file is read here and nothing is looked up.
+
+They are named tuples because a workspace has a hundred thousand of them: they start, are made, travel between
+processes and are cached in half the time that frozen dataclasses take. The cache loads no class but those of this
+module and of :mod:`ros_lint.text`.
+"""
+
+from __future__ import annotations
+
+from enum import Flag, auto
+from typing import Literal, NamedTuple
+
+from ros_lint.text import Span
+
+
+class Facet(Flag):
+    """A side of a package that something opaque can hide."""
+
+    USES = auto()
+    """Which packages it needs."""
+    EXECUTABLES = auto()
+    """What lands in lib/<package> and in bin."""
+    SHARE = auto()
+    """What lands in share/<package>: launch files, parameters, models."""
+    PYTHON = auto()
+    """Which Python modules it offers."""
+    LIBRARIES = auto()
+    """Libraries, headers, CMake packages and targets."""
+    INTERFACES = auto()
+    """Messages, services, actions."""
+    COMPONENTS = auto()
+    """Component and plugin classes."""
+
+
+ANYTHING = (
+    Facet.USES | Facet.EXECUTABLES | Facet.SHARE | Facet.PYTHON | Facet.LIBRARIES | Facet.INTERFACES | Facet.COMPONENTS
+)
+
+
+class Opaque(NamedTuple):
+    """A place that could not be seen through. A rule that claims absence keeps silent about what it hides."""
+
+    hides: Facet
+    reason: str
+    """A clause without subject, such as "include() of ${name} cannot be followed"."""
+    span: Span
+
+
+class Problem(NamedTuple):
+    """Something that makes a file wrong for the tools that read it."""
+
+    kind: str
+    """A short stable name, such as "unknown-tag"."""
+    message: str
+    span: Span
+
+
+# --- package.xml ---------------------------------------------------------------------------------------------------
+
+
+class Element(NamedTuple):
+    """An element of a manifest that is no dependency: a child of ``<package>`` or of ``<export>``."""
+
+    tag: str
+    text: str
+    attributes: tuple[tuple[str, str], ...]
+    span: Span
+    text_span: Span
+
+    def get(self, attribute: str, default: str = "") -> str:
+        return dict(self.attributes).get(attribute, default)
+
+
+class Depend(NamedTuple):
+    """A dependency element of a manifest, ``group_depend``, ``member_of_group``, ``conflict`` and ``replace`` included."""
+
+    name: str
+    tag: str
+    condition: str
+    """The text of the attribute, "" when there is none. REP 149."""
+    versions: tuple[tuple[str, str], ...]
+    """Such as ("version_gte", "1.2.0")."""
+    span: Span
+    name_span: Span
+
+
+class Manifest(NamedTuple):
+    """A ``package.xml``, as far as it can be read. With problems, colcon takes it for no package."""
+
+    path: str
+    format: int
+    name: str
+    version: str
+    elements: tuple[Element, ...]
+    depends: tuple[Depend, ...]
+    exports: tuple[Element, ...]
+    problems: tuple[Problem, ...]
+    name_span: Span
+    end: Span
+    """The empty span just before ``</package>``, where an element can be added."""
+
+
+# --- sources -------------------------------------------------------------------------------------------------------
+
+Via = Literal["package", "cmake", "macro", "target", "include", "import", "interface", "key"]
+"""In which of the name spaces a mention is to be looked up; they differ (reference, section D6 and E3.8)."""
+
+
+class Mention(NamedTuple):
+    """A place that names something which may belong to another package."""
+
+    name: str
+    """As written: a header path, a dotted module, the argument of find_package, a package name, ``pkg/Type``."""
+    via: Via
+    span: Span
+    what: str = ""
+    """How to quote it in a message, when the name alone does not do."""
+    optional: bool = False
+    """Guarded, so that the package does without: QUIET and X_FOUND, try/except ImportError, __has_include."""
+    test: bool = False
+    """Known to serve tests only."""
+
+
+class FileFacts(NamedTuple):
+    """What one source file says about other packages."""
+
+    path: str
+    mentions: tuple[Mention, ...] = ()
+    opaque: tuple[Opaque, ...] = ()
+    problems: tuple[Problem, ...] = ()
+
+
+# --- build scripts: CMakeLists.txt and setup.py in the same words --------------------------------------------------
+
+
+class Target(NamedTuple):
+    """An executable or a library that CMake builds."""
+
+    name: str
+    kind: Literal["executable", "library", "interface", "other"]
+    sources: tuple[str, ...]
+    """Relative to the package."""
+    test: bool
+    span: Span
+
+
+class Provided(NamedTuple):
+    """A file that the package installs."""
+
+    path: str
+    """Relative to the install prefix: ``lib/<package>/talker``, ``share/<package>/launch/a.launch.py``."""
+    source: str
+    """Relative to the package, "" when it is built or generated."""
+    program: bool
+    """Whether it is installed with the executable bit."""
+    conditional: bool
+    """Whether it depends on something that is not known."""
+    span: Span
+
+
+class Component(NamedTuple):
+    """A class that can be loaded into a component container (rclcpp_components)."""
+
+    name: str
+    conditional: bool
+    span: Span
+
+
+class EntryPoint(NamedTuple):
+    """An entry point of a Python distribution."""
+
+    group: str
+    name: str
+    target: str
+    """``module:attribute``."""
+    span: Span
+
+
+class BuildScript(NamedTuple):
+    """What the build of a package does: evaluated from CMakeLists.txt and what it includes, or from setup.py and setup.cfg."""
+
+    path: str
+    name: str = ""
+    """As project() or setup(name=) gives it; "" when not known."""
+    name_span: Span | None = None
+    version: str = ""
+    version_span: Span | None = None
+    mentions: tuple[Mention, ...] = ()
+    targets: tuple[Target, ...] = ()
+    provides: tuple[Provided, ...] = ()
+    components: tuple[Component, ...] = ()
+    entry_points: tuple[EntryPoint, ...] = ()
+    python_packages: tuple[str, ...] = ()
+    """Importable modules and packages that it installs, dotted."""
+    interfaces: tuple[str, ...] = ()
+    """Generated interfaces, as ``msg/Name``."""
+    calls: tuple[str, ...] = ()
+    """Names of the CMake commands that ran, in lower case, sorted, each once."""
+    opaque: tuple[Opaque, ...] = ()
+    problems: tuple[Problem, ...] = ()
+    end: Span | None = None
+    """Where an install rule can be added: an empty span before ament_package(), or None."""
+
+
+# --- launch files --------------------------------------------------------------------------------------------------
+
+
+class LaunchReference(NamedTuple):
+    """A line of a launch file that names a package, and mostly something in it."""
+
+    kind: Literal["node", "component", "include", "file", "package"]
+    package: str
+    name: str
+    """The executable, the component class, or a path below share/<package>; "" for a plain look-up of the package."""
+    span: Span
+    """Of the name, or of the package where there is no name."""
+    package_span: Span
+    conditional: bool = False
+    """Under a condition that may be false."""
+
+
+class LaunchFile(NamedTuple):
+    """A launch file, as far as it can be read without running it."""
+
+    path: str
+    language: Literal["python", "xml", "yaml"]
+    references: tuple[LaunchReference, ...] = ()
+    opaque: tuple[Opaque, ...] = ()
+    problems: tuple[Problem, ...] = ()

@@ -1,0 +1,153 @@
+"""Files as text, and places in them."""
+
+from __future__ import annotations
+
+import codecs
+import re
+from bisect import bisect_right
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
+
+
+class Span(NamedTuple):
+    """A place in a file. Lines and columns count from 1, columns in code points; the end is exclusive.
+
+    ``path`` is relative to the base of the run, with forward slashes. Spans sort by file, then by place.
+    """
+
+    path: str
+    line: int
+    column: int
+    end_line: int
+    end_column: int
+
+    def __str__(self) -> str:
+        return f"{self.path}:{self.line}:{self.column}"
+
+    def start(self) -> Span:
+        """Return the empty span at the start."""
+        return Span(self.path, self.line, self.column, self.line, self.column)
+
+    def end(self) -> Span:
+        """Return the empty span at the end."""
+        return Span(self.path, self.end_line, self.end_column, self.end_line, self.end_column)
+
+
+# Not str.splitlines: it also splits at form feeds and U+2028, which no parser here counts as a line.
+_NEWLINE = re.compile(r"\r\n|\r|\n")
+
+
+class Text:
+    """The text of one file, able to turn offsets into spans and back.
+
+    ``codec`` is what encodes the text to the bytes it came from, see :func:`decode`.
+    """
+
+    __slots__ = ("_starts", "codec", "path", "text")
+
+    def __init__(self, path: str, text: str, codec: str = "utf-8") -> None:
+        self.path = path
+        self.text = text
+        self.codec = codec
+        self._starts: list[int] | None = None
+
+    @property
+    def newline(self) -> str:
+        """The line end that the file uses first, or a line feed."""
+        found = _NEWLINE.search(self.text)
+        return found[0] if found else "\n"
+
+    @property
+    def line_count(self) -> int:
+        return len(self._line_starts())
+
+    def span(self, start: int, end: int) -> Span:
+        """Return the span between two offsets, each from 0 to the length of the text."""
+        return Span(self.path, *self.position(start), *self.position(end))
+
+    def spans(self, ranges: Iterable[tuple[int, int]]) -> Iterator[Span]:
+        """Return the spans of ranges that are sorted and lie within a line each.
+
+        Faster than :meth:`span` for a few places in a long file: lines are counted by the C library.
+        """
+        text, path = self.text, self.path
+        if "\r" in text:
+            yield from (self.span(start, end) for start, end in ranges)
+            return
+        line, at, begin = 1, 0, 0
+        for start, end in ranges:
+            if passed := text.count("\n", at, start):
+                line += passed
+                begin = text.rfind("\n", at, start) + 1
+            at = start
+            yield Span(path, line, start - begin + 1, line, end - begin + 1)
+
+    def offset(self, line: int, column: int) -> int:
+        """Return the offset of a place. Raises IndexError when there is no such line."""
+        return self._line_starts()[line - 1] + column - 1
+
+    def position(self, offset: int) -> tuple[int, int]:
+        """Return line and column of an offset."""
+        starts = self._line_starts()
+        line = bisect_right(starts, offset)
+        return line, offset - starts[line - 1] + 1
+
+    def line(self, number: int) -> str:
+        """Return a line without its line end. Raises IndexError when there is no such line."""
+        starts = self._line_starts()
+        end = starts[number] if number < len(starts) else None
+        return self.text[starts[number - 1] : end].rstrip("\r\n")
+
+    def slice(self, span: Span) -> str:
+        """Return the text that a span of this file covers."""
+        return self.text[self.offset(span.line, span.column) : self.offset(span.end_line, span.end_column)]
+
+    def encode(self, text: str) -> bytes:
+        """Return a changed text as bytes, in the encoding that the file had.
+
+        Raises UnicodeEncodeError when the encoding has no such character.
+        """
+        if self.codec == "utf-8":
+            return text.encode("utf-8", "surrogateescape")
+        return text.encode(self.codec)
+
+    def _line_starts(self) -> list[int]:
+        if self._starts is None:
+            self._starts = [0, *(match.end() for match in _NEWLINE.finditer(self.text))]
+        return self._starts
+
+
+_BOMS = ((codecs.BOM_UTF8, "utf-8-sig"), (codecs.BOM_UTF16_LE, "utf-16"), (codecs.BOM_UTF16_BE, "utf-16"))
+_XML_ENCODING = re.compile(rb"""\A<\?xml[^>]{0,200}?\bencoding\s*=\s*["']([A-Za-z][\w.-]*)["']""")
+_PYTHON_ENCODING = re.compile(rb"\A(?:[^\n]*\n)?[ \t\f]*#[^\n]*?coding[:=][ \t]*([-\w.]+)")  # PEP 263
+
+
+def decode(data: bytes) -> tuple[str, str]:
+    """Return the text of a file and the codec that turns it back into the same bytes.
+
+    A byte order mark decides, then the encoding that an XML declaration or a Python coding line names,
+    then UTF-8. Bytes that are no UTF-8 survive as lone surrogates, so nothing raises and nothing is lost.
+    """
+    for mark, codec in _BOMS:
+        if data.startswith(mark):
+            try:
+                text = data.decode(codec)
+            except UnicodeDecodeError:
+                break
+            return text, codec
+    declared = _XML_ENCODING.match(data) or (_PYTHON_ENCODING.match(data) if b"coding" in data[:400] else None)
+    if declared:
+        try:
+            codec = codecs.lookup(declared[1].decode("ascii")).name
+            text = data.decode(codec)
+            if codec != "utf-8" and text.encode(codec) == data:
+                return text, codec
+        except (LookupError, UnicodeError):
+            pass
+    return data.decode("utf-8", "surrogateescape"), "utf-8"
+
+
+def read(path: str, data: bytes) -> Text:
+    """Return the bytes of a file as a Text."""
+    text, codec = decode(data)
+    return Text(path, text, codec)
