@@ -1,0 +1,101 @@
+"""What a rule is, and what it says."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from enum import IntEnum
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.text import Span
+
+if TYPE_CHECKING:
+    from ros_lint.workspace import Package, Workspace
+
+
+class Severity(IntEnum):
+    """How bad it is if the finding is right."""
+
+    INFO = 1
+    WARNING = 2
+    ERROR = 3
+
+    def __str__(self) -> str:
+        return self.name.lower()
+
+
+class Confidence(IntEnum):
+    """How sure the tool is. Without ``--pedantic`` only HIGH is shown: right at least 99 times in 100."""
+
+    LOW = 1
+    MEDIUM = 2
+    HIGH = 3
+
+    def __str__(self) -> str:
+        return self.name.lower()
+
+
+class Edit(NamedTuple):
+    """Put ``text`` where ``span`` is. An empty span inserts."""
+
+    span: Span
+    text: str
+
+
+class Fix(NamedTuple):
+    """One way out. ``title`` is a verb phrase: "declare std_msgs as <depend>".
+
+    A safe fix keeps the meaning of everything that works; the others need ``--unsafe-fixes``.
+    """
+
+    title: str
+    edits: tuple[Edit, ...]
+    safe: bool = True
+
+
+class Related(NamedTuple):
+    """Another place that matters to a finding."""
+
+    message: str
+    span: Span
+
+
+class Finding(NamedTuple):
+    """Something wrong at a place. It knows neither its rule nor its package: the engine does.
+
+    ``message`` is lower case without a final full stop, names the culprit and the way out. ``subject`` is the
+    dependency, file or executable concerned: the stable part of the finding's identity. ``package`` is set only by
+    workspace rules, to the name of the package that has to change.
+    """
+
+    message: str
+    span: Span
+    subject: str
+    related: tuple[Related, ...] = ()
+    fix: Fix | None = None
+    confidence: Confidence = Confidence.HIGH
+    severity: Severity | None = None
+    """Instead of the rule's, where one case is milder than the others."""
+    package: str = ""
+
+
+class Rule(NamedTuple):
+    """A check with its papers. Declared once, as ``RULE``, in the file that holds the check.
+
+    Exactly one of ``package`` and ``workspace`` is given: a pure generator of findings for one package, or for all.
+    """
+
+    name: str
+    code: str
+    """``ROS`` and three digits: 1xx workspace and manifest, 2xx dependencies, 3xx build scripts, 4xx install, 5xx launch, 9xx the tool."""
+    summary: str
+    """What must be so, lower case, no full stop: "a package that is used must be declared"."""
+    severity: Severity
+    since: str
+    doc: str
+    """The module's docstring with the headings What it finds / Why it matters / How to fix it / When it keeps silent."""
+    default: bool = True
+    """Whether it runs without being asked for."""
+    fixable: bool = False
+    """Whether some of its findings carry a fix."""
+    package: Callable[[Package, Workspace], Iterable[Finding]] | None = None
+    workspace: Callable[[Workspace], Iterable[Finding]] | None = None
