@@ -130,6 +130,47 @@ class FileFacts(NamedTuple):
     problems: tuple[Problem, ...] = ()
 
 
+class Role(Flag):
+    """What a package is needed for."""
+
+    BUILD = auto()
+    EXPORT = auto()
+    """To build against this package: its public headers and exported targets."""
+    EXEC = auto()
+    TEST = auto()
+    TOOL = auto()
+    """To run on the build machine."""
+
+
+ROLES = {
+    "depend": Role.BUILD | Role.EXPORT | Role.EXEC,
+    "build_depend": Role.BUILD,
+    "buildtool_depend": Role.TOOL,
+    "build_export_depend": Role.EXPORT,
+    "buildtool_export_depend": Role.TOOL | Role.EXPORT,
+    "exec_depend": Role.EXEC,
+    "run_depend": Role.EXPORT | Role.EXEC,
+    "test_depend": Role.TEST,
+}
+"""What each dependency tag gives (REP 127, 140, 149; reference, section A1.4). Other tags give nothing."""
+
+
+class Use(NamedTuple):
+    """A place that needs another package: a mention whose name has been resolved. Dependency rules read only these."""
+
+    package: str
+    """The package or rosdep key to declare for it: the best of the providers."""
+    providers: tuple[str, ...]
+    """Every name that satisfies the use when it is declared, ``package`` first."""
+    role: Role
+    """All that it is needed for here."""
+    what: str
+    """How a message quotes it: "#include <std_msgs/msg/string.hpp>"."""
+    via: Via
+    optional: bool
+    span: Span
+
+
 # --- build scripts: CMakeLists.txt and setup.py in the same words --------------------------------------------------
 
 

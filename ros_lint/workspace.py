@@ -1,0 +1,144 @@
+"""The model that rules look at: facts, joined. It answers questions, and reads nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.facts import (
+    BuildScript,
+    Depend,
+    Facet,
+    LaunchFile,
+    Manifest,
+    Opaque,
+    Role,
+    Use,
+)
+from ros_lint.text import Span
+
+if TYPE_CHECKING:
+    from ros_lint.graph import Graph
+    from ros_lint.world import World
+
+
+class Target(NamedTuple):
+    """The ROS distribution that the workspace is checked for."""
+
+    distro: str
+    source: str
+    """Where the choice comes from, such as "--distro" or "newest long-term release known"."""
+
+    @property
+    def context(self) -> Mapping[str, str]:
+        """Return the variables of package.xml conditions that are known (REP 149; reference, section A3)."""
+        return {
+            "ROS_VERSION": "2",
+            "ROS_PYTHON_VERSION": "3",
+            "ROS_DISTRO": self.distro,
+            "DISABLE_GROUPS_WORKAROUND": "1",
+        }
+
+
+class Declared(NamedTuple):
+    """A dependency tag whose condition is not false for the target."""
+
+    depend: Depend
+    role: Role
+    certain: bool
+    """False when the condition has a variable that nobody knows here."""
+
+    @property
+    def name(self) -> str:
+        return self.depend.name
+
+
+class ColconDepend(NamedTuple):
+    """An ordering edge that colcon takes from elsewhere than the manifest: colcon.pkg, or a plain package's own script."""
+
+    name: str
+    role: Role
+    span: Span
+
+
+class Package(NamedTuple):
+    """A package of the workspace, as colcon sees it."""
+
+    name: str
+    path: str
+    """Its folder, relative to the base; "" is the base."""
+    type: str
+    """As ``colcon list`` prints it: ros.ament_cmake, ros.ament_python, cmake, python ..."""
+    manifest: Manifest | None
+    """Also there, with its problems, when colcon cannot use it."""
+    declared: tuple[Declared, ...]
+    groups: tuple[str, ...]
+    """That it is a member of."""
+    group_depends: tuple[Declared, ...]
+    colcon_depends: tuple[ColconDepend, ...]
+    files: tuple[str, ...]
+    """Every file below the folder, relative to it, nested packages left out."""
+    script: BuildScript | None
+    launch: tuple[LaunchFile, ...]
+    uses: tuple[Use, ...]
+    traces: Mapping[str, Span]
+    """For declared names that nothing uses: a place where the name stands in some text all the same."""
+    opaque: tuple[Opaque, ...]
+
+    @property
+    def place(self) -> Span:
+        """Where to point when the whole package is meant."""
+        if self.manifest is not None:
+            return self.manifest.name_span
+        path = self.script.path if self.script else self.path
+        return Span(path, 1, 1, 1, 1)
+
+    @property
+    def builds_with(self) -> str:
+        """Return the build type: ament_cmake, ament_python, cmake ..."""
+        return self.type.removeprefix("ros.")
+
+    def hidden(self, facet: Facet) -> tuple[Opaque, ...]:
+        """Return what hides a facet of the package. Empty: it can be seen whole."""
+        return tuple(opaque for opaque in self.opaque if opaque.hides & facet)
+
+    def declares(self, name: str) -> Role:
+        """Return everything that the package declares a name for, conditions that may be false included."""
+        role = Role(0)
+        for declared in self.declared:
+            if declared.depend.name == name:
+                role |= declared.role
+        return role
+
+
+class NotChecked(NamedTuple):
+    """Something that the run could not look at: a file, or a whole class of questions."""
+
+    what: str
+    reason: str
+    span: Span | None
+
+
+class Workspace:
+    """All packages, and the world they live in. ``packages`` is sorted by path and may hold a name twice."""
+
+    def __init__(self, packages: tuple[Package, ...], world: World, target: Target, not_checked: tuple[NotChecked, ...]) -> None:
+        self.packages = packages
+        self.world = world
+        self.target = target
+        self.not_checked = not_checked
+
+    @cached_property
+    def by_name(self) -> Mapping[str, tuple[Package, ...]]:
+        found: dict[str, tuple[Package, ...]] = {}
+        for package in self.packages:
+            found[package.name] = (*found.get(package.name, ()), package)
+        return found
+
+    @cached_property
+    def graph(self) -> Graph:
+        """Who needs whom among the packages of the workspace, as colcon orders them."""
+        from ros_lint.graph import build  # noqa: PLC0415  (networkx costs more than a run that asks for no graph)
+
+        return build(self.packages)
