@@ -1,0 +1,56 @@
+"""Everything a rule may import."""
+
+from ros_lint.facts import (
+    ANYTHING,
+    ROLES,
+    BuildScript,
+    Component,
+    Depend,
+    Element,
+    EntryPoint,
+    Facet,
+    LaunchFile,
+    LaunchReference,
+    Manifest,
+    Opaque,
+    Problem,
+    Provided,
+    Role,
+    Use,
+)
+from ros_lint.facts import Target as BuildTarget
+from ros_lint.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
+from ros_lint.text import Span
+from ros_lint.workspace import Declared, Package, Target, Workspace
+
+__all__ = [
+    "ANYTHING",
+    "ROLES",
+    "BuildScript",
+    "BuildTarget",
+    "Component",
+    "Confidence",
+    "Declared",
+    "Depend",
+    "Edit",
+    "Element",
+    "EntryPoint",
+    "Facet",
+    "Finding",
+    "Fix",
+    "LaunchFile",
+    "LaunchReference",
+    "Manifest",
+    "Opaque",
+    "Package",
+    "Problem",
+    "Provided",
+    "Related",
+    "Role",
+    "Rule",
+    "Severity",
+    "Span",
+    "Target",
+    "Use",
+    "Workspace",
+]
