@@ -1,0 +1,209 @@
+"""Settings: command line over configuration file over environment over defaults, each with its origin.
+
+The file is the nearest ``ros-lint.toml``, or ``pyproject.toml`` with a table ``[tool.ros-lint]``, at the workspace or above it.
+"""
+
+from __future__ import annotations
+
+import difflib
+import os
+import re
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from ros_lint.options import BY_NAME, OPTIONS, Option
+
+
+class ConfigError(Exception):
+    """Settings that cannot be used. The message names the place and the way out."""
+
+
+class Setting(NamedTuple):
+    """The value of an option, and where it was said."""
+
+    value: Any
+    origin: str
+
+
+class Settings:
+    """Every option with its value. ``settings["fail-on"]`` is the value, ``settings.origin("fail-on")`` where it was said."""
+
+    def __init__(self, values: Mapping[str, Setting]) -> None:
+        self._values = values
+
+    def __getitem__(self, name: str) -> Any:
+        return self._values[name].value
+
+    def origin(self, name: str) -> str:
+        """Return where the value was said: a flag, a file with its path, an environment variable, or "default"."""
+        return self._values[name].origin
+
+    def show(self) -> str:
+        """Return one line an option, for ``--show-settings``."""
+        width = max(len(name) for name in self._values)
+        return "".join(
+            f"{name:{width}} = {_toml(setting.value)}  # {setting.origin}\n" for name, setting in self._values.items()
+        )
+
+
+def settle(
+    given: Mapping[str, Any], start: str, environment: Mapping[str, str], display: str = ""
+) -> Settings:
+    """Return the settings for a run.
+
+    ``given`` has what the command line said, by option name; ``start`` is the absolute path of the workspace, from which the
+    configuration file is looked for; ``environment`` is read for the variables that the table names and for no others.
+    Raises ConfigError.
+    """
+    isolated = bool(given.get("isolated"))
+    path = "" if isolated else str(given.get("config") or "") or find(start)
+    if given.get("config") and not os.path.isfile(path):
+        raise ConfigError(f"{path}: no such configuration file")
+    from_file = read(path) if path else {}
+    shown = os.path.relpath(path, display) if path and display else path
+    values: dict[str, Setting] = {}
+    for option in OPTIONS:
+        if option.name in given:
+            values[option.name] = Setting(given[option.name], f"--{option.name}")
+        elif option.name in from_file:
+            values[option.name] = Setting(_relative(option, from_file[option.name], path), shown)
+        elif not isolated and option.environment and (found := environment.get(option.environment)):
+            values[option.name] = Setting(_from_environment(option, found), option.environment)
+        else:
+            values[option.name] = Setting(option.default, "default")
+    return Settings(values)
+
+
+def find(start: str) -> str:
+    """Return the path of the nearest configuration file at ``start`` or above, or ""."""
+    folder = os.path.abspath(start)
+    if not os.path.isdir(folder):
+        folder = os.path.dirname(folder)
+    while True:
+        own = os.path.join(folder, "ros-lint.toml")
+        if os.path.isfile(own):
+            return own
+        project = os.path.join(folder, "pyproject.toml")
+        if os.path.isfile(project) and _mentions_us(project):
+            return project
+        above = os.path.dirname(folder)
+        if above == folder:
+            return ""
+        folder = above
+
+
+def read(path: str) -> dict[str, Any]:
+    """Return the settings of a file, checked against the table of options. Raises ConfigError."""
+    try:
+        with open(path, "rb") as file:
+            data = file.read()
+    except OSError as error:
+        raise ConfigError(f"{path}: {error.strerror or error}") from error
+    table = _load_toml(path, data)
+    if os.path.basename(path) == "pyproject.toml":
+        table = table.get("tool", {}).get("ros-lint", {})
+    if not isinstance(table, dict):
+        raise ConfigError(f"{path}: tool.ros-lint is not a table")
+    text = data.decode("utf-8", "replace")
+    return {name: _checked(path, text, name, value) for name, value in table.items()}
+
+
+def _mentions_us(path: str) -> bool:
+    try:
+        with open(path, "rb") as file:
+            return re.search(rb"^\s*\[\s*tool\s*\.\s*['\"]?ros-lint", file.read(), re.MULTILINE) is not None
+    except OSError:
+        return False
+
+
+def _load_toml(path: str, data: bytes) -> dict[str, Any]:
+    try:
+        import tomllib  # noqa: PLC0415
+    except ModuleNotFoundError:  # Python 3.10
+        import tomli as tomllib  # noqa: PLC0415
+    try:
+        return tomllib.loads(data.decode("utf-8"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise ConfigError(f"{path}: {error}") from error
+
+
+def _checked(path: str, text: str, name: str, value: Any) -> Any:
+    option = BY_NAME.get(name)
+    if option is None or not option.in_file:
+        known = [option.name for option in OPTIONS if option.in_file]
+        if option is not None:
+            raise ConfigError(f"{_place(path, text, name)}: {name} can be said on the command line only")
+        close = difflib.get_close_matches(name.replace("_", "-"), known, 1)
+        hint = f", did you mean {close[0]}?" if close else f"; there are {', '.join(known)}"
+        raise ConfigError(f"{_place(path, text, name)}: unknown setting {name}{hint}")
+    if complaint := _complaint(option, value):
+        raise ConfigError(f"{_place(path, text, name)}: {name} {complaint}")
+    if option.type in ("words", "paths"):
+        return tuple(value)
+    return value
+
+
+def _complaint(option: Option, value: Any) -> str:
+    match option.type:
+        case "flag":
+            return "" if isinstance(value, bool) else "must be true or false"
+        case "number":
+            fits = isinstance(value, int) and not isinstance(value, bool) and value >= 0
+            return "" if fits else "must be a whole number from 0"
+        case "word" | "path":
+            return _word_complaint(option, value)
+        case "words" | "paths":
+            return "" if _is_words(value) else "must be a list of strings"
+        case "table":
+            if not isinstance(value, dict):
+                return "must be a table"
+            if option.choices:
+                wrong = [complaint for entry in value.values() if (complaint := _word_complaint(option, entry))]
+                return f"has a value that {wrong[0]}" if wrong else ""
+            return "" if all(_is_words(entry) for entry in value.values()) else "must map patterns to lists of strings"
+
+
+def _word_complaint(option: Option, value: Any) -> str:
+    if not isinstance(value, str):
+        return "must be a string"
+    if option.choices and value not in option.choices:
+        close = difflib.get_close_matches(value, option.choices, 1)
+        hint = f", did you mean {close[0]}?" if close else ""
+        return f"must be one of {', '.join(option.choices)}, not {value!r}{hint}"
+    return ""
+
+
+def _is_words(value: Any) -> bool:
+    return isinstance(value, list) and all(isinstance(word, str) for word in value)
+
+
+def _place(path: str, text: str, name: str) -> str:
+    found = re.search(rf"^[ \t]*[\"']?{re.escape(name)}[\"']?[ \t]*(?:=|\.)|^[ \t]*\[[^\]\n]*\b{re.escape(name)}", text, re.MULTILINE)
+    return f"{path}:{text.count(chr(10), 0, found.start()) + 1}" if found else path
+
+
+def _relative(option: Option, value: Any, path: str) -> Any:
+    """A path in a file is relative to that file."""
+    if option.type == "paths":
+        return tuple(os.path.join(os.path.dirname(path), entry) for entry in value)
+    return value
+
+
+def _from_environment(option: Option, value: str) -> Any:
+    if option.type == "paths":
+        return tuple(entry for entry in value.split(os.pathsep) if entry)
+    return value
+
+
+def _toml(value: Any) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, tuple | list):
+        return f"[{', '.join(_toml(entry) for entry in value)}]"
+    if isinstance(value, dict):
+        return f"{{{', '.join(f'{_toml(key)} = {_toml(entry)}' for key, entry in value.items())}}}"
+    if isinstance(value, int):
+        return str(value)
+    import json  # noqa: PLC0415
+
+    return json.dumps(value, ensure_ascii=False)

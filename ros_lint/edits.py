@@ -1,0 +1,83 @@
+"""Apply edits to texts, and write files whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Callable, Iterable, Mapping, Sequence
+
+from ros_lint.rule import Edit, Fix
+from ros_lint.text import Text
+
+
+class EditError(Exception):
+    """A file that cannot be written as wanted. The message names it."""
+
+
+def choose(fixes: Iterable[Fix]) -> tuple[Fix, ...]:
+    """Return the fixes that can be made together: one that touches the place of an earlier one is left for the next round."""
+    chosen: list[Fix] = []
+    taken: list[Edit] = []
+    for fix in fixes:
+        new = [edit for edit in fix.edits if edit not in taken]
+        if any(_collide(edit, other) for edit in new for other in taken):
+            continue
+        chosen.append(fix)
+        taken += new
+    return tuple(chosen)
+
+
+def apply(fixes: Iterable[Fix], texts: Callable[[str], Text]) -> dict[str, str]:
+    """Return the new text of every file that changes. The fixes do not collide, see :func:`choose`."""
+    edits: dict[str, list[Edit]] = {}
+    for fix in fixes:
+        for edit in fix.edits:
+            in_file = edits.setdefault(edit.span.path, [])
+            if edit not in in_file:
+                in_file.append(edit)
+    return {path: _apply_to(texts(path), in_file) for path, in_file in sorted(edits.items())}
+
+
+def encode(changed: Mapping[str, str], texts: Callable[[str], Text]) -> dict[str, bytes]:
+    """Return the changed texts as bytes in each file's own encoding. Raises EditError."""
+    result = {}
+    for path, text in changed.items():
+        try:
+            result[path] = texts(path).encode(text)
+        except UnicodeEncodeError as error:
+            raise EditError(f"{path}: its encoding {error.encoding} has no {text[error.start]!r}") from error
+    return result
+
+
+def write(base: str, path: str, data: bytes) -> None:
+    """Replace a file in one step, its permissions kept; a link stays a link. Raises EditError, and then nothing is changed."""
+    target = os.path.realpath(os.path.join(base, path))
+    temporary = ""
+    try:
+        handle, temporary = tempfile.mkstemp(prefix=".ros-lint-", dir=os.path.dirname(target))
+        with os.fdopen(handle, "wb") as file:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        os.chmod(temporary, os.stat(target).st_mode & 0o7777)
+        os.replace(temporary, target)
+    except OSError as error:
+        if temporary and os.path.exists(temporary):
+            os.unlink(temporary)
+        raise EditError(f"{path}: cannot be written: {error.strerror or error}") from error
+
+
+def _apply_to(source: Text, edits: Sequence[Edit]) -> str:
+    text = source.text
+    # From the end, so that earlier offsets stay true; insertions at one place keep their order.
+    numbered = sorted(enumerate(edits), key=lambda pair: (pair[1].span[1:], pair[0]))
+    for _, edit in reversed(numbered):
+        start = source.offset(edit.span.line, edit.span.column)
+        end = source.offset(edit.span.end_line, edit.span.end_column)
+        text = text[:start] + edit.text + text[end:]
+    return text
+
+
+def _collide(a: Edit, b: Edit) -> bool:
+    x, y = a.span, b.span
+    return x.path == y.path and x[1:3] < y[3:5] and y[1:3] < x[3:5]
