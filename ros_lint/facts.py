@@ -258,6 +258,8 @@ class LaunchReference(NamedTuple):
     package_span: Span
     conditional: bool = False
     """Under a condition that may be false."""
+    exact: bool = True
+    """Whether ``span`` covers the name and nothing else, so that a fix can put another one there."""
 
 
 class LaunchFile(NamedTuple):
@@ -268,3 +270,5 @@ class LaunchFile(NamedTuple):
     references: tuple[LaunchReference, ...] = ()
     opaque: tuple[Opaque, ...] = ()
     problems: tuple[Problem, ...] = ()
+    test: bool = False
+    """Whether it serves tests only: it has generate_test_description() (launch_testing)."""
