@@ -54,6 +54,10 @@ def write(base: str, path: str, data: bytes) -> None:
     target = os.path.realpath(os.path.join(base, path))
     temporary = ""
     try:
+        # Asked of the permission bits and not of the system, which lets root write everywhere.
+        for place in (target, os.path.dirname(target)):
+            if not os.stat(place).st_mode & 0o222:
+                raise EditError(f"{path}: cannot be written: it is read-only")
         handle, temporary = tempfile.mkstemp(prefix=".ros-lint-", dir=os.path.dirname(target))
         with os.fdopen(handle, "wb") as file:
             file.write(data)

@@ -102,7 +102,7 @@ class Manifest(NamedTuple):
 
 # --- sources -------------------------------------------------------------------------------------------------------
 
-Via = Literal["package", "cmake", "macro", "target", "include", "import", "interface", "key"]
+Via = Literal["package", "cmake", "macro", "target", "include", "import", "interface", "launch", "key"]
 """In which of the name spaces a mention is to be looked up; they differ (reference, section D6 and E3.8)."""
 
 
@@ -169,6 +169,8 @@ class Use(NamedTuple):
     via: Via
     optional: bool
     span: Span
+    sure: bool = True
+    """False where the file may be dead: in no target, not installed, no test."""
 
 
 # --- build scripts: CMakeLists.txt and setup.py in the same words --------------------------------------------------
