@@ -274,3 +274,5 @@ class LaunchFile(NamedTuple):
     problems: tuple[Problem, ...] = ()
     test: bool = False
     """Whether it serves tests only: it has generate_test_description() (launch_testing)."""
+    helper: bool = False
+    """Whether it cannot be launched itself: a Python module without generate_launch_description() that builds actions."""
