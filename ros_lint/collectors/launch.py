@@ -1,0 +1,91 @@
+"""Which files are launch files, and in which of the three languages.
+
+Names decide little: ``.launch`` is XML of ROS 1 or ROS 2 or YAML, and one Python launch file in forty is called
+something else. So the content decides (reference, section G1; the loaders of ``launch.frontend`` and
+``python_launch_file_utilities`` do likewise).
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Literal
+
+from ros_lint.facts import LaunchFile
+from ros_lint.text import Text
+
+Language = Literal["python", "xml", "yaml"]
+
+_PYTHON = re.compile(r"^(?:async[ \t]+)?def[ \t]+generate_(?:launch|test)_description\b", re.MULTILINE)
+_HELPER = re.compile(r"^[ \t]*(?:from|import)[ \t]+launch(?:_ros)?\b", re.MULTILINE)
+_ROOT = re.compile(r"<launch(?=[\s/>])")
+# What only ROS 1 understands, and what only ROS 2 does. A file with both is ROS 2 with leftovers.
+_ROS1 = re.compile(
+    r"<(?:rosparam|machine)\b|<(?:node|test)\b[^>]*?\stype\s*=|\$\((?:arg|find|optenv)\s"
+    r"|<param\b[^>]*?\s(?:command|textfile|binfile)\s*="
+)
+_ROS2 = re.compile(
+    r"\sexec\s*=|\$\((?:var|find-pkg-share|find-pkg-prefix|exec-in-pkg|command)\s"
+    r"|<(?:let|executable|node_container|load_composable_node|push[-_]ros[-_]namespace|set_parameter|set_env)\b"
+)
+_YAML_ROOT = re.compile(r"^(?:launch|'launch'|\"launch\")[ \t]*:", re.MULTILINE)
+_YAML_OTHER = re.compile(r"^(?![ \t\r\n#%-]|launch[ \t]*:|['\"]launch['\"][ \t]*:|\.\.\.)", re.MULTILINE)
+
+
+def is_launch_file(path: str, text: str) -> Language | None:
+    """Return the language of a launch file of ROS 2, or None when it is no such file.
+
+    Python modules that only build launch actions for others count too, see :attr:`LaunchFile.helper`.
+    Launch files of ROS 1 do not: this tool has nothing to say about them.
+    """
+    if path.endswith(".py"):
+        if "launch" not in text:
+            return None
+        return "python" if _PYTHON.search(text) or _HELPER.search(text) else None
+    if path.endswith((".yaml", ".yml")):
+        return "yaml" if _is_yaml(text) else None
+    if "<launch" in text and _is_xml(text):
+        return "xml"
+    if path.endswith(".launch") and _is_yaml(text):
+        return "yaml"
+    return None
+
+
+def collect(source: Text, language: Language) -> LaunchFile:
+    """Return what a launch file says. Never raises: what is wrong with the file is among its problems."""
+    if language == "python":
+        from ros_lint.collectors import launch_py  # noqa: PLC0415  (most workspaces have files of one language)
+
+        return launch_py.collect(source)
+    if language == "xml":
+        from ros_lint.collectors import launch_xml  # noqa: PLC0415
+
+        return launch_xml.collect(source)
+    from ros_lint.collectors import launch_yaml  # noqa: PLC0415
+
+    return launch_yaml.collect(source)
+
+
+def _is_xml(text: str) -> bool:
+    at = _after_prolog(text)
+    return bool(_ROOT.match(text, at)) and (not _ROS1.search(text) or bool(_ROS2.search(text)))
+
+
+def _after_prolog(text: str) -> int:
+    """Return the offset of the first element: behind declaration, comments and document type."""
+    at = 0
+    while True:
+        while at < len(text) and text[at].isspace():
+            at += 1
+        for opening, closing in (("<?", "?>"), ("<!--", "-->"), ("<!", ">")):
+            if text.startswith(opening, at):
+                end = text.find(closing, at + len(opening))
+                if end < 0:
+                    return len(text)
+                at = end + len(closing)
+                break
+        else:
+            return at
+
+
+def _is_yaml(text: str) -> bool:
+    return bool(_YAML_ROOT.search(text)) and not _YAML_OTHER.search(text)

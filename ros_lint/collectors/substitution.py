@@ -1,0 +1,112 @@
+"""The substitutions of XML and YAML launch files: ``$(name argument ...)`` (reference, section G3.5).
+
+``grammar.lark`` of the launch package is the model: arguments are separated by one space and may be quoted; a
+backslash escapes; a dollar sign before anything but a parenthesis is itself.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Final, NamedTuple, Union
+
+
+class SubstitutionError(Exception):
+    """The text is not in the grammar. ``offset`` is from 0 to the length of the text."""
+
+    def __init__(self, message: str, offset: int) -> None:
+        super().__init__(message)
+        self.message: Final = message
+        self.offset: Final = offset
+
+
+class Literal(NamedTuple):
+    """Text that stands for itself, escapes resolved. ``start`` and ``end`` are offsets in the whole text."""
+
+    text: str
+    start: int
+    end: int
+
+
+class Substitution(NamedTuple):
+    """``$(name arguments)``; an argument is a row of pieces."""
+
+    name: str
+    arguments: tuple[tuple[Piece, ...], ...]
+    start: int
+    end: int
+
+
+Piece = Union[Literal, Substitution]  # noqa: UP007  (Substitution names it before it is there, on 3.10 too)
+
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
+_ESCAPE = re.compile(r"\\(.)", re.DOTALL)
+_MAX_DEPTH = 50
+
+
+def parse(text: str) -> tuple[Piece, ...]:
+    """Return the pieces of a text. Raises SubstitutionError."""
+    if "$(" not in text:
+        return (Literal(_unescape(text), 0, len(text)),)
+    return _Parser(text).template()
+
+
+def _unescape(text: str) -> str:
+    return _ESCAPE.sub(r"\1", text) if "\\" in text else text
+
+
+class _Parser:
+    __slots__ = ("_text",)
+
+    def __init__(self, text: str) -> None:
+        self._text = text
+
+    def template(self) -> tuple[Piece, ...]:
+        pieces, _ = self._pieces(0, "", 0)
+        return pieces
+
+    def _pieces(self, at: int, stop: str, depth: int) -> tuple[tuple[Piece, ...], int]:
+        """Read until an unescaped character of ``stop``, or to the end."""
+        text = self._text
+        found: list[Piece] = []
+        begin = at
+        while at < len(text) and text[at] not in stop:
+            if text[at] == "\\":
+                at += 2
+            elif text.startswith("$(", at):
+                if begin < at:
+                    found.append(Literal(_unescape(text[begin:at]), begin, at))
+                substitution = self._substitution(at, depth + 1)
+                found.append(substitution)
+                begin = at = substitution.end
+            else:
+                at += 1
+        at = min(at, len(text))
+        if begin < at:
+            found.append(Literal(_unescape(text[begin:at]), begin, at))
+        return tuple(found), at
+
+    def _substitution(self, start: int, depth: int) -> Substitution:
+        text = self._text
+        if depth > _MAX_DEPTH:
+            raise SubstitutionError("substitutions are nested too deeply", start)
+        name = _NAME.match(text, start + 2)
+        if not name:
+            raise SubstitutionError("$( is not followed by the name of a substitution", start)
+        at = name.end()
+        arguments: list[tuple[Piece, ...]] = []
+        while text.startswith(" ", at):
+            at += 1
+            quote = text[at : at + 1]
+            if quote in ("'", '"'):
+                pieces, at = self._pieces(at + 1, quote, depth)
+                if not text.startswith(quote, at):
+                    raise SubstitutionError(f"the quote {quote} is not closed", start)
+                at += 1
+            else:
+                pieces, at = self._pieces(at, " )", depth)
+                if not pieces:
+                    raise SubstitutionError("arguments are separated by one space", at)
+            arguments.append(pieces)
+        if not text.startswith(")", at):
+            raise SubstitutionError(f"$({name[0]} is not closed", start)
+        return Substitution(name[0], tuple(arguments), start, at + 1)

@@ -1,0 +1,42 @@
+"""YAML as a tree of nodes with exact places. No object is made from it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from ros_lint.text import Text
+
+if TYPE_CHECKING:
+    import yaml
+
+
+class YamlError(Exception):
+    """The text is not YAML that can be read. ``offset`` is from 0 to the length of the text."""
+
+    def __init__(self, message: str, offset: int) -> None:
+        super().__init__(message)
+        self.message: Final = message
+        self.offset: Final = offset
+
+
+def compose(source: Text) -> yaml.Node | None:
+    """Return the root node of the only document, None when there is none. Raises YamlError.
+
+    The marks of the nodes count characters of the text.
+    """
+    import yaml  # noqa: PLC0415  (takes 20 ms to import)
+
+    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    try:
+        return yaml.compose(source.text, Loader=loader)
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark or error.context_mark
+        raise YamlError(error.problem or error.context or "not YAML", _offset(source, mark)) from None
+    except yaml.YAMLError as error:
+        raise YamlError(str(error).partition("\n")[0], 0) from None
+    except (UnicodeError, RecursionError):
+        raise YamlError("not text that YAML allows, or nested too deeply", 0) from None
+
+
+def _offset(source: Text, mark: yaml.Mark | None) -> int:
+    return min(mark.index, len(source.text)) if mark is not None else 0
