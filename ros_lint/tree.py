@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from operator import itemgetter
 from typing import Literal, NamedTuple, Protocol
 
 Kind = Literal["file", "directory", "other"]
@@ -45,8 +46,11 @@ class Tree(Protocol):
     def stamp(self, path: str) -> Stamp:
         """Return what tells this state of a file from another."""
 
-    def identity(self, path: str) -> object:
-        """Return a value that two paths share if they lead to one directory."""
+    def identity(self, path: str) -> str:
+        """Return a path that two paths share if they lead to one directory.
+
+        Below a directory that is no link, it is the identity of the parent joined to the name.
+        """
 
 
 def join(directory: str, name: str) -> str:
@@ -57,6 +61,17 @@ def join(directory: str, name: str) -> str:
 def parent(path: str) -> str:
     """Return the directory that a path lies in."""
     return path.rpartition("/")[0]
+
+
+_NAME = itemgetter(0)
+
+
+def _followed(entry: os.DirEntry[str]) -> Entry:
+    try:
+        kind: Kind = "directory" if entry.is_dir() else "file" if entry.is_file() else "other"
+    except OSError:
+        kind = "other"  # such as a link to itself
+    return Entry(entry.name, kind, entry.is_symlink())
 
 
 class DiskTree:
@@ -75,13 +90,14 @@ class DiskTree:
         found = []
         with os.scandir(self.place(path)) as entries:
             for entry in entries:
-                link = entry.is_symlink()
-                try:
-                    kind: Kind = "directory" if entry.is_dir() else "file" if entry.is_file() else "other"
-                except OSError:
-                    kind = "other"  # such as a link to itself
-                found.append(Entry(entry.name, kind, link))
-        found.sort()
+                # The two common cases cost no call to the system.
+                if entry.is_file(follow_symlinks=False):
+                    found.append(Entry(entry.name, "file"))
+                elif entry.is_dir(follow_symlinks=False):
+                    found.append(Entry(entry.name, "directory"))
+                else:
+                    found.append(_followed(entry))
+        found.sort(key=_NAME)
         return found
 
     def read(self, path: str) -> bytes:
@@ -103,7 +119,7 @@ class DiskTree:
         found = os.stat(self.place(path))
         return Stamp(found.st_mtime_ns, found.st_size, found.st_mode & 0o777)
 
-    def identity(self, path: str) -> object:
+    def identity(self, path: str) -> str:
         return os.path.realpath(self.place(path))
 
 
@@ -139,7 +155,7 @@ class MemoryTree:
     def stamp(self, path: str) -> Stamp:
         return Stamp(0, len(self.read(path)), 0o755 if path in self._executable else 0o644)
 
-    def identity(self, path: str) -> object:
+    def identity(self, path: str) -> str:
         return path
 
 
@@ -161,7 +177,7 @@ class OverlayTree:
     def stamp(self, path: str) -> Stamp:
         return self._below.stamp(path)
 
-    def identity(self, path: str) -> object:
+    def identity(self, path: str) -> str:
         return self._below.identity(path)
 
 
