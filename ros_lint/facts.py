@@ -173,6 +173,36 @@ class Use(NamedTuple):
     """False where the file may be dead: in no target, not installed, no test."""
 
 
+# --- what else colcon reads ----------------------------------------------------------------------------------------
+
+
+class ColconDepend(NamedTuple):
+    """An ordering edge that colcon takes from elsewhere than the manifest: colcon.pkg, colcon.meta or a plain script."""
+
+    name: str
+    role: Role
+    span: Span
+
+
+class ColconSettings(NamedTuple):
+    """What a ``colcon.pkg``, or an entry of a ``colcon.meta``, sets for a package."""
+
+    name: str
+    """"" when it sets none."""
+    type: str
+    """"" when it sets none."""
+    depends: tuple[ColconDepend, ...]
+
+
+class ColconMeta(NamedTuple):
+    """A ``colcon.meta``."""
+
+    path: str
+    by_name: tuple[tuple[str, ColconSettings], ...]
+    by_path: tuple[tuple[str, ColconSettings], ...]
+    """Paths as written, relative to the file."""
+
+
 # --- build scripts: CMakeLists.txt and setup.py in the same words --------------------------------------------------
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.facts import (
     BuildScript,
+    ColconDepend,
     Depend,
     Facet,
     LaunchFile,
@@ -54,14 +55,6 @@ class Declared(NamedTuple):
         return self.depend.name
 
 
-class ColconDepend(NamedTuple):
-    """An ordering edge that colcon takes from elsewhere than the manifest: colcon.pkg, or a plain package's own script."""
-
-    name: str
-    role: Role
-    span: Span
-
-
 class Package(NamedTuple):
     """A package of the workspace, as colcon sees it."""
 
@@ -85,6 +78,8 @@ class Package(NamedTuple):
     traces: Mapping[str, Span]
     """For declared names that nothing uses: a place where the name stands in some text all the same."""
     opaque: tuple[Opaque, ...]
+    nested: tuple[Manifest, ...] = ()
+    """Manifests further down in the folder: colcon never gets to see them."""
 
     @property
     def place(self) -> Span:
