@@ -1,0 +1,69 @@
+"""Models, displays, parameters and plugin descriptions: URDF, xacro, SDF, rviz, YAML, XML.
+
+These name packages in a few fixed forms, whatever the format, so the text is searched and not parsed (reference,
+section E2.20 and E2.21).
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from ros_lint.facts import FileFacts, Mention
+
+if TYPE_CHECKING:
+    from ros_lint.text import Text
+
+_NAME = r"([A-Za-z][\w-]*)"
+# package://p/meshes/a.stl of descriptions, $(find p) of xacro, $(find-pkg-share p) of parameters: these are looked up.
+# Each pattern starts with fixed letters, which the search runs through at the speed of memory.
+_LOOK_UPS = tuple(map(re.compile, (rf"package://{_NAME}(?=/)", rf"\$\(find(?:-pkg-share|-pkg-prefix)?\s+{_NAME}\s*\)")))
+# model://p/a.stl may be a package or a model, and a class is named after its package by habit only: Class: p/Name of
+# rviz and rqt, type: p/Name of controllers, plugin: "p::Name" of navigation, <plugin>p/Name</plugin>, type="p::Name".
+_CLASS = r"([a-z]\w*)(?:/|::)[A-Za-z]"
+_HABITS = tuple(
+    map(
+        re.compile,
+        (
+            rf"model://{_NAME}(?=/)",
+            rf"""Class["']?[ \t]*:[ \t]*["']?{_CLASS}""",
+            rf"""ype["']?[ \t]*[:=][ \t]*["']?{_CLASS}""",
+            rf"""plugin(?:_name)?["']?[ \t]*[:>]\s*["']?{_CLASS}""",
+        ),
+    )
+)
+
+
+def collect(source: Text) -> FileFacts:
+    """Return the packages that a resource file names, each once. Names by habit only are marked optional."""
+    text = source.text
+    found: dict[str, tuple[int, int]] = {}
+    for pattern in _LOOK_UPS:
+        _search(pattern, text, found)
+    sure = frozenset(found)
+    for pattern in _HABITS:
+        _search(pattern, text, found)
+    if not found:
+        return FileFacts(source.path)
+    names = sorted(found, key=lambda name: found[name])
+    spans = source.spans(found[name] for name in names)
+    return FileFacts(
+        source.path,
+        tuple(
+            Mention(name, "package", span, optional=name not in sure) for name, span in zip(names, spans, strict=True)
+        ),
+    )
+
+
+def _search(pattern: re.Pattern[str], text: str, found: dict[str, tuple[int, int]]) -> None:
+    for match in pattern.finditer(text):
+        if match[1] not in found and not _in_comment(text, match.start()):
+            found[match[1]] = match.span(1)
+
+
+def _in_comment(text: str, at: int) -> bool:
+    line = text[text.rfind("\n", 0, at) + 1 : at]
+    if line.lstrip()[:1] == "#" or " # " in line:
+        return True
+    opening = text.rfind("<!--", 0, at)
+    return opening >= 0 and text.find("-->", opening) > at

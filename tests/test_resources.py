@@ -1,0 +1,43 @@
+"""Which packages a resource file names."""
+
+import pytest
+
+from ros_lint.collectors import resources
+from ros_lint.text import Text
+
+
+def names(text: str) -> dict[str, bool]:
+    """Return each package with whether it is certain."""
+    source = Text("r", text)
+    found = resources.collect(source).mentions
+    assert all(source.slice(mention.span) == mention.name for mention in found)
+    return {mention.name: not mention.optional for mention in found}
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        ('<mesh filename="package://arm_description/meshes/a.stl"/>', {"arm_description": True}),
+        ('<xacro:include filename="$(find arm_description)/urdf/a.xacro"/>', {"arm_description": True}),
+        ("map: $(find-pkg-share maps)/map.yaml", {"maps": True}),
+        ("<uri>model://arm_description/a.stl</uri>", {"arm_description": False}),
+        ("    - Class: rviz_common/Displays", {"rviz_common": False}),
+        ("type: joint_trajectory_controller/JointTrajectoryController", {"joint_trajectory_controller": False}),
+        ('plugin: "nav2_smac_planner::SmacPlanner2D"', {"nav2_smac_planner": False}),
+        ("<plugin>mock_components/GenericSystem</plugin>", {"mock_components": False}),
+        ('<class type="a_plugins::Thing" base_class_type="nav2_core::Behavior">', {"a_plugins": False, "nav2_core": False}),
+        ("frame: base_link\nrate: 10", {}),
+        ("# plugin: a/B\nb: 1 # type: a/B\n", {}),
+        ("<!-- package://gone/a.stl -->\n<a b='package://here/a.stl'/>", {"here": True}),
+        ("image: docker://x/y\nwho: http://a/b", {}),
+    ],
+)
+def test_forms(text: str, wanted: dict[str, bool]) -> None:
+    assert names(text) == wanted
+
+
+def test_each_package_once_and_the_certain_form_wins() -> None:
+    text = "Class: tools/A\nfile: package://tools/a\nfile: package://tools/b\n"
+    source = Text("r", text)
+    (mention,) = resources.collect(source).mentions
+    assert (mention.name, mention.optional, mention.span.line) == ("tools", False, 2)
