@@ -77,11 +77,13 @@ class Depend(NamedTuple):
     name: str
     tag: str
     condition: str
-    """The text of the attribute, "" when there is none. REP 149."""
+    """The text of the attribute, "" when there is none and " " when it is empty, which fails to parse. REP 149."""
     versions: tuple[tuple[str, str], ...]
     """Such as ("version_gte", "1.2.0")."""
     span: Span
     name_span: Span
+    close: int = 0
+    """Length of the end tag in code points, 0 when there is none or when it runs over a line end."""
 
 
 class Manifest(NamedTuple):
@@ -98,6 +100,15 @@ class Manifest(NamedTuple):
     name_span: Span
     end: Span
     """The empty span just before ``</package>``, where an element can be added."""
+    begin: Span | None = None
+    """The empty span just after ``<package ...>``; None when there is no such element."""
+    format_span: Span | None = None
+    """The value of the attribute ``format``; None when it has none, which means 1."""
+    asides: tuple[Span, ...] = ()
+    """Whatever else stands directly in ``<package>``: comments, instructions, stray text."""
+    indent: str = "  "
+    """The white space before a child of ``<package>``."""
+    newline: str = "\n"
 
 
 # --- sources -------------------------------------------------------------------------------------------------------
