@@ -1,0 +1,224 @@
+"""CMake files as lists of commands: CMakeLists.txt, ``*.cmake`` and their templates (``*.cmake.in``).
+
+The syntax is that of cmake-language(7) as CMake 3.25 reads it, the legacy unquoted arguments (``-Da="b c"``) included.
+Nothing is evaluated here; :mod:`ros_lint.interpret.cmake` does that.
+"""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from typing import NamedTuple
+
+from ros_lint.facts import Problem
+from ros_lint.text import Span, Text
+
+PLAIN = 0
+"""An unquoted argument that stands for itself: no reference, escape, semicolon or bracket in it."""
+UNQUOTED = 1
+"""An unquoted argument to evaluate and to split into list elements."""
+QUOTED = 2
+"""A quoted argument to evaluate."""
+LITERAL = 3
+"""A quoted argument that stands for itself."""
+BRACKET = 4
+"""A bracket argument: nothing in it is ever evaluated."""
+OPEN = 5
+"""A parenthesis within the arguments."""
+CLOSE = 6
+
+Argument = tuple[str, int, int, int]
+"""Text without quotes or brackets, kind, and the offsets of the whole argument: plain, for there are so many."""
+
+
+class Command(NamedTuple):
+    """A command invocation."""
+
+    name: str
+    """In lower case: CMake's command names are case-insensitive."""
+    written: str
+    args: tuple[Argument, ...]
+    start: int
+    """Offset of the name."""
+    end: int
+    """Offset after the closing parenthesis."""
+    line: int
+    """Of the name; lines and columns count from 1."""
+    column: int
+    breaks: tuple[int, ...]
+    """Offsets at which further lines of the command begin."""
+
+    def span(self, path: str, start: int, end: int) -> Span:
+        """Return the span between two offsets within the command, in the file of that path."""
+        return Span(path, *self._position(start), *self._position(end))
+
+    def place(self, path: str) -> Span:
+        """Return the span of the name."""
+        return Span(path, self.line, self.column, self.line, self.column + len(self.written))
+
+    def _position(self, offset: int) -> tuple[int, int]:
+        passed = bisect_right(self.breaks, offset)
+        if passed:
+            return self.line + passed, offset - self.breaks[passed - 1] + 1
+        return self.line, self.column + offset - self.start
+
+
+class Parsed(NamedTuple):
+    """What a file says. With a problem, CMake runs none of it; the commands before the first problem are kept."""
+
+    commands: tuple[Command, ...]
+    problems: tuple[Problem, ...]
+
+
+_TOKEN = re.compile(
+    r"""(?:[ \t\r\n]+|\#(?!\[=*\[)[^\n]*)*                         # spaces and line comments
+    (?:([^ \t\r\n()\#"\\$;\[\0]+(?=[ \t\r\n()\#]))                 # 1: plain
+    |([()])                                                         # 2: parenthesis
+    |"([^"\\\0]*(?:\\[^\0][^"\\\0]*)*)"                             # 3: quoted
+    |\[(=*)\[((?s:.*?))\]\4\]                                       # 4, 5: bracket argument
+    |\#\[(=*)\[(?s:.*?)\]\6\]                                       # 6: bracket comment
+    |(?!\[=*\[)((?:\$\([A-Za-z0-9_]*\)|[^ \t\r\n()\#"\\\0]|\\[^\0\n])      # 7: unquoted
+      (?:\$\([A-Za-z0-9_]*\)|[^ \t\r\n()\#"\\\0]|\\[^\0\n]               #    with quotes inside (legacy)
+        |"(?:\$\([A-Za-z0-9_]*\)|[^()\#"\\\r\n\0]|\\[^\0\n])*")*)
+    |\Z)""",
+    re.VERBOSE,
+)
+_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
+_PLACEHOLDER = re.compile(r"@\w+@\Z")
+_NEW_LINE = re.compile(r"\n")
+
+
+def parse(source: Text) -> Parsed:
+    """Return the commands of a CMake file, and the syntax error that makes CMake refuse it, if there is one."""
+    return _Reader(source).read()
+
+
+class _SyntaxError(Exception):
+    def __init__(self, message: str, start: int, end: int) -> None:
+        super().__init__(message)
+        self.start = start
+        self.end = end
+
+
+class _Reader:
+    def __init__(self, source: Text) -> None:
+        self.source = source
+        self.text = source.text
+        self.commands: list[Command] = []
+
+    def read(self) -> Parsed:
+        problems: tuple[Problem, ...] = ()
+        try:
+            self._commands()
+        except _SyntaxError as error:
+            span = self.source.span(error.start, error.end)
+            problems = (Problem("cmake-syntax", str(error), span),)
+        return Parsed(tuple(self.commands), problems)
+
+    def _commands(self) -> None:
+        text = self.text
+        add = self.commands.append
+        args: list[Argument] = []
+        name = ""
+        begin = end = depth = counted = position = 0
+        line, column = 1, 0
+        template = self.source.path.endswith(".in")
+        strange = "\r" in text or "\1" in text or "\2" in text
+        for match in _TOKEN.finditer(text):
+            if match.start() != position:
+                raise self._wrong(position)
+            position = match.end()
+            group = match.lastindex
+            if depth:
+                if group == 1:
+                    args.append((match[1], PLAIN, match.start(1), position))
+                elif group == 3:
+                    value = match[3]
+                    kind = QUOTED if "$" in value or "\\" in value else LITERAL
+                    args.append((value, kind, match.start(3) - 1, position))
+                elif group == 7:
+                    args.append((match[7], UNQUOTED, match.start(7), position))
+                elif group == 2:
+                    at = position - 1
+                    if text[at] == "(":
+                        depth += 1
+                        args.append(("(", OPEN, at, position))
+                        continue
+                    depth -= 1
+                    if depth:
+                        args.append((")", CLOSE, at, position))
+                        continue
+                    breaks: tuple[int, ...] = ()
+                    if text.find("\n", begin, position) >= 0:
+                        breaks = tuple([found.end() for found in _NEW_LINE.finditer(text, begin, position)])
+                    if strange:
+                        args = [(_cleaned(value), kind, start, stop) for value, kind, start, stop in args]
+                    add(Command(name.lower(), name, tuple(args), begin, position, line, column, breaks))
+                    name = ""
+                elif group == 5:
+                    value = match[5]
+                    if value.startswith("\n"):
+                        value = value[1:]
+                    elif value.startswith("\r\n"):
+                        value = value[2:]
+                    start = match.start(4) - 1
+                    args.append((value, BRACKET, start, position))
+                    if text[start - 1] not in " \t\r\n()":
+                        raise _SyntaxError("an argument is not separated from the one before it", start, position)
+            elif group == 1 or group == 7:  # noqa: PLR1714  (a tuple test is slower, and this runs for every command)
+                name = match[group]
+                end, begin = position, match.start(group)
+                passed = text.count("\n", counted, begin)
+                if not passed and self.commands:
+                    raise _SyntaxError("a command must start on a new line", begin, end)
+                if not _NAME.match(name):
+                    if template and _PLACEHOLDER.match(name):
+                        continue
+                    raise _SyntaxError(f'"{name}" is no name of a command', begin, end)
+                line += passed
+                column = begin - text.rfind("\n", 0, begin)
+                counted = begin
+                following = text[end : end + 1]
+                if following != "(" and not self._opens(end):
+                    raise _SyntaxError(f'"(" is missing after "{name}"', begin, end)
+            elif group == 2 and text[position - 1] == "(" and name:
+                depth = 1
+                args = []
+            elif group is not None and group != 6:
+                raise _SyntaxError("only a command can stand here", match.start(group) - (group in (3, 5)), position)
+        if position != len(text):
+            raise self._wrong(position)
+        if depth:
+            raise _SyntaxError(f'")" is missing at the end of {name}()', begin, end)
+        if "\r" in text:
+            self._count_lines()
+
+    def _opens(self, offset: int) -> bool:
+        """Return whether only spaces and bracket comments stand between a name and its parenthesis."""
+        return re.compile(r"(?:[ \t\r]|#\[(=*)\[(?s:.*?)\]\1\])*\(").match(self.text, offset) is not None
+
+    def _wrong(self, position: int) -> _SyntaxError:
+        """Return the error at the first thing after an offset that is no token."""
+        blank = re.compile(r"(?:[ \t\r\n]+|#(?!\[=*\[)[^\n]*)*").match(self.text, position)
+        at = blank.end() if blank else position
+        what = self.text[at : at + 1]
+        reasons = {
+            '"': "a string is not closed",
+            "[": "a bracket argument is not closed",
+            "#": "a comment is not closed",
+        }
+        reason = reasons.get(what, f"{what!r} cannot stand here" if what else "the file ends too early")
+        return _SyntaxError(reason, at, min(at + 1, len(self.text)))
+
+    def _count_lines(self) -> None:
+        """Take lines from the text, which also ends them at a carriage return."""
+        for number, command in enumerate(self.commands):
+            line, column = self.source.position(command.start)
+            last = self.source.position(command.end)[0]
+            breaks = tuple(self.source.offset(further, 1) for further in range(line + 1, last + 1))
+            self.commands[number] = command._replace(line=line, column=column, breaks=breaks)
+
+
+def _cleaned(value: str) -> str:
+    """Return an argument as CMake reads it, and free of the characters that evaluation marks unknown pieces with."""
+    return value.replace("\r\n", "\n").replace("\1", "\ufffd").replace("\2", "\ufffd")
