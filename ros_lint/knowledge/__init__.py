@@ -1,0 +1,116 @@
+"""What is known of the released ROS 2 world: distributions, rosdep keys, name maps.
+
+The data ship with the package and carry a date; what ``ros-lint index refresh`` wrote to the user's data folder goes
+before them. Everything is read when it is first asked for. Formats and fidelity: docs/knowledge.md.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.knowledge import index, names, provides, rosdep
+from ros_lint.knowledge.index import Index, Released
+from ros_lint.knowledge.names import NOTHING_NEEDED, Names
+from ros_lint.knowledge.provides import NOTHING_KNOWN, Answer, Facet, Known, Provides
+from ros_lint.knowledge.rosdep import PLATFORMS, Rosdep
+from ros_lint.knowledge.store import KnowledgeError, Store, user_directory
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+__all__ = [
+    "NOTHING_KNOWN",
+    "NOTHING_NEEDED",
+    "PLATFORMS",
+    "Answer",
+    "Distribution",
+    "Facet",
+    "Index",
+    "Knowledge",
+    "KnowledgeError",
+    "Known",
+    "Names",
+    "Released",
+    "distros",
+    "newest_lts",
+    "user_directory",
+]
+
+
+class Distribution(NamedTuple):
+    """A distribution that there is an index of."""
+
+    name: str
+    long_term: bool
+
+
+def distros(places: Sequence[str] = ()) -> tuple[Distribution, ...]:
+    """Return the distributions that there is an index of, oldest first, rolling last.
+
+    ``places`` are folders that go before the data shipped, such as :func:`user_directory`.
+    """
+    found = [name for name in Store(places).names(".idx") if name != "rolling"]
+    # Names go with the alphabet, one a year; every other one, in even years, is supported for five years (REP 2000).
+    known = [Distribution(name, (ord(name[0]) - ord("a")) % 2 == 1) for name in found]
+    if len(found) < len(Store(places).names(".idx")):
+        known.append(Distribution("rolling", long_term=False))
+    return tuple(known)
+
+
+def newest_lts(places: Sequence[str] = ()) -> str:
+    """Return the newest long-term release that there is an index of. ``places`` as for :func:`distros`."""
+    return [distro.name for distro in distros(places) if distro.long_term][-1]
+
+
+class Knowledge:
+    """What is known, seen from one distribution. Any look-up may raise KnowledgeError when a data file is damaged.
+
+    A distribution without an index has an empty one: :attr:`covered` is False, and nothing can be said to be unknown
+    in it.
+    """
+
+    def __init__(self, distro: str, places: Sequence[str] = ()) -> None:
+        self.distro = distro
+        self._store = Store(places)
+
+    @property
+    def covered(self) -> bool:
+        """Return whether there is an index of the distribution."""
+        return len(self.index) > 0
+
+    @property
+    def date(self) -> str:
+        """Return the date of the index, as in 2026-08-22, or "" without one. Messages about unknown names show it."""
+        date: str = self.index.date
+        return date
+
+    @cached_property
+    def index(self) -> Index:
+        return index.load(self._store, self.distro)
+
+    @cached_property
+    def provides(self) -> Provides:
+        return provides.load(self._store, self.distro)
+
+    @cached_property
+    def rosdep(self) -> Rosdep:
+        return rosdep.load(self._store)
+
+    @cached_property
+    def names(self) -> Names:
+        return names.Names(self._store)
+
+    @cached_property
+    def others(self) -> tuple[Index, ...]:
+        """Return the indexes of the other distributions, oldest first."""
+        places = self._store.places
+        return tuple(index.load(self._store, distro.name) for distro in distros(places) if distro.name != self.distro)
+
+    def elsewhere(self, name: str) -> tuple[str, ...]:
+        """Return the other distributions that have a package, oldest first."""
+        return tuple(other.distro for other in self.others if name in other)
+
+    def resolves(self, key: str) -> bool | None:
+        """Return whether a rosdep key has a rule for a platform of the distribution: None when that is not known."""
+        return self.rosdep.resolves(key, self.distro)

@@ -1,0 +1,190 @@
+"""The packages of a distribution: one line each, read and written here (``.idx``; docs/knowledge.md).
+
+A line is ``name, version, flags, repository`` and then one field for every set of kinds that a dependency has::
+
+    rclcpp_action<TAB>28.1.9<TAB>c<TAB>rclcpp<TAB>bex:action_msgs rclcpp<TAB>s:ament_lint_auto<TAB>t:ament_cmake_ros
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.knowledge.store import KnowledgeError, Store, Table
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Mapping
+
+KINDS = "bteuxsd"
+"""Build, buildtool, build_export, buildtool_export, exec, test, doc: in the order in which they stand in a set."""
+
+RUNTIME = frozenset("eux")
+"""Kinds that come along with a package to whoever depends on it (reference, section E3.3)."""
+
+TAG_KINDS: Mapping[str, str] = {
+    "depend": "bex",
+    "build_depend": "b",
+    "buildtool_depend": "t",
+    "build_export_depend": "e",
+    "buildtool_export_depend": "u",
+    "exec_depend": "x",
+    "run_depend": "ex",
+    "test_depend": "s",
+    "doc_depend": "d",
+    "group_depend": "G",
+    "member_of_group": "M",
+}
+"""What each tag of a manifest gives (reference, section A1.4)."""
+
+BUILD_TYPES: Mapping[str, str] = {
+    "c": "ament_cmake",
+    "p": "ament_python",
+    "m": "cmake",
+    "k": "catkin",
+    "n": "meson",
+    "?": "",
+}
+INTERFACES = "rosidl_interface_packages"
+"""The group of interface packages. Membership is the flag ``i``, not a group, since a sixth of all packages has it."""
+
+
+class Released(NamedTuple):
+    """A package of a distribution."""
+
+    name: str
+    version: str
+    flags: str
+    """After the letter of the build type: i interface package, m metapackage, D deprecated, E repository at its end
+    of life, U listed but not released, ``-`` nothing known but the name, ``~`` dependencies may be older."""
+    repository: str
+    depends: Mapping[str, tuple[str, ...]]
+    """Sorted names by letter: those of KINDS, ``M`` groups it is a member of, ``G`` groups it depends on."""
+
+    @property
+    def build_type(self) -> str:
+        """Return ament_cmake, ament_python, cmake ..., or "" when it is not known."""
+        return BUILD_TYPES.get(self.flags[:1], "")
+
+    @property
+    def described(self) -> bool:
+        """Return whether its dependencies are known."""
+        return not {"-", "U"} & set(self.flags)
+
+    @property
+    def interfaces(self) -> bool:
+        """Return whether it generates messages, services or actions."""
+        return "i" in self.flags[1:]
+
+    @property
+    def unreleased(self) -> bool:
+        """Return whether it has no binary package, though the distribution lists it."""
+        return "U" in self.flags
+
+    def on(self, kinds: Iterable[str]) -> tuple[str, ...]:
+        """Return the names that it depends on by any of the kinds, sorted."""
+        return tuple(sorted({name for kind in kinds for name in self.depends.get(kind, ())}))
+
+
+def parse(fields: list[str]) -> Released:
+    """Return the package of a line that has been split at its tabs. Raises ValueError when it is none."""
+    name, version, flags, *rest = fields
+    repository, *sets = rest or [""]
+    depends: dict[str, tuple[str, ...]] = {}
+    for field in sets:
+        kinds, colon, text = field.partition(":")
+        if not colon:
+            raise ValueError(f"{field!r} has no colon")
+        names = tuple(text.split(" "))
+        for kind in (kinds,) if kinds in "MG" else kinds:
+            depends[kind] = (*depends[kind], *names) if kind in depends else names
+    return Released(name, version, flags, repository or name, depends)
+
+
+def render(package: Released) -> str:
+    """Return the line of a package, without line end. The inverse of :func:`parse` but for the order of names."""
+    kinds_of: dict[str, str] = {}
+    for kind in KINDS:
+        for name in package.depends.get(kind, ()):
+            kinds_of[name] = kinds_of.get(name, "") + kind
+    names_of: dict[str, list[str]] = {}
+    for name in sorted(kinds_of):
+        names_of.setdefault(kinds_of[name], []).append(name)
+    for group in "MG":
+        if found := package.depends.get(group):
+            names_of[group] = sorted(found)
+    # <depend> comes first, because it is what most look-ups are after.
+    order = sorted(names_of, key=lambda kinds: (kinds != "bex", kinds))
+    sets = [f"{kinds}:{' '.join(names_of[kinds])}" for kinds in order]
+    repository = "" if package.repository == package.name else package.repository
+    return "\t".join((package.name, package.version, package.flags, repository, *sets)).rstrip("\t")
+
+
+def render_file(distro: str, commit: str, date: str, packages: Iterable[Released]) -> str:
+    """Return a whole ``.idx`` file. ``date`` is that of the data, as in 2026-08-22."""
+    lines = sorted(render(package) for package in packages)
+    head = f"#ros-index 1 distro={distro} rosdistro={commit or 'unknown'} date={date} packages={len(lines)}"
+    return "\n".join([head, *lines, ""])
+
+
+class Index:
+    """The packages of one distribution."""
+
+    def __init__(self, distro: str, head: str, table: Table, path: str = "") -> None:
+        self.distro = distro
+        self.path = path
+        said = dict(_HEAD.findall(head))
+        self.date = said.get("date", "")
+        self.commit = said.get("rosdistro", "")
+        self._table = table
+
+    def __len__(self) -> int:
+        return len(self._table)
+
+    def __contains__(self, name: str) -> bool:
+        return name in self._table
+
+    def names(self) -> Iterator[str]:
+        """Yield the name of every package, sorted."""
+        return self._table.names()
+
+    def get(self, name: str) -> Released | None:
+        """Return a package, or None. Raises KnowledgeError when its line makes no sense."""
+        row = self._table.row(name)
+        if row is None:
+            return None
+        try:
+            return parse(row)
+        except ValueError as error:
+            raise KnowledgeError(f"{self.path}: the line of {name} makes no sense: {error}") from error
+
+    def runtime(self, name: str) -> tuple[str, ...] | None:
+        """Return what comes along with a package, without names of groups: None when that is not known.
+
+        Much faster than :meth:`get`, for it takes no other field apart.
+        """
+        row = self._table.row(name)
+        if row is None or len(row) < 3 or "-" in row[2] or "U" in row[2]:
+            return None
+        found: list[str] = []
+        for field in row[4:]:
+            kinds, _, names = field.partition(":")
+            if not RUNTIME.isdisjoint(kinds):
+                found += names.split(" ")
+        return tuple(found)
+
+
+_HEAD = re.compile(r"(\w+)=(\S+)")
+
+
+def load(store: Store, distro: str) -> Index:
+    """Return the index of a distribution: empty, with neither date nor path, when there is none.
+
+    Raises KnowledgeError when the file is damaged.
+    """
+    if not re.fullmatch(r"[a-z][a-z0-9_]*", distro):
+        return Index(distro, "", Table([]))
+    name = f"{distro}.idx"
+    head, table = store.table(name)
+    if head and not head.startswith("#ros-index 1 "):
+        raise KnowledgeError(f"{store.find(name)} is no index of a distribution in a format that this version knows")
+    return Index(distro, head, table, store.find(name) or "")

@@ -1,0 +1,165 @@
+"""Names that differ from space to space: Python modules, headers and CMake packages to ROS packages and rosdep keys.
+
+Every look-up gives the names of what provides it, best first. Whether those exist in the distribution at hand, and
+whether they are packages or keys, is for the caller to find out: the maps serve all distributions (docs/knowledge.md).
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from ros_lint.knowledge.builtin import CMAKE_MODULES, CXX_HEADERS, PYTHON_MODULES, SYSTEM_HEADER_FOLDERS
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from ros_lint.knowledge.store import Store, Table
+
+NOTHING_NEEDED = "-"
+"""Stands in a map for a name that comes with the tool chain."""
+
+END_OF_LIFE: Mapping[str, str] = {
+    "N": "ROS 1 Noetic",
+    "M": "ROS 1 Melodic",
+    "K": "ROS 1 Kinetic",
+    "i": "ROS 2 Iron",
+    "g": "ROS 2 Galactic",
+    "f": "ROS 2 Foxy",
+    "e": "ROS 2 Eloquent",
+    "d": "ROS 2 Dashing",
+    "c": "ROS 2 Crystal",
+}
+"""Distributions at their end of life, as the letters of the data stand for them."""
+
+# Each of these is one package's top-level module and a word that any folder of anybody may be called.
+_EVERYDAY_WORDS = frozenset({"scripts", "controller", "vehicle"})
+
+
+class Names:
+    """The maps. Raises KnowledgeError from any look-up when a data file is damaged."""
+
+    def __init__(self, store: Store) -> None:
+        self._store = store
+
+    def cmake(self, name: str) -> tuple[str, ...]:
+        """Return what provides a name of find_package, where names differ: ROS packages and keys, any of which will do.
+
+        ``("-",)`` is a module that needs nothing.
+        """
+        found = (*self._cmake_ros.get(name, ()), *self._cmake_system.get(name, ()))
+        return found or ((NOTHING_NEEDED,) if name in CMAKE_MODULES else ())
+
+    def header(self, path: str) -> tuple[str, ...]:
+        """Return what provides a header by the longest prefix known: ROS packages and keys, any of which will do.
+
+        ``path`` is as written between the brackets. ``("-",)`` is a header of the tool chain.
+        """
+        if path in CXX_HEADERS or path.partition("/")[0] in SYSTEM_HEADER_FOLDERS:
+            return (NOTHING_NEEDED,)
+        ros, system = self._include_ros, self._include_system
+        for prefix in _prefixes(path):
+            if prefix in ros or prefix in system:
+                return (*ros.get(prefix, ()), *system.get(prefix, ()))
+        if "/" not in path and path.endswith(".h"):
+            for beginning in sorted(self._beginnings, reverse=True):
+                if path.startswith(beginning):
+                    return self._beginnings[beginning]
+        return ()
+
+    def shares(self, folder: str) -> bool:
+        """Return whether several packages install headers below a folder, so that its name tells no package."""
+        return folder in self._shared_folders
+
+    def module(self, module: str) -> tuple[str, ...]:
+        """Return the rosdep keys that provide a Python module, best first. ``("-",)`` is the standard library.
+
+        ``module`` may be dotted. A key counts when the name of what it installs speaks for it, or its declaration
+        together with the import, or a hand; names seen in another distribution's files alone do not.
+        """
+        top, _, rest = module.partition(".")
+        if top in PYTHON_MODULES:
+            return (NOTHING_NEEDED,)
+        second = rest.partition(".")[0]
+        keys = self._py_import.get(f"{top}.{second}", ()) if second else ()
+        return keys or self._py_import.get(top, ())
+
+    def module_packages(self, module: str, distro: str) -> tuple[str, ...]:
+        """Return the ROS packages that provide a Python module of another name in a distribution."""
+        top = module.partition(".")[0]
+        if top in _EVERYDAY_WORDS:
+            return ()
+        return tuple(package for package, distros in self._py_ros.get(top, ()) if distro in distros)
+
+    def end_of_life(self, name: str) -> tuple[str, ...]:
+        """Return the distributions at their end of life that had a package which no active one has, newest first."""
+        row = self._eol.row(name)
+        return tuple(END_OF_LIFE[letter] for letter in "igfedcNMK" if letter in row[1]) if row and len(row) > 1 else ()
+
+    @cached_property
+    def _cmake_ros(self) -> Mapping[str, tuple[str, ...]]:
+        return self._map("cmake_ros.tsv")
+
+    @cached_property
+    def _cmake_system(self) -> Mapping[str, tuple[str, ...]]:
+        return self._map("cmake_system.tsv")
+
+    @cached_property
+    def _include_ros(self) -> Mapping[str, tuple[str, ...]]:
+        # A lone file such as ros_utils.h may be anybody's.
+        return {prefix: names for prefix, names in self._map("include_ros.tsv").items() if "/" in prefix}
+
+    @cached_property
+    def _include_system(self) -> Mapping[str, tuple[str, ...]]:
+        return self._map("include_system.tsv")
+
+    @cached_property
+    def _beginnings(self) -> Mapping[str, tuple[str, ...]]:
+        return {name.partition("*")[0]: keys for name, keys in self._include_system.items() if "*" in name}
+
+    @cached_property
+    def _shared_folders(self) -> frozenset[str]:
+        return frozenset(
+            prefix.partition("/")[0]
+            for prefix, packages in self._include_ros.items()
+            if prefix.count("/") > prefix.endswith("/") and prefix.partition("/")[0] not in packages
+        )
+
+    @cached_property
+    def _py_import(self) -> Mapping[str, tuple[str, ...]]:
+        found = {}
+        for module, value in self._rows("py_import.tsv"):
+            keys = (entry.partition(":") for entry in value.split())
+            found[module] = tuple(key for key, _, evidence in keys if evidence != "X")
+        return found
+
+    @cached_property
+    def _py_ros(self) -> Mapping[str, tuple[tuple[str, frozenset[str]], ...]]:
+        found: dict[str, tuple[tuple[str, frozenset[str]], ...]] = {}
+        for line in self._store.lines("py_ros.tsv")[1]:
+            module, package, distros = (*line.split("\t"), "", "")[:3]
+            found[module] = (*found.get(module, ()), (package, frozenset(distros.split())))
+        return found
+
+    @cached_property
+    def _eol(self) -> Table:
+        return self._store.table("eol_names.tsv")[1]
+
+    def _map(self, file: str) -> Mapping[str, tuple[str, ...]]:
+        return {name: tuple(value.split()) for name, value in self._rows(file)}
+
+    def _rows(self, file: str) -> list[tuple[str, str]]:
+        found = []
+        for line in self._store.lines(file)[1]:
+            name, _, rest = line.partition("\t")
+            found.append((name, rest.partition("\t")[0]))
+        return found
+
+
+def _prefixes(path: str) -> list[str]:
+    """Return what a map may know of a header, longest first: a/b/c.h, a/b/, a/b, a/, a."""
+    found = [path]
+    at = len(path)
+    while (at := path.rfind("/", 0, at)) > 0:
+        found += [path[: at + 1], path[:at]]
+    return found

@@ -1,0 +1,137 @@
+"""What released packages install: one line each, read and written here (``.prov``; docs/knowledge.md).
+
+Three answers, never two: a name exists, is missing, or nobody can tell.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+from ros_lint.knowledge.store import KnowledgeError, Store, Table
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+Answer = Literal["exists", "missing", "unknowable"]
+Facet = Literal["executables", "launch", "components", "plugins", "modules", "interfaces", "programs"]
+
+LETTERS: Mapping[Facet, str] = {
+    "executables": "X",
+    "launch": "L",
+    "components": "C",
+    "plugins": "P",
+    "modules": "Y",
+    "interfaces": "I",
+    "programs": "B",
+}
+"""Names in lib/<package>; launch files, relative to share/<package>; component classes; plugins as base=class; Python
+modules; interfaces as msg/Name; names in bin. In the order in which they stand in a line."""
+
+
+class Known(NamedTuple):
+    """What is known of the names of one kind that a package provides."""
+
+    names: tuple[str, ...] = ()
+    maybe: tuple[str, ...] = ()
+    """Those that depend on how it was built."""
+    complete: bool = False
+    """Whether there is no other name."""
+
+    def ask(self, name: str) -> Answer:
+        """Return what is known of a name."""
+        if name in self.names:
+            return "exists"
+        return "missing" if self.complete and name not in self.maybe else "unknowable"
+
+
+NOTHING_KNOWN = Known()
+
+
+class Provided(NamedTuple):
+    """What a package installs, as far as its sources tell."""
+
+    name: str
+    origin: str
+    """Which sources were read: ``=`` those of the release, ``b`` those of the branch for the distribution, ``~`` those
+    of the nearest tag."""
+    fields: Mapping[str, tuple[str, ...]]
+    """By letter, see LETTERS. A name with ``?`` at its end depends on how the package was built."""
+
+    @property
+    def solid(self) -> bool:
+        """Return whether a name that is not here does not exist either."""
+        return self.origin in {"=", "b"}
+
+    def known(self, facet: Facet) -> Known:
+        names = self.fields.get(LETTERS[facet], ())
+        return Known(
+            tuple(name for name in names if not name.endswith("?")),
+            tuple(name[:-1] for name in names if name.endswith("?")),
+            self.solid,
+        )
+
+
+def parse(fields: list[str]) -> Provided:
+    """Return what a line says that has been split at its tabs. Raises ValueError when it says nothing."""
+    name, origin, *rest = fields
+    found: dict[str, tuple[str, ...]] = {}
+    for field in rest:
+        letter, colon, text = field.partition(":")
+        if len(letter) != 1:
+            raise ValueError(f"{field!r} is no list of names")
+        # A lone Y is the module that is called as the package.
+        found[letter] = tuple(text.split(" ")) if colon else (name,)
+    return Provided(name, origin, found)
+
+
+def render(provided: Provided) -> str:
+    """Return the line of a package, without line end. The inverse of :func:`parse`."""
+    fields = [provided.name, provided.origin]
+    for letter in LETTERS.values():
+        names = provided.fields.get(letter, ())
+        if names == (provided.name,) and letter == "Y":
+            fields.append(letter)
+        elif names:
+            fields.append(f"{letter}:{' '.join(names)}")
+    return "\t".join(fields)
+
+
+def render_file(distro: str, packages: Iterable[Provided]) -> str:
+    """Return a whole ``.prov`` file."""
+    lines = sorted(render(package) for package in packages)
+    return "\n".join([f"#ros-provides 1 distro={distro} packages={len(lines)}", *lines, ""])
+
+
+class Provides:
+    """What the packages of one distribution install."""
+
+    def __init__(self, table: Table, path: str = "") -> None:
+        self._table = table
+        self._path = path
+
+    def __len__(self) -> int:
+        return len(self._table)
+
+    def get(self, name: str) -> Provided | None:
+        """Return what a package installs: None when nobody has looked. Raises KnowledgeError for a damaged line."""
+        row = self._table.row(name)
+        if row is None:
+            return None
+        try:
+            return parse(row)
+        except ValueError as error:
+            raise KnowledgeError(f"{self._path}: the line of {name} makes no sense: {error}") from error
+
+    def known(self, name: str, facet: Facet) -> Known:
+        """Return what is known of one side of a package."""
+        found = self.get(name)
+        return found.known(facet) if found else NOTHING_KNOWN
+
+
+def load(store: Store, distro: str) -> Provides:
+    """Return what is known of a distribution: empty when nothing is. Raises KnowledgeError when the file is damaged."""
+    name = f"{distro}.prov"
+    head, table = store.table(name)
+    if head and not head.startswith("#ros-provides 1 "):
+        raise KnowledgeError(f"{store.find(name)} is no list of what packages install in a known format")
+    return Provides(table, store.find(name) or "")

@@ -1,0 +1,134 @@
+"""The keys of rosdep, and where they resolve (``rosdep.tsv``; docs/knowledge.md)."""
+
+from __future__ import annotations
+
+import re
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.knowledge.store import KnowledgeError, Store, Table
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+PLATFORMS: Mapping[str, tuple[str, ...]] = {
+    "foxy": ("ubuntu:focal",),
+    "galactic": ("ubuntu:focal",),
+    "humble": ("ubuntu:jammy",),
+    "iron": ("ubuntu:jammy",),
+    "jazzy": ("ubuntu:noble",),
+    "kilted": ("ubuntu:noble",),
+    "lyrical": ("ubuntu:resolute",),
+    "rolling": ("ubuntu:resolute", "ubuntu:noble"),
+}
+"""The platforms of tier 1 for which a distribution has Debian packages (REP 2000). Rolling moves: either will do."""
+
+LETTERS: Mapping[str, str] = {
+    "j": "ubuntu:jammy",
+    "n": "ubuntu:noble",
+    "r": "ubuntu:resolute",
+    "b": "debian:bookworm",
+    "t": "debian:trixie",
+    "8": "rhel:8",
+    "9": "rhel:9",
+    "X": "rhel:10",
+    "f": "fedora:43",
+    "A": "arch:",
+    "o": "osx:",
+}
+"""The platforms in the data, in the order in which they stand in a line."""
+
+
+class Key(NamedTuple):
+    """A rosdep key."""
+
+    name: str
+    platforms: tuple[str, ...]
+    """On which it resolves, such as "ubuntu:noble"."""
+    apt: tuple[str, ...]
+    """What it installs with apt, on any platform."""
+    pip: tuple[str, ...]
+
+
+def parse(fields: list[str]) -> Key:
+    """Return the key of a line that has been split at its tabs. Raises ValueError when it is none."""
+    name, letters, apt, pip = (*fields, "", "", "")[:4]
+    unknown = set(letters) - LETTERS.keys()
+    if unknown:
+        raise ValueError(f"{sorted(unknown)} stand for no platform")
+    return Key(name, tuple(LETTERS[letter] for letter in letters), tuple(apt.split()), tuple(pip.split()))
+
+
+def render(key: Key) -> str:
+    """Return the line of a key, without line end. The inverse of :func:`parse`."""
+    letters = "".join(letter for letter, platform in LETTERS.items() if platform in key.platforms)
+    return "\t".join((key.name, letters, " ".join(key.apt), " ".join(key.pip))).rstrip("\t")
+
+
+def render_file(keys: Mapping[str, Key]) -> str:
+    """Return a whole ``rosdep.tsv``."""
+    platforms = " ".join(f"{letter}={platform}" for letter, platform in LETTERS.items())
+    lines = sorted(render(key) for key in keys.values())
+    return "\n".join([f"# key\tresolves on: {platforms}\tapt\tpip", *lines, ""])
+
+
+class Rosdep:
+    """All keys."""
+
+    def __init__(self, table: Table, path: str = "") -> None:
+        self._table = table
+        self._path = path
+
+    def __len__(self) -> int:
+        return len(self._table)
+
+    def __contains__(self, name: str) -> bool:
+        return name in self._table
+
+    def names(self) -> Iterator[str]:
+        """Yield every key, sorted."""
+        return self._table.names()
+
+    def get(self, name: str) -> Key | None:
+        """Return a key, or None. Raises KnowledgeError when its line makes no sense."""
+        row = self._table.row(name)
+        if row is None:
+            return None
+        try:
+            return parse(row)
+        except ValueError as error:
+            raise KnowledgeError(f"{self._path}: the line of {name} makes no sense: {error}") from error
+
+    def resolves(self, name: str, distro: str) -> bool | None:
+        """Return whether a key has a rule for a platform of a distribution: None when either is not known."""
+        key, platforms = self.get(name), PLATFORMS.get(distro)
+        if key is None or platforms is None or not set(platforms) & set(LETTERS.values()):
+            return None
+        return not set(platforms).isdisjoint(key.platforms)
+
+    @cached_property
+    def by_installed(self) -> Mapping[str, tuple[str, ...]]:
+        """Return the keys by the names of the apt and pip packages that they install; pip names in lower case."""
+        found: dict[str, list[str]] = {}
+        for name in self._table.names():
+            key = self.get(name)
+            for installed in {*key.apt, *(_pip_name(pip) for pip in key.pip)} if key else ():
+                found.setdefault(installed, []).append(name)
+        return {name: tuple(keys) for name, keys in found.items()}
+
+    def installing(self, name: str) -> tuple[str, ...]:
+        """Return the keys that install a package which apt or pip call so."""
+        return self.by_installed.get(name) or self.by_installed.get(_pip_name(name), ())
+
+
+def _pip_name(requirement: str) -> str:
+    # A requirement may carry a version and extras; names compare as PEP 503 says.
+    return re.sub(r"[-_.]+", "-", re.split(r"[\[<>=!~; ]", requirement, maxsplit=1)[0]).lower()
+
+
+def load(store: Store) -> Rosdep:
+    """Return the keys. Raises KnowledgeError when the file is damaged."""
+    head, table = store.table("rosdep.tsv")
+    if head and not head.startswith("# key\t"):
+        raise KnowledgeError(f"{store.find('rosdep.tsv')} is no list of rosdep keys")
+    return Rosdep(table, store.find("rosdep.tsv") or "")
