@@ -1,0 +1,82 @@
+"""What a run found, what it did not show, and what it could not see: all that a reporter needs."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from ros_lint.rule import Finding, Rule, Severity
+from ros_lint.workspace import NotChecked, Target
+
+
+class Issue(NamedTuple):
+    """A finding with the rule that made it and the package that has to change, "" when it is none of the workspace."""
+
+    rule: Rule
+    package: str
+    finding: Finding
+
+    @property
+    def severity(self) -> Severity:
+        return self.finding.severity or self.rule.severity
+
+    @property
+    def identity(self) -> str:
+        """What stays the same when lines move: rule, package and subject. Not unique: one subject can be wrong twice."""
+        return f"{self.rule.code}/{self.package}/{self.finding.subject}"
+
+
+class Hidden(NamedTuple):
+    """Findings that are not shown. ``reason`` goes on from the count: "less than certain, shown with --pedantic"."""
+
+    reason: str
+    count: int
+
+
+class Unseen(NamedTuple):
+    """A side of packages that something opaque hides, in words such as "executables", and how many packages it concerns."""
+
+    what: str
+    packages: int
+
+
+class Crash(NamedTuple):
+    """A rule that failed, for one package or (``package`` is "") for the workspace."""
+
+    rule: str
+    package: str
+    traceback: str
+
+    @property
+    def error(self) -> str:
+        """The last line of the traceback: type and message."""
+        return self.traceback.strip().rpartition("\n")[2]
+
+
+class Report(NamedTuple):
+    """The result of a run. The same input gives the same report, on any machine."""
+
+    issues: tuple[Issue, ...]
+    """Those to show, sorted by span, code, message."""
+    rules: tuple[Rule, ...]
+    """Those that ran, sorted by code."""
+    packages: int
+    """How many were checked. 0 means that nothing was."""
+    target: Target
+    data_date: str
+    """Of what is known about the released world, as YYYY-MM-DD."""
+    version: str
+    """Of ros-lint."""
+    hidden: tuple[Hidden, ...] = ()
+    not_checked: tuple[NotChecked, ...] = ()
+    unseen: tuple[Unseen, ...] = ()
+    crashes: tuple[Crash, ...] = ()
+    workspace: str = ""
+    """The folder that was checked, relative to the base that paths are relative to; "" is the base."""
+
+    def count(self, severity: Severity) -> int:
+        """Return how many issues have a severity."""
+        return sum(issue.severity is severity for issue in self.issues)
+
+    def fixable(self, *, safe: bool) -> int:
+        """Return how many issues carry a safe fix, or one that is not."""
+        return sum(issue.finding.fix is not None and issue.finding.fix.safe is safe for issue in self.issues)
