@@ -1,0 +1,157 @@
+"""argv to options, by the one table of :mod:`ros_lint.options`."""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+import sys
+from collections.abc import Callable, Sequence
+from typing import Any, NoReturn
+
+from ros_lint.cli import COMMANDS
+from ros_lint.options import BY_NAME, OPTIONS, Option
+
+_COMMON = ("distro", "underlay", "config", "isolated", "jobs", "cache", "exclude", "progress")
+_EPILOG = """\
+commands (ros-lint COMMAND --help tells more):
+{}
+
+exit codes: 0 nothing found, 1 findings at or above --fail-on, 2 the tool could not do its job
+"""
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        if message.startswith("unrecognized arguments: "):
+            flag = message.partition(": ")[2].split()[0].partition("=")[0]
+            known = [text for action in self._actions for text in action.option_strings]
+            close = difflib.get_close_matches(flag, known, 1)
+            message += f", did you mean {close[0]}?" if close else ""
+        print(f"ros-lint: {message} (ros-lint --help lists what there is)", file=sys.stderr)
+        raise SystemExit(2)
+
+
+def parse(arguments: Sequence[str]) -> tuple[str, dict[str, Any]]:
+    """Return the command and what was said: ``paths`` and options by their names. Exits as argparse does."""
+    if arguments and arguments[0] in COMMANDS:
+        command, rest = arguments[0], list(arguments[1:])
+    else:
+        command, rest = "check", list(arguments)
+    said = vars(parser(command, top=not arguments or arguments[0] != command).parse_intermixed_args(rest))
+    return command, {name.replace("_", "-"): value for name, value in said.items()}
+
+
+def parser(command: str, *, top: bool = False) -> argparse.ArgumentParser:
+    """Return the parser of a command. With ``top``, the one that also tells of the other commands."""
+    listed = "\n".join(f"  {name:12}{summary}" for name, summary in COMMANDS.items())
+    made = _Parser(
+        "ros-lint" if top else f"ros-lint {command}",
+        description="Check ROS 2 workspaces without building them." if top else f"{COMMANDS[command].capitalize()}.",
+        epilog=_EPILOG.format(listed) if top else None,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+        argument_default=argparse.SUPPRESS,
+    )
+    made.add_argument("--version", action="store_true", help="print the version") if top else None
+    _SHAPES[command](made)
+    return made
+
+
+def _check(made: argparse.ArgumentParser) -> None:
+    _paths(made)
+    for option in OPTIONS:
+        if option.on_command_line:
+            _add(made, option)
+
+
+def _graph_like(made: argparse.ArgumentParser) -> None:
+    made.add_argument("-C", "--workspace", dest="paths", action="append", metavar="PATH", help="workspace (default: .)")
+    for name in _COMMON:
+        _add(made, BY_NAME[name])
+
+
+def _order(made: argparse.ArgumentParser) -> None:
+    _paths(made)
+    for name in _COMMON:
+        _add(made, BY_NAME[name])
+
+
+def _graph(made: argparse.ArgumentParser) -> None:
+    _order(made)
+    made.add_argument("--format", choices=("dot", "mermaid", "json"), default="dot", help="how to write the graph")
+    made.add_argument("--metrics", action="store_true", help="degrees, depth, reach and redundant edges per package")
+
+
+def _why(made: argparse.ArgumentParser) -> None:
+    made.add_argument("package", help="the package that needs")
+    made.add_argument("dependency", help="the package or key that is needed")
+    _graph_like(made)
+
+
+def _index(made: argparse.ArgumentParser) -> None:
+    actions = made.add_subparsers(dest="action", required=True, metavar="ACTION")
+    refresh = actions.add_parser("refresh", help="rebuild the data of distributions from rosdistro's index", allow_abbrev=False)
+    refresh.add_argument("--from", dest="source", required=True, metavar="INDEX", help="index-v4.yaml, a path or URL")
+    refresh.add_argument("--distro", action="append", default=[], metavar="NAME", help="only this one; may be repeated")
+    refresh.add_argument("--rosdep", action="append", default=[], metavar="YAML", help="rosdep rules, a path or URL; may be repeated")
+    refresh.add_argument("--to", default="", metavar="FOLDER", help="where to (default: the user's data folder)")
+    scan = actions.add_parser("scan", help="make data from installed prefixes", allow_abbrev=False)
+    scan.add_argument("prefixes", nargs="+", metavar="PREFIX")
+    scan.add_argument("--distro", default="local", metavar="NAME", help="what to call the result")
+    scan.add_argument("--to", default="", metavar="FOLDER", help="where to (default: standard output)")
+
+
+def _rules(made: argparse.ArgumentParser) -> None:
+    made.add_argument("--format", choices=("text", "json"), default="text")
+
+
+def _rule(made: argparse.ArgumentParser) -> None:
+    made.add_argument("rule", help="name or code")
+    _rules(made)
+
+
+def _completion(made: argparse.ArgumentParser) -> None:
+    made.add_argument("shell", choices=("bash", "zsh", "fish", "tcsh"))
+
+
+_SHAPES: dict[str, Callable[[argparse.ArgumentParser], None]] = {
+    "check": _check,
+    "order": _order,
+    "overlay": _order,
+    "graph": _graph,
+    "why": _why,
+    "index": _index,
+    "rules": _rules,
+    "rule": _rule,
+    "schema": lambda made: None,
+    "completion": _completion,
+}
+
+
+def _paths(made: argparse.ArgumentParser) -> None:
+    made.add_argument("paths", nargs="*", default=["."], metavar="PATH", help="workspaces or packages (default: .)")
+
+
+def _add(made: argparse.ArgumentParser, option: Option) -> None:
+    flag = f"--{option.name}"
+    text = f"{option.help} (also ${option.environment})" if option.environment else option.help
+    match option.type:
+        case "flag":
+            switch = argparse.BooleanOptionalAction if option.default else "store_true"
+            made.add_argument(flag, action=switch, help=text)
+        case "number":
+            made.add_argument(flag, type=int, metavar=option.metavar, help=text)
+        case "words":
+            made.add_argument(flag, action=_Words, metavar=option.metavar, help=text)
+        case "paths":
+            made.add_argument(flag, action="append", metavar=option.metavar, help=text)
+        case _:
+            made.add_argument(flag, choices=option.choices or None, metavar=option.metavar or None, help=text)
+
+
+class _Words(argparse.Action):
+    """``--select a,b --select c`` is the list a, b, c."""
+
+    def __call__(self, parser: object, namespace: argparse.Namespace, values: Any, option_string: str | None = None) -> None:
+        words = [word.strip() for word in str(values).split(",") if word.strip()]
+        setattr(namespace, self.dest, (*getattr(namespace, self.dest, ()), *words))

@@ -1,0 +1,61 @@
+"""The command line: argv in, exit code out. 0 clean, 1 findings, 2 the tool could not do its job.
+
+Everything heavy is imported by the command that needs it: ``--version`` and ``--help`` are part of every shell's start-up.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+
+COMMANDS = {
+    "check": "look for what is wrong (the default)",
+    "order": "print the packages in build order",
+    "why": "say how one package comes to need another",
+    "graph": "print the dependency graph",
+    "overlay": "say which layer each package name resolves to",
+    "rules": "list the rules",
+    "rule": "explain a rule",
+    "index": "rebuild or extend what is known of the released world",
+    "schema": "print the JSON schema of the configuration file",
+    "completion": "print the completion script for a shell",
+}
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run a command. Returns the exit code; raises nothing but what ends the process."""
+    arguments = list(sys.argv[1:] if argv is None else argv)
+    if arguments == ["--version"]:
+        from ros_lint import __version__  # noqa: PLC0415
+
+        print(f"ros-lint {__version__}")
+        return 0
+    from ros_lint.arguments import parse  # noqa: PLC0415
+
+    try:
+        command, options = parse(arguments)
+        return _run(command, options)
+    except BrokenPipeError:
+        # The reader has gone, as in `ros-lint | head`. Keep the interpreter from complaining about it once more.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 2
+    except KeyboardInterrupt:
+        print("ros-lint: interrupted", file=sys.stderr)
+        return 130
+
+
+def _run(command: str, options: dict[str, object]) -> int:
+    if command in ("rules", "rule", "schema", "completion"):
+        from ros_lint.commands import papers  # noqa: PLC0415
+
+        return papers.run(command, options)
+    if command == "index":
+        from ros_lint.commands import index  # noqa: PLC0415
+
+        return index.run(options)
+    from ros_lint.commands import check, graphs  # noqa: PLC0415
+
+    if command == "check":
+        return check.run(options)
+    return graphs.run(command, options)

@@ -1,0 +1,159 @@
+"""Collect the facts of files: each file once, in several processes when there are many, from the cache when unchanged.
+
+Which collector reads which file is said here and nowhere else. Collectors themselves see one text and no other file.
+"""
+
+from __future__ import annotations
+
+import gc
+import os
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import Literal, NamedTuple
+
+from ros_lint.cache import Cache
+from ros_lint.collectors.cmake_syntax import Parsed
+from ros_lint.facts import FileFacts, LaunchFile
+from ros_lint.suppress import Suppression
+from ros_lint.text import Text, read
+from ros_lint.tree import DiskTree, Tree
+
+Kind = Literal["cpp", "python", "cmake", "interface", "xml", "yaml", "resource"]
+
+MOST_BYTES = 4 << 20
+"""A larger file is not read: it is generated data, and no source."""
+
+_FILES_A_PROCESS = 500
+"""Below this many files a further process costs more than it saves."""
+
+_SUFFIXES: dict[str, Kind] = {"py": "python", "cmake": "cmake"}
+_SUFFIXES.update(dict.fromkeys(("c", "cc", "cpp", "cxx", "cu", "h", "hh", "hpp", "hxx", "inl", "ipp", "tpp", "cuh"), "cpp"))
+_SUFFIXES.update(dict.fromkeys(("msg", "srv", "action", "idl"), "interface"))
+_SUFFIXES.update(dict.fromkeys(("xml", "launch"), "xml"))
+_SUFFIXES.update(dict.fromkeys(("yaml", "yml"), "yaml"))
+_SUFFIXES.update(dict.fromkeys(("urdf", "xacro", "sdf", "world", "rviz"), "resource"))
+
+
+class Collected(NamedTuple):
+    """What one file gave."""
+
+    facts: FileFacts | None = None
+    launch: LaunchFile | None = None
+    commands: Parsed | None = None
+    suppressions: tuple[Suppression, ...] = ()
+    unreadable: str = ""
+    """Why the file was not read, or ""."""
+
+
+def kind_of(path: str) -> Kind | None:
+    """Return what a file is taken for by its name, or None for one that no collector reads."""
+    name = path.rpartition("/")[2]
+    if name == "CMakeLists.txt":
+        return "cmake"
+    stem, _, suffix = name.rpartition(".")
+    if suffix in ("in", "em") and stem:  # configured by CMake, expanded by empy
+        inner = _SUFFIXES.get(stem.rpartition(".")[2])
+        return inner if inner in ("cmake", "python") else None
+    return _SUFFIXES.get(suffix) if stem else None
+
+
+def collect(text: Text, kind: Kind) -> Collected:
+    """Return the facts of a file. Never raises for what the file holds."""
+    # Imported here, so that a workspace without launch files does not wait for the tools to read them.
+    facts: FileFacts | None = None
+    launch: LaunchFile | None = None
+    commands: Parsed | None = None
+    if kind in ("python", "xml", "yaml"):
+        from ros_lint.collectors import launch as launch_files  # noqa: PLC0415
+
+        if language := launch_files.is_launch_file(text.path, text.text):
+            launch = launch_files.collect(text, language)
+    if kind == "cpp":
+        from ros_lint.collectors import cpp  # noqa: PLC0415
+
+        facts = cpp.collect(text)
+    elif kind == "python":
+        from ros_lint.collectors import python  # noqa: PLC0415
+
+        facts = python.collect(text)
+    elif kind == "cmake":
+        from ros_lint.collectors import cmake_syntax  # noqa: PLC0415
+
+        commands = cmake_syntax.parse(text)
+    elif kind == "interface":
+        from ros_lint.collectors import interfaces  # noqa: PLC0415
+
+        facts = interfaces.collect(text)
+    elif launch is None:
+        from ros_lint.collectors import resources  # noqa: PLC0415
+
+        facts = resources.collect(text)
+    return Collected(facts, launch, commands, _suppressions(text))
+
+
+def collect_all(
+    tree: Tree, paths: Sequence[str], jobs: int, cache: Cache, tick: Callable[[int], None]
+) -> dict[str, Collected]:
+    """Return what every file gave, by path.
+
+    ``jobs`` is the number of processes, 0 decides by the number of files; ``tick`` hears how many files are done.
+    """
+    wanted = [(path, kind) for path in paths if (kind := kind_of(path))]
+    found: dict[str, Collected] = cache.fetch(tree, [path for path, _ in wanted])
+    tick(len(found))
+    missing = [(path, kind) for path, kind in wanted if path not in found]
+    fresh: dict[str, Collected] = {}
+    processes = jobs or min(os.cpu_count() or 1, 8, len(missing) // _FILES_A_PROCESS)
+    chunks: Iterable[dict[str, Collected]]
+    if processes > 1 and isinstance(tree, DiskTree):
+        chunks = _in_processes(tree, missing, processes)
+    else:
+        chunks = (_collect_chunk(tree, missing[at : at + 100]) for at in range(0, len(missing), 100))
+    enabled = gc.isenabled()
+    gc.disable()  # facts hold no cycles, and the collector would walk through all of them again and again
+    try:
+        for chunk in chunks:
+            fresh.update(chunk)
+            tick(len(found) + len(fresh))
+    finally:
+        if enabled:
+            gc.enable()
+    cache.store(tree, fresh)
+    found.update(fresh)
+    return {path: found[path] for path, _ in wanted}
+
+
+def _in_processes(
+    tree: DiskTree, files: list[tuple[str, Kind]], processes: int
+) -> Iterator[dict[str, Collected]]:
+    from concurrent.futures import ProcessPoolExecutor  # noqa: PLC0415
+
+    size = max(20, min(200, len(files) // (processes * 4)))
+    chunks = [files[at : at + size] for at in range(0, len(files), size)]
+    with ProcessPoolExecutor(processes) as pool:
+        yield from pool.map(_collect_chunk, [tree] * len(chunks), chunks)
+
+
+def _collect_chunk(tree: Tree, files: Sequence[tuple[str, Kind]]) -> dict[str, Collected]:
+    return {path: _read_and_collect(tree, path, kind) for path, kind in files}
+
+
+def _read_and_collect(tree: Tree, path: str, kind: Kind) -> Collected:
+    try:
+        data = tree.read(path)
+    except OSError as error:
+        return Collected(unreadable=error.strerror or str(error))
+    if len(data) > MOST_BYTES:
+        return Collected(unreadable=f"{len(data) >> 20} MB is more than a source has")
+    if b"\0" in data[:1024] and not data.startswith((b"\xff\xfe", b"\xfe\xff")):
+        return Collected(unreadable="binary data")
+    return collect(read(path, data), kind)
+
+
+def _suppressions(text: Text) -> tuple[Suppression, ...]:
+    if "ros-lint:" not in text.text:
+        return ()
+    from ros_lint import suppress  # noqa: PLC0415
+
+    return suppress.collect(text)
+
+

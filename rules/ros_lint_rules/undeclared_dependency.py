@@ -1,0 +1,101 @@
+"""
+## What it finds
+
+A package that is used, but that nothing in `package.xml` brings along: a header that is included, a Python module that
+is imported, a `find_package`, a message type, a package whose files are looked up.
+
+## Why it matters
+
+It works as long as somebody else happens to install or build the package first. On a clean machine, in a container or
+on the build farm it does not: colcon may build the packages in the wrong order, `rosdep install` leaves the package
+out, and the released binary lacks it.
+
+## How to fix it
+
+Declare the package in `package.xml`, in the tag that the message names: `<depend>` for what is compiled against and
+needed at run time, `<exec_depend>` for what is needed at run time only, `<test_depend>` for tests. The fix does this.
+
+## When it keeps silent
+
+- The package comes with a declared one: see `transitive-dependency` for uses that hang on such a chain.
+- The use is optional: `find_package(QUIET)` behind `if(X_FOUND)`, `try: import`, `__has_include`.
+- The name belongs to no package or rosdep key that is known, or to the system.
+- A declared dependency is itself not known, so that anything might come with it: then the confidence is medium.
+- What a launch file starts or includes is the business of `launch-outside-closure`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from ros_lint.api import (
+    Confidence,
+    Finding,
+    Fix,
+    Package,
+    Related,
+    Role,
+    Rule,
+    Severity,
+    Use,
+    Workspace,
+    add_dependency,
+    tag_for,
+)
+
+_MOST_RELATED = 4
+
+
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    manifest = package.manifest
+    if manifest is None or manifest.problems:
+        return
+    declared = tuple(dict.fromkeys(declared.name for declared in package.declared))
+    closure = workspace.world.closure(declared)
+    for name, uses in _missing(package, frozenset(declared) | closure.names).items():
+        best, *others = sorted(uses, key=_rank)
+        role = _union(uses)
+        tag = tag_for(package, workspace, name, role)
+        confidence = Confidence.HIGH if best.sure and closure.complete else Confidence.MEDIUM
+        yield Finding(
+            f"{name} is used here, but package.xml does not declare it: add <{tag}>{name}</{tag}>",
+            best.span,
+            name,
+            tuple(Related(f"also used here: {use.what}", use.span) for use in others[:_MOST_RELATED]),
+            Fix(f"declare {name} as <{tag}>", add_dependency(package, tag, name)),
+            confidence,
+        )
+
+
+def _missing(package: Package, covered: frozenset[str]) -> dict[str, list[Use]]:
+    found: dict[str, list[Use]] = {}
+    for use in package.uses:
+        if use.optional or use.via == "launch" or not covered.isdisjoint(use.providers):
+            continue
+        found.setdefault(use.package, []).append(use)
+    return found
+
+
+def _rank(use: Use) -> tuple[object, ...]:
+    """The surest and most telling evidence first."""
+    telling = ("include", "import", "cmake", "interface", "target", "macro", "package", "key", "launch")
+    return (not use.sure, use.role == Role.TEST, telling.index(use.via), use.span)
+
+
+def _union(uses: Sequence[Use]) -> Role:
+    role = Role(0)
+    for use in uses:
+        role |= use.role
+    return role
+
+
+RULE = Rule(
+    name="undeclared-dependency",
+    code="ROS201",
+    summary="a package that is used must be declared",
+    severity=Severity.ERROR,
+    since="0.1",
+    doc=__doc__,
+    fixable=True,
+    package=check,
+)

@@ -1,0 +1,57 @@
+"""The order of the house: what every rule must have."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from ros_lint import registry
+from ros_lint.rule import Rule
+from ros_lint.testing import FENCE, read_cases
+
+ROOT = Path(__file__).parent.parent
+FIXTURES = ROOT / "fixtures"
+HEADINGS = ["What it finds", "Why it matters", "How to fix it", "When it keeps silent"]
+RULES = registry.load()
+CHECKED = [rule for rule in RULES if rule.package or rule.workspace]
+GROUPS = {"1": "workspace and manifest", "2": "dependencies", "3": "build scripts", "4": "install", "5": "launch", "9": "the tool"}
+
+
+def by_name(rule: Rule) -> str:
+    return rule.name
+
+
+def test_names_and_codes_are_unique() -> None:
+    assert len({rule.name for rule in RULES}) == len({rule.code for rule in RULES}) == len(RULES)
+
+
+@pytest.mark.parametrize("rule", RULES, ids=by_name)
+def test_papers(rule: Rule) -> None:
+    module = ROOT / "rules" / "ros_lint_rules" / f"{rule.name.replace('-', '_')}.py"
+    assert module.exists(), "a rule's file is called as the rule"
+    assert re.fullmatch(r"ROS[123459]\d\d", rule.code)
+    assert re.findall(r"^## (.*)$", rule.doc, re.MULTILINE) == HEADINGS
+    assert rule.summary[0].islower()
+    assert not rule.summary.endswith(".")
+    assert not (rule.package and rule.workspace)
+
+
+@pytest.mark.parametrize("rule", CHECKED, ids=by_name)
+def test_has_cases_for_and_against(rule: Rule) -> None:
+    wants = [bool(case.wants()) for case in read_cases(FIXTURES / f"{rule.name}.md")]
+    assert any(wants), "no case in which the rule speaks"
+    assert not all(wants), "no case in which the rule keeps silent"
+
+
+@pytest.mark.parametrize("rule", [rule for rule in CHECKED if rule.fixable], ids=by_name)
+def test_a_fix_is_shown(rule: Rule) -> None:
+    assert any(case.diff for case in read_cases(FIXTURES / f"{rule.name}.md")), "no case shows the fix as a diff"
+
+
+def test_no_case_without_a_rule() -> None:
+    assert {path.stem for path in FIXTURES.glob("*.md")} == {rule.name for rule in CHECKED}
+
+
+def test_every_fence_is_closed() -> None:
+    for path in FIXTURES.glob("*.md"):
+        assert "```" not in FENCE.sub("", path.read_text("utf-8")), path
