@@ -71,7 +71,11 @@ class Package(NamedTuple):
     group_depends: tuple[Declared, ...]
     colcon_depends: tuple[ColconDepend, ...]
     files: tuple[str, ...]
-    """Every file below the folder, relative to it, nested packages left out."""
+    """Every file below the folder, relative to it and sorted; nested packages and skipped folders left out."""
+    unseen: tuple[str, ...]
+    """Folders, relative to the package, that were not looked into: whether a file exists there is unknown."""
+    nested: tuple[Manifest, ...]
+    """Manifests further down, which colcon does not see."""
     script: BuildScript | None
     launch: tuple[LaunchFile, ...]
     uses: tuple[Use, ...]
@@ -116,10 +120,22 @@ class NotChecked(NamedTuple):
 
 
 class Workspace:
-    """All packages, and the world they live in. ``packages`` is sorted by path and may hold a name twice."""
+    """All packages, and the world they live in.
 
-    def __init__(self, packages: tuple[Package, ...], world: World, target: Target, not_checked: tuple[NotChecked, ...]) -> None:
+    ``packages`` are those that colcon sees, sorted by path; a name may be there twice. ``unusable`` are folders with a
+    ``package.xml`` for which colcon sees no package at all, under the name that the manifest gives, if any.
+    """
+
+    def __init__(
+        self,
+        packages: tuple[Package, ...],
+        unusable: tuple[Package, ...],
+        world: World,
+        target: Target,
+        not_checked: tuple[NotChecked, ...],
+    ) -> None:
         self.packages = packages
+        self.unusable = unusable
         self.world = world
         self.target = target
         self.not_checked = not_checked
