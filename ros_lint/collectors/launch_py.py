@@ -10,10 +10,11 @@ import ast
 import re
 import shlex
 import warnings
+from collections.abc import Callable, Mapping
 from typing import Literal
 
 from ros_lint.collectors.install_paths import UNKNOWN, Installed, installed, share
-from ros_lint.collectors.launch_py_scopes import Expression, Scope, Where, scan
+from ros_lint.collectors.launch_py_scopes import Expression, Scope, Where, children, scan
 from ros_lint.collectors.launch_py_values import LOOK_UPS, Evaluator, argument, callee
 from ros_lint.facts import Facet, LaunchFile, LaunchReference, Opaque, Problem
 from ros_lint.text import Span, Text
@@ -58,7 +59,8 @@ _COMPONENTS = frozenset({"ComposableNode", "ComposableLifecycleNode"})
 _PROCESSES = frozenset({"ExecuteProcess", "ExecuteLocal"})
 # Made, but neither returned nor added, these do nothing.
 _ACTIONS = _NODES | _COMPONENTS | _PROCESSES | {"IncludeLaunchDescription", "GroupAction", "TimerAction", "Command"}
-_MOVEIT = frozenset({"MoveItConfigsBuilder", "ParameterBuilder"})
+_TEXTS = frozenset({ast.BinOp, ast.JoinedStr})
+_LISTS = frozenset({ast.List, ast.Tuple})
 # What makes a path or a text out of its arguments.
 _PATHS = LOOK_UPS | frozenset(
     {
@@ -86,13 +88,14 @@ class _Reader:
             self._dead = id(expression.node) in dead
             self._visit(expression.node, expression.conditional)
 
-    def _visit(self, node: ast.AST, conditional: bool) -> None:
+    def _visit(self, node: ast.expr, conditional: bool) -> None:
+        kind = type(node)
+        if kind is ast.Name or kind is ast.Constant:
+            return
         if isinstance(node, ast.Call):
             self._call(node, conditional)
             return
-        if isinstance(node, (ast.BinOp, ast.JoinedStr)) or (
-            isinstance(node, (ast.List, ast.Tuple)) and any(isinstance(item, ast.Constant) for item in node.elts)
-        ):
+        if kind in _TEXTS or (kind in _LISTS and any(type(item) is ast.Constant for item in node.elts)):  # type: ignore[attr-defined]
             if self._path(node, conditional):
                 return
         elif isinstance(node, ast.IfExp):
@@ -100,31 +103,24 @@ class _Reader:
             self._visit(node.body, conditional=True)
             self._visit(node.orelse, conditional=True)
             return
-        for child in ast.iter_child_nodes(node):
+        for child in children(node):
             self._visit(child, conditional)
 
     def _call(self, node: ast.Call, conditional: bool) -> None:
         name = callee(node)
-        keywords = {keyword.arg for keyword in node.keywords}
-        conditional = conditional or ("condition" in keywords)
+        keywords = [keyword.arg for keyword in node.keywords]
+        conditional = conditional or "condition" in keywords
         done: list[ast.expr | None] = []
         if "package" in keywords and (name in _NODES or "executable" in keywords):
             done = self._program(node, "node", "executable", conditional)
         elif "package" in keywords and (name in _COMPONENTS or "plugin" in keywords):
             done = self._program(node, "component", "plugin", conditional)
-        elif name == "IncludeLaunchDescription":
-            done = self._include(node, conditional)
-        elif name in _PROCESSES:
-            done = self._process(node, conditional)
-        elif name == "ExecutableInPackage":
-            done = self._program(node, "node", "executable", conditional)
-        elif name in _MOVEIT:
-            self._builder(node, name, conditional)
-        elif name == "FindExecutable":
-            self._xacro(argument(node, 0, "name"), conditional)
-        elif name in _PATHS and self._path(node, conditional):
-            return
-        for child in (node.func, *node.args, *(keyword.value for keyword in node.keywords)):
+        elif name in _PATHS:
+            if self._path(node, conditional):
+                return
+        elif special := _SPECIAL.get(name):
+            done = special(self, node, conditional)
+        for child in children(node):
             if child not in done:
                 self._visit(child, conditional)
 
@@ -200,8 +196,9 @@ class _Reader:
             self._add("package", rest[0][0], "", rest[0][1], rest[0][1], conditional=conditional)
         return []
 
-    def _builder(self, node: ast.Call, name: str, conditional: bool) -> None:
+    def _builder(self, node: ast.Call, conditional: bool) -> list[ast.expr | None]:
         """MoveIt's builders look a package up (reference, section G2.7)."""
+        name = callee(node)
         given = (
             argument(node, 1, "package_name") if name == "MoveItConfigsBuilder" else argument(node, 0, "package_name")
         )
@@ -210,12 +207,20 @@ class _Reader:
         if given is None and name == "MoveItConfigsBuilder":
             given, suffix = robot, "_moveit_config"
         if given is None:
-            return
+            return []
         for value in self._evaluator.values(given, self._where):
             if value.known:
                 self._add("package", value.text + suffix, "", given, given, conditional=conditional)
             else:
                 self._hidden(f"the package of {name} is computed", given)
+        return []
+
+    def _in_package(self, node: ast.Call, conditional: bool) -> list[ast.expr | None]:
+        return self._program(node, "node", "executable", conditional)
+
+    def _found_program(self, node: ast.Call, conditional: bool) -> list[ast.expr | None]:
+        self._xacro(argument(node, 0, "name"), conditional)
+        return []
 
     def _xacro(self, node: ast.expr | None, conditional: bool) -> None:
         if node is not None and not self._dead and self._evaluator.values(node, self._where)[0].text == "xacro":
@@ -298,6 +303,15 @@ class _Reader:
         return start + len(head.decode("utf-8", "surrogateescape"))
 
 
+_SPECIAL: Mapping[str, Callable[[_Reader, ast.Call, bool], list[ast.expr | None]]] = {
+    "IncludeLaunchDescription": _Reader._include,
+    "ExecuteProcess": _Reader._process,
+    "ExecuteLocal": _Reader._process,
+    "ExecutableInPackage": _Reader._in_package,
+    "MoveItConfigsBuilder": _Reader._builder,
+    "ParameterBuilder": _Reader._builder,
+    "FindExecutable": _Reader._found_program,
+}
 _PACKAGE = re.compile(r"[A-Za-z0-9_][\w.-]*")
 
 

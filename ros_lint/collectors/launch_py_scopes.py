@@ -188,17 +188,22 @@ class _Scanner:
     def _expression(self, node: ast.expr, where: Where, conditional: bool, target: str | None = None) -> None:
         self.expressions.append(Expression(node, where, conditional, target))
         scope = where.scope
-        for inner in ast.walk(node):
+        waiting = [node]
+        while waiting:
+            inner = waiting.pop()
             if isinstance(inner, ast.Name):
                 if isinstance(inner.ctx, ast.Load):
                     self._load(inner.id, scope)
-            elif isinstance(inner, ast.comprehension):
-                self._bind(inner.target, inner.iter, where, (None,))
-            elif isinstance(inner, ast.NamedExpr):
+                continue
+            if isinstance(inner, ast.NamedExpr):
                 self._bind(inner.target, inner.value, where)
             elif isinstance(inner, ast.Lambda):
                 for argument in (*inner.args.args, *inner.args.kwonlyargs):
                     scope.bind(argument.arg, None, where)
+            elif isinstance(inner, (ast.ListComp, ast.SetComp, ast.GeneratorExp, ast.DictComp)):
+                for generator in inner.generators:
+                    self._bind(generator.target, generator.iter, where, (None,))
+            waiting += children(inner)
 
     def _load(self, name: str, scope: Scope) -> None:
         # A function may use a name of the scopes around it, so it counts for all of them.
@@ -218,6 +223,28 @@ class _Scanner:
                 self._bind(item, None if starred else value, where, (*steps, index))
         elif isinstance(target, ast.Starred):
             self._bind(target.value, None, where)
+
+
+def children(node: ast.expr) -> list[ast.expr]:
+    """Return the expressions directly in an expression."""
+    kind = type(node)
+    if kind is ast.Call:
+        return [node.func, *node.args, *[keyword.value for keyword in node.keywords]]  # type: ignore[attr-defined]
+    if kind is ast.Constant or kind is ast.Name:
+        return []
+    if kind is ast.Attribute:
+        return [node.value]  # type: ignore[attr-defined]
+    if kind is ast.List or kind is ast.Tuple:
+        return node.elts  # type: ignore[attr-defined, no-any-return]
+    found: list[ast.expr] = []
+    for name in node._fields:
+        value = getattr(node, name)
+        for item in value if isinstance(value, list) else (value,):
+            if isinstance(item, ast.expr):
+                found.append(item)
+            elif isinstance(item, ast.comprehension):
+                found += (item.target, item.iter, *item.ifs)
+    return found
 
 
 def reaching(name: str, where: Where) -> Iterator[Binding] | None:
