@@ -30,6 +30,8 @@ class Target(NamedTuple):
     distro: str
     source: str
     """Where the choice comes from, such as "--distro" or "newest long-term release known"."""
+    told: bool = True
+    """False when nobody chose it: then what only another distribution has is no mistake."""
 
     @property
     def context(self) -> Mapping[str, str]:
@@ -124,6 +126,8 @@ class Workspace:
 
     ``packages`` are those that colcon sees, sorted by path; a name may be there twice. ``unusable`` are folders with a
     ``package.xml`` for which colcon sees no package at all, under the name that the manifest gives, if any.
+    ``source_lists`` are files that name repositories which belong to the workspace and need not be there: ``*.repos``,
+    ``*.rosinstall``, ``.gitmodules``.
     """
 
     def __init__(
@@ -133,12 +137,14 @@ class Workspace:
         world: World,
         target: Target,
         not_checked: tuple[NotChecked, ...],
+        source_lists: tuple[str, ...] = (),
     ) -> None:
         self.packages = packages
         self.unusable = unusable
         self.world = world
         self.target = target
         self.not_checked = not_checked
+        self.source_lists = source_lists
 
     @cached_property
     def by_name(self) -> Mapping[str, tuple[Package, ...]]:
