@@ -1,0 +1,230 @@
+"""C and C++ sources: the scan for includes against a slow and plain preprocessor, and what is said about places."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ros_lint.collectors import cpp
+from ros_lint.collectors.cpp_includes import STANDARD, includes
+from ros_lint.text import Text
+
+
+def collected(text: str) -> list[tuple[str, str, bool]]:
+    return [(mention.via, mention.name, mention.optional) for mention in cpp.collect(Text("a.cpp", text)).mentions]
+
+
+# --- a second reader, written from the standard's phases of translation and without regard to speed
+
+
+def slow_includes(text: str) -> list[str]:
+    """Return the names of includes that are not in a comment, a raw string or ``#if 0``."""
+    out: list[str] = []
+    skipping: list[list[bool]] = []  # per conditional: [in a dead branch, a branch was certain]
+    for line in _logical_lines(text):
+        directive = re.match(r"\s*#\s*(\w+)\s*(.*)", line)
+        if not directive:
+            continue
+        word, rest = directive[1], directive[2].strip()
+        if word in ("if", "ifdef", "ifndef"):
+            skipping.append([rest == "0" and word == "if", rest == "1" and word == "if"])
+        elif word in ("elif", "else") and skipping:
+            skipping[-1][0] = skipping[-1][1] or (word == "elif" and rest == "0")
+            skipping[-1][1] |= word == "else" or rest == "1"
+        elif word == "endif" and skipping:
+            skipping.pop()
+        elif word == "include" and not any(dead for dead, _ in skipping):
+            name = re.match(r'<([^>]+)>|"([^"]+)"', rest)
+            if name:
+                out.append(name[1] or name[2])
+    return out
+
+
+def _logical_lines(text: str) -> list[str]:
+    lines = [""]
+    at = 0
+    while at < len(text):
+        char, two = text[at], text[at : at + 2]
+        if text.startswith("\\\n", at):
+            at += 2
+        elif two == "//":
+            while at < len(text) and text[at] != "\n":
+                at += 2 if text[at] == "\\" else 1
+        elif two == "/*":
+            end = text.find("*/", at + 2)
+            at = len(text) if end < 0 else end + 2
+            lines[-1] += " "
+        elif (
+            two == 'R"'
+            and (raw := re.compile(r'R"([^()\\\s]{0,16})\(').match(text, at))
+            and not lines[-1][-1:].isalnum()
+        ):
+            end = text.find(f'){raw[1]}"', raw.end())
+            if end < 0:
+                lines[-1] += char
+                at += 1
+            else:
+                lines[-1] += "''"
+                at = end + len(raw[1]) + 2
+        elif char == "<" and re.fullmatch(r"\s*#\s*include\s*", lines[-1]):
+            end = at + 1
+            while end < len(text) and text[end] not in ">\n":
+                end += 1
+            lines[-1] += text[at : end + 1] if text[end : end + 1] == ">" else text[at:end]
+            at = end + (text[end : end + 1] == ">")
+        elif char in "\"'" and (
+            closed := re.compile(rf"{char}(?:[^{char}\\\n]|\\.)*{char}", re.DOTALL).match(text, at)
+        ):
+            lines[-1] += closed[0].replace("\n", " ")
+            at = closed.end()
+        elif char == "\n":
+            lines.append("")
+            at += 1
+        else:
+            lines[-1] += char
+            at += 1
+    return lines
+
+
+PIECES = st.sampled_from(
+    [
+        "#include <a/b.hpp>",
+        '#include "c.h"',
+        "  #  include <d/e.h> // why",
+        "#if 0",
+        "#if 1",
+        "#if 0 // never",
+        "#if 0 /* never\n*/",
+        "#if X",
+        "#ifdef Y",
+        "#elif 0",
+        "#else",
+        "#endif",
+        "#endif  // X",
+        "/*",
+        "*/",
+        "/* one */",
+        "/* #include <j/k.h> */",
+        "/* l */ #include <m.hpp>",
+        "// #include <n/o.h>",
+        "// p \\",
+        "foo(); #include <q.h>",
+        '"a string"',
+        '"// no comment"',
+        '"/* no comment"',
+        '"*/"',
+        'R"(',
+        ')"',
+        'R"x(',
+        ')x"',
+        "'\"'",
+        "'/'",
+        "a * /b",
+        "**/*c*/",
+        "#define Z \\",
+        '"continued \\',
+        'rest"',
+        "",
+        " ",
+    ]
+)
+
+
+@given(st.lists(st.tuples(PIECES, st.sampled_from(["\n", "\n", "\n", " ", ""])), max_size=14))
+@settings(max_examples=1500, deadline=None)
+def test_same_includes_as_a_plain_preprocessor(parts: list[tuple[str, str]]) -> None:
+    # What follows a condition on its line would be an error, about which both readers may think as they like.
+    text = "".join(piece + ("\n" if re.match("#(if|el|endif)", piece) else end) for piece, end in parts)
+    assert [item.name for item in includes(text)] == slow_includes(text)
+
+
+def test_brackets_hide_what_looks_like_a_comment() -> None:
+    assert [item.name for item in includes("#include <a//b>\n#include <c/*d>\n#include <e>\n/* #include <f> */\n")] == [
+        "a//b",
+        "c/*d",
+        "e",
+    ]
+
+
+@given(st.text(alphabet="#includef <>\"'/*\\\nR()01x\r", max_size=80))
+@settings(max_examples=1500, deadline=None)
+def test_any_text_is_read(text: str) -> None:
+    for mention in cpp.collect(source := Text("a.h", text)).mentions:
+        assert source.slice(mention.span) == mention.name
+
+
+# --- what depends on the build
+
+
+@pytest.mark.parametrize(
+    ("text", "optional"),
+    [
+        ("#include <p/a.hpp>\n", False),
+        ("#ifndef A_H\n#define A_H\n#include <p/a.hpp>\n#endif\n", False),
+        ("// licence\n#ifndef A_H_\n#define A_H\n#include <p/a.hpp>\n#endif\n", False),
+        ("#if !defined(A_H)\n#  define A_H\n#include <p/a.hpp>\n#endif\n", False),
+        ("#ifdef __cplusplus\n#include <p/a.hpp>\n#endif\n", False),
+        ("#ifndef Q_MOC_RUN\n#include <p/a.hpp>\n#endif\n", False),
+        ("#if 1\n#include <p/a.hpp>\n#endif\n", False),
+        ("#if 0\n#else\n#include <p/a.hpp>\n#endif\n", False),
+        ("#if __has_include(<p/a.hpp>)\n#include <p/a.hpp>\n#endif\n", True),
+        ("#ifdef USE_P\n#include <p/a.hpp>\n#endif\n", True),
+        ("#ifdef HUMBLE\n#include <p/a.h>\n#else\n#include <p/a.hpp>\n#endif\n", False),
+        ("#ifdef HUMBLE\n#include <p/a.h>\n#elif X\n#include <p/a.hpp>\n#endif\n", True),
+        ("#ifdef HUMBLE\n#include <q/a.h>\n#else\n#include <p/a.hpp>\n#endif\n", True),
+        ("#ifndef A_H\n#define A_H\n#if X\n#include <p/a.h>\n#else\n#include <p/b.h>\n#endif\n#endif\n", False),
+        ("#if X\n#if Y\n#include <p/a.h>\n#else\n#include <p/b.h>\n#endif\n#else\n#include <p/c.h>\n#endif\n", False),
+        ("#if X\n#if Y\n#include <p/a.h>\n#endif\n#else\n#include <p/c.h>\n#endif\n", True),
+        ("#if X\n#include <p/a.h>\n", True),
+    ],
+)
+def test_optional(text: str, optional: bool) -> None:
+    found = [item.optional for item in includes(text) if item.name.startswith("p/")]
+    assert found
+    assert set(found) == {optional}
+
+
+def test_standard_headers_are_left_out() -> None:
+    text = "".join(f"#include <{name}>\n" for name in sorted(STANDARD)) + "#include <armadillo>\n#include <Eigen>\n"
+    assert [item.name for item in includes(text)] == ["armadillo", "Eigen"]
+
+
+# --- places, quotes, look-ups
+
+
+@pytest.mark.parametrize("newline", ["\n", "\r\n"])
+def test_places_and_quotes(newline: str) -> None:
+    lines = [
+        "// ß",
+        '#include "x/y.hpp"',
+        "",
+        "  # include <z/ü.h>",
+        "auto d = f::get_package_share_directory(",
+        '  "q");',
+    ]
+    source = Text("a.cpp", newline.join(lines))
+    mentions = cpp.collect(source).mentions
+    assert [(m.name, m.via, m.what, str(m.span)) for m in mentions] == [
+        ("x/y.hpp", "include", '#include "x/y.hpp"', "a.cpp:2:11"),
+        ("z/ü.h", "include", "#include <z/ü.h>", "a.cpp:4:14"),
+        ("q", "package", 'get_package_share_directory("q")', "a.cpp:6:4"),
+    ]
+    assert [source.slice(mention.span) for mention in mentions] == ["x/y.hpp", "z/ü.h", "q"]
+
+
+def test_look_ups_in_comments_do_not_count() -> None:
+    assert collected('// get_package_prefix("a")\n/* get_package_prefix("b") */ get_package_prefix("c");') == [
+        ("package", "c", False)
+    ]
+    assert collected("get_package_prefix(name);") == []
+
+
+def test_computed_include_is_opaque() -> None:
+    facts = cpp.collect(Text("a.h", "#include CONFIG_H // x\n"))
+    assert not facts.mentions
+    assert [(o.reason, str(o.span)) for o in facts.opaque] == [
+        ("only the preprocessor knows which header #include CONFIG_H names", "a.h:1:10")
+    ]
