@@ -84,8 +84,6 @@ class Package(NamedTuple):
     traces: Mapping[str, Span]
     """For declared names that nothing uses: a place where the name stands in some text all the same."""
     opaque: tuple[Opaque, ...]
-    nested: tuple[Manifest, ...] = ()
-    """Manifests further down in the folder: colcon never gets to see them."""
 
     @property
     def place(self) -> Span:
