@@ -1,0 +1,272 @@
+"""Find the packages of a workspace and the files of each in one walk.
+
+Which folders are packages is what ``colcon list`` says: the crawl of colcon-recursive-crawl, the identification of
+:mod:`ros_lint.identify` (reference, section A6). Beyond colcon, products that
+are not marked as such are skipped.
+"""
+
+from __future__ import annotations
+
+import posixpath
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.collectors import manifest as manifests
+from ros_lint.identify import (
+    SIGNS,
+    Folder,
+    Identity,
+    Ignored,
+    Settings,
+    identify,
+    ignored_by_ros,
+    ignored_everywhere,
+    product,
+)
+from ros_lint.text import Span, Text, read
+from ros_lint.tree import join, parent
+from ros_lint.workspace import NotChecked
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from ros_lint.facts import ColconDepend, Manifest
+    from ros_lint.tree import Entry, Tree
+
+_NEVER = frozenset((".git", ".hg", ".svn", "node_modules", "__pycache__"))
+"""Folders that no one looks for sources in."""
+
+_TELLING = frozenset((*SIGNS, "package.xml", "manifest.xml", "CMakeLists.txt", "setup.py", "colcon.pkg"))
+"""Without one of these names a folder is nothing to colcon."""
+
+_APART = frozenset((*SIGNS, "package.xml"))
+"""Without one of these names a folder below a package belongs to it."""
+
+_CONTEXT = {"ROS_VERSION": "2", "ROS_PYTHON_VERSION": "3", "DISABLE_GROUPS_WORKAROUND": "1"}
+
+
+class Skipped(NamedTuple):
+    """A folder that was not looked into."""
+
+    path: str
+    reason: str
+
+
+class Found(NamedTuple):
+    """A package of the workspace, before anything but its manifest has been read."""
+
+    path: str
+    """Its folder, relative to the base; "" is the base."""
+    name: str
+    type: str
+    """As ``colcon list`` prints it: ros.ament_cmake, ros.ament_python, cmake, python ..."""
+    manifest: Manifest | None
+    """Also there, with its problems, when colcon cannot use it."""
+    colcon_depends: tuple[ColconDepend, ...]
+    files: tuple[str, ...]
+    """Every file below the folder, relative to it and sorted. Nested packages and skipped folders are left out."""
+    nested: tuple[Manifest, ...]
+    """Manifests further down, by path, where nothing marks the folder to be ignored."""
+    unseen: tuple[Skipped, ...]
+    """Folders, relative to the package, that were not looked into: whether a file exists there is unknown."""
+
+
+class Discovery(NamedTuple):
+    """What a walk found. Everything is sorted by path."""
+
+    packages: tuple[Found, ...]
+    rejected: tuple[Manifest, ...]
+    """Manifests that colcon cannot use, in folders that are no package in another way."""
+    skipped: tuple[Skipped, ...]
+    not_checked: tuple[NotChecked, ...]
+
+
+def discover(tree: Tree, roots: Sequence[str], context: Mapping[str, str] = _CONTEXT) -> Discovery:
+    """Return the packages below some directories of a tree, as ``colcon list --base-paths`` run in its base.
+
+    ``roots`` are relative to the base of the tree, "" is the base; ``context`` has the known variables of package.xml
+    conditions, which may choose a build type. Never raises for what it finds: places that cannot be read end up in
+    ``not_checked``.
+    """
+    return _Walk(tree, context).run(roots)
+
+
+class _Walk:
+    def __init__(self, tree: Tree, context: Mapping[str, str]) -> None:
+        self._tree = tree
+        self._context = context
+        self._base = tree.identity("")
+        self._packages: list[Found] = []
+        self._rejected: list[Manifest] = []
+        self._skipped: list[Skipped] = []
+        self._not_checked: list[NotChecked] = []
+        self._settings = self._read_meta()
+
+    def run(self, roots: Sequence[str]) -> Discovery:
+        visited: set[str] = set()
+        for root in roots:
+            self._crawl(root, visited)
+        return Discovery(
+            tuple(sorted(self._packages, key=lambda found: found.path)),
+            tuple(sorted(self._rejected, key=lambda manifest: manifest.path)),
+            tuple(sorted(self._skipped)),
+            tuple(sorted(self._not_checked, key=lambda item: (item.span or Span("", 1, 1, 1, 1), item.what))),
+        )
+
+    def _crawl(self, root: str, visited: set[str]) -> None:
+        todo = [(root, self._tree.identity(root))]
+        while todo:
+            path, identity = todo.pop()
+            if identity in visited:
+                continue  # by another way, as colcon does: the first in the order of names counts
+            visited.add(identity)
+            entries = self._list(path)
+            if entries is None or self._is_package(path, identity, entries):
+                continue
+            for name, kind, link in reversed(entries):
+                if kind == "directory" and not name.startswith(".") and name not in _NEVER:
+                    child = join(path, name)
+                    todo.append((child, self._tree.identity(child) if link else join(identity, name)))
+
+    def _is_package(self, path: str, identity: str, entries: Sequence[Entry]) -> bool:
+        """Take a folder in, and return whether colcon looks no further down."""
+        names = {name: kind for name, kind, _ in entries}
+        if _TELLING.isdisjoint(names) and identity not in self._settings.by_identity:
+            return False
+        folder = Folder(self._tree, path, identity, names)
+        text = folder.text("package.xml")
+        manifest = manifests.collect(text) if text else None
+        found = identify(folder, manifest, self._settings, self._context)
+        self._not_checked += folder.not_checked
+        if isinstance(found, Ignored):
+            self._skipped.append(Skipped(path, found.reason))
+        elif isinstance(found, Identity):
+            files = _Files(self._tree, path, (self._base, identity))
+            files.gather(entries, identity)
+            self._not_checked += files.not_checked
+            self._packages.append(
+                Found(
+                    path,
+                    found.name,
+                    found.type,
+                    manifest,
+                    found.depends,
+                    tuple(sorted(files.found)),
+                    tuple(sorted(files.nested, key=lambda nested: nested.path)),
+                    tuple(sorted(files.unseen)),
+                )
+            )
+        elif manifest:
+            self._rejected.append(manifest)
+        return found is not None
+
+    def _list(self, path: str) -> list[Entry] | None:
+        try:
+            return self._tree.list(path)
+        except OSError as error:
+            self._not_checked.append(_unlisted(path, error))
+            return None
+
+    def _read_meta(self) -> Settings:
+        text = self._meta_text()
+        if text is None:
+            return Settings({}, {})
+        from ros_lint.collectors import colcon_yaml  # noqa: PLC0415  (few workspaces have the file)
+
+        try:
+            meta = colcon_yaml.meta(text)
+        except colcon_yaml.ColconYamlError as error:
+            self._not_checked.append(NotChecked("colcon.meta", str(error), error.span))
+            return Settings({}, {})
+        folder = parent(text.path)
+        by_path = {self._tree.identity(posixpath.normpath(join(folder, path))): values for path, values in meta.by_path}
+        return Settings(dict(meta.by_name), by_path)
+
+    def _meta_text(self) -> Text | None:
+        path = "colcon.meta"
+        try:
+            kinds = {name: kind for name, kind, _ in self._tree.list("")}
+            if kinds.get(path) == "directory":
+                path = join(path, path)
+                kinds = {join("colcon.meta", name): kind for name, kind, _ in self._tree.list("colcon.meta")}
+            return read(path, self._tree.read(path)) if kinds.get(path) == "file" else None
+        except OSError as error:
+            self._not_checked.append(NotChecked("colcon.meta", error.strerror or str(error), Span(path, 1, 1, 1, 1)))
+            return None
+
+
+class _Files:
+    """The files of one package."""
+
+    def __init__(self, tree: Tree, package: str, inside: tuple[str, ...]) -> None:
+        self._tree = tree
+        self._package = package
+        self._inside = inside
+        self._linked: set[str] = set()
+        self.found: list[str] = []
+        self.nested: list[Manifest] = []
+        self.unseen: list[Skipped] = []
+        self.not_checked: list[NotChecked] = []
+
+    def gather(self, entries: Sequence[Entry], identity: str) -> None:
+        """Collect what lies below the folder of the package. ``crossed`` are the folders with the links on the way."""
+        todo: list[tuple[str, Sequence[Entry], str, tuple[str, ...]]] = [("", entries, identity, ())]
+        while todo:
+            folder, entries, identity, crossed = todo.pop()
+            prefix = f"{folder}/" if folder else ""
+            for name, kind, link in entries:
+                if kind == "file":
+                    self.found.append(prefix + name)
+                elif kind == "directory" and name not in _NEVER:
+                    child, child_crossed = prefix + name, crossed
+                    child_identity = self._tree.identity(join(self._package, child)) if link else f"{identity}/{name}"
+                    if link:
+                        if reason := self._not_followed(child_identity, identity, crossed):
+                            self.unseen.append(Skipped(child, reason))
+                            continue
+                        child_crossed = (*crossed, identity)
+                    if below := self._enter(child):
+                        todo.append((child, below, child_identity, child_crossed))
+
+    def _enter(self, child: str) -> list[Entry] | None:
+        path = join(self._package, child)
+        try:
+            entries = self._tree.list(path)
+        except OSError as error:
+            self.not_checked.append(_unlisted(path, error))
+            self.unseen.append(Skipped(child, "it cannot be read"))
+            return None
+        if _APART.isdisjoint([entry[0] for entry in entries]):
+            return entries
+        names = {name: kind for name, kind, _ in entries}
+        reason = ignored_everywhere(names) or ignored_by_ros(names) or product(names)
+        if not reason and names.get("package.xml") == "file":
+            reason = "a package of its own"
+            self._add_nested(join(path, "package.xml"))
+        if not reason:
+            return entries
+        self.unseen.append(Skipped(child, reason))
+        return None
+
+    def _add_nested(self, path: str) -> None:
+        try:
+            self.nested.append(manifests.collect(read(path, self._tree.read(path))))
+        except OSError as error:
+            self.not_checked.append(NotChecked("the file", error.strerror or str(error), Span(path, 1, 1, 1, 1)))
+
+    def _not_followed(self, target: str, here: str, crossed: tuple[str, ...]) -> str:
+        if any(_is_below(place, target) for place in (here, *crossed)):
+            return "a link to a folder that it lies in"
+        if not any(_is_below(target, place) for place in self._inside):
+            return "a link that leads out of the workspace"
+        if crossed and target in self._linked:
+            return "a link to a folder that was reached by another link"
+        self._linked.add(target)
+        return ""
+
+
+def _is_below(path: str, folder: str) -> bool:
+    return path == folder or path.startswith(f"{folder}/" if folder else "")
+
+
+def _unlisted(path: str, error: OSError) -> NotChecked:
+    return NotChecked("the folder", error.strerror or str(error), Span(path, 1, 1, 1, 1))
