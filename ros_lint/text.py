@@ -6,6 +6,7 @@ import codecs
 import re
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from typing import NamedTuple
 
 
@@ -118,6 +119,11 @@ class Text:
 
 
 _BOMS = ((codecs.BOM_UTF8, "utf-8-sig"), (codecs.BOM_UTF16_LE, "utf-16"), (codecs.BOM_UTF16_BE, "utf-16"))
+# XML 1.0, appendix F: a file without a mark that begins with markup all the same.
+_XML_WIDE = (
+    (re.compile(rb"(?:[ \t\r\n]\0)*<\0"), "utf-16-le"),
+    (re.compile(rb"(?:\0[ \t\r\n])*\0<"), "utf-16-be"),
+)
 _XML_ENCODING = re.compile(rb"""\A<\?xml[^>]{0,200}?\bencoding\s*=\s*["']([A-Za-z][\w.-]*)["']""")
 _PYTHON_ENCODING = re.compile(rb"\A(?:[^\n]*\n)?[ \t\f]*#[^\n]*?coding[:=][ \t]*([-\w.]+)")  # PEP 263
 
@@ -125,8 +131,9 @@ _PYTHON_ENCODING = re.compile(rb"\A(?:[^\n]*\n)?[ \t\f]*#[^\n]*?coding[:=][ \t]*
 def decode(data: bytes) -> tuple[str, str]:
     """Return the text of a file and the codec that turns it back into the same bytes.
 
-    A byte order mark decides, then the encoding that an XML declaration or a Python coding line names,
-    then UTF-8. Bytes that are no UTF-8 survive as lone surrogates, so nothing raises and nothing is lost.
+    A byte order mark decides, then what the first characters of XML look like, then the encoding that an XML
+    declaration or a Python coding line names, then UTF-8. Bytes that are no UTF-8 survive as lone surrogates, so nothing
+    raises and nothing is lost.
     """
     for mark, codec in _BOMS:
         if data.startswith(mark):
@@ -135,6 +142,10 @@ def decode(data: bytes) -> tuple[str, str]:
             except UnicodeDecodeError:
                 break
             return text, codec
+    for begins, codec in _XML_WIDE:
+        if b"\0" in data[:2] and begins.match(data):
+            with suppress(UnicodeDecodeError):
+                return data.decode(codec), codec
     declared = _XML_ENCODING.match(data) or (_PYTHON_ENCODING.match(data) if b"coding" in data[:400] else None)
     if declared:
         try:
