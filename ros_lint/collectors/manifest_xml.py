@@ -149,11 +149,13 @@ def _as_utf8(source: Text) -> tuple[str, tuple[Fault, ...]]:
     if source.codec not in ("utf-8", "utf-8-sig"):
         data = text.encode(source.codec)
         try:
-            text = data.decode("utf-8")
+            read_as = data.decode("utf-8")
         except UnicodeDecodeError as error:
             at = len(data[: error.start].decode(source.codec, "ignore"))
             message = f"the file is {source.codec}, but manifests are read as utf-8; save it as utf-8"
             return text, (Fault("encoding", message, at, min(at + 1, len(text))),)
+        if "\0" not in read_as:  # else expat sees for itself that it is UTF-16
+            text = read_as
     if not text.isascii() and (bad := re.search("[\ud800-\udfff]+", text)):
         message = "not utf-8, as which manifests are read; save the file as utf-8"
         return re.sub("[\ud800-\udfff]", "?", text), (Fault("encoding", message, bad.start(), bad.end()),)
@@ -275,8 +277,9 @@ def _explain(text: str, code: int, at: int) -> Fault:
             return Fault("invalid-xml", "the file is empty", 0, 0)
         message = f"the file breaks off inside {_still_open(text)}" if "<" in text else "no element found"
     elif code in (errors[expat.errors.XML_ERROR_UNCLOSED_TOKEN], errors[expat.errors.XML_ERROR_UNCLOSED_CDATA_SECTION]):
-        message = f"{text[at : at + 9].split()[0]} is never closed"
-        end = len(text)
+        opened = re.compile(r"<!--|<!\[CDATA\[|<\?|</?[^\s>]*|").match(text, at)
+        start, end = at, len(text)
+        message = f"{opened[0] if opened and opened[0] else 'a section <![CDATA['} is never closed"
     elif code == errors[expat.errors.XML_ERROR_TAG_MISMATCH]:
         name = re.compile(r"[^\s>]*").match(text, at)
         end = name.end() if name else end
