@@ -19,8 +19,8 @@ from ros_lint import __version__
 from ros_lint.tree import Stamp, Tree
 
 _MODULES = frozenset({
-    "ros_lint.facts", "ros_lint.text", "ros_lint.suppress", "ros_lint.tree", "ros_lint.collect",
-    "ros_lint.collectors.cmake_syntax",
+    "ros_lint.collect", "ros_lint.collectors.cmake_syntax", "ros_lint.facts", "ros_lint.rule", "ros_lint.suppress",
+    "ros_lint.text", "ros_lint.tree",
 })  # fmt: skip
 
 

@@ -17,7 +17,7 @@ from ros_lint.suppress import Suppression
 from ros_lint.text import Text, read
 from ros_lint.tree import DiskTree, Tree
 
-Kind = Literal["cpp", "python", "cmake", "interface", "xml", "yaml", "resource"]
+Kind = Literal["manifest", "cpp", "python", "cmake", "interface", "xml", "yaml", "resource"]
 
 MOST_BYTES = 4 << 20
 """A larger file is not read: it is generated data, and no source."""
@@ -49,6 +49,8 @@ def kind_of(path: str) -> Kind | None:
     name = path.rpartition("/")[2]
     if name == "CMakeLists.txt":
         return "cmake"
+    if name == "package.xml":
+        return "manifest"  # discovery has read it; here for its comments
     stem, _, suffix = name.rpartition(".")
     if suffix in ("in", "em") and stem:  # configured by CMake, expanded by empy
         inner = _SUFFIXES.get(stem.rpartition(".")[2])
@@ -83,7 +85,7 @@ def collect(text: Text, kind: Kind) -> Collected:
         from ros_lint.collectors import interfaces  # noqa: PLC0415
 
         facts = interfaces.collect(text)
-    elif launch is None:
+    elif launch is None and kind != "manifest":
         from ros_lint.collectors import resources  # noqa: PLC0415
 
         facts = resources.collect(text)

@@ -49,15 +49,28 @@ def encode(changed: Mapping[str, str], texts: Callable[[str], Text]) -> dict[str
     return result
 
 
-def write(base: str, path: str, data: bytes) -> None:
-    """Replace a file in one step, its permissions kept; a link stays a link. Raises EditError, and then nothing is changed."""
-    target = os.path.realpath(os.path.join(base, path))
-    temporary = ""
+def write_all(base: str, changed: Mapping[str, bytes]) -> None:
+    """Replace files, each in one step. Raises EditError; when a file is seen to be read-only, nothing is written at all."""
+    for path in changed:
+        _ask(path, os.path.realpath(os.path.join(base, path)))
+    for path, data in changed.items():
+        _write(path, os.path.realpath(os.path.join(base, path)), data)
+
+
+def _ask(path: str, target: str) -> None:
+    # Asked of the permission bits and not of the system, which lets root write everywhere.
     try:
-        # Asked of the permission bits and not of the system, which lets root write everywhere.
         for place in (target, os.path.dirname(target)):
             if not os.stat(place).st_mode & 0o222:
-                raise EditError(f"{path}: cannot be written: it is read-only")
+                raise EditError(f"{path}: cannot be written: it is read-only; nothing was changed")
+    except OSError as error:
+        raise EditError(f"{path}: cannot be written: {error.strerror or error}; nothing was changed") from error
+
+
+def _write(path: str, target: str, data: bytes) -> None:
+    """Permissions are kept, and a link stays a link."""
+    temporary = ""
+    try:
         handle, temporary = tempfile.mkstemp(prefix=".ros-lint-", dir=os.path.dirname(target))
         with os.fdopen(handle, "wb") as file:
             file.write(data)

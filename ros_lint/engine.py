@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from ros_lint.registry import matching, suggest
 from ros_lint.report import Crash, Hidden, Issue
-from ros_lint.rule import Confidence, Finding, Rule, Severity
+from ros_lint.rule import Confidence, Rule, Severity
 from ros_lint.workspace import Package, Workspace
 
 
@@ -121,12 +121,16 @@ def _check(rule: Rule, package: Package | None, workspace: Workspace) -> Iterato
             yield Issue(rule, package.name, finding)
     elif rule.workspace is not None:
         for finding in rule.workspace(workspace):
-            yield Issue(rule, finding.package or _owner(finding, workspace), finding)
+            yield Issue(rule, finding.package or owner(workspace, finding.span.path), finding)
 
 
-def _owner(finding: Finding, workspace: Workspace) -> str:
-    path = finding.span.path
-    inside = [p for p in workspace.packages if not p.path or path == p.path or path.startswith(f"{p.path}/")]
+def owner(workspace: Workspace, path: str) -> str:
+    """Return the name of the package that a file lies in, or ""."""
+    inside = [
+        package
+        for package in (*workspace.packages, *workspace.unusable)
+        if not package.path or path == package.path or path.startswith(f"{package.path}/")
+    ]
     return max(inside, key=lambda package: len(package.path)).name if inside else ""
 
 

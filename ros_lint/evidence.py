@@ -7,10 +7,12 @@ spaces (reference, sections C2b, D6, E3.8). This module is the only one that goe
 from __future__ import annotations
 
 import posixpath
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple, Protocol
 
 from ros_lint.facts import BuildScript, Facet, FileFacts, LaunchFile, Mention, Opaque, Role, Use, Via
+from ros_lint.text import Span, Text
 
 
 class Providers(Protocol):
@@ -262,3 +264,21 @@ def unused_names(declared: Sequence[str], uses: Sequence[Use]) -> tuple[str, ...
     """Return the declared names that no use, sure or not, is satisfied by."""
     used = {provider for use in uses for provider in use.providers}
     return tuple(name for name in dict.fromkeys(declared) if name not in used)
+
+
+def traces(names: Sequence[str], texts: Iterable[Text]) -> dict[str, Span]:
+    """Return a place for every name that stands as a word in one of the texts, dashes and underscores taken as equal."""
+    left = {name: re.compile(_word(name)) for name in names}
+    found: dict[str, Span] = {}
+    for text in texts:
+        for name, pattern in list(left.items()):
+            if hit := pattern.search(text.text):
+                found[name] = text.span(hit.start(), hit.end())
+                del left[name]
+        if not left:
+            break
+    return found
+
+
+def _word(name: str) -> str:
+    return rf"(?<![A-Za-z0-9]){'[-_]'.join(re.escape(part) for part in re.split('[-_]', name))}(?![A-Za-z0-9])"

@@ -14,7 +14,6 @@ assumption.
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -22,6 +21,7 @@ from typing import NamedTuple
 
 from ros_lint import edits, engine
 from ros_lint.load import Loader
+from ros_lint.patch import unified
 from ros_lint.report import Issue
 from ros_lint.rule import Rule
 from ros_lint.text import Text, read
@@ -163,9 +163,3 @@ def _diff(tree: Tree, changed: Mapping[str, str]) -> str:
 
 def _text(tree: Tree, path: str) -> Text:
     return read(path, tree.read(path))
-
-
-def unified(path: str, before: str, after: str) -> str:
-    """Return the difference of two texts of a file, one line of context around each change."""
-    lines = difflib.unified_diff(before.splitlines(True), after.splitlines(True), path, path, n=1)
-    return "".join(line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n" for line in lines)

@@ -1,0 +1,138 @@
+"""``ros-lint [check] PATH...``: look for what is wrong, and mend it when asked."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Mapping
+from typing import Any
+
+from ros_lint import __version__, engine, registry, suppress
+from ros_lint.config import ConfigError, Settings
+from ros_lint.knowledge import KnowledgeError
+from ros_lint.opening import Opened, UsageError, open_workspace
+from ros_lint.progress import Progress
+from ros_lint.report import Hidden, Issue, Report, Unseen
+from ros_lint.rule import Severity
+from ros_lint.workspace import Workspace
+
+Said = Mapping[str, Any]
+
+
+def run(said: Said) -> int:
+    """Check what the options name, print the findings, return the exit code."""
+    if said.get("version"):
+        print(f"ros-lint {__version__}")
+        return 0
+    progress = Progress(sys.stderr, wanted=said.get("progress", True))
+    try:
+        with progress:
+            opened = open_workspace(said, os.environ, progress.tell)
+            if opened.settings["show-settings"]:
+                print(opened.settings.show(), end="")
+                return 0
+            selection = select(opened.settings)
+            if opened.settings["fix"] or opened.settings["diff"]:
+                from ros_lint.commands import mend  # noqa: PLC0415
+
+                report, code = mend.run(opened, selection)
+            else:
+                report, code = check(opened, opened.loader.load(), selection), 0
+    except (UsageError, ConfigError, KnowledgeError, engine.SelectionError, registry.PluginError) as error:
+        print(f"ros-lint: {error}", file=sys.stderr)
+        return 2
+    for warning in opened.warnings:
+        print(f"ros-lint: {warning}", file=sys.stderr)
+    return max(code, _print(report, opened))
+
+
+def select(settings: Settings) -> engine.Selection:
+    """Return the rules that the settings select. Raises SelectionError and PluginError."""
+    return engine.select(
+        registry.load(settings["plugins"]),
+        chosen=settings["select"],
+        added=settings["extend-select"],
+        ignored=settings["ignore"],
+        severities=settings["severity"],
+        per_path=settings["per-path-ignores"],
+        pedantic=settings["pedantic"],
+    )
+
+
+def check(opened: Opened, workspace: Workspace, selection: engine.Selection) -> Report:
+    """Return what the selected rules say of a workspace, suppressions and settings respected."""
+    issues, crashes = engine.run(workspace, selection.rules)
+    known = registry.load(opened.settings["plugins"])
+    ran = {rule.name for rule in selection.rules} - {crash.rule for crash in crashes}
+    outcome = suppress.apply(issues, (found for _, found in opened.loader.suppressions()), known, ran)
+    about_comments = [
+        Issue(rule, engine.owner(workspace, finding.span.path), finding)
+        for rule in selection.rules
+        if rule.suppressions
+        for finding in rule.suppressions(outcome)
+    ]
+    shown, hidden = engine.show(sorted((*outcome.kept, *about_comments), key=engine.order), selection)
+    if outcome.suppressed:
+        hidden = (*hidden, Hidden("suppressed by comments", len(outcome.suppressed)))
+    return Report(
+        issues=shown,
+        rules=selection.rules,
+        packages=len(workspace.packages) + len(workspace.unusable),
+        target=workspace.target,
+        data_date=opened.knowledge.date,
+        version=__version__,
+        hidden=hidden,
+        not_checked=workspace.not_checked,
+        unseen=_unseen(workspace),
+        crashes=crashes,
+        workspace=opened.roots[0] if len(opened.roots) == 1 else "",
+    )
+
+
+def exit_code(report: Report, fail_on: str) -> int:
+    """Return 2 when the tool could not do its job, 1 for findings at or above ``fail_on``, else 0."""
+    if not report.packages or report.crashes:
+        return 2
+    if fail_on == "never":
+        return 0
+    return int(any(issue.severity >= Severity[fail_on.upper()] for issue in report.issues))
+
+
+def _print(report: Report, opened: Opened) -> int:
+    from ros_lint import reporters  # noqa: PLC0415
+
+    settings = opened.settings
+    text = reporters.render(settings["format"], report, opened.loader.text, color=_wants_color(settings))
+    if settings["output"]:
+        try:
+            with open(settings["output"], "w", encoding="utf-8", newline="\n") as file:
+                file.write(text)
+        except OSError as error:
+            print(f"ros-lint: {settings['output']}: {error.strerror or error}", file=sys.stderr)
+            return 2
+    else:
+        sys.stdout.buffer.write(text.encode("utf-8", "backslashreplace"))
+        sys.stdout.buffer.flush()
+    if not report.packages:
+        places = ", ".join(root or "." for root in opened.roots)
+        print(f"ros-lint: no package found below {places}; is there a package.xml?", file=sys.stderr)
+    return exit_code(report, settings["fail-on"])
+
+
+def _wants_color(settings: Settings) -> bool:
+    """Return whether to colour: the flag, then NO_COLOR, then FORCE_COLOR, then whether a terminal reads along."""
+    if settings["color"] != "auto":
+        return bool(settings["color"] == "always")
+    if os.environ.get("NO_COLOR"):
+        return False
+    if os.environ.get("FORCE_COLOR") or os.environ.get("CLICOLOR_FORCE"):
+        return not settings["output"]
+    return sys.stdout.isatty() and not settings["output"] and os.environ.get("TERM") != "dumb"
+
+
+def _unseen(workspace: Workspace) -> tuple[Unseen, ...]:
+    from ros_lint.facts import Facet  # noqa: PLC0415
+
+    counts = [(facet, sum(bool(package.hidden(facet)) for package in workspace.packages)) for facet in Facet]
+    return tuple(Unseen((facet.name or "").lower(), count) for facet, count in counts if count)
+

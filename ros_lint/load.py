@@ -1,0 +1,244 @@
+"""From files to the model: discover, collect every file once, evaluate the build scripts, join.
+
+The only module that knows the whole way. A loader remembers the facts of files, so that a workspace with a few files
+changed (a fix on trial) is joined again without reading the rest.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import NamedTuple
+
+from ros_lint import conditions, evidence
+from ros_lint.cache import Cache
+from ros_lint.collect import Collected, collect_all, kind_of
+from ros_lint.discover import Found, discover
+from ros_lint.facts import ROLES, BuildScript, Depend, FileFacts, LaunchFile, Manifest, Role
+from ros_lint.knowledge import Knowledge, user_directory
+from ros_lint.text import Span, Text, read
+from ros_lint.tree import OverlayTree, Tree, join
+from ros_lint.underlay import Underlay
+from ros_lint.workspace import Declared, NotChecked, Package, Target, Workspace
+from ros_lint.world import Member, World
+
+Progress = Callable[[str, int, int], None]
+"""Hears what is being done, how much of it is done, and how much there is."""
+
+_PYTHON_SCRIPTS = ("setup.py", "setup.cfg", "pyproject.toml")
+_KINDS = {"build_depend": "b", "buildtool_depend": "t", "build_export_depend": "e", "buildtool_export_depend": "u",
+          "exec_depend": "x", "test_depend": "s", "doc_depend": "d", "depend": "bex", "run_depend": "ex"}  # fmt: skip
+_NO_TRACE = ("changelog", "readme", "license", "licence", "contributing", "quality_declaration", "copying", "notice")
+
+
+class _Read(NamedTuple):
+    """A package with the facts of its files."""
+
+    found: Found
+    script: BuildScript | None
+    facts: Mapping[str, FileFacts]
+    launch: tuple[LaunchFile, ...]
+
+
+class Loader:
+    """Loads the packages below ``roots`` of a tree. Paths are relative to the base of the tree."""
+
+    def __init__(
+        self,
+        tree: Tree,
+        roots: Sequence[str],
+        target: Target,
+        *,
+        underlays: Sequence[Underlay] = (),
+        knowledge: Knowledge | None = None,
+        exclude: Callable[[str], bool] = lambda path: False,
+        jobs: int = 0,
+        cache: Cache | None = None,
+        progress: Progress = lambda what, done, all_: None,
+    ) -> None:
+        self.tree = tree
+        self.target = target
+        self._roots = tuple(roots)
+        self._underlays = tuple(underlays)
+        self._knowledge = knowledge or Knowledge(target.distro, (user_directory(),))
+        self._exclude = exclude
+        self._jobs = jobs
+        self._cache = cache or Cache("", "")
+        self._progress = progress
+        self._collected: dict[str, Collected] = {}
+
+    def load(self, changed: Mapping[str, bytes] | None = None) -> Workspace:
+        """Return the workspace, with the content of some files replaced."""
+        tree = OverlayTree(self.tree, changed) if changed else self.tree
+        self._progress("looking for packages", 0, 0)
+        discovery = discover(tree, self._roots)
+        founds = [self._without_excluded(found) for found in discovery.packages if not self._exclude(found.path)]
+        collected = self._collect(founds, changed or {})
+        reads = [self._read(tree, found, collected) for found in founds]
+        world = World(tuple(self._members(founds, discovery.rejected)), self._underlays, self._knowledge)
+        packages = tuple(self._join(tree, reads, world))
+        unusable = tuple(self._unusable(manifest) for manifest in discovery.rejected if not self._exclude(manifest.path))
+        not_checked = (*discovery.not_checked, *_unreadable(collected))
+        return Workspace(packages, unusable, world, self.target, tuple(not_checked))
+
+    def text(self, path: str) -> Text | None:
+        """Return the text of a file, None if it cannot be read."""
+        try:
+            return read(path, self.tree.read(path))
+        except OSError:
+            return None
+
+    def suppressions(self) -> Iterator[tuple[str, object]]:
+        """Yield path and suppression for every comment that suppresses something, in any file that was collected."""
+        for path, collected in sorted(self._collected.items()):
+            for suppression in collected.suppressions:
+                yield path, suppression
+
+    def _without_excluded(self, found: Found) -> Found:
+        return found._replace(files=tuple(file for file in found.files if not self._exclude(join(found.path, file))))
+
+    def _collect(self, founds: Sequence[Found], changed: Mapping[str, bytes]) -> Mapping[str, Collected]:
+        paths = [join(found.path, file) for found in founds for file in found.files if kind_of(file)]
+        if not self._collected:
+            self._collected = collect_all(
+                self.tree, paths, self._jobs, self._cache, lambda done: self._progress("reading", done, len(paths))
+            )
+        again = [path for path in changed if kind_of(path)]
+        if not again:
+            return self._collected
+        fresh = collect_all(OverlayTree(self.tree, changed), again, 1, Cache("", ""), lambda done: None)
+        return {**self._collected, **fresh}
+
+    def _read(self, tree: Tree, found: Found, collected: Mapping[str, Collected]) -> _Read:
+        files = {file: collected[path] for file in found.files if (path := join(found.path, file)) in collected}
+        launch = [c.launch for c in files.values() if c.launch is not None]
+        facts = {file: c.facts for file, c in files.items() if c.facts is not None}
+        return _Read(found, self._script(tree, found, files), facts, tuple(launch))
+
+    def _script(self, tree: Tree, found: Found, files: Mapping[str, Collected]) -> BuildScript | None:
+        commands = {file: c.commands for file, c in files.items() if c.commands is not None}
+        if "CMakeLists.txt" in commands and found.type != "ros.ament_python":
+            from ros_lint.interpret import cmake  # noqa: PLC0415
+
+            return cmake.evaluate(found.name, found.path, found.files, commands, self.target.distro)
+        if "setup.py" in found.files or (found.type == "ros.ament_python" and "setup.cfg" in found.files):
+            from ros_lint.interpret import setup_py  # noqa: PLC0415
+
+            texts = [_text(tree, join(found.path, file)) if file in found.files else None for file in _PYTHON_SCRIPTS]
+            return setup_py.evaluate(found.name, found.path, found.files, *texts)
+        return None
+
+    def _members(self, founds: Sequence[Found], rejected: Sequence[Manifest]) -> Iterator[Member]:
+        for found in founds:
+            yield _member(found.name, found.manifest, self.target.context)
+        for manifest in rejected:
+            if manifest.name:
+                yield _member(manifest.name, manifest, self.target.context)
+
+    def _join(self, tree: Tree, reads: Sequence[_Read], world: World) -> Iterator[Package]:
+        sources = [
+            evidence.Source(r.found.name, r.found.path, r.found.files, r.script, r.facts, r.launch, r.found.type.removeprefix("ros."))
+            for r in reads
+        ]
+        headers = evidence.include_index(sources)
+        for number, (done, source) in enumerate(zip(reads, sources, strict=True)):
+            self._progress("joining", number, len(reads))
+            found = done.found
+            uses = evidence.resolve(source, world, headers)
+            declared = _declared(found.manifest, self.target.context)
+            yield Package(
+                name=found.name,
+                path=found.path,
+                type=found.type,
+                manifest=found.manifest,
+                declared=tuple(d for d in declared if d.depend.tag in ROLES),
+                groups=tuple(d.name for d in declared if d.depend.tag == "member_of_group"),
+                group_depends=tuple(d for d in declared if d.depend.tag == "group_depend"),
+                colcon_depends=found.colcon_depends,
+                files=found.files,
+                unseen=tuple(skipped.path for skipped in found.unseen),
+                nested=found.nested,
+                script=done.script,
+                launch=done.launch,
+                uses=uses,
+                traces=self._traces(tree, found, declared, uses),
+                opaque=evidence.opaque_of(source),
+            )
+
+    def _traces(self, tree: Tree, found: Found, declared: Sequence[Declared], uses: Sequence[evidence.Use]) -> Mapping[str, Span]:
+        """Look for the names of what seems unused in every text of the package (reference, section F3, condition 7)."""
+        built = [d.name for d in declared if d.depend.tag in ("depend", "build_depend")]
+        wanted = evidence.unused_names(built, uses)
+        if not wanted:
+            return {}
+        texts = (self._searched(tree, found, file) for file in found.files if _may_trace(file))
+        return evidence.traces(wanted, (text for text in texts if text is not None))
+
+    def _searched(self, tree: Tree, found: Found, file: str) -> Text | None:
+        text = _text(tree, join(found.path, file))
+        return None if text is None or "\0" in text.text[:1024] else text
+
+    def _unusable(self, manifest: Manifest) -> Package:
+        folder = manifest.path.rpartition("/")[0]
+        return Package(
+            name=manifest.name,
+            path=folder,
+            type="",
+            manifest=manifest,
+            declared=(),
+            groups=(),
+            group_depends=(),
+            colcon_depends=(),
+            files=(),
+            unseen=("",),
+            nested=(),
+            script=None,
+            launch=(),
+            uses=(),
+            traces={},
+            opaque=(),
+        )
+
+
+def _declared(manifest: Manifest | None, context: Mapping[str, str]) -> tuple[Declared, ...]:
+    """Return every dependency element whose condition is not false, groups, conflicts and replaces included."""
+    found = []
+    for depend in manifest.depends if manifest else ():
+        truth = conditions.truth(depend.condition, context)
+        if truth is not False:
+            found.append(Declared(depend, ROLES.get(depend.tag, Role(0)), truth is True))
+    return tuple(found)
+
+
+def _member(name: str, manifest: Manifest | None, context: Mapping[str, str]) -> Member:
+    names: dict[str, list[str]] = {}
+    groups: list[str] = []
+    for declared in _declared(manifest, context):
+        depend: Depend = declared.depend
+        if depend.tag == "member_of_group":
+            groups.append(depend.name)
+        for kind in "G" if depend.tag == "group_depend" else _KINDS.get(depend.tag, ""):
+            names.setdefault(kind, []).append(depend.name)
+    version = manifest.version if manifest else ""
+    return Member(name, version, {kind: tuple(of_kind) for kind, of_kind in names.items()}, tuple(groups))
+
+
+def _unreadable(collected: Mapping[str, Collected]) -> Iterator[NotChecked]:
+    for path, c in sorted(collected.items()):
+        if c.unreadable:
+            yield NotChecked(path, c.unreadable, Span(path, 1, 1, 1, 1))
+
+
+def _may_trace(file: str) -> bool:
+    """Whether a name in the file says that the package uses it: not in prose, and not in the manifest itself."""
+    name = file.rpartition("/")[2].lower()
+    if name == "package.xml" or name.startswith(_NO_TRACE):
+        return False
+    return not name.endswith((".md", ".rst", ".png", ".jpg", ".stl", ".dae", ".obj", ".pgm", ".svg", ".gif", ".pdf", ".zip"))
+
+
+def _text(tree: Tree, path: str) -> Text | None:
+    try:
+        return read(path, tree.read(path))
+    except OSError:
+        return None
+
