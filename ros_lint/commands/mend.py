@@ -61,22 +61,18 @@ def mend(opened: Opened, selection: engine.Selection) -> Mended:
         before = proof.issues(changed)
         wanted = [issue for issue in proof.fixable(before) if issue not in withheld]
         chosen = edits.choose(issue.finding.fix for issue in wanted if issue.finding.fix)
-        together = [issue for issue in wanted if issue.finding.fix in chosen]
-        if not together:
+        group = [issue for issue in wanted if issue.finding.fix in chosen]
+        if group and proof.complaint(changed, before, group):
+            # Something in the group is to blame, so each is tried alone; if none is, they are at odds with each other.
+            alone = {issue: complaint for issue in group if (complaint := proof.complaint(changed, before, [issue]))}
+            withheld.update(alone)
+            group = [issue for issue in group if issue not in alone]
+            if proof.complaint(changed, before, group):
+                group = group[:1]
+        if not group:
             break
-        groups = [together] if not proof.complaint(changed, before, together) else [[issue] for issue in together]
-        progress = False
-        for group in groups:
-            # In groups of one, the places of later fixes have moved: they come again in the next round.
-            if complaint := proof.complaint(changed, before, group):
-                withheld.update((issue, complaint) for issue in group)
-                continue
-            changed = proof.applied(changed, group)
-            made += group
-            progress = True
-            break
-        if not progress:
-            break
+        changed = proof.applied(changed, group)
+        made += group
     return Mended(changed, tuple(made), tuple(withheld.items()))
 
 

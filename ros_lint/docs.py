@@ -1,0 +1,82 @@
+"""What is written about rules: the list, the page of a rule, the pages below docs/rules."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from ros_lint.rule import Rule
+
+GROUPS = {
+    "1": "Workspace and manifest",
+    "2": "Dependencies",
+    "3": "Build scripts",
+    "4": "Install",
+    "5": "Launch",
+    "9": "The tool itself",
+}
+
+
+def group(rule: Rule) -> str:
+    """Return the heading that a rule is listed under."""
+    return GROUPS[rule.code[3]]
+
+
+def listing(rules: Iterable[Rule]) -> str:
+    """Return one line a rule: code, name, severity, whether it is on and fixable, summary."""
+    rules = list(rules)
+    width = max((len(rule.name) for rule in rules), default=0)
+    lines = []
+    for rule in rules:
+        marks = f"{'on ' if rule.default else 'off'} {'fix' if rule.fixable else '   '}"
+        lines.append(f"{rule.code}  {rule.name:{width}}  {rule.severity!s:7}  {marks}  {rule.summary}")
+    return "".join(f"{line}\n" for line in lines)
+
+
+def page(rule: Rule) -> str:
+    """Return the page of a rule in Markdown."""
+    facts = [
+        f"{rule.severity!s}",
+        "on by default" if rule.default else f"off by default (`--select {rule.name}` or `--pedantic`)",
+        "some findings have a fix" if rule.fixable else "no fix",
+        f"since {rule.since}",
+    ]
+    return f"# {rule.name} ({rule.code})\n\n{rule.summary[0].upper()}{rule.summary[1:]}.\n\n{' · '.join(facts)}\n\n{rule.doc.strip()}\n"
+
+
+def overview(rules: Sequence[Rule]) -> str:
+    """Return the page that lists all rules in Markdown, with links to their pages."""
+    parts = ["# Rules\n\nGenerated from the rules themselves by `pytest --bless`. `ros-lint rule NAME` prints a page in the terminal.\n"]
+    for digit, heading in GROUPS.items():
+        mine = [rule for rule in rules if rule.code[3] == digit]
+        if not mine:
+            continue
+        parts.append(f"\n## {heading}\n\n| code | rule | severity | default | fix | says that |\n|---|---|---|---|---|---|\n")
+        parts += [
+            f"| {rule.code} | [{rule.name}]({rule.name}.md) | {rule.severity!s} | {'on' if rule.default else 'off'} "
+            f"| {'yes' if rule.fixable else ''} | {rule.summary} |\n"
+            for rule in mine
+        ]
+    return "".join(parts)
+
+
+def as_json(rules: Iterable[Rule]) -> str:
+    """Return rules as a JSON list, with everything that is known of them."""
+    import json  # noqa: PLC0415
+
+    return json.dumps(
+        [
+            {
+                "name": rule.name,
+                "code": rule.code,
+                "group": group(rule),
+                "severity": str(rule.severity),
+                "default": rule.default,
+                "fixable": rule.fixable,
+                "since": rule.since,
+                "summary": rule.summary,
+                "doc": rule.doc.strip(),
+            }
+            for rule in rules
+        ],
+        indent=2,
+    ) + "\n"
