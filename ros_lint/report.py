@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.rule import Finding, Rule, Severity
-from ros_lint.workspace import NotChecked, Target
+if TYPE_CHECKING:
+    from ros_lint.rule import Finding, Rule, Severity
+    from ros_lint.workspace import NotChecked, Target
 
 
 class Issue(NamedTuple):
@@ -21,7 +22,7 @@ class Issue(NamedTuple):
 
     @property
     def identity(self) -> str:
-        """What stays the same when lines move: rule, package and subject. Not unique: one subject can be wrong twice."""
+        """What stays the same when lines move: rule, package and subject. Two places can share it."""
         return f"{self.rule.code}/{self.package}/{self.finding.subject}"
 
 
@@ -29,14 +30,16 @@ class Hidden(NamedTuple):
     """Findings that are not shown. ``reason`` goes on from the count: "less than certain, shown with --pedantic"."""
 
     reason: str
-    count: int
+    count: int  # type: ignore[assignment]  # a tuple counts things as well
 
 
 class Unseen(NamedTuple):
-    """A side of packages that something opaque hides, in words such as "executables", and how many packages it concerns."""
+    """A side of packages that something opaque hides."""
 
     what: str
+    """In words: "executables"."""
     packages: int
+    """How many it concerns."""
 
 
 class Crash(NamedTuple):

@@ -1,0 +1,335 @@
+"""Comments that suppress findings: where they count, for what, and what the fixes of the rules about them leave."""
+
+from __future__ import annotations
+
+from xml.parsers import expat
+
+import pytest
+import yaml
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ros_lint import edits
+from ros_lint.comments import comments
+from ros_lint.report import Issue
+from ros_lint.rule import Finding, Fix, Rule, Severity
+from ros_lint.suppress import Suppression, apply, collect
+from ros_lint.text import Span, Text
+
+RULES = tuple(
+    Rule(name, code, "it must be so", Severity.WARNING, "0.1", "")
+    for name, code in (("undeclared-dependency", "ROS201"), ("unused-dependency", "ROS204"), ("missing-file", "ROS301"))
+)
+NAMES = frozenset(rule.name for rule in RULES)
+
+
+def issue(rule: str, path: str, line: int, end_line: int = 0, end_column: int = 5) -> Issue:
+    span = Span(path, line, 3, end_line or line, end_column)
+    return Issue(next(r for r in RULES if r.name == rule), "talker", Finding("it is wrong", span, "thing"))
+
+
+def one(path: str, source: str) -> Suppression:
+    (found,) = collect(Text(path, source))
+    return found
+
+
+def covered(found: Suppression, lines: int) -> list[int]:
+    return [n for n in range(1, lines + 1) if found.covers(issue("missing-file", found.span.path, n))]
+
+
+# --- which comments count ------------------------------------------------------------------------------------------
+
+TRUE_COMMENTS = {
+    "p/package.xml": "<package>\n  <depend>foo</depend> <!-- ros-lint: ignore[ROS204] for the demo -->\n</package>\n",
+    "p/launch/a.launch": "<launch>\n  <node/> <!--ros-lint:ignore[ROS204] for the demo-->\n</launch>\n",
+    "p/urdf/robot.urdf.xacro": "<robot>\n<x/> <!-- ros-lint: ignore[ROS204] for the demo -->\n</robot>",
+    "p/CMakeLists.txt": 'set(A "#")\nfind_package(foo) # ros-lint: ignore[ROS204] for the demo\n',
+    "p/cmake/extras.cmake.in": "@PACKAGE_INIT@\nfoo(#[[ ros-lint: ignore[ROS204] for the demo ]] bar)\n",
+    "p/setup.py": "#!/usr/bin/env python3\nimport foo  # ros-lint: ignore[ROS204] for the demo\n",
+    "p/scripts/node": "#!/usr/bin/env python3\nimport foo  # ros-lint: ignore[ROS204] for the demo\n",
+    "p/setup.cfg": "[develop]\n  # ros-lint: ignore[ROS204] for the demo\n",
+    "p/config/a.yaml": "a: 1\nb: 2 # ros-lint: ignore[ROS204] for the demo\n",
+    "p/src/a.cpp": "int a;\n#include <foo/foo.hpp>  // ros-lint: ignore[ROS204] for the demo\n",
+    "p/include/p/a.hpp": "int a;\nint /* ros-lint: ignore[ROS204] for the demo */ b;\n",
+    "p/msg/A.msg": "int32 a\nfoo/Bar b # ros-lint: ignore[ROS204] for the demo\n",
+    "p/idl/A.idl": "module p {\n  struct A; // ros-lint: ignore[ROS204] for the demo\n};\n",
+    "p/src/Main.java": "class A {\n  int a; // ros-lint: ignore[ROS204] for the demo\n}\n",
+    "p/src/main.rs": "use foo::<'a>;\nuse bar; // ros-lint: ignore[ROS204] for the demo\n",
+    "p/pyproject.toml": "[project]\nname = 'p' # ros-lint: ignore[ROS204] for the demo\n",
+}
+
+
+@pytest.mark.parametrize(("path", "source"), TRUE_COMMENTS.items())
+def test_every_language(path: str, source: str) -> None:
+    found = one(path, source)
+    assert [name.text for name in found.names] == ["ROS204"]
+    assert found.reason == "for the demo"
+    assert found.problem == ""
+    assert found.lines is not None
+    assert 2 in range(found.lines[0], found.lines[1] + 1)
+    assert Text(path, source).slice(found.span).replace(" ", "") == "ros-lint:ignore[ROS204]"
+
+
+MARK = "ros-lint: ignore[ROS204]"
+NO_COMMENTS = [
+    ("p/package.xml", f"<package><description><![CDATA[<!-- {MARK} -->]]></description></package>"),
+    ("p/package.xml", f"<package><description>{MARK}</description></package>"),
+    ("p/package.xml", f"<package><?note <!-- {MARK} --> ?></package>"),
+    ("p/CMakeLists.txt", f'message("# {MARK}")\n'),
+    ("p/CMakeLists.txt", f'message("a \\" # {MARK}")\n'),
+    ("p/CMakeLists.txt", f"message([==[\n# {MARK}\n]] ]==])\n"),
+    ("p/setup.py", f'"""\n# {MARK}\n"""\n'),
+    ("p/setup.py", f"a = '# {MARK}'\n"),
+    ("p/setup.py", f"a = f'''{{b}} # {MARK}'''\n"),
+    ("p/setup.cfg", f"[metadata]\nname = p # {MARK}\n"),
+    ("p/a.yaml", f"a: |\n  text\n  # {MARK}\nb: 1\n"),
+    ("p/a.yaml", f'a: "b\n  # {MARK}"\n'),
+    ("p/a.yaml", f"a: b# {MARK}\n"),
+    ("p/a.cpp", f'auto a = "// {MARK}";\n'),
+    ("p/a.cpp", f'auto a = "\\"// {MARK}";\n'),
+    ("p/a.cpp", f'auto a = R"x(\n)" // {MARK}\n)x";\n'),
+    ("p/a.msg", f"string A='# {MARK}'\n"),
+    ("p/README.md", f"<!-- {MARK} -->\n# {MARK}\n"),
+    ("p/a.json", f"// {MARK}\n"),
+]
+
+
+@pytest.mark.parametrize(("path", "source"), NO_COMMENTS)
+def test_a_string_is_no_comment(path: str, source: str) -> None:
+    assert collect(Text(path, source)) == ()
+
+
+def test_quotes_that_open_nothing_hide_no_comment() -> None:
+    assert one("a.cpp", f"int a = 1'000'000; char b = '\"'; // {MARK}\n")
+    assert one("a.cpp", f"#error don't\nint a; // {MARK}\n")
+    assert one("a.yaml", f"a: don't\nb: it's # {MARK}\n")
+    assert one("CMakeLists.txt", f'set(a \\") # {MARK}\n')
+
+
+def test_a_broken_file_keeps_the_comments_before_the_break() -> None:
+    assert one("setup.py", f"import foo  # {MARK}\ndef (((\n")
+    assert one("package.xml", f"<package><!-- {MARK} --><a")
+    assert one("a.yaml", f"a: @x@ # {MARK}\nb: [\n")
+
+
+# --- against parsers nobody here wrote -----------------------------------------------------------------------------
+
+XML_PARTS = st.sampled_from(
+    [
+        *("<!--a-->", "<!-- - > <b> -->", "<![CDATA[<!--no-->]]>", "<?pi <!--no--> ?>", "text", "<b c='>' d=\"--\"/>"),
+        *("\r\n", "ä😀", "--"),
+    ]
+)
+
+
+@given(st.lists(XML_PARTS))
+def test_xml_comments_are_those_of_expat(parts: list[str]) -> None:
+    text = f"<a>{''.join(parts)}</a>"
+    expected: list[str] = []
+    parser = expat.ParserCreate()
+    parser.CommentHandler = expected.append
+    parser.Parse(text, True)
+    assert [text[start + 4 : end - 3] for start, end in comments(Text("a.xml", text))] == expected
+
+
+YAML_PARTS = st.sampled_from(
+    [
+        *("a: 1", " # c1", "# c2", "\n", "b: 'x # c'", 'c: "x # c"', "d: |\n  # c\n", "- # c3", "e# c", "'", '"'),
+        *(": ", "{", "}", "\n  ", "g: >-\n\n   # c\n  h", "\r\n", "ä😀"),
+    ]
+)
+
+
+@given(st.lists(YAML_PARTS))
+def test_yaml_comments_are_what_the_parser_leaves_out(parts: list[str]) -> None:
+    text = "".join(parts)
+    try:
+        in_values = [event.value for event in yaml.parse(text) if isinstance(event, yaml.ScalarEvent)]
+    except yaml.YAMLError:
+        return
+    ranges = comments(Text("a.yaml", text))
+    in_comments = [text[start:end] for start, end in ranges]
+    assert text.count("# c") == sum(value.count("# c") for value in [*in_values, *in_comments])
+    bare = text
+    for start, end in reversed(ranges):
+        bare = bare[:start] + "#" + bare[end:]
+    assert [event.value for event in yaml.parse(bare) if isinstance(event, yaml.ScalarEvent)] == in_values
+
+
+# --- which lines ---------------------------------------------------------------------------------------------------
+
+
+def test_at_the_end_of_a_line_it_speaks_for_that_line() -> None:
+    assert covered(one("a.py", f"a\nb  # {MARK}\nc\n"), 3) == [2]
+
+
+def test_alone_it_speaks_for_the_next_line() -> None:
+    assert covered(one("a.py", f"a\n  # {MARK}\nc\nd\n"), 4) == [2, 3]
+
+
+def test_alone_it_speaks_past_other_comments() -> None:
+    assert covered(one("CMakeLists.txt", f"a()\n# {MARK}\n# more\n#[[ and\nmore ]]\nb()\nc()\n"), 7)[-1] == 6
+
+
+def test_alone_over_several_lines() -> None:
+    assert covered(one("a.xml", f"<a>\n<!--\n  {MARK}\n  because\n-->\n<b/>\n<c/>\n</a>"), 8)[-1] == 6
+
+
+def test_a_comment_with_code_behind_it_does_not_stand_alone() -> None:
+    assert covered(one("a.cpp", f"/* {MARK} */ int a;\nint b;\n"), 2) == [1]
+
+
+@pytest.mark.parametrize("newline", ["\n", "\r\n", "\r"])
+def test_line_ends(newline: str) -> None:
+    for path, comment in (("a.py", f"# {MARK} so"), ("a.xml", f"<!-- {MARK} so -->"), ("a.cpp", f"// {MARK} so")):
+        found = one(path, newline.join(["", comment, "x = 1", ""]))
+        assert (found.lines, found.reason) == ((2, 3), "so")
+
+
+def test_any_line_of_a_finding_will_do() -> None:
+    found = one("a.xml", f"<a>\n<b\n  c=''\n/> <!-- {MARK} -->\n<d/>\n</a>")
+    assert found.covers(issue("missing-file", "a.xml", 2, 4))
+    assert not found.covers(issue("missing-file", "a.xml", 2, 3))
+    assert not found.covers(issue("missing-file", "a.xml", 2, 4, end_column=1)), "it ends with line 3"
+    assert not found.covers(issue("missing-file", "other.xml", 2, 4))
+
+
+# --- the whole file ------------------------------------------------------------------------------------------------
+
+FILE_MARK = "ros-lint: ignore-file[ROS204] vendored"
+
+
+@pytest.mark.parametrize(
+    ("path", "source"),
+    [
+        ("a.py", f"#!/usr/bin/env python3\n# Copyright\n\n# {FILE_MARK}\nimport foo\n"),
+        ("a.xml", f"\ufeff<?xml version='1.0'?>\n<?xml-model href='x'?>\n<!-- {FILE_MARK} -->\n<a/>"),
+        ("a.xml", f"<?xml version='1.0'?><!DOCTYPE a [ <!ELEMENT a (b)> ]>\n<!-- {FILE_MARK} -->\n<a/>"),
+        ("CMakeLists.txt", f"# {FILE_MARK}\nproject(a)\n"),
+        ("a.cpp", f"/* Copyright\n */\n// {FILE_MARK}\nint a;\n"),
+        ("a.yaml", f"# {FILE_MARK}\na: 1\n"),
+    ],
+)
+def test_ignore_file(path: str, source: str) -> None:
+    found = one(path, source)
+    assert found.problem == ""
+    assert found.lines is None
+    assert found.reason == "vendored"
+    assert found.covers(issue("missing-file", path, 1000))
+
+
+@pytest.mark.parametrize(
+    ("path", "source"),
+    [
+        ("a.py", f'"""Docs."""\n# {FILE_MARK}\n'),
+        ("a.xml", f"<a><!-- {FILE_MARK} --></a>"),
+        ("CMakeLists.txt", f"project(a)\n# {FILE_MARK}\n"),
+    ],
+)
+def test_ignore_file_in_the_wrong_place(path: str, source: str) -> None:
+    found = one(path, source)
+    assert "in the first comments" in found.problem
+    assert not found.covers(issue("missing-file", path, 2))
+
+
+# --- what is wrong with it -----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("comment", "problem"),
+    [
+        ("ros-lint: ignore", "names no rule"),
+        ("ros-lint: ignore because", "names no rule"),
+        ("ros-lint: ignore[]", "names no rule"),
+        ("ros-lint: ignore[ , ] because", "names no rule"),
+        ("ros-lint: ignore-file", "names no rule"),
+        ("ros-lint: ignore[ROS204", "not closed"),
+        ("ros-lint: disable=ROS204", "ros-lint: disable means nothing"),
+        ("ros-lint: ingore[ROS204] so", "ros-lint: ingore[ROS204] means nothing"),
+        ("type: ignore # ros-lint: ignore", "names no rule"),
+    ],
+)
+def test_problems(comment: str, problem: str) -> None:
+    found = one("a.py", f"import foo  # {comment}\n")
+    assert problem in found.problem
+    assert apply([issue("missing-file", "a.py", 1)], [found], RULES, NAMES).broken == (found,)
+    assert len(apply([issue("unused-dependency", "a.py", 1)], [found], RULES, NAMES).kept) == 1
+
+
+@pytest.mark.parametrize("comment", ["run ros-lint: it helps", "ros-lint: 5 lines", "as ros-lint: rules", "ros-lint:"])
+def test_sentences_about_ros_lint(comment: str) -> None:
+    assert collect(Text("a.py", f"# {comment}\n")) == ()
+
+
+def test_several_names_and_marks() -> None:
+    source = "# ros-lint: ignore[ROS201, unused-dependency] one # ros-lint: ignore[x] -- two\n"
+    first, second = collect(Text("a.py", source))
+    assert [name.text for name in first.names] == ["ROS201", "unused-dependency"]
+    assert (first.reason, second.reason) == ("one", "two")
+    assert str(first.names[1].span) == "a.py:1:28"
+
+
+# --- what becomes of the issues ------------------------------------------------------------------------------------
+
+
+def test_apply() -> None:
+    found = collect(Text("a.py", "x  # ros-lint: ignore[ROS201, Missing-File, nosuch, unused-dependancy, ROS999]\n"))
+    wanted, other, elsewhere = (
+        issue("undeclared-dependency", "a.py", 1),
+        issue("unused-dependency", "a.py", 1),
+        issue("undeclared-dependency", "a.py", 2),
+    )
+    outcome = apply([wanted, other, elsewhere], found, RULES, NAMES)
+    assert outcome.kept == (other, elsewhere)
+    assert outcome.suppressed == ((wanted, found[0]),)
+    assert [[name.text for name in unused.names] for unused in outcome.unused] == [["Missing-File"]]
+    assert [(unknown.name.text, unknown.suggestion) for unknown in outcome.unknown] == [
+        ("nosuch", ""),
+        ("unused-dependancy", "unused-dependency"),
+        ("ROS999", ""),
+    ]
+
+
+def test_a_rule_that_did_not_run_leaves_nothing_unused() -> None:
+    found = collect(Text("a.py", "x  # ros-lint: ignore[ROS201]\n"))
+    assert apply([], found, RULES, NAMES - {"undeclared-dependency"}).unused == ()
+
+
+def test_two_suppressions_for_one_finding_are_both_used() -> None:
+    found = collect(Text("a.py", "# ros-lint: ignore-file[ROS201]\nx\ny  # ros-lint: ignore[ROS201]\n"))
+    outcome = apply([issue("undeclared-dependency", "a.py", 3)], found, RULES, NAMES)
+    assert (outcome.unused, outcome.kept) == ((), ())
+
+
+# --- fixes ---------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("path", "before", "after"),
+    [
+        ("a.py", f"import a  # {MARK} so\nb\n", "import a\nb\n"),
+        ("a.py", f"a\n    # {MARK} so\nb\n", "a\nb\n"),
+        ("a.py", f"a\r\n# {MARK} so\r\nb\r\n", "a\r\nb\r\n"),
+        ("a.py", f"a  # {MARK}", "a"),
+        ("a.py", f"a\n# {MARK}", "a\n"),
+        ("a.py", f"a  # type: ignore  # {MARK} so\n", "a  # type: ignore\n"),
+        ("a.py", f"a  # {MARK} so  # noqa\n", "a  # noqa\n"),
+        ("a.py", "a  # ros-lint: ignore[ROS201] so # ros-lint: ignore[ROS204]\n", "a  # ros-lint: ignore[ROS201] so\n"),
+        ("a.xml", f"<a>\n  <b/> <!-- {MARK} so -->\n</a>", "<a>\n  <b/>\n</a>"),
+        ("a.xml", f"<a>\n  <!-- {MARK} -->\n  <b/>\n</a>", "<a>\n  <b/>\n</a>"),
+        ("a.xml", f"<!-- because\n  {MARK} so\n  -->\n<b/>", "<!-- because\n\n  -->\n<b/>"),
+        ("CMakeLists.txt", f"foo(a #[[ {MARK} ]] b)\n", "foo(a b)\n"),
+        ("CMakeLists.txt", f"foo(a#[=[{MARK}]=]b)\n", "foo(a b)\n"),
+        ("a.cpp", f"int /* {MARK} so */ a;\n", "int a;\n"),
+        ("a.cpp", f"int a; // NOLINT // {MARK} so\n", "int a; // NOLINT\n"),
+        ("a.cpp", f"int a; /* NOLINT {MARK} so */\n", "int a; /* NOLINT */\n"),
+        ("a.py", "# ros-lint: ignore[ROS201, ROS204,ROS301] so\n", "# ros-lint: ignore[ROS201, ROS301] so\n"),
+    ],
+)
+def test_taking_a_name_out(path: str, before: str, after: str) -> None:
+    text = Text(path, before)
+    found = next(s for s in collect(text) if any(name.text == "ROS204" for name in s.names))
+    edit = found.without([name for name in found.names if name.text == "ROS204"])
+    changed = edits.apply([Fix("", (edit,))], lambda _: text)[path]
+    assert not any(name.text == "ROS204" for s in collect(Text(path, changed)) for name in s.names)
+    assert changed == after
