@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from ros_lint.text import Span
 
 if TYPE_CHECKING:
+    from ros_lint.suppress import Outcome
     from ros_lint.workspace import Package, Workspace
 
 
@@ -76,12 +77,15 @@ class Finding(NamedTuple):
     severity: Severity | None = None
     """Instead of the rule's, where one case is milder than the others."""
     package: str = ""
+    steps: bool = False
+    """Whether the related places are the steps of one way, in order: round a cycle, or along a chain of needs."""
 
 
 class Rule(NamedTuple):
     """A check with its papers. Declared once, as ``RULE``, in the file that holds the check.
 
-    Exactly one of ``package`` and ``workspace`` is given: a pure generator of findings for one package, or for all.
+    Exactly one of ``package``, ``workspace`` and ``suppressions`` is given: a pure generator of findings for one
+    package, for all, or about the comments that suppress findings, once all other rules have run.
     """
 
     name: str
@@ -99,3 +103,4 @@ class Rule(NamedTuple):
     """Whether some of its findings carry a fix."""
     package: Callable[[Package, Workspace], Iterable[Finding]] | None = None
     workspace: Callable[[Workspace], Iterable[Finding]] | None = None
+    suppressions: Callable[[Outcome], Iterable[Finding]] | None = None
