@@ -28,7 +28,7 @@ _ROS2 = re.compile(
     r"|<(?:let|executable|node_container|load_composable_node|push[-_]ros[-_]namespace|set_parameter|set_env)\b"
 )
 _YAML_ROOT = re.compile(r"^(?:launch|'launch'|\"launch\")[ \t]*:", re.MULTILINE)
-_YAML_OTHER = re.compile(r"^(?![ \t\r\n#%-]|launch[ \t]*:|['\"]launch['\"][ \t]*:|\.\.\.)", re.MULTILINE)
+_YAML_OTHER = re.compile(r"^(?=[^\n])(?![ \t\r#%-]|launch[ \t]*:|['\"]launch['\"][ \t]*:|\.\.\.)", re.MULTILINE)
 
 
 def is_launch_file(path: str, text: str) -> Language | None:
@@ -38,7 +38,7 @@ def is_launch_file(path: str, text: str) -> Language | None:
     Launch files of ROS 1 do not: this tool has nothing to say about them.
     """
     if path.endswith(".py"):
-        if "launch" not in text:
+        if "launch" not in text and "generate_test" not in text:
             return None
         return "python" if _PYTHON.search(text) or _HELPER.search(text) else None
     if path.endswith((".yaml", ".yml")):
@@ -79,6 +79,9 @@ def _after_prolog(text: str) -> int:
         for opening, closing in (("<?", "?>"), ("<!--", "-->"), ("<!", ">")):
             if text.startswith(opening, at):
                 end = text.find(closing, at + len(opening))
+                subset = text.find("[", at, end) if opening == "<!" else -1
+                if subset >= 0:
+                    end = text.find(closing, text.find("]", subset))
                 if end < 0:
                     return len(text)
                 at = end + len(closing)

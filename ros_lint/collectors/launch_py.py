@@ -11,11 +11,12 @@ import re
 import shlex
 import warnings
 from collections.abc import Callable, Mapping
+from posixpath import normpath
 from typing import Literal
 
 from ros_lint.collectors.install_paths import UNKNOWN, Installed, installed, share
 from ros_lint.collectors.launch_py_scopes import Expression, Scope, Where, children, scan
-from ros_lint.collectors.launch_py_values import LOOK_UPS, Evaluator, argument, callee
+from ros_lint.collectors.launch_py_values import ANYTHING, LOOK_UPS, Evaluator, argument, callee
 from ros_lint.facts import Facet, LaunchFile, LaunchReference, Opaque, Problem
 from ros_lint.text import Span, Text
 
@@ -132,6 +133,8 @@ class _Reader:
         packages = self._evaluator.values(package_node, self._where)
         names = self._evaluator.values(name_node, self._where)
         several = len(packages) * len(names) > 1
+        if len(packages) > 1 and len(names) > 1:
+            names = ANYTHING  # which belongs to which is not known
         for package in packages:
             if not package.known or not package.text:
                 self._hidden(f"the package of a {kind} is computed: {self._quote(package_node)}", package_node)
@@ -164,7 +167,7 @@ class _Reader:
                 for place in installed(value.text):
                     if place.package == package and place.known:
                         found = True
-                        whole = place.share is not None and value.text == f"{share(package)}/{place.share}"
+                        whole = place.share is not None and normpath(value.text) == f"{share(package)}/{place.share}"
                         kind: Kind = "include" if whole else "package"
                         self._place(kind, place, inner, package_node, conditional=conditional or len(values) > 1)
         if not found and any(not value.known for value in values):

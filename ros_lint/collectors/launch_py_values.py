@@ -12,6 +12,7 @@ from ros_lint.collectors.launch_py_scopes import Binding, Step, Where, reaching
 
 _MOST = 16
 _DEEPEST = 40
+_LONGEST = 10_000
 
 
 class Value(NamedTuple):
@@ -163,13 +164,23 @@ class Evaluator:
         return self._combine([self.values(part, where) for part in parts], "".join)
 
     def _combine(self, rows: list[Values], function: Callable[[list[str]], str]) -> Values:
+        if sum(len(values) > 1 for values in rows) > 1:
+            # Two names from one loop or one branch go together, and which with which is not known.
+            rows = [values if len(values) == 1 or values[0].packages else ANYTHING for values in rows]
+            if sum(len(values) > 1 for values in rows) > 1:
+                return ANYTHING
         found: list[tuple[Value, ...]] = [()]
         for values in rows:
             found = [(*before, value) for before in found for value in values]
             if len(found) > _MOST:
                 return ANYTHING
+        if any(sum(len(value.text) for value in row) > _LONGEST for row in found):
+            return ANYTHING
         return tuple(
-            Value(function([value.text for value in row]), tuple(name for value in row for name in value.packages))
+            Value(
+                function([value.text for value in row]),
+                tuple(dict.fromkeys(name for value in row for name in value.packages)),
+            )
             for row in found
         )
 

@@ -1,0 +1,215 @@
+"""Launch files in Python: which they are, and what they refer to."""
+
+import time
+
+import pytest
+
+from ros_lint.collectors import launch
+from tests.launch_cases import collect, said
+
+HEAD = "def generate_launch_description():\n"
+
+
+def python(body: str, before: str = "") -> list[str]:
+    indented = "".join(f"    {line}\n" for line in body.splitlines())
+    return said(*collect("a.launch.py", f"{before}\n{HEAD}{indented}"))
+
+
+@pytest.mark.parametrize(
+    ("path", "text", "wanted"),
+    [
+        ("a.launch.py", HEAD + "    pass", "python"),
+        ("start.py", "import os\n" + HEAD, "python"),
+        ("a.py", "def generate_test_description():\n", "python"),
+        ("helper.py", "from launch_ros.actions import Node\n", "python"),
+        ("a.py", "class A:\n    def generate_launch_description(self): ...\n", None),
+        ("a.py", "import launcher\n", None),
+        ("setup.py", "data_files=[('share/a/launch', ['launch/a.py'])]", None),
+    ],
+)
+def test_recognised_by_content(path: str, text: str, wanted: str | None) -> None:
+    assert launch.is_launch_file(path, text) == wanted
+
+
+def test_what_it_is_for() -> None:
+    assert collect("a.py", HEAD + " pass")[1][-2:] == (False, False)
+    assert collect("a.py", "def generate_test_description():\n pass")[1][-2:] == (True, False)
+    assert collect("a.py", "import launch")[1][-2:] == (False, True)
+
+
+@pytest.mark.parametrize(
+    ("body", "wanted"),
+    [
+        ("return [Node(package='a', executable='b')]", ["node a b"]),
+        ("return [launch_ros.actions.LifecycleNode(executable='b', package='a')]", ["node a b"]),
+        ("p = 'a'\nreturn [Node(package=p, executable=p + '_node')]", ["node a a_node"]),
+        ("return [Node(package='a', executable=f'{E}_node')]", ["node a b_node"]),
+        ("return [Node(package='a', executable='%s_%s' % (E, 'x'))]", ["node a b_x"]),
+        ("return [Node(package='a', executable='{}_x'.format(E))]", ["node a b_x"]),
+        ("return [Node(package='a', executable=LaunchConfiguration('b'))]", ["package a"]),
+        ("return [Node(executable='/usr/bin/b')]", []),
+        ("return [Node(package='a', executable='b', condition=IfCondition(x))]", ["node? a b"]),
+        ("return [GroupAction([Node(package='a', executable='b')], condition=x)]", ["node? a b"]),
+        ("if x:\n    return [Node(package='a', executable='b')]", ["node? a b"]),
+        ("e = 'c' if x else 'd'\nreturn [Node(package='a', executable=e)]", ["node? a c", "node? a d"]),
+        (
+            "if x:\n    e = 'c'\nelse:\n    e = 'd'\nreturn [Node(package='a', executable=e)]",
+            ["node? a c", "node? a d"],
+        ),
+        ("e = 'c'\ne = 'd'\nreturn [Node(package='a', executable=e)]", ["node a d"]),
+        ("return [Node(package='a', executable=e) for e in ['c', 'd']]", ["node? a c", "node? a d"]),
+        (
+            "r = []\nfor p, e in [('a', 'b'), ('c', 'd')]:\n    r.append(Node(package=p, executable=e))\nreturn r",
+            ["package? a", "package? c"],
+        ),
+        ("return [Node(package=D['p'], executable=D['e'])]", ["node a b"]),
+        ("c, d = 'x', 'y'\nreturn [Node(package=c, executable=d)]", ["node x y"]),
+        (
+            "return [ComposableNodeContainer(package='rclcpp_components', executable='component_container',\n"
+            "  composable_node_descriptions=[ComposableNode(package='a', plugin='a::B')])]",
+            ["node rclcpp_components component_container", "component a a::B"],
+        ),
+        (
+            "return [LoadComposableNodes(composable_node_descriptions=[ComposableNode(package='a', plugin='a::B')])]",
+            ["component a a::B"],
+        ),
+        ("return [ExecuteProcess(cmd=['ros2', 'run', 'a', 'b', '--x'])]", ["node a b"]),
+        ("return [ExecuteProcess(cmd=['ros2 run a b'], shell=True)]", ["node a b"]),
+        ("return [ExecuteProcess(cmd=['ros2', 'launch', 'a', 'b.launch.py'])]", ["package a"]),
+        ("return [ExecuteProcess(cmd=[ExecutableInPackage('b', 'a')])]", ["node a b"]),
+        ("return [ExecuteProcess(cmd=[os.path.join(get_package_prefix('a'), 'lib', 'a', 'b')])]", ["node a b"]),
+        ("return [Command(['xacro ', os.path.join(get_package_share_directory('a'), 'b.xacro')])]", ["file a b.xacro"]),
+        ("return [Command([FindExecutable(name='xacro'), ' ', x])]", ["package xacro"]),
+        ("return [MoveItConfigsBuilder('a')]", ["package a_moveit_config"]),
+        ("return [MoveItConfigsBuilder('a', package_name='b').to_moveit_configs()]", ["package b"]),
+    ],
+)
+def test_programs(body: str, wanted: list[str]) -> None:
+    assert python(body, "E = 'b'\nD = {'p': 'a', 'e': E}\n") == wanted
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        "os.path.join(get_package_share_directory('a'), 'launch', 'b.launch.py')",
+        "join(share, 'launch/b.launch.py')",
+        "share + '/launch/b.launch.py'",
+        "f'{share}/launch/b.launch.py'",
+        "str(Path(share) / 'launch' / 'b.launch.py')",
+        "str(get_package_share_path('a') / 'launch' / 'b.launch.py')",
+        "get_package_share_path('a').joinpath('launch', 'b.launch.py').as_posix()",
+        "os.path.join(folder, 'b.launch.py')",
+        "[folder, '/b.launch.py']",
+        "[FindPackageShare('a'), '/launch/b.launch.py']",
+        "[FindPackageShare(package='a'), '/launch', '/b.launch.py']",
+        "[PathJoinSubstitution([FindPackageShare('a'), 'launch', 'b.launch.py'])]",
+        "PathJoinSubstitution([FindPackageShare('a'), 'launch', 'b.launch.py'])",
+        "FindPackageShare('a') / 'launch' / 'b.launch.py'",
+        "os.path.join(FindPackageShare('a').find('a'), 'launch', 'b.launch.py')",
+        "ThisIs('a').perform(context)",
+        "os.path.join(get_package_prefix('a'), 'share', 'a', 'launch', 'b.launch.py')",
+        "os.path.join(get_package_share_directory('a'), 'config', '..', 'launch', 'b.launch.py')",
+    ],
+)
+@pytest.mark.parametrize("source", ["PythonLaunchDescriptionSource({})", "AnyLaunchDescriptionSource({})", "{}"])
+def test_includes(path: str, source: str) -> None:
+    body = (
+        "share = get_package_share_directory('a')\nfolder = os.path.join(share, 'launch')\n"
+        f"return [IncludeLaunchDescription({source.format(path)})]"
+    )
+    found = [line for line in python(body) if line.startswith("include")]
+    assert found == ([] if path.startswith("ThisIs") else ["include a launch/b.launch.py"])
+
+
+def test_paths_by_name() -> None:
+    body = (
+        "share = get_package_share_directory('a')\n"
+        "params = os.path.join(share, 'config', 'p.yaml')\n"
+        "return [Node(package='b', executable='c', parameters=[params], arguments=['-d', share + '/x.rviz'])]"
+    )
+    assert python(body) == ["package a", "file a config/p.yaml", "node b c", "file a x.rviz"]
+
+
+@pytest.mark.parametrize(
+    ("body", "wanted"),
+    [
+        ("n = Node(package='a', executable='b')\nreturn []", []),
+        ("n = Node(package='a', executable='b')\nreturn [n]", ["node a b"]),
+        ("n = Node(package='a', executable='b')\nreturn [], locals()", ["node a b"]),
+        ("Node(package='a', executable='b')\nreturn []", []),
+        ("ld.add_action(Node(package='a', executable='b'))", ["node a b"]),
+        ("n = Node(package='a', executable='b')\ndef later():\n    return n", ["node a b"]),
+        ("n = Node(package='a', executable='b', parameters=[get_package_share_directory('c')])", ["package c"]),
+        ("i = IncludeLaunchDescription(PathJoinSubstitution([FindPackageShare('a'), 'b']))", []),
+        ("i = IncludeLaunchDescription(os.path.join(get_package_share_directory('a'), 'b'))", ["file a b"]),
+    ],
+)
+def test_actions_that_are_never_launched_start_nothing(body: str, wanted: list[str]) -> None:
+    """What is looked up at once fails all the same when it is missing; substitutions wait until they are used."""
+    assert python(body) == wanted
+
+
+def test_the_main_guard_is_not_run_by_launch() -> None:
+    assert python("return []", "if __name__ == '__main__':\n    Node(package='a', executable='b').x()\n") == []
+
+
+@pytest.mark.parametrize(
+    ("body", "reason"),
+    [
+        (
+            "return [Node(package=LaunchConfiguration('p'), executable='b')]",
+            "the package of a node is computed: LaunchConfiguration('p')",
+        ),
+        (
+            "return [FindPackageShare(LaunchConfiguration('p'))]",
+            "the package that is looked up is computed: LaunchConfiguration('p')",
+        ),
+        ("return [IncludeLaunchDescription(x)]", "which launch file is included is computed: x"),
+        ("return [ExecuteProcess(cmd=['ros2', 'run', x, 'b'])]", "what ros2 run starts is computed"),
+    ],
+)
+def test_what_is_computed_hides_what_is_used(body: str, reason: str) -> None:
+    _, found = collect("a.launch.py", f"{HEAD}    {body}\n")
+    assert [opaque.reason for opaque in found.opaque] == [reason]
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        (HEAD, 1),
+        (HEAD + "    return [\n", 2),
+        (HEAD + "\treturn (\n", 2),
+        (HEAD + "    x = '\n", 2),
+        (HEAD + "    print 'x'\n", 2),
+    ],
+)
+def test_what_is_no_python(text: str, line: int) -> None:
+    source, found = collect("a.launch.py", text)
+    assert [problem.kind for problem in found.problems] == ["syntax"]
+    assert found.problems[0].span.line in (line, line + 1)
+    assert source.slice(found.problems[0].span) == ""
+    assert found.opaque
+
+
+def test_places_are_exact_beyond_ascii() -> None:
+    source, found = collect("a.launch.py", HEAD + "    return ['ü', Node(package='a', executable='''ö''')]\n")
+    (node,) = found.references
+    assert (source.slice(node.span), source.slice(node.package_span), node.exact) == ("ö", "a", True)
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "x = " + "[" * 5000,
+        "x = " + "+".join(["'a'"] * 20_000),
+        "x = " + "f(" * 150 + ")" * 150,
+        "x = x + y\ny = x + y\nNode(package=x, executable=y).z",
+        "\n".join(f"x{n} = x{n - 1} + x{n - 1}" for n in range(1, 200)) + "\nNode(package=x199, executable='b').z",
+        "a = 'x' if y else 'z'\n" + "\n".join(f"a = a + ('{n}' if y else 'w')" for n in range(99)) + "\njoin(a, a)",
+        "\0",
+    ],
+)
+def test_hostile_files_end_soon(body: str) -> None:
+    begin = time.process_time()
+    collect("a.launch.py", HEAD + "".join(f"    {line}\n" for line in body.split("\n")))
+    assert time.process_time() - begin < 2

@@ -1,0 +1,131 @@
+"""Launch files in XML: which they are, and what they refer to."""
+
+import pytest
+
+from ros_lint.collectors import launch
+from tests.launch_cases import collect, said
+
+
+def xml(body: str) -> list[str]:
+    return said(*collect("a.launch.xml", f"<launch>\n{body}\n</launch>\n"))
+
+
+@pytest.mark.parametrize(
+    ("path", "text", "wanted"),
+    [
+        ("a.launch.xml", "<launch/>", "xml"),
+        ("a.launch", '<?xml version="1.0"?>\n<!-- x -->\n<launch>\n</launch>', "xml"),
+        ("a.xml", "<launch><node pkg='a' exec='b'/></launch>", "xml"),
+        ("a.launch", '<launch><node pkg="a" type="b" name="c"/></launch>', None),
+        ("a.launch", '<launch><include file="$(find a)/launch/b.launch"/></launch>', None),
+        ("a.launch", "<launch><rosparam file='x'/></launch>", None),
+        ("a.launch.xml", '<launch><node pkg="a" exec="b"/><include file="$(find a)/b"/></launch>', "xml"),
+        ("package.xml", "<package><description><launch/></description></package>", None),
+        ("a.xml", "<!-- <launch> --><library/>", None),
+        ("a.xml", "<launcher/>", None),
+        ("a.xml", "<!-- <launch>", None),
+    ],
+)
+def test_recognised_by_content(path: str, text: str, wanted: str | None) -> None:
+    assert launch.is_launch_file(path, text) == wanted
+
+
+@pytest.mark.parametrize(
+    ("body", "wanted"),
+    [
+        ('<node pkg="a" exec="b"/>', ["node a b"]),
+        ('<node name="n" exec="b" pkg="a" if="$(var x)"/>', ["node? a b"]),
+        (
+            '<group unless="$(var x)"><node pkg="a" exec="b"/></group><node pkg="c" exec="d"/>',
+            ["node? a b", "node c d"],
+        ),
+        ('<node exec="/usr/bin/b"/>', []),
+        ('<lifecycle_node pkg="a" exec="b" name="n" namespace=""/>', ["node a b"]),
+        (
+            '<node_container pkg="rclcpp_components" exec="component_container" name="n" namespace="">'
+            '<composable_node pkg="a" plugin="a::B" name="b"/></node_container>',
+            ["node rclcpp_components component_container", "component a a::B"],
+        ),
+        ('<include file="$(find-pkg-share a)/launch/b.launch.py"/>', ["include a launch/b.launch.py"]),
+        ('<include file="$(find-pkg-share a)/launch/$(var x).launch.py"/>', ["package a"]),
+        ('<include file="$(dirname)/b.launch.xml"/>', []),
+        (
+            '<node pkg="a" exec="b"><param from="$(find-pkg-share c)/config/d.yaml"/></node>',
+            ["node a b", "file c config/d.yaml"],
+        ),
+        ('<arg name="x" default="$(find-pkg-share a)"/>', ["package a"]),
+        ('<let name="x" value="$(find-pkg-prefix a)/lib/a/b"/>', ["node a b"]),
+        ('<executable cmd="ros2 run a b --x"/>', ["node a b"]),
+        ('<executable cmd="ros2 launch a b.launch.py"/>', ["package a"]),
+        ('<executable cmd="echo ros2 run a b"/>', []),
+        ('<executable cmd="$(exec-in-pkg b a)"/>', ["node a b"]),
+        (
+            """<param name="d" value="$(command 'xacro $(find-pkg-share a)/urdf/b.xacro c:=$(var c)')"/>""",
+            ["package xacro", "file a urdf/b.xacro"],
+        ),
+        ('<node pkg="$(var p)" exec="b"/>', []),
+        ('<node pkg="a" exec="$(var e)"/>', ["package a"]),
+    ],
+)
+def test_references(body: str, wanted: list[str]) -> None:
+    assert xml(body) == wanted
+
+
+def test_a_computed_package_hides_what_is_used() -> None:
+    _, found = collect("a.launch.xml", '<launch><node pkg="$(var p)" exec="b"/></launch>')
+    assert [opaque.reason for opaque in found.opaque] == ["the package of a <node> is $(var p)"]
+
+
+def test_places_are_exact_beyond_ascii_and_lines() -> None:
+    text = '<launch>\n  <!-- é -->\n  <node é="ü"\n    pkg="a"\n    exec="ö"/>\n</launch>\n'
+    source, found = collect("a.launch.xml", text)
+    (node,) = found.references
+    assert (source.slice(node.span), source.slice(node.package_span)) == ("ö", "a")
+    assert str(node.span) == "a.launch.xml:5:11"
+
+
+def test_an_escaped_value_is_not_replaced() -> None:
+    _, found = collect("a.launch.xml", '<launch><node pkg="a" exec="b&amp;c"/></launch>')
+    assert [(node.name, node.exact) for node in found.references] == [("b&c", False)]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("<launch><node></launch>", "mismatched tag"),
+        ("<launch>", "no element found"),
+        ('<launch a="1" a="2"/>', "duplicate attribute"),
+        ("<launch>\ud800</launch>", "not well-formed (invalid token)"),
+        ('<!DOCTYPE launch [<!ENTITY a "b">]><launch>&a;</launch>', "declares an entity, which is not resolved here"),
+        (
+            '<!DOCTYPE launch [<!ENTITY a SYSTEM "f">]><launch>&a;</launch>',
+            "declares an entity, which is not resolved here",
+        ),
+    ],
+)
+def test_what_is_no_xml(text: str, message: str) -> None:
+    _, found = collect("a.launch.xml", text.replace("\ud800", "\udcff"))
+    (problem,) = found.problems
+    assert problem.message == message
+    assert found.opaque
+    assert problem.span.line == 1 <= problem.span.column <= len(text) + 1
+
+
+@pytest.mark.parametrize(
+    ("value", "message"),
+    [
+        ("$(find-pkg-share a", "$(find-pkg-share is not closed"),
+        ("$(find-pkg-share  a)", "arguments are separated by one space"),
+        ("$()", "$( is not followed by the name of a substitution"),
+        ("$(command 'x)", "the quote ' is not closed"),
+        ("$(a " * 60, "substitutions are nested too deeply"),
+    ],
+)
+def test_broken_substitutions(value: str, message: str) -> None:
+    _, found = collect("a.launch.xml", f'<launch><let name="x" value="{value}"/></launch>')
+    assert [problem.message for problem in found.problems] == [message]
+
+
+def test_depth_does_not_matter() -> None:
+    body = "<group>" * 5000 + '<node pkg="a" exec="b"/>' + "</group>" * 5000
+    assert xml(body) == ["node a b"]

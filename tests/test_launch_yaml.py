@@ -1,0 +1,93 @@
+"""Launch files in YAML: which they are, and what they refer to."""
+
+import pytest
+
+from ros_lint.collectors import launch
+from tests.launch_cases import collect, said
+
+
+@pytest.mark.parametrize(
+    ("path", "text", "wanted"),
+    [
+        ("a.launch.yaml", "launch:\n  - node: {pkg: a, exec: b}\n", "yaml"),
+        ("a.yaml", "%YAML 1.2\n---\n# x\nlaunch:\n- arg:\n    name: a\n", "yaml"),
+        ("a.launch", '"launch":\n  - node:\n', "yaml"),
+        ("a.yaml", "launch: true\nother: 1\n", None),
+        ("a.yaml", "node:\n  launch: 1\n", None),
+        ("a.yaml", "launcher: 1\n", None),
+    ],
+)
+def test_recognised_by_content(path: str, text: str, wanted: str | None) -> None:
+    assert launch.is_launch_file(path, text) == wanted
+
+
+def test_references() -> None:
+    text = """\
+launch:
+  - arg: {name: x, default: "$(find-pkg-share a)/config/x.yaml"}
+  - node:
+      pkg: a
+      exec: 'b'
+      if: $(var x)
+      param:
+        - from: $(find-pkg-share c)/d.yaml
+  - group:
+      - push_ros_namespace: {namespace: n}
+      - node: {pkg: e, exec: "f"}
+  - group:
+      unless: $(var x)
+      children:
+        - include:
+            file: "$(find-pkg-share g)/launch/h.launch.py"
+  - node_container:
+      pkg: rclcpp_components
+      exec: component_container
+      name: n
+      namespace: ''
+      composable_node:
+        - pkg: i
+          plugin: i::J
+          name: k
+  - executable: {cmd: ros2 run l m}
+"""
+    assert said(*collect("a.launch.yaml", text)) == [
+        "file a config/x.yaml",
+        "node? a b",
+        "file? c d.yaml",
+        "node e f",
+        "include? g launch/h.launch.py",
+        "node rclcpp_components component_container",
+        "component i i::J",
+        "node l m",
+    ]
+
+
+def test_a_value_that_is_written_otherwise_is_not_replaced() -> None:
+    source, found = collect("a.launch.yaml", 'launch:\n- node:\n    pkg: a\n    exec: "b\\x63"\n')
+    (node,) = found.references
+    assert (node.name, node.exact, source.slice(node.span)) == ("bc", False, '"b\\x63"')
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        ("launch:\n- node: [\n", 3),
+        ("launch:\n\t- a\n", 2),
+        ("launch:\n- *x\n", 2),
+        ("launch: &a [*a]\n---\nlaunch:\n", 2),
+    ],
+)
+def test_what_is_no_yaml(text: str, line: int) -> None:
+    _, found = collect("a.launch.yaml", text)
+    assert [problem.span.line for problem in found.problems] == [line]
+    assert found.opaque
+
+
+def test_an_alias_bomb_and_depth_end() -> None:
+    bomb = "launch:\n- group: &x0\n  - node: {pkg: a, exec: b}\n"
+    for number in range(1, 30):
+        bomb += f"- group: &x{number}\n" + f"  - group: *x{number - 1}\n" * 9
+    assert set(said(*collect("a.launch.yaml", bomb))) == {"node a b"}
+    assert said(*collect("a.launch.yaml", "launch: &a\n- group: *a\n- group: *a\n")) == []
+    deep = "launch:\n- " + "[" * 3000
+    assert collect("a.launch.yaml", deep)[1].problems
