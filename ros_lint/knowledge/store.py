@@ -128,7 +128,9 @@ class Table:
         return None
 
     def __contains__(self, name: str) -> bool:
-        return self.row(name) is not None
+        lines = self._lines
+        at = bisect_left(lines, name)
+        return at < len(lines) and (lines[at] == name or lines[at].startswith(f"{name}\t"))
 
     def names(self) -> Iterator[str]:
         """Yield every name, sorted."""

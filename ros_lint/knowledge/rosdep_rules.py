@@ -1,0 +1,83 @@
+"""rosdep's own files of rules (``base.yaml``, ``python.yaml`` ...; REP 111), read as rosdep's resolver reads them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros_lint.knowledge.rosdep import LETTERS, Key
+from ros_lint.knowledge.store import KnowledgeError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Mapping
+
+_KNOWN_INSTALLERS = "apt dnf gem homebrew macports npm opkg pacman pip portage slackpkg snap source yum zypper"
+_INSTALLERS = frozenset(_KNOWN_INSTALLERS.split())
+_APT = ("ubuntu", "debian")
+_ONLY_OSX = frozenset({"osx"})
+
+
+def keys(files: Iterable[tuple[str, object]]) -> dict[str, Key]:
+    """Return the keys of rule files, which are given by place and content.
+
+    They stand in the order of rosdep's sources: the first that has a key wins, but that one with nothing but macOS is
+    read on macOS only. Raises KnowledgeError for a file of another kind.
+    """
+    merged: dict[str, dict[str, object]] = {}
+    for place, rules in files:
+        if not isinstance(rules, dict):
+            raise KnowledgeError(f"{place} is no file of rosdep rules")
+        for name, rule in rules.items():
+            if not isinstance(rule, dict):
+                raise KnowledgeError(f"{place}: the rule of {name} is no mapping of systems")
+            known = merged.get(str(name), {})
+            if known.keys() <= _ONLY_OSX:
+                merged[str(name)] = {**rule, **known}
+    # What only macOS has is no key that a package for Linux could mean.
+    return {name: _key(name, rule) for name, rule in merged.items() if rule.keys() - _ONLY_OSX}
+
+
+def _key(name: str, rule: Mapping[str, object]) -> Key:
+    platforms = tuple(platform for platform in LETTERS.values() if _resolve(rule, platform) is not None)
+    apt = {
+        package
+        for platform in platforms
+        if platform.partition(":")[0] in _APT
+        for installer, package in _resolve(rule, platform) or ()
+        if installer in ("apt", "")
+    }
+    return Key(name, platforms, tuple(sorted(apt)), tuple(sorted(set(_pip(rule)))))
+
+
+def _pip(rule: object) -> Iterator[str]:
+    """Yield the pip packages for any platform: what pip calls it, whether or not the platform is one of ours."""
+    if isinstance(rule, dict):
+        for name, inside in rule.items():
+            if name == "pip":
+                yield from _words(inside.get("packages", ()) if isinstance(inside, dict) else inside)
+            else:
+                yield from _pip(inside)
+
+
+def _resolve(rule: Mapping[str, object], platform: str) -> tuple[tuple[str, str], ...] | None:
+    """Return the packages to install with their installer, "" for the system's own: None when there is no rule."""
+    system, _, version = platform.partition(":")
+    found = rule[system] if system in rule else rule.get("*")
+    for _ in range(3):  # the version, the installer, its packages
+        if isinstance(found, dict):
+            if found.keys() & _INSTALLERS:
+                break
+            found = found[version] if version in found else found.get("*")
+    if isinstance(found, dict):
+        installer = sorted(found.keys() & _INSTALLERS)
+        if not installer:
+            return None
+        inside = found[installer[0]]
+        packages = inside.get("packages", ()) if isinstance(inside, dict) else inside
+        return tuple((installer[0], name) for name in _words(packages))
+    return None if found is None else tuple(("", name) for name in _words(found))
+
+
+def _words(packages: object) -> list[str]:
+    if isinstance(packages, str):
+        return packages.split()
+    return [str(name) for name in packages] if isinstance(packages, list) else []
