@@ -1,0 +1,8 @@
+"""Print the commands of a README's ``sh`` blocks, one a line, in order."""
+
+import re
+import sys
+from pathlib import Path
+
+for block in re.findall(r"^```sh\n(.*?)^```", Path(sys.argv[1]).read_text("utf-8"), re.MULTILINE | re.DOTALL):
+    print(block.replace("\\\n", " "), end="")
