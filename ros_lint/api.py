@@ -20,6 +20,7 @@ from ros_lint.facts import (
 )
 from ros_lint.facts import Target as BuildTarget
 from ros_lint.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
+from ros_lint.suppress import Outcome
 from ros_lint.text import Span
 from ros_lint.workspace import Declared, Package, Target, Workspace
 
@@ -42,6 +43,7 @@ __all__ = [
     "LaunchReference",
     "Manifest",
     "Opaque",
+    "Outcome",
     "Package",
     "Problem",
     "Provided",
