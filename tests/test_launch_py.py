@@ -191,6 +191,19 @@ def test_what_is_no_python(text: str, line: int) -> None:
     assert found.opaque
 
 
+@pytest.mark.parametrize(
+    "path",
+    [
+        "[ThisLaunchFileDir(), '/b.launch.py']",
+        "os.path.join(os.path.dirname(os.path.realpath(__file__)), 'b.launch.py')",
+        "str(Path(__file__).parent / 'b.launch.py')",
+    ],
+)
+def test_a_neighbour_hides_nothing(path: str) -> None:
+    _, found = collect("a.launch.py", f"{HEAD}    return [IncludeLaunchDescription({path})]\n")
+    assert (found.references, found.opaque) == ((), ())
+
+
 def test_places_are_exact_beyond_ascii() -> None:
     source, found = collect("a.launch.py", HEAD + "    return ['ü', Node(package='a', executable='''ö''')]\n")
     (node,) = found.references

@@ -12,6 +12,9 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 UNKNOWN = "\ue000"
+OWN_FOLDER = "/\ue002"
+"""The folder of the launch file itself, which is one place in the source and another one where it is installed."""
+
 _ROOT = "\ue001"
 
 # A path ends where a command line or a list of paths goes on; an unknown piece belongs to it.

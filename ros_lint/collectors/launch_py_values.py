@@ -7,7 +7,7 @@ import posixpath
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
-from ros_lint.collectors.install_paths import UNKNOWN, prefix, share
+from ros_lint.collectors.install_paths import OWN_FOLDER, UNKNOWN, prefix, share
 from ros_lint.collectors.launch_py_scopes import Binding, Step, Where, reaching
 
 _MOST = 16
@@ -120,7 +120,7 @@ class Evaluator:
     def _name(self, node: ast.Name, where: Where) -> Values:
         bindings = reaching(node.id, where)
         if bindings is None:
-            return ANYTHING
+            return (Value(f"{OWN_FOLDER}/{UNKNOWN}"),) if node.id == "__file__" else ANYTHING
         return tuple(value for binding in bindings for value in self._bound(binding))
 
     def _bound(self, binding: Binding) -> Iterator[Value]:
@@ -244,6 +244,8 @@ class Evaluator:
                 return self._joined(parts.elts, where)
             elements = self.elements(parts, where) if parts is not None else None
             return self._joined([element for element, _ in elements], where) if elements else ANYTHING
+        if name == "ThisLaunchFileDir":
+            return (Value(OWN_FOLDER),)
         if name in _THROUGH:
             return self.values(argument(node, 0, "path", "text", "launch_file_path", "param_file", "location"), where)
         if name == "dirname":
