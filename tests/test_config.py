@@ -1,0 +1,85 @@
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from ros_lint.config import ConfigError, settle
+from ros_lint.options import OPTIONS, schema
+
+
+def settings(folder: Path, text: str | None = None, *, name: str = "ros-lint.toml", said: dict[str, Any] | None = None, env: dict[str, str] | None = None) -> Any:
+    if text is not None:
+        (folder / name).write_text(text)
+    return settle(said or {}, str(folder), env or {}, str(folder))
+
+
+def test_the_command_line_wins_then_the_file_then_the_environment(tmp_path: Path) -> None:
+    env = {"ROS_DISTRO": "kilted"}
+    assert settings(tmp_path, env=env)["distro"] == "kilted"
+    assert settings(tmp_path, env=env).origin("distro") == "ROS_DISTRO"
+    found = settings(tmp_path, 'distro = "humble"', env=env)
+    assert (found["distro"], found.origin("distro")) == ("humble", "ros-lint.toml")
+    found = settings(tmp_path, env=env, said={"distro": "jazzy"})
+    assert (found["distro"], found.origin("distro")) == ("jazzy", "--distro")
+    found = settings(tmp_path, env=env, said={"isolated": True})
+    assert (found["distro"], found.origin("distro")) == ("", "default")
+
+
+def test_the_nearest_file_wins_and_a_foreign_pyproject_is_passed_over(tmp_path: Path) -> None:
+    inner = tmp_path / "ws" / "src"
+    inner.mkdir(parents=True)
+    (tmp_path / "pyproject.toml").write_text('[tool.ros-lint]\ndistro = "humble"\n')
+    (tmp_path / "ws" / "pyproject.toml").write_text("[tool.ruff]\n")
+    assert settle({}, str(inner), {})["distro"] == "humble"
+    (inner / "ros-lint.toml").write_text('distro = "jazzy"')
+    assert settle({}, str(inner), {})["distro"] == "jazzy"
+
+
+def test_paths_in_a_file_are_relative_to_it(tmp_path: Path) -> None:
+    assert settings(tmp_path, 'underlay = ["../install"]')["underlay"] == (str(tmp_path / "../install"),)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ('\ndistor = "humble"', r"ros-lint.toml:2: unknown setting distor, did you mean distro\?"),
+        ('fail_on = "error"', r"ros-lint.toml:1: unknown setting fail_on, did you mean fail-on\?"),
+        ('fail-on = "eror"', r"ros-lint.toml:1: fail-on must be one of error, warning, info, never, not 'eror', did you mean error\?"),
+        ("pedantic = 1", "ros-lint.toml:1: pedantic must be true or false"),
+        ("jobs = -1", "ros-lint.toml:1: jobs must be a whole number from 0"),
+        ('select = "all"', "ros-lint.toml:1: select must be a list of strings"),
+        ('[severity]\ndependency-cycle = "fatal"', "ros-lint.toml:1: severity has a value that must be one of"),
+        ('[per-path-ignores]\n"src/*" = "all"', "ros-lint.toml:1: per-path-ignores must map patterns to lists"),
+        ('format = "json"', "ros-lint.toml:1: format can be said on the command line only"),
+        ("distro = oops", r"ros-lint.toml: .*line 1"),
+    ],
+)
+def test_what_is_wrong_is_said_with_the_place(tmp_path: Path, text: str, message: str) -> None:
+    with pytest.raises(ConfigError, match=message):
+        settings(tmp_path, text)
+
+
+def test_a_missing_file_that_was_asked_for(tmp_path: Path) -> None:
+    with pytest.raises(ConfigError, match="nowhere.toml: no such configuration file"):
+        settings(tmp_path, said={"config": "nowhere.toml"})
+
+
+def test_the_schema_takes_what_the_table_takes() -> None:
+    jsonschema = pytest.importorskip("jsonschema")
+    jsonschema.Draft7Validator.check_schema(schema())
+    validator = jsonschema.Draft7Validator(schema())
+    good = {"distro": "humble", "select": ["all"], "severity": {"ROS2": "off"}, "per-path-ignores": {"a": ["all"]}, "jobs": 2}
+    assert not list(validator.iter_errors(good))
+    for bad in ({"distor": "x"}, {"fail-on": "eror"}, {"jobs": -1}, {"pedantic": 1}, {"severity": {"a": "fatal"}}, {"format": "json"}):
+        assert list(validator.iter_errors(bad)), bad
+
+
+def test_show_settings_is_toml_with_origins(tmp_path: Path) -> None:
+    import sys
+
+    shown = settings(tmp_path, 'distro = "humble"').show()
+    assert 'distro           = "humble"  # ros-lint.toml\n' in shown
+    if sys.version_info >= (3, 11):
+        import tomllib
+
+        assert set(tomllib.loads(shown)) == {option.name for option in OPTIONS}

@@ -1,0 +1,79 @@
+import os
+from pathlib import Path
+
+import pytest
+
+from ros_lint import edits
+from ros_lint.rule import Edit, Fix
+from ros_lint.text import Text
+
+SOURCE = Text("f", "one\r\ntwo\nthree")
+
+
+def fix(*changes: tuple[int, int, str]) -> Fix:
+    return Fix("change", tuple(Edit(SOURCE.span(start, end), text) for start, end, text in changes))
+
+
+def applied(*fixes: Fix) -> str:
+    return edits.apply(fixes, lambda path: SOURCE)["f"]
+
+
+def test_edits_do_not_move_each_other() -> None:
+    assert applied(fix((0, 3, "ONE"), (9, 14, "3")), fix((5, 5, "a "), (5, 5, "b "))) == "ONE\r\na b two\n3"
+
+
+def test_the_same_edit_twice_is_made_once() -> None:
+    assert applied(fix((0, 0, "x")), fix((0, 0, "x"))) == "xone\r\ntwo\nthree"
+
+
+def test_a_fix_that_collides_waits() -> None:
+    first, second, third = fix((0, 3, "")), fix((1, 2, "x"), (9, 9, "y")), fix((3, 3, "z"))
+    assert edits.choose([first, second, third]) == (first, third)
+
+
+def test_an_encoding_without_the_letter() -> None:
+    source = Text("f", "é", "iso8859-1")
+    assert edits.encode({"f": "éa"}, lambda path: source) == {"f": b"\xe9a"}
+    with pytest.raises(edits.EditError, match="f: its encoding .* has no '漢'"):
+        edits.encode({"f": "漢"}, lambda path: source)
+
+
+def test_files_are_replaced_whole(tmp_path: Path) -> None:
+    target = tmp_path / "real"
+    target.write_bytes(b"old")
+    target.chmod(0o755)
+    (tmp_path / "link").symlink_to("real")
+    edits.write_all(str(tmp_path), {"link": b"new"})
+    assert target.read_bytes() == b"new"
+    assert target.stat().st_mode & 0o777 == 0o755
+    assert (tmp_path / "link").is_symlink()
+    assert sorted(os.listdir(tmp_path)) == ["link", "real"]
+
+
+@pytest.mark.parametrize("what", ["file", "folder"])
+def test_one_read_only_place_keeps_everything_as_it_is(tmp_path: Path, what: str) -> None:
+    (tmp_path / "a").write_bytes(b"old")
+    (tmp_path / "d").mkdir()
+    (tmp_path / "d" / "b").write_bytes(b"old")
+    place = tmp_path / "d" / "b" if what == "file" else tmp_path / "d"
+    mode = place.stat().st_mode
+    place.chmod(0o555 if what == "folder" else 0o444)
+    try:
+        with pytest.raises(edits.EditError, match="d/b: cannot be written: it is read-only; nothing was changed"):
+            edits.write_all(str(tmp_path), {"a": b"new", "d/b": b"new"})
+    finally:
+        place.chmod(mode)
+    assert (tmp_path / "a").read_bytes() == b"old"
+
+
+def test_a_disk_that_fails_leaves_the_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "a").write_bytes(b"old")
+
+    def full(*_: object) -> None:
+        raise OSError(28, os.strerror(28))
+
+    monkeypatch.setattr(os, "replace", full)
+    with pytest.raises(edits.EditError, match="a: cannot be written: No space left on device"):
+        edits.write_all(str(tmp_path), {"a": b"new"})
+    assert (tmp_path / "a").read_bytes() == b"old"
+    assert os.listdir(tmp_path) == ["a"]

@@ -1,0 +1,51 @@
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ros_lint.text import Text, decode, read
+
+TEXTS = st.text(st.sampled_from("ab \t\r\n\f\u2028é漢\U0001f916"), max_size=40)
+
+
+@given(TEXTS, st.data())
+def test_offset_and_position_are_inverse(text: str, data: st.DataObject) -> None:
+    source = Text("f", text)
+    offset = data.draw(st.integers(0, len(text)))
+    line, column = source.position(offset)
+    assert source.offset(line, column) == offset
+    assert source.slice(source.span(offset, len(text))) == text[offset:]
+
+
+@given(TEXTS)
+def test_lines_are_those_that_universal_newlines_gives(text: str) -> None:
+    source = Text("f", text)
+    lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    assert [source.line(number) for number in range(1, source.line_count + 1)] == lines
+
+
+@given(TEXTS, st.lists(st.integers(0, 39), max_size=6))
+def test_many_spans_are_as_one_by_one(text: str, places: list[int]) -> None:
+    source = Text("f", text)
+    ranges = [(place, place) for place in sorted(places) if place <= len(text) and not (place and text[place - 1 : place + 1] == "\r\n")]
+    assert list(source.spans(ranges)) == [source.span(*each) for each in ranges]
+
+
+@given(st.binary(max_size=60) | TEXTS.map(lambda text: text.encode("utf-8", "surrogateescape")))
+def test_bytes_survive(data: bytes) -> None:
+    text = read("f", data)
+    assert text.encode(text.text) == data
+
+
+@pytest.mark.parametrize(
+    ("data", "text", "codec"),
+    [
+        (b"\xef\xbb\xbfa", "a", "utf-8-sig"),
+        ("é".encode("utf-16"), "é", "utf-16"),
+        (b'<?xml version="1.0" encoding="ISO-8859-1"?>\xe9', '<?xml version="1.0" encoding="ISO-8859-1"?>é', "iso8859-1"),
+        (b"# -*- coding: latin-1 -*-\n\xe9", "# -*- coding: latin-1 -*-\né", "iso8859-1"),
+        (b'<?xml version="1.0" encoding="no-such"?>\xe9', '<?xml version="1.0" encoding="no-such"?>\udce9', "utf-8"),
+        (b"\xff\xfe\x00", "\udcff\udcfe\x00", "utf-8"),
+    ],
+)
+def test_encodings(data: bytes, text: str, codec: str) -> None:
+    assert decode(data) == (text, codec)
