@@ -1,0 +1,321 @@
+"""The import statements of a Python source, found without parsing it where that is safe.
+
+Nine files of ten have only imports that a look at their own line settles. :func:`scan` reads these and refuses the
+others; :func:`walk` reads a syntax tree and is exact. Both give the same on what both read.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.collectors.python_syntax import NotPythonError, parse, start_of
+from ros_lint.text import Text
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+
+class Import(NamedTuple):
+    """An absolute import."""
+
+    start: int
+    """Offset of the module as written."""
+    module: str
+    """Dotted."""
+    optional: bool
+    """Whether the program does without: for type checkers only, or with the error caught."""
+
+
+_IMPORT = re.compile(r"import(?=[ \t(*\\])")
+_MODULE = re.compile(r"[ \t]*([^\W\d]\w*(?:\.[^\W\d]\w*)*)(?:[ \t]+as[ \t]+[^\W\d]\w*)?[ \t\r]*(,|\Z)")
+_FROM = re.compile(r"from[ \t]+([^\W\d]\w*(?:\.[^\W\d]\w*)*)[ \t]+\Z")
+_RELATIVE = re.compile(r"from[ \t]*\.[ \t.\w]*\Z")
+_TRIPLE = re.compile(r'"""|\'\'\'')
+_CONTINUED = re.compile(r"\\\r?\n[ \t\f]*(?:import|from)\b")
+_HEAD = re.compile(
+    r"^([ \t]*)(?:(try|except|elif|else|finally)|(?:async[ \t]+)?(?:def|for|with)|class|while|match|case|if)\b[^\n]*",
+    re.MULTILINE,
+)
+_GUARD = re.compile(r"TYPE_CHECKING|version_info|platform|DISTRO|distro|suppress")
+_DECIDES = re.compile(
+    rf"{_GUARD.pattern}"
+    r"|except(?:[ \t]*:|\b[^\n]*(?:\b(?:ImportError|ModuleNotFoundError|Exception|BaseException)\b|\())"
+)
+
+
+def scan(text: str) -> list[Import] | None:
+    """Return the imports of a source, or None when only a parser can tell."""
+    if "\r" in text and text.count("\r") != text.count("\r\n"):
+        return None
+    found: list[Import] = []
+    places: list[int] = []  # none of which may lie in a string
+    blocks: _Blocks | None = None
+    done = 0
+    for match in _IMPORT.finditer(text):
+        start = match.start()
+        if start < done:
+            continue
+        line = text.rfind("\n", 0, start) + 1
+        before = text[line:start].lstrip()
+        if not before:
+            names = _names(text, match.end())
+            if names is None:
+                return None
+        elif before.startswith(("from ", "from\t", "from.")):
+            named = _FROM.match(before)
+            if named:
+                names = [Import(start - len(before) + named.start(1), named[1], False)]
+            elif _RELATIVE.match(before):
+                continue
+            else:
+                return None
+        elif before[0] == "#" or not _may_follow(before):
+            continue
+        else:
+            return None
+        places.append(line)
+        if text[line] in " \t\f":
+            blocks = blocks or _Blocks(text)
+            around = blocks.around(line, start - len(before) - line)
+            if not around or around[0].width:
+                return None
+            places += [block.head for block in around]
+            guard = next((block for block in around if block.guards), None)
+            end = _statement_end(text, guard) if guard else 0
+            if guard and _DECIDES.search(text, guard.start, end):
+                done = end
+                guarded = _fragment(text[guard.start : done], guard.start)
+                if guarded is None:
+                    return None
+                while found and found[-1].start > guard.start:
+                    found.pop()
+                names = guarded
+        found += names
+    if not places or (outside_strings(text, places) and not _CONTINUED.search(text)):
+        return found
+    return None
+
+
+def _may_follow(before: str) -> bool:
+    """Return whether an import statement may come after this part of its line."""
+    return before.rstrip()[-1] in ";:" or ("from" in before and (";" in before or ":" in before))
+
+
+def _names(text: str, start: int) -> list[Import] | None:
+    """Return what ``import a.b as c, d`` imports; None when that is not all of the line."""
+    end = text.find("\n", start)
+    line = text[start : end if end >= 0 else len(text)].partition("#")[0]
+    found = []
+    at = 0
+    while True:
+        match = _MODULE.match(line, at)
+        if match is None:
+            return None
+        found.append(Import(start + match.start(1), match[1], False))
+        if not match[2]:
+            return found
+        at = match.end()
+
+
+class _Block(NamedTuple):
+    width: int
+    """Of its head's indentation."""
+    head: int
+    """The line of its head."""
+    start: int
+    """The first line of the statement: ``try`` for ``except``."""
+    guards: bool
+    """Whether it may decide about the imports in it."""
+
+
+class _Blocks:
+    """The blocks around lines of a text. Lines are asked for in order."""
+
+    def __init__(self, text: str) -> None:
+        self._heads = _HEAD.finditer(text)
+        self._next = next(self._heads, None)
+        self._stack: list[_Block] = []
+
+    def around(self, line: int, width: int) -> list[_Block]:
+        """Return the blocks around a line of an indentation, outermost first."""
+        while self._next and self._next.start() < line:
+            self._enter(self._next)
+            self._next = next(self._heads, None)
+        self._leave(width)
+        return self._stack
+
+    def _leave(self, width: int) -> _Block | None:
+        """Leave the blocks whose heads are not further left than that. Return the last one."""
+        left = None
+        while self._stack and self._stack[-1].width >= width:
+            left = self._stack.pop()
+        return left
+
+    def _enter(self, head: re.Match[str]) -> None:
+        width, line = len(head[1]), head.start()
+        left = self._leave(width)
+        continues = left is not None and left.width == width and head[2] not in (None, "try")
+        start = left.start if left and continues else line
+        guards = head[2] is not None or ":" not in head[0] or _GUARD.search(head[0]) is not None
+        self._stack.append(_Block(width, line, start, guards))
+
+
+def _statement_end(text: str, block: _Block) -> int:
+    """Return where the statement ends that a block belongs to."""
+    further = rf"[ \t]{{{block.width + 1}}}|[ \t]*(?:[#\r\n)\]}}]|(?:except|elif|else|finally)\b)"
+    match = re.compile(rf"^(?!{further})", re.MULTILINE).search(text, text.find("\n", block.head) + 1)
+    return match.start() if match else len(text)
+
+
+def _fragment(text: str, start: int) -> list[Import] | None:
+    """Return the imports of a statement, which may be indented, or None when it does not parse by itself."""
+    head = "if 1:\n" if text[0] in " \t\f" else ""
+    source = Text("", head + text)
+    try:
+        found = walk(source, parse(source))
+    except NotPythonError:
+        return None
+    return [item._replace(start=item.start + start - len(head)) for item in found]
+
+
+def outside_strings(text: str, places: list[int]) -> bool:
+    """Return whether it is sure that none of the places, one at least, lies in a string of several lines."""
+    places = sorted(places)
+    quote = _TRIPLE.search(text, 0, places[-1])
+    waiting = iter(places)
+    place = next(waiting)
+    while quote:
+        line = text[text.rfind("\n", 0, quote.start()) + 1 : quote.start()]
+        if "#" in line or "'" in line or '"' in line:
+            return False  # perhaps the quotes start nothing
+        closing = text.find(quote[0], quote.end())
+        if closing < 0 or text[closing - 1] == "\\":
+            return False
+        while place < quote.start():
+            place = next(waiting)
+        if place < closing:
+            return False
+        quote = _TRIPLE.search(text, closing + 3, places[-1])
+    return True
+
+
+# --- the exact way
+
+
+_IMPORT_ERRORS = frozenset({"ImportError", "ModuleNotFoundError", "Exception", "BaseException"})
+_EXITS = frozenset({"exit", "quit", "_exit", "fail"})
+
+
+def walk(source: Text, tree: ast.Module) -> list[Import]:
+    """Return the imports of a source in order.
+
+    Optional are those under TYPE_CHECKING, and those in a try statement that goes on when the import fails or under
+    a test of the platform, unless every branch imports from the same package (reference, section D6).
+    """
+    return sorted(
+        Import(start, module, optional)
+        for statement, optional in _imports(tree.body)
+        for start, module in _modules(source, statement)
+    )
+
+
+_Found = tuple[ast.Import | ast.ImportFrom, bool]
+
+
+def _imports(body: Iterable[ast.stmt]) -> Iterator[_Found]:
+    for statement in body:
+        if isinstance(statement, (ast.Import, ast.ImportFrom)):
+            yield statement, False
+        elif isinstance(statement, ast.If):
+            yield from _conditional(statement)
+        elif isinstance(statement, ast.Try) or type(statement).__name__ == "TryStar":
+            yield from _try(statement)  # type: ignore[arg-type]  # of the same fields
+        elif isinstance(statement, (ast.With, ast.AsyncWith)) and any(_suppresses(item) for item in statement.items):
+            yield from ((found, True) for found, _ in _imports(statement.body))
+        else:
+            for block in ("body", "orelse"):
+                yield from _imports(getattr(statement, block, ()))
+            for case in getattr(statement, "cases", ()):
+                yield from _imports(case.body)
+
+
+def _conditional(statement: ast.If) -> Iterator[_Found]:
+    test = statement.test
+    words = {
+        str(getattr(node, "id", None) or getattr(node, "attr", None) or getattr(node, "value", ""))
+        for node in ast.walk(test)
+    }
+    if not _GUARD.search(" ".join(words)):
+        yield from _imports(statement.body)
+        yield from _imports(statement.orelse)
+    elif isinstance(test, (ast.Name, ast.Attribute)) and "TYPE_CHECKING" in words:
+        yield from ((found, True) for found, _ in _imports(statement.body))
+        yield from _imports(statement.orelse)
+    else:
+        yield from _alternatives([list(_imports(statement.body)), list(_imports(statement.orelse))])
+
+
+def _try(statement: ast.Try) -> Iterator[_Found]:
+    branches = [[*_imports(statement.body), *_imports(statement.orelse)]]
+    others: list[_Found] = []
+    for handler in statement.handlers:
+        if _catches_import_error(handler) and not _gives_up(handler):
+            branches.append(list(_imports(handler.body)))
+        else:
+            others += _imports(handler.body)
+    yield from _alternatives(branches) if len(branches) > 1 else branches[0]
+    yield from others
+    yield from _imports(statement.finalbody)
+
+
+def _alternatives(branches: list[list[_Found]]) -> Iterator[_Found]:
+    """Yield the imports of branches one of which runs; not optional is what each needs."""
+    needed = [{root for found, optional in branch if not optional for root in _roots(found)} for branch in branches]
+    always = set.intersection(*needed)
+    for branch in branches:
+        for found, optional in branch:
+            yield found, optional or not always.issuperset(_roots(found))
+
+
+def _roots(statement: ast.Import | ast.ImportFrom) -> set[str]:
+    names = [alias.name for alias in statement.names] if isinstance(statement, ast.Import) else [statement.module or ""]
+    return {name.partition(".")[0] for name in names}
+
+
+def _catches_import_error(handler: ast.ExceptHandler) -> bool:
+    kind = handler.type
+    kinds = kind.elts if isinstance(kind, ast.Tuple) else [kind]
+    return any(
+        kind is None
+        or (isinstance(kind, ast.Name) and kind.id in _IMPORT_ERRORS)
+        or (isinstance(kind, ast.Attribute) and kind.attr in _IMPORT_ERRORS)
+        for kind in kinds
+    )
+
+
+def _gives_up(handler: ast.ExceptHandler) -> bool:
+    last = handler.body[-1]
+    if isinstance(last, ast.Expr) and isinstance(last.value, ast.Call):
+        function = last.value.func
+        return (function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")) in _EXITS
+    return isinstance(last, ast.Raise)
+
+
+def _suppresses(item: ast.withitem) -> bool:
+    call = ast.unparse(item.context_expr)
+    return "suppress" in call and any(error in call for error in _IMPORT_ERRORS)
+
+
+_FROM_AT = re.compile(r"from(?:\s|\\)*")
+
+
+def _modules(source: Text, statement: ast.Import | ast.ImportFrom) -> Iterator[tuple[int, str]]:
+    if isinstance(statement, ast.Import):
+        for alias in statement.names:
+            yield start_of(source, alias), alias.name
+    elif not statement.level and statement.module:
+        word = _FROM_AT.match(source.text, start_of(source, statement))
+        assert word is not None
+        yield word.end(), statement.module

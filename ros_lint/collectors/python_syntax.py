@@ -1,0 +1,94 @@
+"""Python sources as syntax trees, and what to make of those that are none."""
+
+from __future__ import annotations
+
+import ast
+import re
+import warnings
+from typing import TYPE_CHECKING
+
+from ros_lint.facts import Problem
+
+if TYPE_CHECKING:
+    from ros_lint.text import Span, Text
+
+# What only Python 2 reads. One is enough: such a file is not meant for the interpreter that looks at it.
+_PYTHON_2 = re.compile(
+    r"""^\#!.*\bpython2
+    |^[ \t]*print[ \t]+(?:["'%\w]|>>)
+    |^[ \t]*print[ \t]*$
+    |^[ \t]*except[ \t]+[\w.]+[ \t]*,[ \t]*\w+[ \t]*:
+    |^[ \t]*except[ \t]*\([^)\n]*\)[ \t]*,[ \t]*\w+[ \t]*:
+    |^[ \t]*raise[ \t]+[\w.]+[ \t]*,
+    |^[ \t]*exec[ \t]+["'\w]
+    |[\w)]\s*<>\s*[\w(]
+    |\bur["']
+    |[=(,][ \t]*0[0-7]+\b(?![.xob])""",
+    re.VERBOSE | re.MULTILINE,
+)
+_TEMPLATE_NAME = re.compile(r"\.(?:in|em|j2|jinja2?|mako|template|tmpl|tpl)(?:\.py)?\Z|\{\{|\}\}|__[A-Z_]+__\.py\Z")
+_TEMPLATE_MARK = re.compile(r"\{\{|\{%|@\{|@\(|@\[|@[A-Za-z_]\w*@|\$\{|<%")
+
+
+class NotPythonError(Exception):
+    """A source is no Python for the interpreter that runs."""
+
+    def __init__(self, message: str, line: int, column: int) -> None:
+        super().__init__(message)
+        self.message = message
+        self.line = line
+        self.column = column
+
+
+def parse(source: Text) -> ast.Module:
+    """Return the tree of a source. Raises :class:`NotPythonError`, and nothing else."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # about escapes in somebody's strings
+            return ast.parse(source.text)
+    except SyntaxError as error:
+        raise NotPythonError(error.msg, error.lineno or 1, error.offset or 1) from None
+    except (ValueError, RecursionError, MemoryError) as error:
+        raise NotPythonError(str(error) or "nested too deeply", 1, 1) from None
+
+
+def start_of(source: Text, node: ast.expr | ast.stmt | ast.alias) -> int:
+    """Return the offset at which a node starts. The tree counts columns in bytes of UTF-8."""
+    return _offset(source, node.lineno, node.col_offset)
+
+
+def span_of(source: Text, node: ast.expr | ast.stmt | ast.alias) -> Span:
+    """Return the place of a node."""
+    end = _offset(source, node.end_lineno or node.lineno, node.end_col_offset or node.col_offset)
+    return source.span(start_of(source, node), end)
+
+
+def _offset(source: Text, line: int, column: int) -> int:
+    start = source.offset(line, 1)
+    piece = source.text[start : start + column]
+    if not piece.isascii():
+        piece = piece.encode("utf-8", "surrogateescape")[:column].decode("utf-8", "surrogateescape")
+    return start + len(piece)
+
+
+def syntax_problem(source: Text, error: NotPythonError) -> Problem | None:
+    """Return what is wrong with a source, None when that may be the view of one interpreter only.
+
+    No problem are Python 2, templates, and what libcst can read: the source may be newer than the interpreter.
+    """
+    if _TEMPLATE_NAME.search(source.path) or _TEMPLATE_MARK.search(source.text) or _PYTHON_2.search(source.text):
+        return None
+    from libcst import ParserSyntaxError, parse_module  # noqa: PLC0415  (costs more than a whole run without it)
+
+    try:
+        parse_module(source.text.encode("utf-8", "surrogateescape"))
+    except ParserSyntaxError:
+        pass
+    except Exception:  # whatever else it does on odd input is no second opinion
+        return None
+    else:
+        return None
+    line = min(max(error.line, 1), source.line_count)
+    column = min(max(error.column, 1), len(source.line(line)) + 1)
+    at = source.offset(line, column)
+    return Problem("syntax", f"not valid Python: {error.message}", source.span(at, at))
