@@ -303,6 +303,8 @@ class LaunchReference(NamedTuple):
     """Under a condition that may be false."""
     exact: bool = True
     """Whether ``span`` covers the name and nothing else, so that a fix can put another one there."""
+    package_exact: bool = True
+    """The same of ``package_span`` and the package."""
 
 
 class LaunchFile(NamedTuple):
