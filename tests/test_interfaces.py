@@ -1,0 +1,68 @@
+"""Interface definitions: which types of other packages they use."""
+
+from __future__ import annotations
+
+import pytest
+
+from ros_lint.collectors import interfaces
+from ros_lint.text import Text
+
+
+def collected(path: str, text: str) -> list[tuple[str, str]]:
+    source = Text(path, text)
+    facts = interfaces.collect(source)
+    assert all(mention.via == "interface" and source.slice(mention.span) == mention.what for mention in facts.mentions)
+    return [(mention.name, str(mention.span)) for mention in facts.mentions]
+
+
+def test_fields_of_messages_services_and_actions() -> None:
+    text = (
+        "# std_msgs/Header in a comment\n"
+        "std_msgs/Header header  # geometry_msgs/Pose is none either\n"
+        "geometry_msgs/Pose[] poses\r\n"
+        "geometry_msgs/Point[<=3] corners\n"
+        "Own own\n"
+        "float64 x 1.5\n"
+        "string<=10 name 'a/b c'\n"
+        "string PATH=a/b\n"
+        "---\n"
+        "\tsensor_msgs/Image[4] image\n"
+        "bool ok"
+    )
+    assert collected("a/srv/X.srv", text) == [
+        ("std_msgs/Header", "a/srv/X.srv:2:1"),
+        ("geometry_msgs/Pose", "a/srv/X.srv:3:1"),
+        ("geometry_msgs/Point", "a/srv/X.srv:4:1"),
+        ("sensor_msgs/Image", "a/srv/X.srv:10:2"),
+    ]
+
+
+@pytest.mark.parametrize("name", ["std_msgs/msg/Header", "std_msgs/msg/sub/Header"])
+def test_too_many_slashes_are_a_problem(name: str) -> None:
+    facts = interfaces.collect(Text("a/msg/X.msg", f"{name} header\n"))
+    assert [mention.name for mention in facts.mentions] == ["std_msgs/Header"]
+    assert [(problem.kind, problem.message) for problem in facts.problems] == [
+        ("interface-type", f"{name} is no type that the generators accept; write std_msgs/Header")
+    ]
+
+
+def test_idl() -> None:
+    text = (
+        '#include "geometry_msgs/msg/Point.idl"\n'
+        "#include <std_msgs/msg/Header.idl>\n"
+        '// #include "no/msg/Comment.idl"\n'
+        "module own { module msg {\n"
+        "  struct X {\n"
+        '    @verbatim (language="comment", text="see no_msgs::msg::String" "and more")\n'
+        "    geometry_msgs::msg::Point point; /* no_msgs::msg::Block */\n"
+        "    sequence<std_msgs::msg::Header, 3> headers;\n"
+        "    other::Thing no_interface;\n"
+        "  };\n"
+        "}; };\n"
+    )
+    assert collected("own/msg/X.idl", text) == [
+        ("geometry_msgs/Point", "own/msg/X.idl:1:11"),
+        ("std_msgs/Header", "own/msg/X.idl:2:11"),
+        ("geometry_msgs/Point", "own/msg/X.idl:7:5"),
+        ("std_msgs/Header", "own/msg/X.idl:8:14"),
+    ]
