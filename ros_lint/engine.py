@@ -7,6 +7,7 @@ import traceback
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
+from ros_lint.knowledge import KnowledgeError
 from ros_lint.registry import matching, suggest
 from ros_lint.report import Crash, Hidden, Issue
 from ros_lint.rule import Confidence, Rule, Severity
@@ -77,6 +78,8 @@ def run(workspace: Workspace, rules: Iterable[Rule]) -> tuple[tuple[Issue, ...],
         for package in workspace.packages if rule.package else (None,):
             try:
                 issues.update(_check(rule, package, workspace))
+            except KnowledgeError:
+                raise  # no rule can do its job, and the user must act
             except Exception:
                 crashes.append(Crash(rule.name, package.name if package else "", traceback.format_exc()))
     return tuple(sorted(issues, key=order)), tuple(crashes)

@@ -9,29 +9,21 @@ from __future__ import annotations
 import posixpath
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from ros_lint.facts import BuildScript, Facet, FileFacts, LaunchFile, Mention, Opaque, Role, Use, Via
 from ros_lint.text import Span, Text
 
-
-class Providers(Protocol):
-    """Who can be declared for a name."""
-
-    @property
-    def packages(self) -> tuple[str, ...]: ...
-    @property
-    def keys(self) -> tuple[str, ...]: ...
-    @property
-    def none_needed(self) -> bool: ...
+if TYPE_CHECKING:
+    from ros_lint.world import Providers
 
 
 class Names(Protocol):
     """The look-ups of the world that evidence needs."""
 
-    def by_cmake(self, name: str) -> Providers | None: ...
-    def by_include(self, header: str) -> Providers | None: ...
-    def by_import(self, module: str) -> Providers | None: ...
+    def by_cmake(self, name: str) -> Providers: ...
+    def by_include(self, header: str) -> Providers: ...
+    def by_import(self, module: str) -> Providers: ...
     def is_package(self, name: str) -> bool: ...
 
 
@@ -194,15 +186,15 @@ def _providers(
                 return ()
             if found := headers.get(name):
                 return found
-            return _declarable(names.by_include(name))
+            return names.by_include(name).names
         case "import":
             if name.partition(".")[0] in own.modules:
                 return ()
-            return _declarable(names.by_import(name))
+            return names.by_import(name).names
         case "cmake":
-            return _declarable(names.by_cmake(name))
+            return names.by_cmake(name).names
         case "target" | "macro":
-            return _declarable(names.by_cmake(name.partition("::")[0]))
+            return names.by_cmake(name.partition("::")[0]).names
         case "interface":
             package = name.partition("/")[0]
             return (package,) if names.is_package(package) else ()
@@ -210,12 +202,6 @@ def _providers(
             return (name,) if names.is_package(name) else ()
         case "key":
             return (name,)
-
-
-def _declarable(providers: Providers | None) -> tuple[str, ...]:
-    if providers is None or providers.none_needed:
-        return ()
-    return (*providers.packages, *providers.keys)
 
 
 def _launch_uses(source: Source, own: _Own, names: Names, launch: LaunchFile) -> Iterator[Use]:

@@ -49,7 +49,7 @@ def open_workspace(said: Mapping[str, Any], environment: Mapping[str, str], prog
     knowledge = Knowledge(target.distro, (user_directory(),))
     prefixes = [prefix for prefix in settings["underlay"] if prefix]
     try:
-        underlays = underlay.read(prefixes) if prefixes else ()
+        underlays = underlay.read(prefixes, target.distro, base) if prefixes else ()
     except underlay.UnderlayError as error:
         if settings.origin("underlay") != "AMENT_PREFIX_PATH":
             raise UsageError(str(error)) from error

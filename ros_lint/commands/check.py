@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ros_lint import __version__, engine, registry, suppress
 from ros_lint.config import ConfigError, Settings
@@ -15,6 +15,9 @@ from ros_lint.progress import Progress
 from ros_lint.report import Hidden, Issue, Report, Unseen
 from ros_lint.rule import Severity
 from ros_lint.workspace import Workspace
+
+if TYPE_CHECKING:
+    from ros_lint.reporters.ansi import Style
 
 Said = Mapping[str, Any]
 
@@ -102,7 +105,8 @@ def _print(report: Report, opened: Opened) -> int:
     from ros_lint import reporters  # noqa: PLC0415
 
     settings = opened.settings
-    text = reporters.render(settings["format"], report, opened.loader.text, color=_wants_color(settings))
+    render = reporters.reporter(settings["format"])
+    text = render(report, opened.loader.text, _style(settings))
     if settings["output"]:
         try:
             with open(settings["output"], "w", encoding="utf-8", newline="\n") as file:
@@ -117,6 +121,18 @@ def _print(report: Report, opened: Opened) -> int:
         places = ", ".join(root or "." for root in opened.roots)
         print(f"ros-lint: no package found below {places}; is there a package.xml?", file=sys.stderr)
     return exit_code(report, settings["fail-on"])
+
+
+def _style(settings: Settings) -> Style:
+    from ros_lint.reporters.ansi import Style  # noqa: PLC0415
+
+    encoding = "utf-8" if settings["output"] else (sys.stdout.encoding or "ascii")
+    only_ascii = "utf" not in encoding.lower()
+    if sys.stdout.isatty() and not settings["output"]:
+        import shutil  # noqa: PLC0415
+
+        return Style(_wants_color(settings), only_ascii, max(shutil.get_terminal_size().columns, 60), fixes=True)
+    return Style(_wants_color(settings), only_ascii)
 
 
 def _wants_color(settings: Settings) -> bool:

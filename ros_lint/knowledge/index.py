@@ -76,9 +76,9 @@ class Released(NamedTuple):
         return "i" in self.flags[1:]
 
     @property
-    def unreleased(self) -> bool:
-        """Return whether it has no binary package, though the distribution lists it."""
-        return "U" in self.flags
+    def groups(self) -> tuple[str, ...]:
+        """Return the groups that it is a member of, that of interface packages included."""
+        return (*self.depends.get("M", ()), *((INTERFACES,) if self.interfaces else ()))
 
     def on(self, kinds: Iterable[str]) -> tuple[str, ...]:
         """Return the names that it depends on by any of the kinds, sorted."""
@@ -156,6 +156,27 @@ class Index:
             return parse(row)
         except ValueError as error:
             raise KnowledgeError(f"{self.path}: the line of {name} makes no sense: {error}") from error
+
+    def members(self, group: str) -> Iterator[str]:
+        """Yield the members of a group, sorted."""
+        for line in self._table.lines():
+            # Few lines name a group, and taking all of them apart would take long.
+            if group == INTERFACES or group in line:
+                found = self.get(line.partition("\t")[0])
+                if found is not None and group in found.groups:
+                    yield found.name
+
+    def declared_as(self, name: str) -> Mapping[str, int]:
+        """Return by how many packages a name is declared with each set of kinds, such as {"t": 12, "bex": 1}."""
+        found: dict[str, int] = {}
+        for line in self._table.lines():
+            if name not in line:
+                continue
+            for field in line.split("\t")[4:]:
+                kinds, _, names = field.partition(":")
+                if kinds not in "MG" and name in names.split(" "):
+                    found[kinds] = found.get(kinds, 0) + 1
+        return found
 
     def runtime(self, name: str) -> tuple[str, ...] | None:
         """Return what comes along with a package, without names of groups: None when that is not known.

@@ -50,6 +50,10 @@ class Names:
         found = (*self._cmake_ros.get(name, ()), *self._cmake_system.get(name, ()))
         return found or ((NOTHING_NEEDED,) if name in CMAKE_MODULES else ())
 
+    def cmake_any_case(self, name: str) -> tuple[str, ...]:
+        """Return what provides a name of find_package whose capitals are not known, such as opencv."""
+        return self._cmake_lower.get(name.lower(), ())
+
     def header(self, path: str) -> tuple[str, ...]:
         """Return what provides a header by the longest prefix known: ROS packages and keys, any of which will do.
 
@@ -97,12 +101,21 @@ class Names:
         return tuple(END_OF_LIFE[letter] for letter in "igfedcNMK" if letter in row[1]) if row and len(row) > 1 else ()
 
     @cached_property
+    def unseen(self) -> tuple[str, ...]:
+        """Return patterns of the names of packages that do their work without being named by those that need them."""
+        return tuple(pattern for pattern, _ in self._rows("unseen.tsv"))
+
+    @cached_property
     def _cmake_ros(self) -> Mapping[str, tuple[str, ...]]:
         return self._map("cmake_ros.tsv")
 
     @cached_property
     def _cmake_system(self) -> Mapping[str, tuple[str, ...]]:
         return self._map("cmake_system.tsv")
+
+    @cached_property
+    def _cmake_lower(self) -> Mapping[str, tuple[str, ...]]:
+        return {name.lower(): names for name, names in self._cmake_system.items() if names != (NOTHING_NEEDED,)}
 
     @cached_property
     def _include_ros(self) -> Mapping[str, tuple[str, ...]]:

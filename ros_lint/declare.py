@@ -1,0 +1,66 @@
+"""What to write into a manifest for a need, and which declared needs leave no trace: advice that several rules share."""
+
+from __future__ import annotations
+
+import fnmatch
+
+from ros_lint import manifest_edits
+from ros_lint.facts import Depend, Role
+from ros_lint.rule import Edit
+from ros_lint.workspace import Package, Workspace
+
+
+def tag_for(package: Package, workspace: Workspace, name: str, role: Role) -> str:
+    """Return the one tag that a careful maintainer writes for all that a name is needed for (reference, section E2).
+
+    For a manifest of format 1, where nothing means "build and run", it is the tag for building, see :func:`add_dependency`.
+    """
+    form = package.manifest.format if package.manifest else 3
+    if role == Role.TEST:
+        return "test_depend"
+    needed = role & ~Role.TEST
+    if needed == Role.EXEC:
+        return "run_depend" if form == 1 else "exec_depend"
+    if needed == Role.TOOL or (needed == Role.BUILD and _is_tool(workspace, name)):
+        return "buildtool_depend"
+    return "build_depend" if form == 1 else "depend"
+
+
+def add_dependency(package: Package, tag: str, name: str) -> tuple[Edit, ...]:
+    """Return the edits that declare a name. The package has a manifest."""
+    manifest = package.manifest
+    assert manifest is not None
+    tags = (tag, "run_depend") if manifest.format == 1 and tag == "build_depend" else (tag,)
+    return tuple(manifest_edits.add(manifest, each, name) for each in tags)
+
+
+def remove_dependency(package: Package, depend: Depend) -> tuple[Edit, ...]:
+    """Return the edits that take a dependency out. The package has a manifest."""
+    assert package.manifest is not None
+    return (manifest_edits.remove(package.manifest, depend),)
+
+
+def works_unseen(workspace: Workspace, name: str) -> bool:
+    """Whether a dependency on a name can do its work without being named anywhere (reference, section F2).
+
+    True for what is no package that is known, for packages that give macros, plugins or components, and for those whose
+    name says that they stand for something else.
+    """
+    world = workspace.world
+    if not world.is_package(name) or world.is_key(name):
+        return True
+    if any(fnmatch.fnmatchcase(name, pattern) for pattern in world.knowledge.names.unseen):
+        return True
+    if world.plugins(name).names or world.components(name).names:
+        return True
+    return any(_gives_macros(package) for package in workspace.by_name.get(name, ()))
+
+
+def _gives_macros(package: Package) -> bool:
+    return package.script is None or any(file.endswith((".cmake", ".cmake.in")) for file in package.files)
+
+
+def _is_tool(workspace: Workspace, name: str) -> bool:
+    """Whether released packages mostly declare a name as a build tool."""
+    declared = workspace.world.knowledge.index.declared_as(name)
+    return 2 * sum(count for kinds, count in declared.items() if "t" in kinds) > sum(declared.values())
