@@ -36,15 +36,21 @@ class Known(NamedTuple):
     """Those that depend on how it was built."""
     complete: bool = False
     """Whether there is no other name."""
+    endings: tuple[str, ...] = ()
+    """With any, only of names that end so was a list made: nothing is known of others."""
 
     def ask(self, name: str) -> Answer:
         """Return what is known of a name."""
         if name in self.names:
             return "exists"
-        return "missing" if self.complete and name not in self.maybe else "unknowable"
+        if not self.complete or name in self.maybe or (self.endings and not name.endswith(self.endings)):
+            return "unknowable"
+        return "missing"
 
 
 NOTHING_KNOWN = Known()
+LAUNCH_ENDINGS = ("launch.py", "launch.xml", "launch.yaml", ".launch")
+"""Which files the data count as launch files."""
 
 
 class Provided(NamedTuple):
@@ -68,6 +74,7 @@ class Provided(NamedTuple):
             tuple(name for name in names if not name.endswith("?")),
             tuple(name[:-1] for name in names if name.endswith("?")),
             self.solid,
+            LAUNCH_ENDINGS if facet == "launch" else (),
         )
 
 

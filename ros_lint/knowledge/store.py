@@ -117,20 +117,26 @@ class Table:
     def __len__(self) -> int:
         return len(self._lines)
 
-    def row(self, name: str) -> list[str] | None:
-        """Return the fields of the line of a name, the name first, or None."""
-        lines = self._lines
-        at = bisect_left(lines, name)
-        if at < len(lines) and lines[at].startswith(name):
-            fields = lines[at].split("\t")
-            if fields[0] == name:
-                return fields
+    def line(self, name: str) -> str | None:
+        """Return the line of a name, or None."""
+        at = bisect_left(self._lines, name)
+        if at < len(self._lines):
+            line = self._lines[at]
+            if line == name or line.startswith(f"{name}\t"):
+                return line
         return None
 
+    def row(self, name: str) -> list[str] | None:
+        """Return the fields of the line of a name, the name first, or None."""
+        line = self.line(name)
+        return None if line is None else line.split("\t")
+
     def __contains__(self, name: str) -> bool:
-        lines = self._lines
-        at = bisect_left(lines, name)
-        return at < len(lines) and (lines[at] == name or lines[at].startswith(f"{name}\t"))
+        return self.line(name) is not None
+
+    def lines(self) -> Iterator[str]:
+        """Yield every line, sorted."""
+        return iter(self._lines)
 
     def names(self) -> Iterator[str]:
         """Yield every name, sorted."""

@@ -1,0 +1,124 @@
+"""Did you mean: names near an unknown one.
+
+Two questions, two answers. Which name is meant, for a fix: one of which nobody would doubt. Which names are near, for a
+hint.
+"""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_left
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+_SHORTEST = 5
+"""Words with fewer letters are one letter apart by chance, such as pcl and pil."""
+
+_COMMON = 150
+
+
+class Spelling:
+    """Names to compare with."""
+
+    def __init__(self, names: Iterable[str]) -> None:
+        self._names = sorted(set(names))
+
+    def same(self, name: str) -> tuple[str, ...]:
+        """Return the names that differ only by dashes, underscores and capitals, sorted."""
+        return tuple(self._plain.get(plain(name), ()))
+
+    def one_slip(self, name: str) -> tuple[str, ...]:
+        """Return the names that one letter makes: left out, put in, changed, or swapped with the next. Sorted.
+
+        A digit changed for another is no slip: ``lidar_2`` is not meant to be ``lidar_1``.
+        """
+        if len(name) < _SHORTEST:
+            return ()
+        half = len(name) // 2
+        near = set(_beginning(self._names, name[: half - 1]))
+        near.update(found[::-1] for found in _beginning(self._backwards, name[half + 1 :][::-1]))
+        return tuple(sorted(other for other in near if _is_slip(name, other)))
+
+    def near(self, name: str, most: int = 3) -> tuple[str, ...]:
+        """Return names that resemble a name, nearest first."""
+        import difflib  # noqa: PLC0415  (only unknown names need it)
+
+        words = _words(name)
+        having = (self._by_word.get(word, ()) for word in words)
+        # A word of hundreds of names tells nothing, and comparing with all of them takes long.
+        alike = {other for others in having if len(others) <= _COMMON for other in others}
+        scored = [(-_overlap(words, _words(other)), other) for other in alike]
+        candidates = [other for _, other in sorted(scored)[:30]]
+        candidates += self.one_slip(name)
+        return tuple(difflib.get_close_matches(name, dict.fromkeys(candidates), most, 0.75))
+
+    @cached_property
+    def _plain(self) -> Mapping[str, list[str]]:
+        found: dict[str, list[str]] = {}
+        for name in self._names:
+            found.setdefault(plain(name), []).append(name)
+        return found
+
+    @cached_property
+    def _backwards(self) -> list[str]:
+        return sorted(name[::-1] for name in self._names)
+
+    @cached_property
+    def _by_word(self) -> Mapping[str, list[str]]:
+        found: dict[str, list[str]] = {}
+        for name in self._names:
+            for word in _words(name):
+                found.setdefault(word, []).append(name)
+        return found
+
+
+def plain(name: str) -> str:
+    """Return a name without what people get wrong first."""
+    return name.replace("-", "").replace("_", "").lower()
+
+
+def _words(name: str) -> frozenset[str]:
+    return frozenset(re.findall(r"[a-z]+|[0-9]+", name.lower()))
+
+
+def _overlap(left: frozenset[str], right: frozenset[str]) -> float:
+    return len(left & right) / len(left | right)
+
+
+def _beginning(ordered: list[str], beginning: str) -> list[str]:
+    start = bisect_left(ordered, beginning)
+    end = bisect_left(ordered, f"{beginning}\uffff")
+    return ordered[start:end]
+
+
+def _is_slip(one: str, other: str) -> bool:
+    """Whether one edit leads from one name to the other, in a word long enough, and it is no matter of digits."""
+    longer, shorter = (one, other) if len(one) >= len(other) else (other, one)
+    if one == other or len(longer) - len(shorter) > 1:
+        return False
+    start = 0
+    while start < len(shorter) and longer[start] == shorter[start]:
+        start += 1
+    if longer[start].isdigit() or shorter[start : start + 1].isdigit():
+        return False
+    if len(longer) > len(shorter):
+        alike = longer[start + 1 :] == shorter[start:]
+        plural = longer[start] == "s" and not longer[start + 1 : start + 2].isalnum()
+        return alike and (plural or _word_length(longer, start) >= _SHORTEST)
+    swapped = longer[start + 1 : start + 2] + longer[start]
+    return _word_length(longer, start) >= _SHORTEST and (
+        longer[start + 1 :] == shorter[start + 1 :]
+        or (swapped == shorter[start : start + 2] and longer[start + 2 :] == shorter[start + 2 :])
+    )
+
+
+def _word_length(name: str, at: int) -> int:
+    start = end = at
+    while start > 0 and name[start - 1].isalpha():
+        start -= 1
+    while end < len(name) and name[end].isalpha():
+        end += 1
+    return end - start

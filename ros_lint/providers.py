@@ -1,0 +1,184 @@
+"""Whose name is it: from a header, a Python module, a CMake package or a wrong name to what can be declared.
+
+The order is always workspace, underlay, index of the distribution, maps, end of life (reference, sections C2, D6,
+E3.8).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+from ros_lint.knowledge import NOTHING_NEEDED
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Sequence
+
+    from ros_lint.world import World
+
+
+class Providers(NamedTuple):
+    """Who provides a header, a module or a CMake package.
+
+    Any one of ``names`` satisfies the use when it is declared.
+    """
+
+    names: tuple[str, ...] = ()
+    """Packages and keys, the one to declare first."""
+    packages: tuple[str, ...] = ()
+    keys: tuple[str, ...] = ()
+    none_needed: bool = False
+    """It comes with the language or the build tool."""
+    end_of_life: tuple[str, ...] = ()
+    """Distributions at their end of life that had a package of the name, when nothing else is known."""
+
+    @property
+    def known(self) -> bool:
+        """Return whether anything is known. If not, a rule has nothing to say."""
+        return bool(self.names) or self.none_needed
+
+
+class Meant(NamedTuple):
+    """What somebody who wrote an unknown name must have meant."""
+
+    name: str
+    """A package, or a rosdep key that resolves for the distribution."""
+    by: Literal["spelling", "cmake", "python", "system", "slip"]
+    """How the wrong name comes about: dashes and capitals; what find_package, import, or apt and pip call it; one
+    letter."""
+
+
+_NONE_NEEDED = Providers(none_needed=True)
+
+
+def by_cmake(world: World, name: str) -> Providers:
+    """Return who provides the argument of find_package."""
+    owners = _in_underlay(world, [underlay.cmake(name) for underlay in world.underlays])
+    if world.layer(name) == "workspace":
+        return _of(world, (name,))
+    mapped = world.knowledge.names.cmake(name)
+    if mapped == (NOTHING_NEEDED,) and not owners:
+        return _NONE_NEEDED
+    found = _of(world, (*owners, name, *mapped), keys=mapped)
+    return found if found.known else _gone(world, name)
+
+
+def by_include(world: World, header: str) -> Providers:
+    """Return who provides a header."""
+    names = world.knowledge.names
+    first, slash, rest = header.partition("/")
+    shared = names.shares(first)
+    second = f"{first}_{rest.partition('/')[0]}" if shared and "/" in rest else ""
+    mapped = names.header(header)
+    if slash and not shared and world.layer(first) == "workspace":
+        return _of(world, (first,))
+    if second and world.layer(second) == "workspace":
+        return _of(world, (second,))
+    owners = _in_underlay(world, [underlay.headers(header) for underlay in world.underlays])
+    if mapped == (NOTHING_NEEDED,):
+        return _NONE_NEEDED
+    by_folder = second if shared else first if slash else ""
+    found = _of(world, (*owners, *((by_folder,) if world.is_package(by_folder) else ()), *mapped), keys=mapped)
+    return found if found.known or not slash else _gone(world, first)
+
+
+def by_import(world: World, module: str) -> Providers:
+    """Return who provides a Python module."""
+    names = world.knowledge.names
+    top = module.partition(".")[0]
+    keys = names.module(module)
+    if keys == (NOTHING_NEEDED,):
+        return _NONE_NEEDED
+    offering = world.offering(top)
+    if offering:
+        return _of(world, offering)
+    owners = _in_underlay(world, [underlay.modules(top) for underlay in world.underlays])
+    differing = names.module_packages(module, world.knowledge.distro)
+    named = () if any(world.is_package(name) for name in differing) or not _has_module(world, top) else (top,)
+    found = _of(world, (*owners, *differing, *named, *keys), keys=keys)
+    return found if found.known else _gone(world, top)
+
+
+def meant(world: World, name: str, *, python: bool) -> Meant | None:
+    """Return what an unknown name must mean, or None when there is any doubt.
+
+    ``python`` says whether it is needed to run Python code, where find_package has no say.
+    """
+    names = world.knowledge.names
+    by_cmake = None if python else _first(world, names.cmake(name), "cmake")
+    if by_cmake is not None:
+        return by_cmake
+    same = _declarable(world, world.spelling.same(name))
+    if same:
+        return Meant(same[0], "spelling") if len(same) == 1 else None
+    for found in _other_names(world, name, python=python):
+        if found is not None:
+            return found
+    slips = _declarable(world, world.spelling.one_slip(name))
+    return Meant(slips[0], "slip") if len(slips) == 1 else None
+
+
+def near(world: World, name: str, *, python: bool) -> tuple[str, ...]:
+    """Return packages and keys that resemble an unknown name, nearest first, at most three."""
+    sure = meant(world, name, python=python)
+    found = _declarable(world, world.spelling.near(name))
+    return tuple(dict.fromkeys([sure.name, *found] if sure else found))[:3]
+
+
+def _other_names(world: World, name: str, *, python: bool) -> Iterator[Meant | None]:
+    """Yield what the name stands for where it is right: as a CMake package, a module, a package of apt or pip."""
+    names, rosdep = world.knowledge.names, world.knowledge.rosdep
+    bare = name.removeprefix("python3-").removeprefix("python-").removesuffix("-pip")
+    if python or bare != name:
+        yield _first(world, [f"python3-{bare}", f"python3-{bare}-pip"], "python")
+        yield _first(world, (*names.module_packages(bare, world.knowledge.distro), *names.module(bare)), "python")
+        yield _only(world, rosdep.installing(bare), "system")
+    else:
+        yield _first(world, names.cmake_any_case(name), "cmake")
+    yield _only(world, rosdep.installing(name), "system")
+
+
+def _first(world: World, names: Iterable[str], by: Literal["cmake", "python"]) -> Meant | None:
+    found = _declarable(world, names)
+    return Meant(found[0], by) if found else None
+
+
+def _only(world: World, names: Iterable[str], by: Literal["system"]) -> Meant | None:
+    found = _declarable(world, names)
+    return Meant(found[0], by) if len(found) == 1 else None
+
+
+def _declarable(world: World, names: Iterable[str]) -> tuple[str, ...]:
+    """Return those names that can stand in a manifest: packages, and keys with a rule for the distribution."""
+    resolves = world.knowledge.resolves
+    return tuple(
+        name for name in names if world.is_package(name) or (world.is_key(name) and resolves(name) is not False)
+    )
+
+
+def _has_module(world: World, package: str) -> bool:
+    """Whether a package of the name of a module can be taken for its provider: not when it is known to have none."""
+    if world.layer(package) == "workspace":
+        return True
+    return world.is_package(package) and world.python_modules(package).ask(package) != "missing"
+
+
+def _in_underlay(world: World, owners: Sequence[tuple[str, ...]]) -> tuple[str, ...]:
+    """Return the owners in the topmost underlay that has any, without those that the workspace hides."""
+    for found in owners:
+        seen = tuple(name for name in found if world.layer(name) == "underlay")
+        if seen:
+            return seen
+    return ()
+
+
+def _of(world: World, names: Iterable[str], keys: Iterable[str] = ()) -> Providers:
+    """Return the providers among names: packages that there are, and those of ``keys`` that are rosdep keys."""
+    ordered = dict.fromkeys(name for name in names if name != NOTHING_NEEDED)
+    allowed = set(keys)
+    packages = tuple(name for name in ordered if world.is_package(name))
+    as_keys = tuple(name for name in ordered if name in allowed and name not in packages and world.is_key(name))
+    return Providers(tuple(name for name in ordered if name in packages or name in as_keys), packages, as_keys)
+
+
+def _gone(world: World, name: str) -> Providers:
+    return Providers(end_of_life=world.knowledge.names.end_of_life(name))
