@@ -19,6 +19,7 @@ from ros_lint.facts import (
     Use,
 )
 from ros_lint.facts import Target as BuildTarget
+from ros_lint.launch_files import Launchable, Programs, launchable, programs
 from ros_lint.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
 from ros_lint.suppress import Outcome
 from ros_lint.text import Span
@@ -41,11 +42,13 @@ __all__ = [
     "Fix",
     "LaunchFile",
     "LaunchReference",
+    "Launchable",
     "Manifest",
     "Opaque",
     "Outcome",
     "Package",
     "Problem",
+    "Programs",
     "Provided",
     "Related",
     "Role",
@@ -55,4 +58,6 @@ __all__ = [
     "Target",
     "Use",
     "Workspace",
+    "launchable",
+    "programs",
 ]

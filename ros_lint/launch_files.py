@@ -1,0 +1,70 @@
+"""What several launch rules ask of a package: which launch files count, and what can be started from it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from ros_lint.facts import Facet, LaunchFile
+from ros_lint.workspace import Package
+
+_TESTS = frozenset({"test", "tests", "testing", "integration_tests", "benchmark", "benchmarks", "unit_tests"})
+_APART = frozenset({"example", "examples", "template", "templates", "doc", "docs"})
+
+
+class Launchable(NamedTuple):
+    """A launch file with its place in the package."""
+
+    file: LaunchFile
+    path: str
+    """Relative to the package."""
+    installed: bool
+
+
+def launchable(package: Package) -> Iterator[Launchable]:
+    """Yield the launch files that are there to be launched: no tests, examples or templates, no mere helpers."""
+    script = package.script
+    installed = {provided.source for provided in script.provides if provided.source} if script else set()
+    modules = tuple(f"{module.replace('.', '/')}/" for module in script.python_packages) if script else ()
+    for file in package.launch:
+        path = file.path[len(package.path) + 1 :] if package.path else file.path
+        if not (file.test or file.helper or is_apart(path)):
+            yield Launchable(file, path, path in installed or path.startswith(modules))
+
+
+def is_apart(path: str) -> bool:
+    """Return whether a file serves tests, shows something, or is to be filled in, by its path."""
+    *folders, name = path.split("/")
+    folder_names = frozenset(folders)
+    if not _TESTS.isdisjoint(folder_names) or not _APART.isdisjoint(folder_names):
+        return True
+    return name.startswith("test_") or "_test." in name or ".test." in name or "{" in path
+
+
+class Programs(NamedTuple):
+    """What a package of the workspace installs to be started."""
+
+    names: frozenset[str]
+    """In lib/<package>, where ``ros2 run`` and launch look (reference, section D5)."""
+    elsewhere: dict[str, str]
+    """Others by name: the path that they are installed to."""
+
+
+def programs(package: Package) -> Programs | None:
+    """Return what can be started from a package, None when that cannot be seen whole."""
+    script = package.script
+    if (
+        script is None
+        or package.hidden(Facet.EXECUTABLES)
+        or package.builds_with not in ("ament_cmake", "ament_python")
+    ):
+        return None
+    names: set[str] = set()
+    elsewhere: dict[str, str] = {}
+    for provided in script.provides:
+        folder, _, name = provided.path.rpartition("/")
+        if folder == f"lib/{package.name}":
+            names.add(name)
+        elif folder == "bin" or folder.startswith("lib/"):
+            elsewhere.setdefault(name, provided.path)
+    return Programs(frozenset(names), elsewhere)
