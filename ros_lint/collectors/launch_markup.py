@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Iterable, Iterator, Mapping
+from typing import Literal as OneOf
 from typing import NamedTuple
 
 from ros_lint.collectors.install_paths import UNKNOWN, installed, prefix, share
@@ -50,7 +51,9 @@ def read(source: Text, root: Entity) -> Found:
     return Found(tuple(reader.references), tuple(reader.opaque), tuple(reader.problems))
 
 
-_PROGRAMS = {
+Kind = OneOf["node", "component", "include", "file", "package"]
+
+_PROGRAMS: Mapping[str, tuple[str, Kind]] = {
     "node": ("exec", "node"),
     "lifecycle_node": ("exec", "node"),
     "node_container": ("exec", "node"),
@@ -101,20 +104,9 @@ class _Reader:
             return
         name = _text(rows[attribute]) if attribute in rows else UNKNOWN
         if UNKNOWN in name:
-            self.references.append(LaunchReference("package", package, "", package_span, package_span, conditional))
-            return
-        written = entity.attributes[attribute]
-        self.references.append(
-            LaunchReference(
-                "node" if kind == "node" else "component",
-                package,
-                name,
-                self._span(written),
-                package_span,
-                conditional,
-                exact=self._source.text[written.start : written.end] == name,
-            )
-        )
+            self._add("package", package, "", package_span, package_span, conditional)
+        else:
+            self._add(kind, package, name, self._span(entity.attributes[attribute]), package_span, conditional)
 
     def _command(self, attribute: Attribute, pieces: tuple[Piece, ...], conditional: bool) -> None:
         """``ros2 run package executable`` and ``ros2 launch package file`` (reference, section E2.19)."""
@@ -125,17 +117,13 @@ class _Reader:
         if words[:2] not in (["ros2", "run"], ["ros2", "launch"]):
             return
         names = [word for word in words[2:] if not word.startswith("-")][:2]
-        if not names or UNKNOWN in names[0]:
-            self._hidden("the command of an <executable> is not known whole", self._span(attribute))
-            return
         span = self._span(attribute)
-        if words[1] == "run" and len(names) == 2 and UNKNOWN not in names[1]:
-            reference = LaunchReference("node", names[0], names[1], span, span, conditional, exact=False)
+        if not names or UNKNOWN in names[0]:
+            self._hidden("the command of an <executable> is not known whole", span)
+        elif words[1] == "run" and len(names) == 2 and UNKNOWN not in names[1]:
+            self._add("node", names[0], names[1], span, span, conditional)
         elif "/" not in names[0] and not names[0].endswith((".py", ".xml", ".yaml")):
-            reference = LaunchReference("package", names[0], "", span, span, conditional, exact=False)
-        else:
-            return
-        self.references.append(reference)
+            self._add("package", names[0], "", span, span, conditional)
 
     def _paths(self, attribute: Attribute, pieces: tuple[Piece, ...], conditional: bool, include: bool) -> None:
         spans = {}
@@ -158,28 +146,16 @@ class _Reader:
                 continue
             package_span = spans[place.package]
             if place.share:
-                included = include and text == f"{share(place.package)}/{place.share}"
-                whole = self._span(attribute)
+                whole = include and text == f"{share(place.package)}/{place.share}"
                 # The path is written behind the look-up, if nothing else is in between.
                 at = attribute.value.rfind(place.share)
-                exact = at >= 0 and self._is_written(attribute)
-                span = self._span(attribute, at, at + len(place.share)) if exact else whole
-                reference = LaunchReference(
-                    "include" if included else "file",
-                    place.package,
-                    place.share,
-                    span,
-                    package_span,
-                    conditional,
-                    exact,
-                )
+                end = at + len(place.share)
+                span = self._span(attribute, at, end) if at >= 0 else self._span(attribute)
+                self._add("include" if whole else "file", place.package, place.share, span, package_span, conditional)
             elif place.executable:
-                span = self._span(attribute)
-                name = place.executable
-                reference = LaunchReference("node", place.package, name, span, package_span, conditional, exact=False)
+                self._add("node", place.package, place.executable, self._span(attribute), package_span, conditional)
             else:
-                reference = LaunchReference("package", place.package, "", package_span, package_span, conditional)
-            self.references.append(reference)
+                self._add("package", place.package, "", package_span, package_span, conditional)
 
     def _executable_in_package(self, attribute: Attribute, substitution: Substitution, conditional: bool) -> None:
         name, package = (_text(argument) for argument in substitution.arguments)
@@ -190,17 +166,23 @@ class _Reader:
         if UNKNOWN in package:
             self._hidden("the package of $(exec-in-pkg) is computed", package_span)
         elif UNKNOWN in name:
-            self.references.append(LaunchReference("package", package, "", package_span, package_span, conditional))
+            self._add("package", package, "", package_span, package_span, conditional)
         else:
-            exact = self._is_written(attribute)
-            self.references.append(LaunchReference("node", package, name, name_span, package_span, conditional, exact))
+            self._add("node", package, name, name_span, package_span, conditional)
 
     def _xacro(self, attribute: Attribute, substitution: Substitution, conditional: bool) -> None:
         if substitution.arguments and _text(substitution.arguments[0]).split()[:1] == ["xacro"]:
             start = substitution.arguments[0][0].start
             at = attribute.value.find("xacro", start)
             span = self._span(attribute, at, at + len("xacro")) if at >= 0 else self._span(attribute)
-            self.references.append(LaunchReference("package", "xacro", "", span, span, conditional))
+            self._add("package", "xacro", "", span, span, conditional)
+
+    def _add(self, kind: Kind, package: str, name: str, span: Span, package_span: Span, conditional: bool) -> None:  # noqa: PLR0917
+        exact = self._source.slice(span) == (name or package)
+        package_exact = self._source.slice(package_span) == package
+        self.references.append(
+            LaunchReference(kind, package, name, span, package_span, conditional, exact, package_exact)
+        )
 
     def _is_written(self, attribute: Attribute) -> bool:
         """Whether the file has the value as it is, so that offsets in it are offsets in the file."""

@@ -277,8 +277,10 @@ class _Reader:
             return
         node = node or package_node
         span, exact = self._span(node, name or package)
-        package_span, _ = self._span(package_node, package)
-        self.references.append(LaunchReference(kind, package, name, span, package_span, conditional, exact))
+        package_span, package_exact = self._span(package_node, package)
+        self.references.append(
+            LaunchReference(kind, package, name, span, package_span, conditional, exact, package_exact)
+        )
 
     def _hidden(self, reason: str, node: ast.expr) -> None:
         self.opaque.append(Opaque(Facet.USES, reason, self._span(node, "")[0]))
