@@ -9,12 +9,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
-from ros_lint import conditions, evidence
+from ros_lint import conditions, evidence, scripts
 from ros_lint.cache import Cache
 from ros_lint.collect import Collected, collect_all, kind_of
 from ros_lint.discover import Found, discover
-from ros_lint.facts import ROLES, BuildScript, Depend, FileFacts, LaunchFile, Manifest, Role
+from ros_lint.facts import ROLES, BuildScript, FileFacts, LaunchFile, Manifest, Role
 from ros_lint.knowledge import Knowledge, user_directory
+from ros_lint.knowledge.index import TAG_KINDS
 from ros_lint.text import Span, Text, read
 from ros_lint.tree import OverlayTree, Tree, join
 from ros_lint.underlay import Underlay
@@ -24,9 +25,6 @@ from ros_lint.world import Member, World
 Progress = Callable[[str, int, int], None]
 """Hears what is being done, how much of it is done, and how much there is."""
 
-_PYTHON_SCRIPTS = ("setup.py", "setup.cfg", "pyproject.toml")
-_KINDS = {"build_depend": "b", "buildtool_depend": "t", "build_export_depend": "e", "buildtool_export_depend": "u",
-          "exec_depend": "x", "test_depend": "s", "doc_depend": "d", "depend": "bex", "run_depend": "ex"}  # fmt: skip
 _NO_TRACE = ("changelog", "readme", "license", "licence", "contributing", "quality_declaration", "copying", "notice")
 
 
@@ -73,8 +71,8 @@ class Loader:
         discovery = discover(tree, self._roots)
         founds = [self._without_excluded(found) for found in discovery.packages if not self._exclude(found.path)]
         collected = self._collect(founds, changed or {})
-        reads = [self._read(tree, found, collected) for found in founds]
-        world = World(tuple(self._members(founds, discovery.rejected)), self._underlays, self._knowledge)
+        reads = self._read(tree, founds, collected)
+        world = World(tuple(self._members(reads, discovery.rejected)), self._underlays, self._knowledge)
         packages = tuple(self._join(tree, reads, world))
         unusable = tuple(self._unusable(manifest) for manifest in discovery.rejected if not self._exclude(manifest.path))
         not_checked = (*discovery.not_checked, *_unreadable(collected))
@@ -108,28 +106,34 @@ class Loader:
         fresh = collect_all(OverlayTree(self.tree, changed), again, 1, Cache("", ""), lambda done: None)
         return {**self._collected, **fresh}
 
-    def _read(self, tree: Tree, found: Found, collected: Mapping[str, Collected]) -> _Read:
-        files = {file: collected[path] for file in found.files if (path := join(found.path, file)) in collected}
-        launch = [c.launch for c in files.values() if c.launch is not None]
-        facts = {file: c.facts for file, c in files.items() if c.facts is not None}
-        return _Read(found, self._script(tree, found, files), facts, tuple(launch))
+    def _read(self, tree: Tree, founds: Sequence[Found], collected: Mapping[str, Collected]) -> list[_Read]:
+        of_package = [
+            {file: collected[path] for file in found.files if (path := join(found.path, file)) in collected}
+            for found in founds
+        ]
+        parts = [
+            scripts.Parts(
+                found,
+                {file: c.commands for file, c in files.items() if c.commands is not None},
+                _kinds(found.manifest, self.target.context),
+            )
+            for found, files in zip(founds, of_package, strict=True)
+        ]
+        built = scripts.evaluate(tree, parts, self.target.distro)
+        return [
+            _Read(
+                found,
+                script,
+                {file: c.facts for file, c in files.items() if c.facts is not None},
+                tuple([c.launch for c in files.values() if c.launch is not None]),
+            )
+            for found, script, files in zip(founds, built, of_package, strict=True)
+        ]
 
-    def _script(self, tree: Tree, found: Found, files: Mapping[str, Collected]) -> BuildScript | None:
-        commands = {file: c.commands for file, c in files.items() if c.commands is not None}
-        if "CMakeLists.txt" in commands and found.type != "ros.ament_python":
-            from ros_lint.interpret import cmake  # noqa: PLC0415
-
-            return cmake.evaluate(found.name, found.path, found.files, commands, self.target.distro)
-        if "setup.py" in found.files or (found.type == "ros.ament_python" and "setup.cfg" in found.files):
-            from ros_lint.interpret import setup_py  # noqa: PLC0415
-
-            texts = [_text(tree, join(found.path, file)) if file in found.files else None for file in _PYTHON_SCRIPTS]
-            return setup_py.evaluate(found.name, found.path, found.files, *texts)
-        return None
-
-    def _members(self, founds: Sequence[Found], rejected: Sequence[Manifest]) -> Iterator[Member]:
-        for found in founds:
-            yield _member(found.name, found.manifest, self.target.context)
+    def _members(self, reads: Sequence[_Read], rejected: Sequence[Manifest]) -> Iterator[Member]:
+        for found, script, _, _ in reads:
+            modules = tuple(dict.fromkeys(name.partition(".")[0] for name in script.python_packages)) if script else ()
+            yield _member(found.name, found.manifest, self.target.context)._replace(modules=modules)
         for manifest in rejected:
             if manifest.name:
                 yield _member(manifest.name, manifest, self.target.context)
@@ -210,16 +214,16 @@ def _declared(manifest: Manifest | None, context: Mapping[str, str]) -> tuple[De
 
 
 def _member(name: str, manifest: Manifest | None, context: Mapping[str, str]) -> Member:
-    names: dict[str, list[str]] = {}
-    groups: list[str] = []
+    groups = tuple(d.name for d in _declared(manifest, context) if d.depend.tag == "member_of_group")
+    return Member(name, manifest.version if manifest else "", _kinds(manifest, context), groups)
+
+
+def _kinds(manifest: Manifest | None, context: Mapping[str, str]) -> dict[str, tuple[str, ...]]:
+    names: dict[str, tuple[str, ...]] = {}
     for declared in _declared(manifest, context):
-        depend: Depend = declared.depend
-        if depend.tag == "member_of_group":
-            groups.append(depend.name)
-        for kind in "G" if depend.tag == "group_depend" else _KINDS.get(depend.tag, ""):
-            names.setdefault(kind, []).append(depend.name)
-    version = manifest.version if manifest else ""
-    return Member(name, version, {kind: tuple(of_kind) for kind, of_kind in names.items()}, tuple(groups))
+        for kind in TAG_KINDS.get(declared.depend.tag, ""):
+            names[kind] = (*names.get(kind, ()), declared.name)
+    return names
 
 
 def _unreadable(collected: Mapping[str, Collected]) -> Iterator[NotChecked]:

@@ -1,0 +1,120 @@
+"""Evaluate the build scripts of all packages, those first whose CMake code runs in others."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence, Set
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.collectors.cmake_syntax import Parsed
+from ros_lint.discover import Found
+from ros_lint.facts import BuildScript
+from ros_lint.text import Text, read
+from ros_lint.tree import Tree, join
+
+if TYPE_CHECKING:
+    from ros_lint.interpret.cmake import Helper, Sources
+
+_PYTHON = ("setup.py", "setup.cfg", "pyproject.toml")
+
+
+class Parts(NamedTuple):
+    """What the scripts of a package can see of it."""
+
+    found: Found
+    commands: Mapping[str, Parsed]
+    """Its CMake files, by path relative to the package."""
+    depends: Mapping[str, tuple[str, ...]]
+    """What it declares, by kind letters as in the index."""
+
+
+def evaluate(tree: Tree, packages: Sequence[Parts], distro: str) -> list[BuildScript | None]:
+    """Return the evaluated script of each package, in the order given, None where there is none to evaluate."""
+    result: list[BuildScript | None] = [None] * len(packages)
+    helpers: dict[str, Helper] = {}
+    in_order = [*_helping(packages), *(number for number, parts in enumerate(packages) if not _helps(parts))]
+    for number in in_order:
+        parts = packages[number]
+        if "CMakeLists.txt" in parts.commands and parts.found.type != "ros.ament_python":
+            from ros_lint.interpret import cmake  # noqa: PLC0415
+
+            sources = _sources(tree, parts)
+            script = cmake.evaluate(sources, distro, helpers)
+            if script.extras:
+                helpers[parts.found.name] = cmake.Helper(sources, script)
+            result[number] = script
+        else:
+            result[number] = _python(tree, parts.found)
+    return result
+
+
+def _sources(tree: Tree, parts: Parts) -> Sources:
+    from ros_lint.interpret.cmake import Sources  # noqa: PLC0415
+
+    found, depends = parts.found, parts.depends
+    built = tuple(dict.fromkeys(name for kind in "bt" for name in depends.get(kind, ())))
+    version = found.manifest.version if found.manifest else ""
+    executables = _Executables(tree, found)
+    return Sources(found.name, found.path, found.files, parts.commands, executables, version, built, depends.get("s", ()))
+
+
+def _python(tree: Tree, found: Found) -> BuildScript | None:
+    if not {"setup.py", "setup.cfg"}.intersection(found.files) or found.type not in ("ros.ament_python", "python"):
+        return None
+    from ros_lint.interpret import setup_py  # noqa: PLC0415
+
+    setup, config, project = (_text(tree, found, file) for file in _PYTHON)
+    return setup_py.evaluate(found.name, found.path, found.files, setup, config, project)
+
+
+def _text(tree: Tree, found: Found, file: str) -> Text | None:
+    if file not in found.files:
+        return None
+    path = join(found.path, file)
+    try:
+        return read(path, tree.read(path))
+    except OSError:
+        return None
+
+
+def _helps(parts: Parts) -> bool:
+    """Whether a package gives CMake code to those that find it (ament_package(CONFIG_EXTRAS ...))."""
+    return any(
+        argument[0].startswith("CONFIG_EXTRAS")
+        for parsed in parts.commands.values()
+        for command in parsed.commands
+        if command.name in ("ament_package", "ament_auto_package")
+        for argument in command.args
+    )
+
+
+def _helping(packages: Sequence[Parts]) -> Iterator[int]:
+    """Yield the numbers of the packages that help others, each after those that it depends on itself."""
+    left = {parts.found.name: number for number, parts in enumerate(packages) if _helps(parts)}
+    while left:
+        ready = [name for name, number in left.items() if not _needed(packages[number]) & (left.keys() - {name})]
+        for name in ready or list(left):  # in a cycle any order is as good
+            yield left.pop(name)
+
+
+def _needed(parts: Parts) -> set[str]:
+    return {name for names in parts.depends.values() for name in names}
+
+
+class _Executables(Set[str]):
+    """The files of a package that have the executable bit. The system is asked when a script is."""
+
+    def __init__(self, tree: Tree, found: Found) -> None:
+        self._tree = tree
+        self._found = found
+
+    def __contains__(self, file: object) -> bool:
+        try:
+            return self._tree.stamp(join(self._found.path, str(file))).executable
+        except OSError:
+            return False
+
+    def __iter__(self) -> Iterator[str]:
+        return (file for file in self._found.files if file in self)
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
