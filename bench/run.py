@@ -40,7 +40,9 @@ def main() -> int:
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--jobs", type=int, default=1, help="processes of ros-lint (default: 1)")
     options = parser.parse_args()
-    print("| workspace | packages | files read | floor | cold | warm | colcon list | peak memory |\n|---|---|---|---|---|---|---|---|")
+    print(
+        "| workspace | packages | files read | floor | cold | warm | colcon list | peak memory |\n|---|---|---|---|---|---|---|---|"
+    )
     for workspace in options.workspaces:
         print(row(os.path.abspath(workspace), options.rounds, options.jobs), flush=True)
     print(f"\n| start | to a bare interpreter |\n|---|---|\n{starts(options.rounds)}")
@@ -49,7 +51,20 @@ def main() -> int:
 
 def row(workspace: str, rounds: int, jobs: int) -> str:
     """Return the figures of a workspace as a line of a table."""
-    lint = [sys.executable, "-m", "ros_lint", workspace, "--jobs", str(jobs), "--format", "json", "--output", os.devnull, "--fail-on", "never"]
+    lint = [
+        sys.executable,
+        "-m",
+        "ros_lint",
+        workspace,
+        "--jobs",
+        str(jobs),
+        "--format",
+        "json",
+        "--output",
+        os.devnull,
+        "--fail-on",
+        "never",
+    ]
     colcon = shutil.which("colcon")
     with tempfile.TemporaryDirectory() as cache:
         stages: dict[str, Callable[[], Cost]] = {

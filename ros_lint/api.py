@@ -1,5 +1,6 @@
 """Everything a rule may import."""
 
+from ros_lint.declare import add_dependency, remove_dependency, tag_for, works_unseen
 from ros_lint.facts import (
     ANYTHING,
     ROLES,

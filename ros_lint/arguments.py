@@ -93,7 +93,9 @@ def _index(made: argparse.ArgumentParser) -> None:
     refresh = actions.add_parser("refresh", help="rebuild the data of distributions from rosdistro's index", allow_abbrev=False)
     refresh.add_argument("--from", dest="source", required=True, metavar="INDEX", help="index-v4.yaml, a path or URL")
     refresh.add_argument("--distro", action="append", default=[], metavar="NAME", help="only this one; may be repeated")
-    refresh.add_argument("--rosdep", action="append", default=[], metavar="YAML", help="rosdep rules, a path or URL; may be repeated")
+    refresh.add_argument(
+        "--rosdep", action="append", default=[], metavar="YAML", help="rosdep rules, a path or URL; may be repeated"
+    )
     refresh.add_argument("--to", default="", metavar="FOLDER", help="where to (default: the user's data folder)")
     scan = actions.add_parser("scan", help="make data from installed prefixes", allow_abbrev=False)
     scan.add_argument("prefixes", nargs="+", metavar="PREFIX")

@@ -41,14 +41,10 @@ class Settings:
     def show(self) -> str:
         """Return one line an option, for ``--show-settings``."""
         width = max(len(name) for name in self._values)
-        return "".join(
-            f"{name:{width}} = {_toml(setting.value)}  # {setting.origin}\n" for name, setting in self._values.items()
-        )
+        return "".join(f"{name:{width}} = {_toml(setting.value)}  # {setting.origin}\n" for name, setting in self._values.items())
 
 
-def settle(
-    given: Mapping[str, Any], start: str, environment: Mapping[str, str], display: str = ""
-) -> Settings:
+def settle(given: Mapping[str, Any], start: str, environment: Mapping[str, str], display: str = "") -> Settings:
     """Return the settings for a run.
 
     ``given`` has what the command line said, by option name; ``start`` is the absolute path of the workspace, from which the
@@ -178,7 +174,9 @@ def _is_words(value: Any) -> bool:
 
 
 def _place(path: str, text: str, name: str) -> str:
-    found = re.search(rf"^[ \t]*[\"']?{re.escape(name)}[\"']?[ \t]*(?:=|\.)|^[ \t]*\[[^\]\n]*\b{re.escape(name)}", text, re.MULTILINE)
+    found = re.search(
+        rf"^[ \t]*[\"']?{re.escape(name)}[\"']?[ \t]*(?:=|\.)|^[ \t]*\[[^\]\n]*\b{re.escape(name)}", text, re.MULTILINE
+    )
     return f"{path}:{text.count(chr(10), 0, found.start()) + 1}" if found else path
 
 

@@ -45,7 +45,9 @@ def page(rule: Rule) -> str:
 
 def overview(rules: Sequence[Rule]) -> str:
     """Return the page that lists all rules in Markdown, with links to their pages."""
-    parts = ["# Rules\n\nGenerated from the rules themselves by `pytest --bless`. `ros-lint rule NAME` prints a page in the terminal.\n"]
+    parts = [
+        "# Rules\n\nGenerated from the rules themselves by `pytest --bless`. `ros-lint rule NAME` prints a page in the terminal.\n"
+    ]
     for digit, heading in GROUPS.items():
         mine = [rule for rule in rules if rule.code[3] == digit]
         if not mine:
@@ -63,20 +65,23 @@ def as_json(rules: Iterable[Rule]) -> str:
     """Return rules as a JSON list, with everything that is known of them."""
     import json  # noqa: PLC0415
 
-    return json.dumps(
-        [
-            {
-                "name": rule.name,
-                "code": rule.code,
-                "group": group(rule),
-                "severity": str(rule.severity),
-                "default": rule.default,
-                "fixable": rule.fixable,
-                "since": rule.since,
-                "summary": rule.summary,
-                "doc": rule.doc.strip(),
-            }
-            for rule in rules
-        ],
-        indent=2,
-    ) + "\n"
+    return (
+        json.dumps(
+            [
+                {
+                    "name": rule.name,
+                    "code": rule.code,
+                    "group": group(rule),
+                    "severity": str(rule.severity),
+                    "default": rule.default,
+                    "fixable": rule.fixable,
+                    "since": rule.since,
+                    "summary": rule.summary,
+                    "doc": rule.doc.strip(),
+                }
+                for rule in rules
+            ],
+            indent=2,
+        )
+        + "\n"
+    )

@@ -108,8 +108,7 @@ class Loader:
 
     def _read(self, tree: Tree, founds: Sequence[Found], collected: Mapping[str, Collected]) -> list[_Read]:
         of_package = [
-            {file: collected[path] for file in found.files if (path := join(found.path, file)) in collected}
-            for found in founds
+            {file: collected[path] for file in found.files if (path := join(found.path, file)) in collected} for found in founds
         ]
         parts = [
             scripts.Parts(
@@ -140,7 +139,9 @@ class Loader:
 
     def _join(self, tree: Tree, reads: Sequence[_Read], world: World) -> Iterator[Package]:
         sources = [
-            evidence.Source(r.found.name, r.found.path, r.found.files, r.script, r.facts, r.launch, r.found.type.removeprefix("ros."))
+            evidence.Source(
+                r.found.name, r.found.path, r.found.files, r.script, r.facts, r.launch, r.found.type.removeprefix("ros.")
+            )
             for r in reads
         ]
         headers = evidence.include_index(sources)
@@ -245,4 +246,3 @@ def _text(tree: Tree, path: str) -> Text | None:
         return read(path, tree.read(path))
     except OSError:
         return None
-

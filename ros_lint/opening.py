@@ -44,7 +44,9 @@ def open_workspace(said: Mapping[str, Any], environment: Mapping[str, str], prog
         if not os.path.isdir(path):
             raise UsageError(f"{written}: not a directory; ros-lint checks workspaces and packages")
     base = _base(paths)
-    settings = settle({name: value for name, value in said.items() if name != "paths"}, os.path.commonpath(paths), environment, base)
+    settings = settle(
+        {name: value for name, value in said.items() if name != "paths"}, os.path.commonpath(paths), environment, base
+    )
     target, warnings = _target(settings)
     knowledge = Knowledge(target.distro, (user_directory(),))
     prefixes = [prefix for prefix in settings["underlay"] if prefix]

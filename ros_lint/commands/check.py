@@ -7,11 +7,12 @@ import sys
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from ros_lint.progress import Progress
+
 from ros_lint import __version__, engine, registry, suppress
 from ros_lint.config import ConfigError, Settings
 from ros_lint.knowledge import KnowledgeError
 from ros_lint.opening import Opened, UsageError, open_workspace
-from ros_lint.progress import Progress
 from ros_lint.report import Hidden, Issue, Report, Unseen
 from ros_lint.rule import Severity
 from ros_lint.workspace import Workspace
@@ -151,4 +152,3 @@ def _unseen(workspace: Workspace) -> tuple[Unseen, ...]:
 
     counts = [(facet, sum(bool(package.hidden(facet)) for package in workspace.packages)) for facet in Facet]
     return tuple(Unseen((facet.name or "").lower(), count) for facet, count in counts if count)
-

@@ -34,6 +34,7 @@ from ros_lint.api import (
     Severity,
     Workspace,
     remove_dependency,
+    works_unseen,
 )
 
 _TAGS = ("depend", "build_depend")
@@ -49,7 +50,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         depend = declared.depend
         if depend.tag not in _TAGS or depend.condition or depend.name in used or depend.name in package.traces:
             continue
-        if workspace.world.works_unseen(depend.name):
+        if works_unseen(workspace, depend.name):
             continue
         yield Finding(
             f"{depend.name} is declared, but nothing in the package uses it: remove <{depend.tag}>{depend.name}</{depend.tag}>",
