@@ -107,8 +107,13 @@ class Prefix:
 
     def interfaces(self, package: str) -> tuple[str, ...]:
         """Return the interfaces, as msg/Name, sorted."""
-        lines = (line.strip().rpartition(".") for line in self._resource("rosidl_interfaces", package))
-        return tuple(sorted({name for name, _, suffix in lines if suffix in ("msg", "srv", "action", "idl")}))
+        found = set()
+        for line in self._resource("rosidl_interfaces", package):
+            name, _, suffix = line.strip().rpartition(".")
+            # srv/Name_Request.msg is made from srv/Name.srv.
+            if suffix in (name.partition("/")[0], "idl"):
+                found.add(name)
+        return tuple(sorted(found))
 
     def plugins(self, package: str) -> tuple[str, ...]:
         """Return the pluginlib plugins as base=class, where class is the name that a loader is given, sorted."""

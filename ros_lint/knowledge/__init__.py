@@ -51,8 +51,7 @@ def distros(places: Sequence[str] = ()) -> tuple[Distribution, ...]:
     ``places`` are folders that go before the data shipped, such as :func:`user_directory`.
     """
     found = [name for name in Store(places).names(".idx") if name != "rolling"]
-    # Names go with the alphabet, one a year; every other one, in even years, is supported for five years (REP 2000).
-    known = [Distribution(name, (ord(name[0]) - ord("a")) % 2 == 1) for name in found]
+    known = [Distribution(name, _is_long_term(name)) for name in found]
     if len(found) < len(Store(places).names(".idx")):
         known.append(Distribution("rolling", long_term=False))
     return tuple(known)
@@ -61,6 +60,14 @@ def distros(places: Sequence[str] = ()) -> tuple[Distribution, ...]:
 def newest_lts(places: Sequence[str] = ()) -> str:
     """Return the newest long-term release that there is an index of. ``places`` as for :func:`distros`."""
     return [distro.name for distro in distros(places) if distro.long_term][-1]
+
+
+_LONG_TERM = frozenset({"foxy", "humble", "jazzy", "lyrical"})
+
+
+def _is_long_term(name: str) -> bool:
+    # Names go with the alphabet, one a year; every other one, in even years, is supported for five years (REP 2000).
+    return name in _LONG_TERM or (name[0] > "l" and (ord(name[0]) - ord("l")) % 2 == 0)
 
 
 class Knowledge:
