@@ -284,6 +284,8 @@ class BuildScript(NamedTuple):
     problems: tuple[Problem, ...] = ()
     end: Span | None = None
     """Where an install rule can be added: an empty span before ament_package(), or None."""
+    extras: tuple[str, ...] = ()
+    """CMake files, relative to the package, whose code runs in every package that finds this one (CONFIG_EXTRAS)."""
 
 
 # --- launch files --------------------------------------------------------------------------------------------------
