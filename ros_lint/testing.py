@@ -92,7 +92,7 @@ def read_cases(source: Path) -> Iterator[Case]:
 
 def load(tree: Tree, case: Case) -> Workspace:
     """Return the workspace of a case, with the shipped knowledge and no underlay."""
-    return Loader(tree, ("",), Target(case.distro, "--distro" if case.told else "default")).load()
+    return Loader(tree, ("",), Target(case.distro, "--distro" if case.told else "default", case.told)).load()
 
 
 def issues_of(workspace: Workspace, rule: Rule) -> tuple[Issue, ...]:
