@@ -1,0 +1,107 @@
+"""
+## What it finds
+
+A launch file that starts something from a package, includes a file of it or looks it up, while that package does not
+come along when the launch file's own package is installed: it is not in the closure of its run-time dependencies.
+
+## Why it matters
+
+It works on the machine of whoever wrote it, where everything is installed. After `rosdep install` or
+`apt install ros-<distro>-<package>` elsewhere, the launch file stops: `package 'x' not found`.
+
+## How to fix it
+
+Add `<exec_depend>` to `package.xml`. The fix does this.
+
+## When it keeps silent
+
+- The package comes with a declared dependency.
+- The package exists nowhere: that is `launch-unknown-package`.
+- Launch files of tests and examples, and those that are not installed.
+- What a declared dependency brings along is not known: then the confidence is medium.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from ros_lint.api import (
+    Confidence,
+    Facet,
+    Finding,
+    Fix,
+    LaunchReference,
+    Package,
+    Related,
+    Role,
+    Rule,
+    Severity,
+    Workspace,
+    add_dependency,
+    launchable,
+    tag_for,
+)
+
+_MOST_RELATED = 4
+_ORDER = ("node", "component", "include", "file", "package")
+_SAYS = {
+    "node": "{name} of {package} is started here",
+    "component": "{name} of {package} is loaded here",
+    "include": "{name} of {package} is included here",
+    "file": "{name} of {package} is used here",
+    "package": "{package} is looked up here",
+}
+
+
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    manifest = package.manifest
+    if manifest is None or manifest.problems:
+        return
+    named = _named(package, workspace)
+    if not named:
+        return
+    starts = [declared.name for declared in package.declared if declared.role & (Role.EXEC | Role.EXPORT)]
+    for group in package.group_depends:
+        starts += workspace.world.group_members(group.name)
+    closure = workspace.world.closure(starts)
+    confidence = Confidence.HIGH if closure.complete else Confidence.MEDIUM
+    for name, references in named.items():
+        if name in closure:
+            continue
+        best, *others = sorted(references, key=lambda r: (r.conditional, _ORDER.index(r.kind), r.span))
+        says = _SAYS[best.kind].format(name=best.name, package=name)
+        only = ", if only under a condition" if best.conditional else ""
+        tag = tag_for(package, workspace, name, Role.EXEC)
+        yield Finding(
+            f"{says}{only}, but does not come with {package.name}: add <{tag}>{name}</{tag}>",
+            best.package_span,
+            name,
+            tuple(Related("also needed here", other.package_span) for other in others[:_MOST_RELATED]),
+            Fix(f"declare {name} as <{tag}>", add_dependency(package, tag, name)),
+            confidence,
+        )
+
+
+def _named(package: Package, workspace: Workspace) -> Mapping[str, list[LaunchReference]]:
+    hidden = bool(package.hidden(Facet.SHARE))
+    found: dict[str, list[LaunchReference]] = {}
+    for launch in launchable(package):
+        if not (launch.installed or hidden):
+            continue
+        for reference in launch.file.references:
+            name = reference.package
+            if name != package.name and workspace.world.is_package(name):
+                found.setdefault(name, []).append(reference)
+    return found
+
+
+RULE = Rule(
+    name="launch-outside-closure",
+    code="ROS503",
+    summary="what a launch file needs must be among the run-time dependencies",
+    severity=Severity.WARNING,
+    since="0.1",
+    doc=__doc__,
+    fixable=True,
+    package=check,
+)

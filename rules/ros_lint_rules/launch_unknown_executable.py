@@ -1,0 +1,151 @@
+"""
+## What it finds
+
+A launch file that starts an executable which its package does not install into `lib/<package>`: it has another name,
+it is not built, or it lands in `bin/`.
+
+## Why it matters
+
+The launch file stops there: `executable 'x' not found on the libexec directory`.
+
+## How to fix it
+
+Correct the name. The usual slips are the suffix (a console script is called `talker`, a script installed by CMake
+`talker.py`) and a target that was renamed. If it lands in `bin/`, install it to `lib/${PROJECT_NAME}`, or say
+`install_scripts=$base/lib/<package>` in `setup.cfg`. The fix corrects the name where one executable must be meant.
+
+## When it keeps silent
+
+- A part of the package's build script that cannot be followed may make the executable.
+- For a released package: the sources of its release are not known whole. What is known of another distribution's
+  release does not count.
+- Launch files of tests and examples.
+"""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from ros_lint.api import (
+    Confidence,
+    Edit,
+    Finding,
+    Fix,
+    LaunchReference,
+    Package,
+    Related,
+    Rule,
+    Severity,
+    Workspace,
+    launchable,
+    programs,
+)
+
+_MOST_RELATED = 4
+
+
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    wrong: dict[tuple[str, str], list[LaunchReference]] = {}
+    for launch in launchable(package):
+        for reference in launch.file.references:
+            if reference.kind == "node":
+                wrong.setdefault((reference.package, reference.name), []).append(reference)
+    for (owner, name), references in wrong.items():
+        if "/" in name:
+            continue
+        missing = _missing(owner, name, workspace)
+        if missing is None:
+            continue
+        best, *others = references
+        yield Finding(
+            f"{owner} installs no executable {name}{missing.hint}",
+            best.span,
+            name,
+            (
+                *missing.related,
+                *(Related("also started here", reference.span) for reference in others[:_MOST_RELATED]),
+            ),
+            _fix(missing.meant, references),
+            missing.confidence,
+        )
+
+
+class _Missing(NamedTuple):
+    hint: str
+    meant: str = ""
+    related: tuple[Related, ...] = ()
+    confidence: Confidence = Confidence.HIGH
+
+
+def _missing(owner: str, name: str, workspace: Workspace) -> _Missing | None:
+    owners = workspace.by_name.get(owner, ())
+    if not owners:
+        known = workspace.world.executables(owner)
+        if known.ask(name) != "missing":
+            return None
+        sure = Confidence.HIGH if workspace.target.told else Confidence.MEDIUM
+        meant = _meant(name, known.names)
+        return _Missing(f" in {workspace.target.distro}{_hint(name, meant, known.names)}", meant, (), sure)
+    names: set[str] = set()
+    for one in owners:
+        found = programs(one)
+        if found is None or name in found.names:
+            return None
+        if name in found.elsewhere:
+            path = found.elsewhere[name]
+            script = one.script
+            where = (
+                tuple(Related("installed here", p.span) for p in script.provides if p.path == path) if script else ()
+            )
+            return _Missing(f" in lib/{owner}, but {path}, where launch does not look", "", where)
+        names |= found.names
+    meant = _meant(name, tuple(sorted(names)))
+    related = tuple(Related("its build script", one.script.end) for one in owners if one.script and one.script.end)
+    return _Missing(_hint(name, meant, tuple(sorted(names))), meant, related[:1])
+
+
+def _hint(name: str, meant: str, names: tuple[str, ...]) -> str:
+    if meant:
+        return f": {meant} is meant"
+    near = difflib.get_close_matches(name, names, 3, 0.6)
+    if near:
+        return f"; did you mean {' or '.join(near)}?"
+    if not names:
+        return ", and no other either"
+    return f"; it installs {', '.join(names[:5])}{' ...' if len(names) > 5 else ''}"
+
+
+_SUFFIX = re.compile(r"(?:\.py|\.sh|_?node|_?exe|_?main)+$")
+
+
+def _meant(name: str, names: tuple[str, ...]) -> str:
+    """Return the one executable that differs only in its suffix, in dashes and underscores, or in capitals."""
+
+    def plain(text: str) -> str:
+        text = text.lower().replace("-", "_")
+        return (_SUFFIX.sub("", text) or text).replace("_", "")
+
+    same = [other for other in names if plain(other) == plain(name)]
+    return same[0] if len(same) == 1 else ""
+
+
+def _fix(meant: str, references: list[LaunchReference]) -> Fix | None:
+    if not meant or not all(reference.exact for reference in references):
+        return None
+    spans = dict.fromkeys(reference.span for reference in references)
+    return Fix(f"start {meant}", tuple(Edit(span, meant) for span in spans), safe=False)
+
+
+RULE = Rule(
+    name="launch-unknown-executable",
+    code="ROS502",
+    summary="an executable that a launch file starts must be installed by its package",
+    severity=Severity.ERROR,
+    since="0.1",
+    doc=__doc__,
+    fixable=True,
+    package=check,
+)

@@ -1,0 +1,119 @@
+"""
+## What it finds
+
+A launch file that starts something from a package, includes a file of it or looks it up, while no package has that
+name: none of the workspace, none of an underlay, none that is released for the distribution.
+
+## Why it matters
+
+The launch file stops there: `package 'x' not found`. The usual reasons are a slip of the pen, a package that was
+renamed, and one that was never ported from ROS 1.
+
+## How to fix it
+
+Correct the name; the fix does this where the name that was meant is beyond doubt. If the package is built from source
+elsewhere, check with the workspace that holds it as `--underlay`.
+
+## When it keeps silent
+
+- There are no data about the distribution.
+- Nobody said which distribution is meant, and another one has the package.
+- The name is merely unknown, resembling no other: that may be a driver that its vendor does not release. Then the
+  confidence is medium.
+- Launch files of tests and examples.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple
+
+from ros_lint.api import (
+    Confidence,
+    Edit,
+    Finding,
+    Fix,
+    LaunchReference,
+    Package,
+    Related,
+    Rule,
+    Severity,
+    Workspace,
+    launchable,
+)
+
+_MOST_RELATED = 4
+
+
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    if not workspace.world.knowledge.covered:
+        return
+    for name, references in _unknown(package, workspace).items():
+        verdict = _verdict(name, workspace)
+        if verdict is None:
+            continue
+        best, *others = references
+        yield Finding(
+            f"there is no package {name}{verdict.hint}",
+            best.package_span,
+            name,
+            tuple(Related("also named here", other.package_span) for other in others[:_MOST_RELATED]),
+            _fix(name, verdict.meant, references),
+            verdict.confidence,
+        )
+
+
+def _fix(name: str, meant: str, references: Sequence[LaunchReference]) -> Fix | None:
+    if not meant or not all(reference.package_exact for reference in references):
+        return None
+    spans = dict.fromkeys(reference.package_span for reference in references)
+    return Fix(f"say {meant} instead of {name}", tuple(Edit(span, meant) for span in spans), safe=False)
+
+
+class _Verdict(NamedTuple):
+    hint: str
+    confidence: Confidence
+    meant: str = ""
+
+
+def _unknown(package: Package, workspace: Workspace) -> Mapping[str, list[LaunchReference]]:
+    found: dict[str, list[LaunchReference]] = {}
+    for launch in launchable(package):
+        for reference in launch.file.references:
+            if not workspace.world.is_package(reference.package) and reference.package != package.name:
+                found.setdefault(reference.package, []).append(reference)
+    return found
+
+
+def _verdict(name: str, workspace: Workspace) -> _Verdict | None:
+    world = workspace.world
+    meant = world.meant(name)
+    if meant is not None and world.is_package(meant.name):
+        return _Verdict(f": {meant.name} is meant", Confidence.HIGH, meant.name)
+    renamed = [other for other in workspace.by_name if other.endswith(f"_{name}")]
+    if len(renamed) == 1:
+        return _Verdict(f": the workspace has {renamed[0]}", Confidence.HIGH, renamed[0])
+    distro, date = workspace.target.distro, world.knowledge.date
+    elsewhere = world.where_else(name)
+    if elsewhere:
+        if not workspace.target.told:
+            return None
+        return _Verdict(f" in {distro}, only in {', '.join(elsewhere)} (data of {date})", Confidence.MEDIUM)
+    ended = world.knowledge.names.end_of_life(name)
+    if ended:
+        return _Verdict(f" in {distro}, only in {', '.join(ended)}, which are no longer supported", Confidence.MEDIUM)
+    near = [other for other in world.suggest(name) if world.is_package(other)]
+    hint = f"; did you mean {' or '.join(near)}?" if near else ""
+    return _Verdict(f" in the workspace, the underlays or {distro} (data of {date}){hint}", Confidence.MEDIUM)
+
+
+RULE = Rule(
+    name="launch-unknown-package",
+    code="ROS501",
+    summary="a package that a launch file names must exist",
+    severity=Severity.ERROR,
+    since="0.1",
+    doc=__doc__,
+    fixable=True,
+    package=check,
+)

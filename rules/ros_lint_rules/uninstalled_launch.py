@@ -1,0 +1,106 @@
+"""
+## What it finds
+
+Launch files that the package does not install: no `install(DIRECTORY launch ...)`, `install(FILES ...)`,
+`ament_auto_package(INSTALL_TO_SHARE ...)` or `data_files` covers them.
+
+## Why it matters
+
+`ros2 launch` and includes look into `share/<package>` of the install space, so they do not find these files. With a
+sourced workspace of yesterday they may still find an old copy, and the change of today does nothing.
+
+## How to fix it
+
+In `CMakeLists.txt` add `install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})` before `ament_package()`; the fix
+does this. In `setup.py` add to `data_files`:
+`(os.path.join('share', package_name, 'launch'), glob('launch/*'))`.
+
+## When it keeps silent
+
+- A part of the build script that cannot be followed may install the files.
+- Launch files of tests, examples and templates, those of ROS 1, and modules that only build actions for launch files.
+- Files that are installed under a condition.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+
+from ros_lint.api import Edit, Facet, Finding, Fix, Package, Related, Rule, Severity, Span, Workspace, launchable
+
+_MOST_RELATED = 4
+
+
+def check(package: Package, _: Workspace) -> Iterator[Finding]:
+    script = package.script
+    if script is None or package.builds_with not in ("ament_cmake", "ament_python"):
+        return
+    if package.hidden(Facet.SHARE):
+        return
+    missing: dict[str, list[str]] = {}
+    kept: set[str] = set()
+    for launch in launchable(package):
+        folder = launch.path.rpartition("/")[0]
+        if launch.installed:
+            kept.update(_above(folder))
+        else:
+            missing.setdefault(folder, []).append(launch.path)
+    for folder, paths in _together(missing, kept).items():
+        yield _finding(package, folder, paths, whole=folder not in kept and folder != "")
+
+
+def _above(folder: str) -> Iterator[str]:
+    """Yield a folder and those that it lies in, but for the package's own."""
+    while folder:
+        yield folder
+        folder = folder.rpartition("/")[0]
+
+
+def _together(missing: Mapping[str, list[str]], kept: set[str]) -> dict[str, list[str]]:
+    """Count the files of a folder to an outer one that lacks files too, if nothing of that one is installed."""
+    found: dict[str, list[str]] = {}
+    for folder in sorted(missing):
+        outer = next((above for above in _above(folder) if above in found and above not in kept), folder)
+        found.setdefault(outer, []).extend(missing[folder])
+    return found
+
+
+def _finding(package: Package, folder: str, paths: Iterable[str], whole: bool) -> Finding:
+    script = package.script
+    assert script is not None
+    paths = sorted(paths)
+    named = ", ".join(path.rpartition("/")[2] for path in paths[:3]) + (" ..." if len(paths) > 3 else "")
+    what = f"{folder}/ has launch files ({named}), but is not installed" if whole else f"{named} is not installed"
+    base = f"{package.path}/" if package.path else ""
+    return Finding(
+        f"{what}: ros2 launch will not find {'it' if len(paths) == 1 else 'them'}",
+        script.end or Span(script.path, 1, 1, 1, 1),
+        folder or paths[0],
+        tuple(Related("this launch file", Span(f"{base}{path}", 1, 1, 1, 1)) for path in paths[:_MOST_RELATED]),
+        _fix(script.end, folder, paths, whole),
+    )
+
+
+def _fix(end: Span | None, folder: str, paths: Iterable[str], whole: bool) -> Fix | None:
+    if end is None or not end.path.endswith("CMakeLists.txt"):
+        return None
+    if whole:
+        line = f"install(DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}})"
+        return Fix(f"install {folder}/", (Edit(end, f"{line}\n"),))
+    names = " ".join(paths)
+    # Beside the files of that folder which are installed, if it has some.
+    inner = folder.rpartition("/")[2] or "launch"
+    line = f"install(FILES {names} DESTINATION share/${{PROJECT_NAME}}/{inner})"
+    return Fix(f"install {names}", (Edit(end, f"{line}\n"),))
+
+
+RULE = Rule(
+    name="uninstalled-launch",
+    code="ROS401",
+    summary="launch files must be installed",
+    severity=Severity.WARNING,
+    since="0.1",
+    doc=__doc__,
+    fixable=True,
+    package=check,
+)
