@@ -1,0 +1,23 @@
+"""For people and their editors: one line a finding."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros_lint.reporters.ansi import Style, paint, safe
+from ros_lint.reporters.summary import summary
+
+if TYPE_CHECKING:
+    from ros_lint.report import Issue, Report
+    from ros_lint.reporters import Texts
+
+
+def render(report: Report, texts: Texts, style: Style) -> str:  # noqa: ARG001  (a reporter takes them)
+    """Return ``path:line:column: severity: message [rule]`` for each finding, and a summary."""
+    return "".join(f"{_line(issue, style)}\n" for issue in report.issues) + summary(report, style)
+
+
+def _line(issue: Issue, style: Style) -> str:
+    level = str(issue.severity)
+    place = paint(style, "bold", safe(str(issue.finding.span), style))
+    return f"{place}: {paint(style, level, level)}: {safe(issue.finding.message, style)} [{issue.rule.name}]"

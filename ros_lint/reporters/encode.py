@@ -1,0 +1,30 @@
+"""JSON that can be read by people and compared by line: the upper levels over many lines, the rest on one."""
+
+from __future__ import annotations
+
+import json
+import re
+from typing import Any
+
+_LONE = re.compile("[\ud800-\udfff]")
+
+
+def encode(value: Any, levels: int) -> str:
+    """Return a value as JSON that ends with a line feed. The first ``levels`` levels have a line an entry.
+
+    What no UTF-8 can say, bytes of a file that is in no known encoding, becomes U+FFFD.
+    """
+    return _LONE.sub("\ufffd", f"{_lines(value, levels, '')}\n")
+
+
+def _lines(value: Any, levels: int, indent: str) -> str:
+    if levels and isinstance(value, dict) and value:
+        inner = [f"{json.dumps(key)}: {_lines(entry, levels - 1, f'{indent} ')}" for key, entry in value.items()]
+        return _block("{}", inner, indent)
+    if levels and isinstance(value, list) and value:
+        return _block("[]", [_lines(entry, levels - 1, f"{indent} ") for entry in value], indent)
+    return json.dumps(value, ensure_ascii=False, allow_nan=False)
+
+
+def _block(signs: str, inner: list[str], indent: str) -> str:
+    return f"{signs[0]}\n{indent} " + f",\n{indent} ".join(inner) + f"\n{indent}{signs[1]}"

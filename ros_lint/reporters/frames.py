@@ -1,0 +1,215 @@
+"""Code frames: the lines that a finding is about, with what matters in them underlined."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.reporters.ansi import Style, cells, paint, safe
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from ros_lint.reporters import Texts
+    from ros_lint.text import Span, Text
+
+_CUT = "..."
+_CONTEXT = 20
+"""Columns to keep before a place in a line that is shortened."""
+_HEAD, _TAIL = 3, 2
+"""Lines to show of a place that goes over many."""
+_MIN_ROOM = 40
+
+
+class Mark(NamedTuple):
+    """A place to underline."""
+
+    span: Span
+    label: str
+    """What to say beside it, "" for nothing."""
+    color: str
+    sign: str
+    """``^`` for the place of the finding, ``-`` for related ones."""
+
+
+def frame(marks: Sequence[Mark], texts: Texts, style: Style) -> tuple[list[str], str]:
+    """Return the rows of a frame over the files of the marks, and the gutter that rows below it start with."""
+    files: dict[str, list[Mark]] = {}
+    for mark in marks:
+        files.setdefault(mark.span.path, []).append(mark)
+    sources = {path: texts(path) for path in files}
+    visible = [(mark, source) for mark in marks if (source := sources[mark.span.path]) and _is_in(mark, source)]
+    digits = max((len(str(min(mark.span.end_line, source.line_count))) for mark, source in visible), default=1)
+    gutter = " " * digits
+    bar = paint(style, "gutter", f"{gutter} |")
+    rows: list[str] = []
+    for path, in_file in files.items():
+        if rows:
+            rows.append(bar)
+        arrow = ":::" if rows else "-->"
+        rows.append(f"{gutter}{paint(style, 'gutter', arrow)} {safe(str(in_file[0].span), style)}")
+        source = sources[path]
+        shown = [mark for mark in in_file if source and _is_in(mark, source)]
+        if source and shown:
+            rows += [bar, *_File(source, shown, digits, style).rows()]
+        rows += [
+            f"{bar} {paint(style, mark.color, safe(mark.label, style))}"
+            for mark in in_file
+            if mark.label and mark not in shown
+        ]
+    return rows, gutter
+
+
+def _is_in(mark: Mark, source: Text) -> bool:
+    return 0 < mark.span.line <= source.line_count
+
+
+class _Place(NamedTuple):
+    """A mark, cut to what its file really has. Columns are indices from 0, the end exclusive."""
+
+    line: int
+    start: int
+    end_line: int
+    end: int
+    mark: Mark
+
+
+class _File:
+    """The part of a frame that shows one file."""
+
+    def __init__(self, source: Text, marks: Sequence[Mark], digits: int, style: Style) -> None:
+        self._source = source
+        self._digits = digits
+        self._style = style
+        self._flat: list[_Place] = []
+        self._tall: list[_Place] = []
+        for mark in marks:
+            place = _place(source, mark)
+            if place.line == place.end_line:
+                self._flat.append(place)
+            elif any(place.line <= other.end_line and other.line <= place.end_line for other in self._tall):
+                # There is one column of bars: of two places that overlap, the second is shown by its first line.
+                length = len(source.line(place.line))
+                self._flat.append(place._replace(end_line=place.line, end=max(length, place.start)))
+            else:
+                self._tall.append(place)
+        self._flat.sort(key=lambda place: (place.line, place.start, place.end))
+        self._room = max(style.width - digits - (5 if self._tall else 3), _MIN_ROOM)
+
+    def rows(self) -> Iterator[str]:
+        before = 0
+        for number in self._numbers():
+            if before and number == before + 2:
+                yield from self._line(before + 1)
+            elif before and number > before + 2:
+                yield self._row(_CUT, self._side(before + 1), "")
+            yield from self._line(number)
+            before = number
+
+    def _numbers(self) -> list[int]:
+        numbers = {place.line for place in self._flat}
+        for place in self._tall:
+            lines = range(place.line, place.end_line + 1)
+            numbers.update(lines if len(lines) <= _HEAD + _TAIL + 1 else (*lines[:_HEAD], *lines[-_TAIL:]))
+        return sorted(numbers)
+
+    def _line(self, number: int) -> Iterator[str]:
+        """Yield the rows of a line: the source, and below it one row for each place that begins or ends there."""
+        shown, widths = cells(self._source.line(number), self._style)
+        begins = [place for place in self._tall if place.line == number and not self._opens(place)]
+        flat = [place for place in self._flat if place.line == number]
+        ends = [place for place in self._tall if place.end_line == number]
+        here = [*begins, *flat, *ends]
+        side = self._side(number)
+        if sum(widths) <= self._room or not here:
+            views = [(_view(shown, widths, 0, 0, self._room), here)]
+        else:
+            # A line too long to be shown whole is shown once for each place in it.
+            views = [(_view(shown, widths, *_extent(place, number), self._room), [place]) for place in here]
+        for view, places in views:
+            yield self._row(str(number), side, view.text)
+            for place in places:
+                yield self._underline(place, number, view)
+
+    def _underline(self, place: _Place, number: int, view: _View) -> str:
+        start, end = _extent(place, number)
+        sign = place.mark.sign
+        label = f" {safe(place.mark.label, self._style)}" if place.mark.label else ""
+        if place in self._flat:
+            column = view.column(start)
+            line = sign * max(view.column(end) - column, 1)
+            return self._row("", self._side(number), " " * column + self._paint(place, line + label))
+        if number == place.line:
+            return self._row("", "", self._paint(place, f" {'_' * (view.column(start) + 1)}{sign}"))
+        return self._row("", "", self._paint(place, f"|{'_' * (view.column(start) + 1)}{sign}{label}"))
+
+    def _side(self, number: int) -> str:
+        """Return the bar beside a line, along a place of several lines."""
+        for place in self._tall:
+            if place.line < number <= place.end_line:
+                return self._paint(place, "|") + " "
+            if place.line == number and self._opens(place):
+                return self._paint(place, "/") + " "
+        return "  " if self._tall else ""
+
+    def _opens(self, place: _Place) -> bool:
+        """Whether nothing stands before a place on its first line."""
+        return not self._source.line(place.line)[: place.start].strip()
+
+    def _row(self, number: str, side: str, text: str) -> str:
+        return f"{paint(self._style, 'gutter', f'{number:>{self._digits}} |')} {side}{text}".rstrip()
+
+    def _paint(self, place: _Place, text: str) -> str:
+        return paint(self._style, place.mark.color, text)
+
+
+class _View(NamedTuple):
+    """What can be seen of a line."""
+
+    text: str
+    columns: tuple[int, ...]
+    """Of each index of the line, and of its end, in the text shown."""
+
+    def column(self, index: int) -> int:
+        return self.columns[min(index, len(self.columns) - 1)]
+
+
+def _view(shown: Sequence[str], widths: Sequence[int], start: int, end: int, room: int) -> _View:
+    """Return the part of a line around the range from ``start`` to ``end`` that has room."""
+    at = [0]
+    for width in widths:
+        at.append(at[-1] + width)
+    if at[-1] <= room:
+        return _View("".join(shown), tuple(at))
+    first = 0
+    if at[end] > room - len(_CUT):
+        while at[start] - at[first] > _CONTEXT or (first < start and widths[first] == 0):
+            first += 1
+    lead = _CUT if first else ""
+    last = first
+    while last < len(widths) and at[last + 1] - at[first] + len(lead) + len(_CUT) <= room:
+        last += 1
+    offset = len(lead) - at[first]
+    columns = tuple(min(max(column + offset, 0), at[last] + offset) for column in at)
+    return _View(f"{lead}{''.join(shown[first:last])}{_CUT if last < len(widths) else ''}", columns)
+
+
+def _extent(place: _Place, number: int) -> tuple[int, int]:
+    """Return what to underline on the first or last line of a place, as a range of indices."""
+    if place.line == place.end_line:
+        return place.start, place.end
+    return (place.start, place.start + 1) if number == place.line else (max(place.end - 1, 0), place.end)
+
+
+def _place(source: Text, mark: Mark) -> _Place:
+    span = mark.span
+    length = len(source.line(span.line))
+    start = min(span.column - 1, length)
+    end_line, end = span.end_line, span.end_column - 1
+    if end == 0 and end_line > span.line:
+        end_line -= 1
+        end = len(source.line(min(end_line, source.line_count)))
+    if end_line > source.line_count:
+        end_line, end = source.line_count, len(source.line(source.line_count))
+    if end_line <= span.line:
+        return _Place(span.line, start, span.line, max(start, min(end, length)), mark)
+    return _Place(span.line, start, end_line, min(end, len(source.line(end_line))), mark)

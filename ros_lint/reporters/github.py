@@ -1,0 +1,85 @@
+"""For GitHub Actions: an annotation for each finding, as the runner reads them from the log (reference, section 3)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros_lint.reporters.ansi import Style, safe
+from ros_lint.reporters.summary import and_list, count, crashed, summary, told
+from ros_lint.rule import Severity
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from ros_lint.report import Issue, Report
+    from ros_lint.reporters import Texts
+    from ros_lint.text import Span
+
+_SHOWN = 10
+"""Annotations of one level that GitHub shows of a step; the others stand in the log."""
+_RELATED = 10
+_COMMANDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "notice"}
+
+
+def render(report: Report, texts: Texts, style: Style) -> str:
+    """Return one workflow command a line, the worst findings first, and the summary for who reads the log."""
+    ranked = sorted(report.issues, key=lambda issue: -issue.severity)
+    problems = list(_problems(report))
+    loud = [_annotation(issue, texts, style) for issue in ranked if issue.severity is not Severity.INFO]
+    quiet = [_annotation(issue, texts, style) for issue in ranked if issue.severity is Severity.INFO]
+    lines = [*problems, *loud, *_overflow([*problems, *loud, *quiet]), *quiet]
+    return "".join(f"{line}\n" for line in lines) + summary(report, style._replace(color=False))
+
+
+def command(name: str, properties: dict[str, str | int], message: str) -> str:
+    """Return a workflow command, escaped as the runner wants it."""
+    pairs = ",".join(f"{key}={_property(str(value))}" for key, value in properties.items() if value != "")
+    return f"::{name}{' ' if pairs else ''}{pairs}::{_data(message)}"
+
+
+def _data(text: str) -> str:
+    return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
+
+
+def _property(text: str) -> str:
+    return _data(text).replace(":", "%3A").replace(",", "%2C")
+
+
+def _annotation(issue: Issue, texts: Texts, style: Style) -> str:
+    finding = issue.finding
+    title = f"{issue.rule.name} ({issue.rule.code})"
+    lines = [safe(finding.message, style)]
+    lines += [safe(f"{related.span}: {related.message}", style) for related in finding.related[:_RELATED]]
+    if len(finding.related) > _RELATED:
+        lines.append(f"and {count(len(finding.related) - _RELATED, 'more place')}")
+    if finding.fix:
+        lines.append(f"fix: {safe(finding.fix.title, style)}")
+    return command(_COMMANDS[issue.severity], {"title": title, **_place(finding.span, texts)}, "\n".join(lines))
+
+
+def _place(span: Span, texts: Texts) -> dict[str, str | int]:
+    source = texts(span.path)
+    path = safe(span.path, Style())
+    if source is None or span.line > source.line_count:
+        return {"file": path, "line": span.line}
+    # Columns count within one line only, so a place of several lines is annotated by what it has of its first.
+    end = span.end_column if span.end_line == span.line else max(len(source.line(span.line)) + 1, span.column)
+    return {"file": path, "line": span.line, "endLine": span.line, "col": span.column, "endColumn": end}
+
+
+def _problems(report: Report) -> Iterator[str]:
+    """Yield what kept the tool from doing its job."""
+    if not report.packages:
+        yield command("error", {"title": "ros-lint"}, "no package found, so nothing was checked")
+    for crash in report.crashes:
+        yield command("error", {"title": "ros-lint"}, f"a rule failed: {safe(crashed(crash), Style())}")
+    for entry in report.not_checked:
+        place = _place(entry.span, lambda _: None) if entry.span else {}
+        yield command("warning", {"title": "not checked", **place}, safe(told(entry), Style()))
+
+
+def _overflow(lines: list[str]) -> Iterator[str]:
+    numbers = {name: sum(line.startswith(f"::{name} ") for line in lines) for name in _COMMANDS.values()}
+    if max(numbers.values()) > _SHOWN:
+        found = and_list([count(number, name) for name, number in numbers.items() if number])
+        yield command("notice", {"title": "ros-lint"}, f"{found}: GitHub shows {_SHOWN} of a kind, the log has all")

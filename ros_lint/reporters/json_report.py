@@ -1,0 +1,75 @@
+"""For programs: everything the run found out, in the shape of docs/output.md and report.schema.json."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ros_lint.reporters.encode import encode
+from ros_lint.rule import Severity
+
+if TYPE_CHECKING:
+    from ros_lint.report import Issue, Report
+    from ros_lint.reporters import Texts
+    from ros_lint.reporters.ansi import Style
+    from ros_lint.rule import Fix
+    from ros_lint.text import Span
+
+SCHEMA_VERSION = 1
+"""Goes up when a key changes its meaning or goes away. New keys may come without notice."""
+
+
+def render(report: Report, texts: Texts, style: Style) -> str:  # noqa: ARG001  (a reporter takes them)
+    """Return the report as JSON."""
+    document = {
+        "schema_version": SCHEMA_VERSION,
+        "tool": "ros-lint",
+        "version": report.version,
+        "distro": report.target.distro,
+        "distro_source": report.target.source,
+        "data_date": report.data_date,
+        "workspace": report.workspace,
+        "packages": report.packages,
+        "findings": [_finding(issue) for issue in report.issues],
+        "hidden": [{"reason": hidden.reason, "count": hidden.count} for hidden in report.hidden],
+        "not_checked": [
+            {"what": entry.what, "reason": entry.reason, **(_place(entry.span) if entry.span else _NOWHERE)}
+            for entry in report.not_checked
+        ],
+        "not_seen_through": [{"what": unseen.what, "packages": unseen.packages} for unseen in report.unseen],
+        "crashes": [crash._asdict() for crash in report.crashes],
+        "summary": {
+            **{str(severity): report.count(severity) for severity in sorted(Severity, reverse=True)},
+            "fixable": report.fixable(safe=True),
+            "unsafely_fixable": report.fixable(safe=False),
+        },
+    }
+    return encode(document, 2)
+
+
+def _finding(issue: Issue) -> dict[str, Any]:
+    finding = issue.finding
+    return {
+        "rule": issue.rule.name,
+        "code": issue.rule.code,
+        "package": issue.package,
+        "subject": finding.subject,
+        **_place(finding.span),
+        "message": finding.message,
+        "severity": str(issue.severity),
+        "confidence": str(finding.confidence),
+        "related": [{"message": related.message, **_place(related.span)} for related in finding.related],
+        "steps": finding.steps,
+        "fix": _fix(finding.fix) if finding.fix else None,
+    }
+
+
+def _fix(fix: Fix) -> dict[str, Any]:
+    edits = [{**_place(edit.span), "text": edit.text} for edit in fix.edits]
+    return {"title": fix.title, "safe": fix.safe, "edits": edits}
+
+
+_NOWHERE = dict.fromkeys(("path", "line", "column", "end_line", "end_column"))
+
+
+def _place(span: Span) -> dict[str, Any]:
+    return span._asdict()

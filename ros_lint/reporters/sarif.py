@@ -1,0 +1,292 @@
+"""For code review: SARIF 2.1.0, as GitHub takes it (reference, section 1).
+
+The same findings give the same bytes: no time, no random identifier, no absolute path. Suppressed findings are left
+out, because GitHub shows them as open.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any
+from urllib.parse import quote
+
+from ros_lint.reporters.encode import encode
+from ros_lint.reporters.fingerprint import line_hashes
+from ros_lint.reporters.sarif_rules import LEVELS, TOPICS, capital, descriptor, sentence, topic
+from ros_lint.reporters.summary import and_list, count, crashed, told
+from ros_lint.text import Span, Text
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from ros_lint.report import Issue, Report
+    from ros_lint.reporters import Texts
+    from ros_lint.reporters.ansi import Style
+    from ros_lint.rule import Edit, Finding, Fix
+
+Object = dict[str, Any]
+Group = tuple["Issue", ...]
+
+_RESULTS = 25_000
+"""GitHub refuses a run with more."""
+_RELATED = 100
+"""GitHub shows as many locations of a result."""
+_LINKS = 10
+_CONTEXT = 1000
+"""Characters around a place to quote."""
+_ROOT = "%SRCROOT%"
+
+
+def render(report: Report, texts: Texts, style: Style) -> str:  # noqa: ARG001  (a reporter takes it)
+    """Return the report as SARIF."""
+    groups = _groups(report.issues)
+    kept = _most_important(groups)
+    rules = {rule.code: rule for rule in (*report.rules, *(issue.rule for issue in report.issues))}
+    codes = {code: index for index, code in enumerate(sorted(rules))}
+    hashes = _hashes(kept, texts)
+    run = {
+        "tool": {
+            "driver": {
+                "name": "ros-lint",
+                "fullName": f"ros-lint {report.version}",
+                "version": report.version,
+                "semanticVersion": _semantic(report.version),
+                "informationUri": "sarif:/runs/0/tool/driver/fullDescription",
+                "shortDescription": {"text": "Static analysis for ROS 2 workspaces."},
+                "fullDescription": {
+                    "text": "ros-lint says what will break in a ROS 2 workspace on the build farm, on a colleague's "
+                    "machine or at launch, without building it. 'ros-lint rule NAME' explains a rule."
+                },
+                "rules": [descriptor(rules[code], index) for code, index in codes.items()],
+                "notifications": TOPICS,
+            }
+        },
+        "automationDetails": {"id": f"ros-lint/{report.workspace}/" if report.workspace else "ros-lint/"},
+        "columnKind": "unicodeCodePoints",
+        "originalUriBaseIds": {_ROOT: {"description": {"text": "The root of the checkout that was checked."}}},
+        # Which repository that is, is not looked up; paths are relative to its root all the same.
+        "versionControlProvenance": [
+            {"repositoryUri": "sarif:/runs/0/originalUriBaseIds/%25SRCROOT%25", "mappedTo": {"uriBaseId": _ROOT}}
+        ],
+        "invocations": [
+            {
+                # GitHub takes no run that says it failed: what went wrong stands in the notes.
+                "executionSuccessful": True,
+                "toolExecutionNotifications": [*_notes(report, codes), *_cut(groups, kept)],
+            }
+        ],
+        "properties": {
+            "distro": report.target.distro,
+            "distroSource": report.target.source,
+            "dataDate": report.data_date,
+            "packages": report.packages,
+        },
+        "results": [_result(group, codes, texts, hashes) for group in kept],
+    }
+    schema = "https://json.schemastore.org/sarif-2.1.0.json"
+    return encode({"$schema": schema, "version": "2.1.0", "runs": [run]}, 4)
+
+
+def _groups(issues: Sequence[Issue]) -> list[Group]:
+    """Put together what one rule says about one line: GitHub would take it for one alert, and show but one message."""
+    groups: dict[tuple[str, str, int], Group] = {}
+    for issue in issues:
+        span = issue.finding.span
+        key = (issue.rule.code, span.path, span.line)
+        groups[key] = (*groups.get(key, ()), issue)
+    return list(groups.values())
+
+
+def _most_important(groups: list[Group]) -> list[Group]:
+    if len(groups) <= _RESULTS:
+        return groups
+    ranked = sorted(range(len(groups)), key=lambda index: (-_severity(groups[index]), index))
+    return [groups[index] for index in sorted(ranked[:_RESULTS])]
+
+
+def _severity(group: Group) -> int:
+    return max(issue.severity for issue in group)
+
+
+def _hashes(groups: Sequence[Group], texts: Texts) -> dict[tuple[str, int], str]:
+    """Return the hash of the line of each group, by path and line."""
+    lines: dict[str, set[int]] = {}
+    for group in groups:
+        span = group[0].finding.span
+        lines.setdefault(span.path, set()).add(span.line)
+    return {
+        (path, line): found
+        for path, wanted in lines.items()
+        if (source := texts(path))
+        for line, found in line_hashes(source, wanted).items()
+    }
+
+
+def _result(group: Group, codes: dict[str, int], texts: Texts, hashes: dict[tuple[str, int], str]) -> Object:
+    first = group[0]
+    finding = first.finding
+    others = [(issue.finding.message, issue.finding.span) for issue in group[1:]]
+    places = [(related.message, related.span) for issue in group for related in issue.finding.related]
+    related = [*others, *(place for place in dict.fromkeys(places) if place not in others)]
+    identity = " ".join(issue.identity for issue in group)
+    line = hashes.get((finding.span.path, finding.span.line)) or line_hashes(Text("", identity), (1,))[1]
+    result: Object = {
+        "ruleId": first.rule.code,
+        "ruleIndex": codes[first.rule.code],
+        "level": LEVELS[max(issue.severity for issue in group)],
+        "message": {"text": _message(finding.message, related, len(others))},
+        "locations": [_primary(finding.span, texts(finding.span.path))],
+        "partialFingerprints": {"primaryLocationLineHash": line, "rosLint/v1": identity},
+        "properties": {
+            "package": first.package,
+            "subject": finding.subject,
+            "confidence": str(min(issue.finding.confidence for issue in group)),
+        },
+    }
+    if related:
+        result["relatedLocations"] = [
+            {"id": number, **_location(span), "message": {"text": _escape(sentence(message))}}
+            for number, (message, span) in enumerate(related[:_RELATED], 1)
+        ]
+    if finding.steps:
+        result["codeFlows"] = [{"threadFlows": [{"locations": list(_steps(finding))}]}]
+    if fixes := [_fix(issue.finding.fix) for issue in group if issue.finding.fix]:
+        result["fixes"] = fixes
+    return result
+
+
+def _message(message: str, related: Sequence[tuple[str, Span]], others: int) -> str:
+    """Return the message with a link to each related place: without one, GitHub does not show it."""
+    links = [f"[{_link(text)}]({number})" for number, (text, _) in enumerate(related[:_LINKS], 1)]
+    parts = [_escape(sentence(message))]
+    if links[:others]:
+        parts.append(f"Also {and_list(links[:others])}.")
+    if links[others:]:
+        parts.append(f"See {and_list(links[others:])}.")
+    if len(related) > _LINKS:
+        parts.append(f"There {'is' if len(related) == _LINKS + 1 else 'are'} {len(related) - _LINKS} more.")
+    return " ".join(parts)
+
+
+def _escape(text: str) -> str:
+    return re.sub(r"([\[\]])", r"\\\1", text)
+
+
+def _link(text: str) -> str:
+    # A link ends at the first closing bracket, escaped or not, for more than one reader of SARIF.
+    return text.translate({ord("["): "(", ord("]"): ")", ord("\\"): "/"})
+
+
+def _steps(finding: Finding) -> Iterator[Object]:
+    steps = [(step.message, step.span) for step in finding.related[:_RELATED]]
+    if finding.span not in (span for _, span in steps):
+        steps.insert(0, (finding.message, finding.span))
+    for text, span in steps:
+        yield {"location": {**_location(span), "message": {"text": _escape(sentence(text))}}}
+
+
+def _location(span: Span) -> Object:
+    return {
+        "physicalLocation": {
+            "artifactLocation": {"uri": _uri(span.path), "uriBaseId": _ROOT},
+            "region": _region(span),
+        }
+    }
+
+
+def _uri(path: str) -> str:
+    """Return the reference that a relative path is in a URI."""
+    return quote(path.encode("utf-8", "surrogateescape"), safe="/!$&'()*+,;=@") or "."
+
+
+def _region(span: Span) -> Object:
+    return {
+        "startLine": span.line,
+        "startColumn": span.column,
+        "endLine": span.end_line,
+        "endColumn": span.end_column,
+    }
+
+
+def _primary(span: Span, source: Text | None) -> Object:
+    """Return the place of a result: of its first line only, for GitHub annotates a change that has all lines of it."""
+    if source is None or span.line > source.line_count:
+        return _location(span.start())
+    line = source.line(span.line)
+    if span.end_line > span.line:
+        span = Span(span.path, span.line, span.column, span.line, max(len(line) + 1, span.column))
+    location = _location(span)
+    location["physicalLocation"]["region"]["snippet"] = {"text": line[span.column - 1 : span.end_column - 1]}
+    location["physicalLocation"]["contextRegion"] = _context(span, source)
+    return location
+
+
+def _context(span: Span, source: Text) -> Object:
+    """Return the region of the lines around a place in one line, or of a part of the line when they are long."""
+    first, last = max(span.line - 1, 1), min(span.line + 1, source.line_count)
+    around = Span(span.path, first, 1, last, len(source.line(last)) + 1)
+    text = source.slice(around)
+    if len(text) > _CONTEXT:
+        end = min(span.end_column + _CONTEXT // 4, len(source.line(span.line)) + 1)
+        around = Span(span.path, span.line, max(span.column - _CONTEXT // 4, 1), span.line, end)
+        text = source.slice(around)
+    if around == span:
+        # All there is in the file. A context has to be larger: the end of the file counts as a character.
+        around = around._replace(end_column=around.end_column + 1)
+    return {**_region(around), "snippet": {"text": text}}
+
+
+def _fix(fix: Fix) -> Object:
+    edits: dict[str, list[Edit]] = {}
+    for edit in fix.edits:
+        edits.setdefault(edit.span.path, []).append(edit)
+    return {
+        "description": {"text": capital(fix.title)},
+        "artifactChanges": [
+            {
+                "artifactLocation": {"uri": _uri(path), "uriBaseId": _ROOT},
+                "replacements": [
+                    {"deletedRegion": _region(edit.span), "insertedContent": {"text": edit.text}} for edit in in_file
+                ],
+            }
+            for path, in_file in sorted(edits.items())
+        ],
+        "properties": {"safe": fix.safe},
+    }
+
+
+def _notes(report: Report, codes: dict[str, int]) -> Iterator[Object]:
+    """Yield what the results do not tell."""
+    if not report.packages:
+        yield _note("NoPackage", "error", "no package was found, so nothing was checked")
+    for entry in report.not_checked:
+        note = _note("NotChecked", "warning", f"not checked: {told(entry)}")
+        yield {**note, "locations": [_location(entry.span)]} if entry.span else note
+    by_name = {rule.name: rule.code for rule in report.rules}
+    for crash in report.crashes:
+        note = _note("CheckFailed", "error", f"a rule failed: {crashed(crash)}")
+        code = by_name.get(crash.rule, "")
+        yield {**note, "associatedRule": {"id": code, "index": codes[code]}} if code in codes else note
+    for hidden in report.hidden:
+        yield _note("NotShown", "note", f"not shown: {hidden.count} {hidden.reason}")
+    for unseen in report.unseen:
+        yield _note("NotSeenThrough", "note", f"not seen through: {unseen.what} of {count(unseen.packages, 'package')}")
+
+
+def _cut(groups: Sequence[Group], kept: Sequence[Group]) -> Iterator[Object]:
+    if len(groups) > len(kept):
+        left = f"{len(groups) - len(kept)} results of the least severity are left out"
+        yield _note("NotShown", "warning", f"{left}, a file holds {_RESULTS}")
+
+
+def _note(name: str, level: str, message: str) -> Object:
+    return {"descriptor": topic(name), "level": level, "message": {"text": _escape(capital(message))}}
+
+
+def _semantic(version: str) -> str:
+    """Return a version of Python's as one of Semantic Versioning: 1.2rc1 becomes 1.2.0-rc1."""
+    numbers = re.match(r"\d+(?:\.\d+){0,2}", version)
+    core = (numbers[0] if numbers else "0").split(".")
+    rest = version[numbers.end() if numbers else 0 :].strip(".+-")
+    suffix = re.sub(r"[^0-9A-Za-z.]+", ".", rest)
+    return ".".join([*core, "0", "0"][:3]) + (f"-{suffix}" if suffix else "")

@@ -1,0 +1,112 @@
+"""What a SARIF file says about rules, and about the kinds of notes that a run can leave."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any
+
+from ros_lint.rule import Severity
+
+if TYPE_CHECKING:
+    from ros_lint.rule import Rule
+
+LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
+_PROBLEMS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "recommendation"}
+_TAGS = {"1": "workspace", "2": "dependencies", "3": "build", "4": "install", "5": "launch", "9": "ros-lint"}
+_LONGEST = 1024
+"""Of a description that GitHub takes."""
+
+
+def descriptor(rule: Rule, index: int) -> dict[str, Any]:
+    """Return the papers of a rule, which is the ``index``-th of its file."""
+    summary = capital(rule.summary)
+    markdown = rule.doc.strip()
+    return {
+        "id": rule.code,
+        "name": "".join(word.capitalize() for word in rule.name.split("-")),
+        "shortDescription": {"text": summary[:_LONGEST]},
+        "fullDescription": {"text": _found(markdown) or summary[:_LONGEST]},
+        "help": {"text": _plain(markdown) or summary, "markdown": markdown or summary},
+        # The help stands in this very file, wherever it is read.
+        "helpUri": f"sarif:/runs/0/tool/driver/rules/{index}/help",
+        "defaultConfiguration": {"level": LEVELS[rule.severity], "enabled": rule.default},
+        "properties": {
+            # Rules that run by default are held to being right 99 times in 100, see Confidence.
+            "precision": "very-high" if rule.default else "medium",
+            "problem.severity": _PROBLEMS[rule.severity],
+            "tags": ["ros2", *filter(None, (_TAGS.get(rule.code[3:4]),))],
+        },
+    }
+
+
+def sentence(text: str) -> str:
+    """Return a message of the house, which has no full stop, as a sentence. Names in it stay as they are."""
+    if text.endswith("?"):
+        return f"{text} The help of the rule says more."
+    return text if text.endswith(".") else f"{text}."
+
+
+def capital(text: str) -> str:
+    """Return a text that begins with no name as a sentence."""
+    return sentence(f"{text[:1].upper()}{text[1:]}")
+
+
+def _plain(markdown: str) -> str:
+    return re.sub(r"^#+ *", "", markdown, flags=re.MULTILINE)
+
+
+def _found(markdown: str) -> str:
+    """Return the first paragraph of the documentation, which says what the rule finds, on one line."""
+    paragraphs = [part for part in re.split(r"\n\s*\n", markdown) if part.strip() and not part.lstrip().startswith("#")]
+    text = " ".join(paragraphs[0].replace("`", "'").split()) if paragraphs else ""
+    return sentence(text[: _LONGEST - 1].rstrip(":,;")) if text else ""
+
+
+def _topic(code: str, name: str, short: str, more: str) -> dict[str, Any]:
+    return {
+        "id": code,
+        "name": name,
+        "shortDescription": {"text": short},
+        "fullDescription": {"text": f"{short} {more}"},
+        "help": {"text": f"{short} {more}"},
+    }
+
+
+TOPICS = [
+    _topic(
+        "RLN001",
+        "NotChecked",
+        "Something could not be looked at.",
+        "Findings about it may be missing. The reason stands in the message: mend the file, or give what is not known.",
+    ),
+    _topic(
+        "RLN002",
+        "CheckFailed",
+        "A rule failed.",
+        "This is a fault of ros-lint or of a plugin, please report it. All other rules have run.",
+    ),
+    _topic(
+        "RLN003",
+        "NotShown",
+        "Findings are left out.",
+        "Those that are less than certain are shown with --pedantic; others are suppressed or ignored on purpose.",
+    ),
+    _topic(
+        "RLN004",
+        "NotSeenThrough",
+        "Parts of the workspace could not be seen through.",
+        "Rules that would claim that something is missing there kept silent. 'ros-lint rule opaque-package' says more.",
+    ),
+    _topic(
+        "RLN005",
+        "NoPackage",
+        "No package was found.",
+        "Nothing was checked. Give the folder of a workspace, one that has a package.xml in it or below it.",
+    ),
+]
+"""Kinds of notes."""
+
+
+def topic(name: str) -> dict[str, Any]:
+    """Return the reference to a kind of note. Raises StopIteration for a name that none has."""
+    return next({"id": known["id"], "index": index} for index, known in enumerate(TOPICS) if known["name"] == name)

@@ -1,0 +1,92 @@
+"""The last lines of what people read: how much was found, what is not shown, and what was not seen."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros_lint.reporters.ansi import Style, paint, safe
+from ros_lint.rule import Severity
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from ros_lint.report import Crash, Report
+    from ros_lint.workspace import NotChecked
+
+_LISTED = 10
+"""Entries of a list to show; the json format has all."""
+
+
+def summary(report: Report, style: Style) -> str:
+    """Return the summary, a line or more."""
+    return "".join(f"{line}\n" for line in _lines(report, style))
+
+
+def count(number: int, noun: str) -> str:
+    """Return a number with a noun that takes an s: "1 error", "2 errors"."""
+    return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
+def and_list(words: Sequence[str]) -> str:
+    """Return words as a list in a sentence: "a, b and c"."""
+    return " and ".join(filter(None, (", ".join(words[:-1]), *words[-1:])))
+
+
+def blind_spots(report: Report) -> Iterator[str]:
+    """Yield, as sentences without a full stop, what the findings shown do not tell."""
+    if report.hidden:
+        yield f"Not shown: {'; '.join(f'{hidden.count} {hidden.reason}' for hidden in report.hidden)}"
+    if report.unseen:
+        sides = and_list([f"{unseen.what} of {count(unseen.packages, 'package')}" for unseen in report.unseen])
+        yield f"Not seen through: {sides}; rules that would claim something is missing kept silent there"
+
+
+def told(entry: NotChecked) -> str:
+    """Return what was not checked, where, and why."""
+    span = entry.span
+    if span is None or span.path == entry.what:
+        return f"{entry.what}: {entry.reason}"
+    return f"{span.path if span[1:3] == (1, 1) else span}: {entry.what}: {entry.reason}"
+
+
+def crashed(crash: Crash) -> str:
+    """Return which rule failed, for what, and how."""
+    return f"{crash.rule}{f' for {crash.package}' if crash.package else ''}: {crash.error}"
+
+
+def _lines(report: Report, style: Style) -> Iterator[str]:
+    yield _verdict(report, style)
+    fixes = {"--fix": report.fixable(safe=True), "--fix --unsafe-fixes": report.fixable(safe=False)}
+    if any(fixes.values()):
+        yield f"Fixable: {and_list([f'{number} with {how}' for how, number in fixes.items() if number])}."
+    for sentence in blind_spots(report):
+        yield f"{safe(sentence, style)}."
+    if report.not_checked:
+        yield f"Not checked: {count(len(report.not_checked), 'thing')}"
+        yield from _listed([told(entry) for entry in report.not_checked], style)
+    if report.crashes:
+        fault = f"This is a fault of ros-lint {report.version}, please report it:"
+        yield paint(style, "error", f"{count(len(report.crashes), 'check')} failed. {fault}")
+        yield from _listed([crashed(crash) for crash in report.crashes], style)
+        yield from (f"  {safe(line, style)}" for line in report.crashes[0].traceback.rstrip().split("\n"))
+
+
+def _verdict(report: Report, style: Style) -> str:
+    data = f", with data of {report.data_date}" if report.data_date else ""
+    world = f"for {report.target.distro} ({report.target.source}){data}"
+    if not report.packages:
+        return f"{paint(style, 'error', 'No package found')}, so nothing was checked {world}."
+    numbers = {severity: report.count(severity) for severity in (Severity.ERROR, Severity.WARNING, Severity.INFO)}
+    found = [paint(style, str(level), _of_level(number, level)) for level, number in numbers.items() if number]
+    verdict = f"Found {and_list(found)}" if found else paint(style, "good", "Nothing found")
+    return f"{verdict} in {count(report.packages, 'package')} {world}."
+
+
+def _of_level(number: int, severity: Severity) -> str:
+    return f"{number} info" if severity is Severity.INFO else count(number, str(severity))
+
+
+def _listed(entries: Sequence[str], style: Style) -> Iterator[str]:
+    yield from (f"  {safe(entry, style)}" for entry in entries[:_LISTED])
+    if len(entries) > _LISTED:
+        yield f"  and {len(entries) - _LISTED} more, which --format json lists"
