@@ -21,14 +21,14 @@ from ros_lint.identify import (
     ignored_everywhere,
     product,
 )
-from ros_lint.text import Span, Text, read
+from ros_lint.text import Span, read
 from ros_lint.tree import join, parent
 from ros_lint.workspace import NotChecked
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from ros_lint.facts import ColconDepend, Manifest
+    from ros_lint.facts import ColconDepend, ColconMeta, ColconSettings, Manifest
     from ros_lint.tree import Entry, Tree
 
 _NEVER = frozenset((".git", ".hg", ".svn", "node_modules", "__pycache__"))
@@ -82,9 +82,9 @@ class Discovery(NamedTuple):
 def discover(tree: Tree, roots: Sequence[str], context: Mapping[str, str] = _CONTEXT) -> Discovery:
     """Return the packages below some directories of a tree, as ``colcon list --base-paths`` run in its base.
 
-    ``roots`` are relative to the base of the tree, "" is the base; ``context`` has the known variables of package.xml
-    conditions, which may choose a build type. Never raises for what it finds: places that cannot be read end up in
-    ``not_checked``.
+    ``roots`` are relative to the base of the tree, "" is the base; a ``colcon.meta`` is read in the base and in each of
+    them. ``context`` has the known variables of package.xml conditions, which may choose a build type. Never raises for
+    what it finds: places that cannot be read end up in ``not_checked``.
     """
     return _Walk(tree, context).run(roots)
 
@@ -98,9 +98,10 @@ class _Walk:
         self._rejected: list[Manifest] = []
         self._skipped: list[Skipped] = []
         self._not_checked: list[NotChecked] = []
-        self._settings = self._read_meta()
+        self._settings = Settings({}, {})
 
     def run(self, roots: Sequence[str]) -> Discovery:
+        self._settings = self._read_meta(("", *roots))
         visited: set[str] = set()
         for root in roots:
             self._crawl(root, visited)
@@ -162,35 +163,42 @@ class _Walk:
         try:
             return self._tree.list(path)
         except OSError as error:
-            self._not_checked.append(_unlisted(path, error))
+            self._not_checked.append(_unread(path, error))
             return None
 
-    def _read_meta(self) -> Settings:
-        text = self._meta_text()
-        if text is None:
-            return Settings({}, {})
+    def _read_meta(self, places: Sequence[str]) -> Settings:
+        by_name: dict[str, ColconSettings] = {}
+        by_identity: dict[str, ColconSettings] = {}
+        for place in dict.fromkeys(places):
+            if (meta := self._meta(place)) is None:
+                continue
+            by_name.update(meta.by_name)
+            folder = parent(meta.path)
+            for path, values in meta.by_path:
+                by_identity[self._tree.identity(posixpath.normpath(join(folder, path)))] = values
+        return Settings(by_name, by_identity)
+
+    def _meta(self, place: str) -> ColconMeta | None:
+        path = join(place, "colcon.meta")
+        try:
+            kinds = {name: kind for name, kind, _ in self._tree.list(place)}
+        except OSError:
+            return None  # noted by the crawl
+        if kinds.get("colcon.meta") == "directory":
+            path = join(path, "colcon.meta")
+        elif kinds.get("colcon.meta") != "file":
+            return None
         from ros_lint.collectors import colcon_yaml  # noqa: PLC0415  (few workspaces have the file)
 
         try:
-            meta = colcon_yaml.meta(text)
-        except colcon_yaml.ColconYamlError as error:
-            self._not_checked.append(NotChecked("colcon.meta", str(error), error.span))
-            return Settings({}, {})
-        folder = parent(text.path)
-        by_path = {self._tree.identity(posixpath.normpath(join(folder, path))): values for path, values in meta.by_path}
-        return Settings(dict(meta.by_name), by_path)
-
-    def _meta_text(self) -> Text | None:
-        path = "colcon.meta"
-        try:
-            kinds = {name: kind for name, kind, _ in self._tree.list("")}
-            if kinds.get(path) == "directory":
-                path = join(path, path)
-                kinds = {join("colcon.meta", name): kind for name, kind, _ in self._tree.list("colcon.meta")}
-            return read(path, self._tree.read(path)) if kinds.get(path) == "file" else None
+            return colcon_yaml.meta(read(path, self._tree.read(path)))
+        except FileNotFoundError:
+            return None  # in the folder of that name
         except OSError as error:
-            self._not_checked.append(NotChecked("colcon.meta", error.strerror or str(error), Span(path, 1, 1, 1, 1)))
-            return None
+            self._not_checked.append(_unread(path, error))
+        except colcon_yaml.ColconYamlError as error:
+            self._not_checked.append(NotChecked(path, str(error), error.span))
+        return None
 
 
 class _Files:
@@ -231,7 +239,7 @@ class _Files:
         try:
             entries = self._tree.list(path)
         except OSError as error:
-            self.not_checked.append(_unlisted(path, error))
+            self.not_checked.append(_unread(path, error))
             self.unseen.append(Skipped(child, "it cannot be read"))
             return None
         if _APART.isdisjoint([entry[0] for entry in entries]):
@@ -250,7 +258,7 @@ class _Files:
         try:
             self.nested.append(manifests.collect(read(path, self._tree.read(path))))
         except OSError as error:
-            self.not_checked.append(NotChecked("the file", error.strerror or str(error), Span(path, 1, 1, 1, 1)))
+            self.not_checked.append(_unread(path, error))
 
     def _not_followed(self, target: str, here: str, crossed: tuple[str, ...]) -> str:
         if any(_is_below(place, target) for place in (here, *crossed)):
@@ -267,5 +275,5 @@ def _is_below(path: str, folder: str) -> bool:
     return path == folder or path.startswith(f"{folder}/" if folder else "")
 
 
-def _unlisted(path: str, error: OSError) -> NotChecked:
-    return NotChecked("the folder", error.strerror or str(error), Span(path, 1, 1, 1, 1))
+def _unread(path: str, error: OSError) -> NotChecked:
+    return NotChecked(path or ".", error.strerror or str(error), Span(path, 1, 1, 1, 1))

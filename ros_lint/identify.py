@@ -128,12 +128,12 @@ class Folder:
         try:
             return read(path, self.tree.read(path))
         except OSError as error:
-            self.cannot("the file", path, error.strerror or str(error))
+            self.cannot(path, error.strerror or str(error))
             return None
 
-    def cannot(self, what: str, path: str, reason: str, span: Span | None = None) -> None:
-        """Note something that could not be looked at."""
-        self.not_checked.append(NotChecked(what, reason, span or Span(path, 1, 1, 1, 1)))
+    def cannot(self, path: str, reason: str, span: Span | None = None) -> None:
+        """Note a file that could not be looked at."""
+        self.not_checked.append(NotChecked(path, reason, span or Span(path, 1, 1, 1, 1)))
 
 
 def build_type(manifest: Manifest, context: Mapping[str, str]) -> str:
@@ -183,7 +183,7 @@ def _colcon_pkg(folder: Folder) -> ColconSettings:
     try:
         return colcon_yaml.package(text)
     except colcon_yaml.ColconYamlError as error:
-        folder.cannot("colcon.pkg", text.path, str(error), error.span)
+        folder.cannot(text.path, str(error), error.span)
         return NO_SETTINGS
 
 
@@ -207,7 +207,8 @@ def _by_script(folder: Folder, name: str, kind: str) -> Verdict:
         return cmake
     project = project or _setup_py(folder)
     if project and project.unknown:
-        folder.cannot("whether there is a package", join(folder.path, "setup.py"), project.unknown)
+        reason = f"colcon may see a package here, but {project.unknown}"
+        folder.cannot(join(folder.path, "setup.py"), reason)
     if project is None or not project.name or name not in ("", project.name):
         return None
     return Identity(project.name, "python", ())

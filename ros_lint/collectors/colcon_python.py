@@ -81,7 +81,7 @@ def from_setup_py(setup_py: Text, setup_cfg: Text | None, pyproject: Text | None
     try:
         return _from_module(module, setup_py, from_setup_cfg(setup_cfg) if setup_cfg else NO_PROJECT, pyproject)
     except RecursionError:
-        return PythonProject("", f"{setup_py.path} is nested too deeply", ())
+        return PythonProject("", "setup.py is nested too deeply", ())
 
 
 def _from_module(module: ast.Module, setup_py: Text, declared: PythonProject, pyproject: Text | None) -> PythonProject:
@@ -89,16 +89,16 @@ def _from_module(module: ast.Module, setup_py: Text, declared: PythonProject, py
     if not calls:
         return NO_PROJECT
     if len(calls) > 1:
-        return PythonProject("", f"{setup_py.path} calls setup() in several places", ())
+        return PythonProject("", "setup.py calls setup() in several places", ())
     script = _Script(setup_py, module)
     arguments, complete = script.arguments(calls[0])
     name, unknown = declared.name or _pyproject_name(pyproject), ""
     if "name" in arguments:
         value = script.value(arguments["name"])
         name = value if isinstance(value, str) else ""
-        unknown = "" if name else f"{setup_py.path} computes the name of the package"
+        unknown = "" if name else "setup.py computes its name"
     elif not complete and not name:
-        unknown = f"{setup_py.path} computes the arguments of setup()"
+        unknown = "setup.py computes the arguments of setup()"
     return PythonProject(name, unknown, (*script.depends(arguments), *declared.depends))
 
 

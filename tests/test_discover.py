@@ -1,0 +1,301 @@
+"""Discovery against colcon itself, and what goes beyond colcon."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from random import Random
+
+import pytest
+
+from ros_lint.discover import Discovery, Skipped, discover
+from ros_lint.graph import build
+from ros_lint.tree import DiskTree, Entry, MemoryTree
+from tests.colcon_oracle import colcon_list
+from tests.packages import CONTEXT, found_package, manifest_text
+from tests.workspaces import write_workspace
+
+SEEDS = range(int(os.environ.get("ROS_LINT_SEEDS", "120")))
+
+
+def differences(base: Path) -> list[str]:
+    """Say in what discovery, and the edges between what it finds, are not what colcon has."""
+    found = discover(DiskTree(str(base)), [""], CONTEXT)
+    theirs = colcon_list(base)
+    ours = frozenset((package.name, package.path, package.type) for package in found.packages)
+    said = [f"only here: {line}" for line in sorted(ours - theirs.packages)]
+    said += [f"only colcon: {line}" for line in sorted(theirs.packages - ours)]
+    names = {name for name, _, _ in theirs.packages}
+    for package in map(found_package, found.packages):
+        graph = build([package, *[other for other in map(found_package, found.packages) if other.name != package.name]])
+        needs = {
+            other: {category for reason in reasons for category in reason.categories}
+            for other, reasons in graph.needs[package.name].items()
+        }
+        wanted = {name: set(kinds) for name, kinds in theirs.needs.get(package.path, {}).items() if name in names}
+        if needs != wanted:
+            said.append(f"{package.path}: needs {needs}, for colcon {wanted}")
+    return said
+
+
+def test_is_what_colcon_finds(tmp_path: Path) -> None:
+    packages = 0
+    for seed in SEEDS:
+        base = tmp_path / str(seed)
+        base.mkdir()
+        write_workspace(Random(seed), base)
+        assert differences(base) == [], f"seed {seed}: {base}"
+        packages += len(colcon_list(base).packages)
+    assert packages > len(SEEDS), "the generated workspaces must have packages to tell anything"
+
+
+SCRIPT = "from setuptools import setup\n"
+
+
+@pytest.mark.parametrize(
+    ("setup_py", "more", "name"),
+    [
+        ("setup(name='x')", {}, "x"),
+        ("NAME = 'x'\nsetup(name=NAME, install_requires=['alpha>=1', 'beta'])", {}, "x"),
+        ("base = 'x'\nsetup(name=f'{base}_y' + '_z', tests_require=['alpha'])", {}, "x_y_z"),
+        ("if __name__ == '__main__':\n    setup(**dict(name='x'), extras_require={'test': ['alpha']})", {}, "x"),
+        (
+            "import setuptools\nargs = {'name': 'x', 'install_requires': ['alpha>=1 # why']}\nsetuptools.setup(**args)",
+            {},
+            "x",
+        ),
+        ("setup(version='1')", {"setup.cfg": "[metadata]\nname = x\n[options]\ninstall-requires = alpha; beta\n"}, "x"),
+        ("setup(name='x')", {"setup.cfg": "[metadata]\nname = y\n"}, "x"),
+        ("setup(version='1')", {"pyproject.toml": "[project]\nname = 'x'\nversion = '1'\n"}, "x"),
+        (
+            "setup()",
+            {"setup.cfg": "[metadata]\nname = x\n[options.extras_require]\ntesting =\n    alpha [y] >1 # why\n"},
+            "x",
+        ),
+        ("setup()", {}, None),
+        ("print('no setup')", {}, None),
+        ("setup(name='x'", {}, None),
+    ],
+)
+def test_a_plain_python_package(tmp_path: Path, setup_py: str, more: dict[str, str], name: str | None) -> None:
+    for file, text in {"p/setup.py": SCRIPT + setup_py, **{f"p/{file}": text for file, text in more.items()}}.items():
+        (tmp_path / file).parent.mkdir(exist_ok=True)
+        (tmp_path / file).write_text(text)
+    for other in ("alpha", "beta"):
+        (tmp_path / other).mkdir()
+        (tmp_path / other / "package.xml").write_text(manifest_text(other))
+    assert differences(tmp_path) == []
+    found = {package.path: package.name for package in discover(DiskTree(str(tmp_path)), [""]).packages}
+    assert found.get("p") == name
+
+
+@pytest.mark.parametrize(
+    "setup_py",
+    [
+        "setup(name=open('name').read())",
+        "for n in 'ab':\n    setup(name=n)",
+        "setup(name='a')\nsetup(name='b')",
+        "setup(**arguments())",
+        "n = 'a'\nn = n + 'b'\nsetup(name=n)",
+        "setup(name=" + " + ".join(["'a'"] * 1500) + ")",
+    ],
+)
+def test_a_name_that_only_running_would_tell_is_said_to_be_unknown(setup_py: str) -> None:
+    found = discover(MemoryTree({"p/setup.py": SCRIPT + setup_py, "p/q/package.xml": manifest_text("q")}), [""])
+    assert [package.name for package in found.packages] == ["q"]
+    assert [(item.what, "colcon may see a package here" in item.reason) for item in found.not_checked] == [
+        ("p/setup.py", True)
+    ]
+
+
+def test_files_are_those_below_without_nested_packages_and_skipped_folders() -> None:
+    tree = MemoryTree(
+        {
+            "w/p/package.xml": manifest_text("p"),
+            "w/p/launch/a.launch.py": "",
+            "w/p/.hidden/x.yaml": "",
+            "w/p/.git/config": "",
+            "w/p/src/__pycache__/a.pyc": "",
+            "w/p/web/node_modules/a/package.xml": manifest_text("never"),
+            "w/p/test/inner/package.xml": manifest_text("inner"),
+            "w/p/test/inner/b.cpp": "",
+            "w/p/test/c.cpp": "",
+            "w/p/old/COLCON_IGNORE": "",
+            "w/p/old/package.xml": manifest_text("old"),
+            "w/p/build/CMakeCache.txt": "",
+            "w/p/build/x.h": "",
+            "w/p/insource/CMakeCache.txt": "",
+            "w/p/insource/CMakeLists.txt": "",
+            "w/p/venv/pyvenv.cfg": "",
+            "w/p/venv/lib/x.py": "",
+        }
+    )
+    found = discover(tree, [""])
+    (package,) = found.packages
+    assert package.files == (
+        ".hidden/x.yaml", "insource/CMakeCache.txt", "insource/CMakeLists.txt", "launch/a.launch.py", "package.xml", "test/c.cpp",
+    )  # fmt: skip
+    assert [manifest.name for manifest in package.nested] == ["inner"]
+    assert [skipped.path for skipped in package.unseen] == ["build", "old", "test/inner", "venv"]
+
+
+@pytest.mark.parametrize(
+    "files",
+    [
+        {"install/.colcon_install_layout": "isolated\n"},
+        {"install/setup.bash": "", "install/local_setup.bash": ""},
+        {"install/setup.sh": "", "install/local_setup.sh": "", "install/_local_setup_util_sh.py": ""},
+        {"install/.built_by": "colcon\n"},
+        {"install/CMakeCache.txt": ""},
+        {"install/pyvenv.cfg": ""},
+    ],
+)
+def test_products_are_skipped_by_what_is_in_them(files: dict[str, str]) -> None:
+    tree = MemoryTree(
+        {"install/p/share/p/package.xml": manifest_text("p"), "src/q/package.xml": manifest_text("q"), **files}
+    )
+    found = discover(tree, [""])
+    assert [package.path for package in found.packages] == ["src/q"]
+    assert [skipped.path for skipped in found.skipped] == ["install"]
+
+
+def test_scripts_of_a_package_make_no_install_tree() -> None:
+    tree = MemoryTree(
+        {"p/package.xml": manifest_text("p"), "p/setup.bash": "", "p/local_setup.bash": "", "local_setup.sh": ""}
+    )
+    assert [package.name for package in discover(tree, [""]).packages] == ["p"]
+
+
+def test_links_lead_to_files_but_never_round_in_circles(tmp_path: Path) -> None:
+    package = tmp_path / "ws" / "p"
+    (package / "config").mkdir(parents=True)
+    (package / "package.xml").write_text(manifest_text("p"))
+    (package / "config" / "a.yaml").write_text("")
+    (package / "alias").symlink_to("config")
+    (package / "config" / "up").symlink_to("../..")
+    (package / "itself").symlink_to("itself")
+    (package / "outside").symlink_to("/")
+    (tmp_path / "ws" / "shared" / "deep").mkdir(parents=True)
+    (tmp_path / "ws" / "shared" / "deep" / "b.yaml").write_text("")
+    (tmp_path / "ws" / "shared" / "back").symlink_to("../p/shared")
+    (package / "shared").symlink_to("../shared")
+    found = discover(DiskTree(str(tmp_path / "ws")), [""])
+    assert found.packages[0].files == ("alias/a.yaml", "config/a.yaml", "package.xml", "shared/deep/b.yaml")
+    assert found.packages[0].unseen == (
+        Skipped("alias/up", "a link to a folder that it lies in"),
+        Skipped("config/up", "a link to a folder that it lies in"),
+        Skipped("outside", "a link that leads out of the workspace"),
+        Skipped("shared/back", "a link to a folder that it lies in"),
+    )
+
+
+def test_links_across_each_other_do_not_multiply(tmp_path: Path) -> None:
+    folders = [tmp_path / "p" / name for name in "abcdefghij"]
+    for folder in folders:
+        folder.mkdir(parents=True)
+        (folder / "x").write_text("")
+    for folder in folders:
+        for other in folders:
+            if other != folder:
+                (folder / f"to_{other.name}").symlink_to(other)
+    (tmp_path / "p" / "package.xml").write_text(manifest_text("p"))
+    files = discover(DiskTree(str(tmp_path)), [""]).packages[0].files
+    assert {"a/x", "a/to_b/x", "j/to_i/x"} <= set(files)
+    assert len(files) < 10 * 10 * 10
+
+
+class _Closed(DiskTree):
+    """A disk on which some places cannot be read, also by root."""
+
+    def list(self, path: str) -> list[Entry]:
+        if path.endswith("closed"):
+            raise PermissionError(13, "Permission denied", path)
+        return super().list(path)
+
+    def read(self, path: str) -> bytes:
+        if "secret" in path:
+            raise PermissionError(13, "Permission denied", path)
+        return super().read(path)
+
+
+def test_what_cannot_be_read_is_said_and_the_rest_goes_on(tmp_path: Path) -> None:
+    for folder in ("closed", "p/closed", "p/secret", "secret", "z"):
+        (tmp_path / folder).mkdir(parents=True)
+    for folder in ("p", "p/secret", "secret", "z"):
+        (tmp_path / folder / "package.xml").write_text(manifest_text(folder.replace("/", "_")))
+    found = discover(_Closed(str(tmp_path)), ["", "missing"])
+    assert [package.name for package in found.packages] == ["p", "z"]
+    assert [(item.what, item.reason) for item in found.not_checked] == [
+        ("closed", "Permission denied"),
+        ("missing", "No such file or directory"),
+        ("p/closed", "Permission denied"),
+        ("p/secret/package.xml", "Permission denied"),
+        ("secret/package.xml", "Permission denied"),
+    ]
+
+
+def test_names_with_spaces_and_letters_of_any_kind_and_a_folder_called_package_xml(tmp_path: Path) -> None:
+    for folder in ("my ws/größe", "my ws/package.xml/q", "\udcff"):
+        (tmp_path / folder).mkdir(parents=True)
+        (tmp_path / folder / "package.xml").write_text(manifest_text("p"))
+    assert differences(tmp_path) == []
+    found = discover(DiskTree(str(tmp_path)), [""])
+    assert [package.path for package in found.packages] == ["my ws/größe", "my ws/package.xml/q", "\udcff"]
+
+
+def test_the_base_can_be_a_package_and_roots_may_overlap() -> None:
+    tree = MemoryTree({"package.xml": manifest_text("p"), "src/q/package.xml": manifest_text("q"), "other/x": ""})
+    assert [package.path for package in discover(tree, [""]).packages] == [""]
+    assert [package.path for package in discover(tree, ["src", "src/q", "other"]).packages] == ["src/q"]
+
+
+def test_a_rejected_manifest_without_another_script_is_no_package_but_known() -> None:
+    found = discover(MemoryTree({"p/package.xml": "<package/>", "p/q/package.xml": manifest_text("q")}), [""])
+    assert [package.name for package in found.packages] == ["q"]
+    assert [manifest.path for manifest in found.rejected] == ["p/package.xml"]
+
+
+def test_a_rejected_manifest_beside_a_script_is_a_plain_package() -> None:
+    tree = MemoryTree({"p/package.xml": "<package/>", "p/CMakeLists.txt": "project(other)\nfind_package(q)\n"})
+    (package,) = discover(tree, [""]).packages
+    assert (package.name, package.type) == ("other", "cmake")
+    assert package.manifest is not None
+    assert [(depend.name, depend.span.line, depend.span.column) for depend in package.colcon_depends] == [("q", 2, 14)]
+
+
+@pytest.mark.parametrize("text", ["- a", "a: [", "\udcff", "[" * 10_000, "&a [*a]: b", "!x y"])
+def test_colcon_files_that_are_no_mapping_are_said_and_not_used(text: str) -> None:
+    data = text.encode("utf-8", "surrogateescape")
+    tree = MemoryTree({"colcon.meta": data, "p/package.xml": manifest_text("p"), "p/colcon.pkg": data})
+    found = discover(tree, [""])
+    assert [package.name for package in found.packages] == ["p"]
+    if text not in ("&a [*a]: b",):
+        assert [item.what for item in found.not_checked] == ["colcon.meta", "p/colcon.pkg"]
+
+
+def test_edges_from_colcon_files_have_their_places() -> None:
+    tree = MemoryTree(
+        {
+            "p/package.xml": manifest_text("p"),
+            "p/colcon.pkg": "name: p2\ndependencies:\n  - a\n  - 'b'\ntest-dependencies: [c]\n",
+            "colcon.meta": "names:\n  p2:\n    run-dependencies: {d: }\npaths:\n  ./p:\n    build-dependencies: [e]\n",
+        }
+    )
+    (package,) = discover(tree, [""]).packages
+    assert (package.name, package.type) == ("p2", "ros.ament_cmake")
+    assert [(depend.name, str(depend.span)) for depend in package.colcon_depends] == [
+        ("a", "p/colcon.pkg:3:5"),
+        ("b", "p/colcon.pkg:4:5"),
+        ("c", "p/colcon.pkg:5:21"),
+        ("d", "colcon.meta:3:24"),
+        ("e", "colcon.meta:6:26"),
+    ]
+
+
+def test_the_order_of_a_directory_does_not_matter() -> None:
+    files = {f"{folder}/package.xml": manifest_text(folder) for folder in ("b", "a", "c")} | {"a/x": "", "a/b/y": ""}
+
+    def found(names: list[str]) -> Discovery:
+        return discover(MemoryTree({name: files[name] for name in names}), [""])
+
+    assert found(list(files)) == found(list(reversed(files)))
