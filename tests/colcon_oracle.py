@@ -1,5 +1,7 @@
 """What colcon itself makes of a folder: its packages, what each needs, and whether it can order them."""
 
+# ruff: noqa: PLC0415  (colcon warns while it is imported, which would be an error)
+
 from __future__ import annotations
 
 import contextlib
@@ -32,9 +34,9 @@ def colcon_list(base: Path) -> Listing:
 
 
 def _list() -> Listing:
-    import colcon_metadata.metadata as metadata
-    import colcon_python_setup_py.package_identification.python_setup_py as setup_py
-    import colcon_ros.package_identification.ros as ros
+    from colcon_metadata import metadata
+    from colcon_python_setup_py.package_identification import python_setup_py as setup_py
+    from colcon_ros.package_identification import ros
     from colcon_core.location import set_default_config_path
     from colcon_core.package_augmentation import augment_packages
     from colcon_core.package_discovery import add_package_discovery_arguments, discover_packages

@@ -263,14 +263,13 @@ def test_a_rejected_manifest_beside_a_script_is_a_plain_package() -> None:
     assert [(depend.name, depend.span.line, depend.span.column) for depend in package.colcon_depends] == [("q", 2, 14)]
 
 
-@pytest.mark.parametrize("text", ["- a", "a: [", "\udcff", "[" * 10_000, "&a [*a]: b", "!x y"])
+@pytest.mark.parametrize("text", ["- a", "a: [", "\udcff", "[" * 10_000, "!x y"])
 def test_colcon_files_that_are_no_mapping_are_said_and_not_used(text: str) -> None:
     data = text.encode("utf-8", "surrogateescape")
     tree = MemoryTree({"colcon.meta": data, "p/package.xml": manifest_text("p"), "p/colcon.pkg": data})
     found = discover(tree, [""])
     assert [package.name for package in found.packages] == ["p"]
-    if text not in ("&a [*a]: b",):
-        assert [item.what for item in found.not_checked] == ["colcon.meta", "p/colcon.pkg"]
+    assert [item.what for item in found.not_checked] == ["colcon.meta", "p/colcon.pkg"]
 
 
 def test_edges_from_colcon_files_have_their_places() -> None:

@@ -122,7 +122,8 @@ def _cmake(random: Random) -> str:
     name = random.choice(PACKAGES)
     project = random.choice(
         (f"project({name})", f'PROJECT ( "{name}" VERSION 1.0\n LANGUAGES CXX)', "project(${NAME})", f"project({name}# no\n)", "",
-         "project(Project)\ncatkin_workspace()", f"# project(other)\nproject({name})", f'message("# {name}")\nproject({name} CXX)')
+         "project(Project)\ncatkin_workspace()", f"# project(other)\nproject({name})",
+         f'message("# {name}")\nproject({name} CXX)')
     )  # fmt: skip
     finds = [
         random.choice(
