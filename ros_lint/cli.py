@@ -54,8 +54,10 @@ def _run(command: str, options: dict[str, object]) -> int:
         from ros_lint.commands import index  # noqa: PLC0415
 
         return index.run(options)
-    from ros_lint.commands import check, graphs  # noqa: PLC0415
-
     if command == "check":
+        from ros_lint.commands import check  # noqa: PLC0415
+
         return check.run(options)
+    from ros_lint.commands import graphs  # noqa: PLC0415
+
     return graphs.run(command, options)

@@ -14,7 +14,7 @@ from ros_lint.cache import Cache
 from ros_lint.collect import Collected, collect_all, kind_of
 from ros_lint.discover import Found, discover
 from ros_lint.facts import ROLES, BuildScript, FileFacts, LaunchFile, Manifest, Role
-from ros_lint.knowledge import Knowledge, user_directory
+from ros_lint.knowledge import Knowledge
 from ros_lint.knowledge.index import TAG_KINDS
 from ros_lint.text import Span, Text, read
 from ros_lint.tree import OverlayTree, Tree, join
@@ -57,7 +57,7 @@ class Loader:
         self.target = target
         self._roots = tuple(roots)
         self._underlays = tuple(underlays)
-        self._knowledge = knowledge or Knowledge(target.distro, (user_directory(),))
+        self._knowledge = knowledge or Knowledge(target.distro)
         self._exclude = exclude
         self._jobs = jobs
         self._cache = cache or Cache("", "")

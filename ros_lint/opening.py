@@ -47,8 +47,9 @@ def open_workspace(said: Mapping[str, Any], environment: Mapping[str, str], prog
     settings = settle(
         {name: value for name, value in said.items() if name != "paths"}, os.path.commonpath(paths), environment, base
     )
-    target, warnings = _target(settings)
-    knowledge = Knowledge(target.distro, (user_directory(),))
+    places = (user_directory(environment),)
+    target, warnings = _target(settings, places)
+    knowledge = Knowledge(target.distro, places)
     prefixes = [prefix for prefix in settings["underlay"] if prefix]
     try:
         underlays = underlay.read(prefixes, target.distro, base) if prefixes else ()
@@ -87,9 +88,8 @@ def _base(paths: Sequence[str]) -> str:
         folder = above
 
 
-def _target(settings: Settings) -> tuple[Target, tuple[str, ...]]:
+def _target(settings: Settings, places: Sequence[str]) -> tuple[Target, tuple[str, ...]]:
     distro = settings["distro"]
-    places = (user_directory(),)
     if not distro:
         return Target(newest_lts(places), "newest long-term release known"), ()
     known = [known.name for known in distros(places)]
