@@ -10,9 +10,9 @@ import operator
 import re
 from collections.abc import Callable, Iterator, Mapping
 from functools import lru_cache
-from typing import Final, NamedTuple, Union
+from typing import Final, NamedTuple
 
-from ros_lint.facts import Depend, Element, Manifest, Problem
+from ros_lint.facts import Element, Manifest, Problem
 
 MOST_DEPTH = 20
 """Parentheses nested deeper are refused: catkin_pkg needs time exponential in their depth."""
@@ -49,7 +49,7 @@ class Junction(NamedTuple):
     parts: tuple[Condition, ...]
 
 
-Condition = Union[Comparison, Junction]  # noqa: UP007  (evaluated at run time, on Python 3.10 with a forward reference)
+Condition = Comparison | Junction
 
 _OPERATORS: dict[str, Callable[[str, str], bool]] = {
     "==": operator.eq,
@@ -132,15 +132,15 @@ def problems(manifest: Manifest) -> tuple[Problem, ...]:
 
 
 def _unparsable(manifest: Manifest) -> Iterator[Problem]:
-    conditional = [(depend.condition, depend.tag, depend) for depend in manifest.depends if depend.condition]
-    conditional += [(text, element.tag, element) for element in manifest.exports if (text := _condition(element))]
-    for text, tag, fact in conditional:
+    conditional = [(depend.condition, depend.tag, depend.span) for depend in manifest.depends if depend.condition]
+    conditional += [(text, element.tag, element.span) for element in manifest.exports if (text := _condition(element))]
+    for text, tag, span in conditional:
         try:
             parse(text)
         except ConditionError as error:
             shown = text.strip() or "(empty)"
             message = f"condition {shown} of <{tag}> does not parse: {error.message} at character {error.offset + 1}"
-            yield Problem("invalid-condition", message, fact.span)
+            yield Problem("invalid-condition", message, span)
 
 
 def _condition(element: Element) -> str:
@@ -156,7 +156,7 @@ def _value(operand: Operand, context: Mapping[str, str]) -> str | None:
 
 def _junction(text: str, at: int, depth: int) -> tuple[Condition, int]:
     """``or`` binds less than ``and``."""
-    alternatives, at = [], at
+    alternatives: list[Condition] = []
     while True:
         parts, at = _conjunction(text, at, depth)
         alternatives.append(parts[0] if len(parts) == 1 else Junction(True, tuple(parts)))

@@ -166,18 +166,26 @@ SEEDS = (
 """,
 )
 
-_TAGS = (*KINDS, "name", "version", "description", "maintainer", "license", "url", "author", "export", "build_type", "Depend", "x:depend")
-_ATTRIBUTES = ("email", "format", "condition", "type", "file", "compatibility", "x:y", "xml:lang", "xmlns", "xmlns:x", *VERSIONS)
+_TAGS = (
+    *KINDS,
+    *("name", "version", "description", "maintainer", "license", "url", "author", "export", "build_type", "Depend", "x:depend"),
+)
+_ATTRIBUTES = (
+    *("email", "format", "condition", "type", "file", "compatibility", "x:y", "xml:lang", "xmlns", "xmlns:x"),
+    *VERSIONS,
+)
 _VALUES = (
-    *("", " ", "1", "2", "3", "03", " 3 ", "4", "1.0", "1.2.3", "01.2.3", "1.2.3rc1", "a@b", "a@b.cc", "talker", "rclcpp", "std_msgs"),
-    *("ament_cmake", "ament_python", "$ROS_VERSION == 2", "$ROS_VERSION", "$ROS_DISTRO == jazzy and ($A == b or $ROS_VERSION &gt; 1)"),
-    *("&lt;", "&#97;", "&#x20;", "&nbsp;", "\u00a0", "é\u4e2d\U0001f600", "a b", "a\n  b", "\r\n", "\t", "0.0.0\u0660", "-x", "Talker_2"),
+    *("", " ", "1", "2", "3", "03", " 3 ", "4", "1.0", "1.2.3", "01.2.3", "1.2.3rc1", "a@b", "a@b.cc", "talker", "rclcpp"),
+    *("std_msgs", "ament_cmake", "ament_python", "$ROS_VERSION == 2", "$ROS_VERSION"),
+    *("$ROS_DISTRO == jazzy and ($A == b or $ROS_VERSION &gt; 1)", "&lt;", "&#97;", "&#x20;", "&#x6A;", "&nbsp;", "\u00a0"),
+    *("é\u4e2d\U0001f600", "a b", "a\n  b", "\r\n", "\t", "0.0.0\u0660", "-x", "Talker_2"),
 )
 _FRAGMENTS = (
-    *("<!-- c -->", "<![CDATA[x]]>", "<![CDATA[]]>", "<?pi x?>", "<b>x</b>", "<br/>", "text", "&amp;", "&", "<", ">", "]]>", "\x01", "\n\n"),
-    *("<depend>rclcpp</depend>", "<exec_depend>std_msgs</exec_depend>", "<test_depend>talker</test_depend>", "<depend/>", "</package>"),
-    *("<build_type>ament_cargo</build_type>", "<export/>", "<license> </license>", "<<<<<<< HEAD\n", "=======\n", ">>>>>>> x\n"),
-    *('<depend xmlns="u">rclcpp</depend>', '<x:depend xmlns:x="u">a</x:depend>', "<a><a><a>x</a></a></a>", "\ufeff"),
+    *("<!-- c -->", "<![CDATA[x]]>", "<![CDATA[]]>", "<?pi x?>", "<b>x</b>", "<br/>", "text", "&amp;", "&", "<", ">", "]]>"),
+    *("\x01", "\n\n", "<depend>rclcpp</depend>", "<exec_depend>std_msgs</exec_depend>", "<test_depend>talker</test_depend>"),
+    *("<depend/>", "</package>", "<build_type>ament_cargo</build_type>", "<export/>", "<license> </license>", "\ufeff"),
+    *("<<<<<<< HEAD\n", "=======\n", ">>>>>>> x\n", '<depend xmlns="u">rclcpp</depend>', "<a><a><a>x</a></a></a>"),
+    '<x:depend xmlns:x="u">a</x:depend>',
 )
 _ELEMENT = re.compile(r"<(\w+)(?:\s[^<>]*)?>[^<>]*</\1>|<\w+/>")
 _NAME = re.compile(r"(?<=</)[\w:]+|(?<=<)[\w:]+")

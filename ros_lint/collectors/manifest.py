@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from typing import Final
 
-from ros_lint.collectors.manifest_problems import VERSIONS, Facts, find_problems, read_format
-from ros_lint.collectors.manifest_xml import BLANK, Document, Fault, Node, attribute, markup, read, value
+from ros_lint.collectors.manifest_problems import ALLOWED, VERSIONS, find_problems, read_format, surely_accepted
+from ros_lint.collectors.manifest_xml import BLANK, Document, Fault, Node, attribute, child, markup, read, value
 from ros_lint.facts import ROLES, Depend, Element, Manifest, Problem
 from ros_lint.text import Span, Text
 
@@ -19,7 +19,13 @@ _NEWEST_FORMAT = 3
 
 _ASIDE = re.compile(r"<!--.*?-->|<\?.*?\?>|<!\[CDATA\[.*?\]\]>|[^\s<]+(?:[^\S\r\n]+[^\s<]+)*", re.DOTALL)
 
+_PLAIN = re.compile(r"[^<&\r]*").fullmatch
+
+_NONE: frozenset[str] = frozenset()
+
 _Place = Callable[[int, int], Span]
+
+_new = tuple.__new__  # half the time of calling a named tuple
 
 
 def collect(source: Text) -> Manifest:
@@ -34,59 +40,90 @@ def collect(source: Text) -> Manifest:
     root = document.root
     if root is None or root.tag != "package":
         return _no_package(text, document)
-    place = _placer(text)
     form = read_format(root)
+    place = _placer(text)
     format_span = None
     if "format" in root.attributes:
         _, start, end = attribute(text.text, root, "format")
         format_span = place(start, end)
     begin = place(root.inner, root.inner)
-    facts, exports, asides = _read_children(text.text, root, place)
-    ended = root.close if root.end >= 0 else document.read
-    end_span = text.span(ended, ended)
-    faults = [*document.faults, *find_problems(document, root, form, facts)]
-    names = [(fact.text, fact.text_span) for node, fact in facts if node.tag == "name" and isinstance(fact, Element)]
-    versions = [fact.text for node, fact in facts if node.tag == "version" and isinstance(fact, Element)]
+    found = _read_children(document, root, ALLOWED.get(form, {}), place)
+    end = root.close if root.end >= 0 else document.read
+    faults = document.faults
+    if faults or found.doubtful or not surely_accepted(root, form, found.elements, found.depends):
+        faults = (*faults, *find_problems(document, root, form, found.elements, found.depends))
+    name = next((element for element in found.elements if element.tag == "name"), None)
     return Manifest(
         text.path,
         form or _NEWEST_FORMAT,
-        names[0][0] if names else "",
-        versions[0] if versions else "",
-        tuple([fact for _, fact in facts if isinstance(fact, Element)]),
-        tuple([fact for _, fact in facts if isinstance(fact, Depend)]),
-        exports,
+        name.text if name else "",
+        next((element.text for element in found.elements if element.tag == "version"), ""),
+        tuple(found.elements),
+        tuple(found.depends),
+        tuple(found.exports),
         _problems(text, faults) if faults else (),
-        names[0][1] if names else text.span(root.start + 1, root.start + 1 + len(root.tag)),
-        end_span,
+        name.text_span if name else text.span(root.start + 1, root.start + 1 + len(root.tag)),
+        place(end, end),
         begin,
         format_span,
-        asides,
-        _indent(text.text, root),
+        tuple(found.asides),
+        _indent(text.text, document),
         text.newline,
     )
 
 
-def _read_children(text: str, root: Node, place: _Place) -> tuple[Facts, tuple[Element, ...], tuple[Span, ...]]:
-    """Return the children of the root with what they say, those of ``<export>``, and all that stands between them."""
-    facts: Facts = []
-    exports: list[Element] = []
-    asides: list[Span] = []
+class _Found:
+    """What stands in ``<package>``. ``doubtful``: some element has attributes or children that it may not have."""
+
+    __slots__ = ("asides", "depends", "doubtful", "elements", "exports")
+
+    def __init__(self) -> None:
+        self.elements: list[Element] = []
+        self.depends: list[Depend] = []
+        self.exports: list[Element] = []
+        self.asides: list[Span] = []
+        self.doubtful = False
+
+
+def _read_children(document: Document, root: Node, allowed: Mapping[str, frozenset[str]], place: _Place) -> _Found:
+    found = _Found()
+    text, events = document.text, document.events
+    at, last = 1, len(events)
     done = root.inner
-    for child in root.children:
-        if child.start != done and not (gap := text[done : child.start]).isspace():
-            asides += [place(done + found.start(), done + found.end()) for found in _ASIDE.finditer(gap)]
-        done = child.end
-        if child.end < 0:  # the file breaks off in it
-            done = len(text)
-        elif child.tag in DEPENDENCY_TAGS:
-            facts.append((child, _depend(text, child, place)))
-        else:
-            facts.append((child, _element(text, child, place, rich=child.tag in ("description", "export"))))
-        if child.tag == "export":
-            exports += [_element(text, inner, place, rich=True) for inner in child.children if inner.end >= 0]
+    while at < last and not isinstance(event := events[at], int):
+        tag, attributes, start = event
+        if start != done and not (gap := text[done:start]).isspace():
+            found.asides += [place(done + aside.start(), done + aside.end()) for aside in _ASIDE.finditer(gap)]
+        if not attributes and at + 1 < last and isinstance(close := events[at + 1], int):
+            # Most elements have nothing but text in them. They are read here, at half the cost.
+            inner = start + len(tag) + 2
+            raw = text[inner:close]
+            done = close + len(tag) + 3
+            if text[inner - 1] == ">" == text[done - 1] and " " not in tag and _PLAIN(raw):
+                at += 2
+                name = raw.strip(BLANK)
+                if len(name) != len(raw) and name:
+                    inner += len(raw) - len(raw.lstrip(BLANK))
+                span = place(start, done)
+                if tag in DEPENDENCY_TAGS:
+                    found.depends.append(_new(Depend, (name, tag, "", (), span, place(inner, inner + len(name)), done - close)))
+                else:
+                    found.elements.append(_new(Element, (tag, name, (), span, place(inner, inner + len(name)))))
+                continue
+        node, at = child(document, at)
+        done = node.end if node.end >= 0 else len(text)  # else the file breaks off in it
+        rich = node.tag in ("description", "export")
+        if (node.children and not rich) or not allowed.get(node.tag, _NONE).issuperset(node.attributes):
+            found.doubtful = True
+        if node.end >= 0 and node.tag in DEPENDENCY_TAGS:
+            found.depends.append(_depend(text, node, place))
+        elif node.end >= 0:
+            found.elements.append(_element(text, node, place, rich=rich))
+        if node.tag == "export":
+            found.exports += [_element(text, inside, place, rich=True) for inside in node.children if inside.end >= 0]
     if root.end >= 0 and done < root.close and not (gap := text[done : root.close]).isspace():
-        asides += [place(done + found.start(), done + found.end()) for found in _ASIDE.finditer(gap)]
-    return facts, tuple(exports), tuple(asides)
+        found.asides += [place(done + aside.start(), done + aside.end()) for aside in _ASIDE.finditer(gap)]
+    return found
 
 
 def _depend(text: str, node: Node, place: _Place) -> Depend:
@@ -97,23 +134,43 @@ def _depend(text: str, node: Node, place: _Place) -> Depend:
     if close > len(node.tag) + 3 and not text[node.close : node.end].isprintable():
         close = 0
     attributes = node.attributes
-    if not attributes:
-        return Depend(name, node.tag, "", (), span, name_span, close)
     versions = tuple([(key, text) for key, text in attributes.items() if key in VERSIONS])
     condition = (attributes["condition"] or " ") if "condition" in attributes else ""
     return Depend(name, node.tag, condition, versions, span, name_span, close)
 
 
-def _element(text: str, node: Node, place: _Place, *, rich: bool) -> Element:
+def _element(text: str, node: Node, place: _Place, *, rich: bool = False) -> Element:
     """``rich`` elements have their markup as text, as catkin_pkg has it."""
     span = place(node.start, node.end)
-    found, start, end = value(text, node)
     if rich:
-        found = markup(text, node)
+        found = markup(text, node) if node.tag != "export" else ""
         inner = text[node.inner : node.close]
         start = node.inner + len(inner) - len(inner.lstrip(BLANK))
         end = max(start, node.close - len(inner) + len(inner.rstrip(BLANK)))
-    return Element(node.tag, found, tuple(node.attributes.items()), span, place(start, end))
+    else:
+        found, start, end = value(text, node)
+    return _new(Element, (node.tag, found, tuple(node.attributes.items()), span, place(start, end)))
+
+
+def _placer(source: Text) -> _Place:
+    """Return :meth:`Text.span` for places whose starts come in order, which then costs a third."""
+    path, text = source.path, source.text
+    if "\r" in text:
+        return source.span
+    count, rfind = text.count, text.rfind
+    line, begin, at = 1, 0, 0
+
+    def place(start: int, end: int) -> Span:
+        nonlocal line, begin, at
+        if passed := count("\n", at, start):
+            line += passed
+            begin = rfind("\n", at, start) + 1
+        at = start
+        if lines := count("\n", start, end):
+            return _new(Span, (path, line, start - begin + 1, line + lines, end - rfind("\n", start, end)))
+        return _new(Span, (path, line, start - begin + 1, line, end - begin + 1))
+
+    return place
 
 
 def _no_package(text: Text, document: Document) -> Manifest:
@@ -129,35 +186,16 @@ def _no_package(text: Text, document: Document) -> Manifest:
     return Manifest(text.path, _NEWEST_FORMAT, "", "", (), (), (), _problems(text, faults), place, end)
 
 
-def _problems(text: Text, faults: list[Fault]) -> tuple[Problem, ...]:
+def _problems(text: Text, faults: Iterable[Fault]) -> tuple[Problem, ...]:
     found = [Problem(fault.kind, fault.message, text.span(fault.start, fault.end)) for fault in faults]
     return tuple(sorted(found, key=lambda problem: problem.span))
 
 
-def _indent(text: str, root: Node) -> str:
+def _indent(text: str, document: Document) -> str:
     """Return the white space before the first child that begins its line."""
-    for child in root.children:
-        begin = max(text.rfind("\n", 0, child.start), text.rfind("\r", 0, child.start)) + 1
-        if begin > root.start and not text[begin : child.start].strip(" \t"):
-            return text[begin : child.start]
+    for event in document.events[1:]:
+        if not isinstance(event, int):
+            begin = max(text.rfind("\n", 0, event[2]), text.rfind("\r", 0, event[2])) + 1
+            if begin and not text[begin : event[2]].strip(" \t"):
+                return text[begin : event[2]]
     return "  "
-
-
-def _placer(text: Text) -> _Place:
-    """Return :meth:`Text.span` for places that come in the order of their starts, which then costs a third."""
-    path, content = text.path, text.text
-    if "\r" in content:
-        return text.span
-    line, begin, at = 1, 0, 0
-
-    def place(start: int, end: int) -> Span:
-        nonlocal line, begin, at
-        if passed := content.count("\n", at, start):
-            line += passed
-            begin = content.rfind("\n", at, start) + 1
-        at = start
-        if inside := content.count("\n", start, end):
-            return Span(path, line, start - begin + 1, line + inside, end - content.rfind("\n", start, end))
-        return Span(path, line, start - begin + 1, line, end - begin + 1)
-
-    return place

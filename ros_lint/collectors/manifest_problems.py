@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Final
 
-from ros_lint.collectors.manifest_xml import Document, Fault, Node, attribute
+from ros_lint.collectors.manifest_xml import Document, Fault, Node, attribute, children, value
 from ros_lint.facts import Depend, Element
 
-Facts = list[tuple[Node, Element | Depend]]
-"""The children of ``<package>``, each with what it says."""
+_Elements = Sequence[tuple[Node, Element]]
+_Depends = Sequence[tuple[Node, Depend]]
+"""Children of ``<package>``, each with what it says."""
 
 VERSIONS: Final = frozenset(("version_lt", "version_lte", "version_eq", "version_gte", "version_gt"))
 """The attributes that ask for a version of the dependency (reference, section A4)."""
@@ -63,37 +64,97 @@ def read_format(root: Node) -> int:
     return form if form in ALLOWED else 0
 
 
-def find_problems(document: Document, root: Node, form: int, facts: Facts) -> Iterator[Fault]:
+def surely_accepted(root: Node, form: int, elements: Sequence[Element], depends: Sequence[Depend]) -> bool:
+    """Return True if :func:`find_problems` has nothing to say, but perhaps about attributes and children. Costs a fifth."""
+    if not form or not root.attributes.keys() <= {"format"}:
+        return False
+    tags = [element.tag for element in elements]
+    kinds = [depend.tag for depend in depends]
+    if not ALLOWED[form].keys() >= {*tags, *kinds} or "group_depend" in kinds or tags.count("export") > 1:
+        return False
+    if not tags.count("name") == tags.count("version") == tags.count("description") == 1:
+        return False
+    if "maintainer" not in tags or "license" not in tags or not all(map(_sound, elements)):
+        return False
+    names = [depend.name for depend in depends]
+    if elements[tags.index("name")].text in names:
+        return False
+    if form == 1:
+        return "test_depend" not in kinds
+    if "depend" in kinds:
+        names = [depend.name for depend in depends if depend.tag in _GENERIC]
+        return len(set(names)) == len(names)
+    return True
+
+
+def _sound(element: Element) -> bool:
+    """Return whether the content of an element, and what :func:`find_problems` asks of its attributes, is surely right."""
+    tag = element.tag
+    if tag == "name":
+        return bool(_NAME.match(element.text))
+    if tag == "version":
+        return bool(_VERSION.match(element.text)) and not element.attributes
+    if tag == "license":
+        return bool(element.text.strip())
+    if tag == "description":
+        return bool(element.text)
+    if tag in ("maintainer", "author"):
+        for name, text in element.attributes:
+            if name == "email":
+                return bool(_EMAIL.match(text))
+        return tag == "author"
+    return True
+
+
+def find_problems(
+    document: Document, root: Node, form: int, elements: Sequence[Element], depends: Sequence[Depend]
+) -> Iterator[Fault]:
     """Yield what is wrong with the content of a manifest, in no order. ``form`` is 0 when the format is unknown.
 
-    Of a file that could not be read to its end, nothing is said to be missing.
+    ``elements`` and ``depends`` are what was made of the closed children of the root. Of a file that could not be read to
+    its end, nothing is said to be missing.
     """
-    text = document.text
-    if not form:
-        _, start, end = attribute(text, root, "format")
-        written = root.attributes["format"]
-        yield Fault("format", f'there is no format "{written}" of package.xml; write format="3"', start, end)
+    nodes = [node for node in children(document) if node.end >= 0]
+    dependency_tags = {depend.tag for depend in depends}
+    of_elements = list(zip([node for node in nodes if node.tag not in dependency_tags], elements, strict=True))
+    of_depends = list(zip([node for node in nodes if node.tag in dependency_tags], depends, strict=True))
     for name in root.attributes:
         if name != "format" and ":" not in name:
-            yield _unknown_attribute(text, root, name, form)
+            yield _unknown_attribute(document.text, root, name, form)
     if form:
-        allowed = ALLOWED[form]
-        for node, _ in facts:
-            attributes = allowed.get(node.tag)
-            if attributes is None:
-                yield _unknown_tag(node, form)
-                continue
-            if node.attributes and not attributes.issuperset(node.attributes):
-                for name in node.attributes:
-                    if name not in attributes and ":" not in name:
-                        yield _unknown_attribute(text, node, name, form)
-            if node.children and node.tag not in ("description", "export"):
-                for child in node.children:
-                    message = f"<{node.tag}> must hold text only; remove <{child.tag}>"
-                    yield Fault("nested-tag", message, child.start, child.end if child.end >= 0 else document.read)
-    yield from _elements(document, root, [(node, fact) for node, fact in facts if isinstance(fact, Element)])
-    name = next((fact.text for node, fact in facts if node.tag == "name" and isinstance(fact, Element)), "")
-    yield from _depends([(node, fact) for node, fact in facts if isinstance(fact, Depend)], name, form)
+        for node in nodes:
+            yield from _content(document, node, form)
+    else:
+        _, start, end = attribute(document.text, root, "format")
+        written = root.attributes["format"]
+        yield Fault("format", f'there is no format "{written}" of package.xml; write format="3"', start, end)
+    yield from _presence(document, root, of_elements)
+    own_name = ""
+    for node, element in of_elements:
+        if node.tag == "name":
+            own_name = own_name or element.text
+        if check := _CHECKS.get(node.tag):
+            yield from check(document.text, node, element)
+    yield from _alone(of_depends, own_name)
+    if form == 1:
+        yield from _duplicate_tests(of_depends)
+    else:
+        yield from _duplicates(of_depends)
+
+
+def _content(document: Document, node: Node, form: int) -> Iterator[Fault]:
+    """Yield the element itself when its format has none of its name, or the attributes and children that it must not have."""
+    allowed = ALLOWED[form].get(node.tag)
+    if allowed is None:
+        yield _unknown_tag(node, form)
+        return
+    for name in node.attributes:
+        if name not in allowed and ":" not in name:
+            yield _unknown_attribute(document.text, node, name, form)
+    if node.tag not in ("description", "export"):
+        for inside in node.children:
+            message = f"<{node.tag}> must hold text only; remove <{inside.tag}>"
+            yield Fault("nested-tag", message, inside.start, inside.end if inside.end >= 0 else document.read)
 
 
 def _unknown_tag(node: Node, form: int) -> Fault:
@@ -121,44 +182,28 @@ def _unknown_attribute(text: str, node: Node, name: str, form: int) -> Fault:
     return Fault("unknown-attribute", message, start, min(end + 1, node.inner))
 
 
-def _elements(document: Document, root: Node, elements: list[tuple[Node, Element]]) -> Iterator[Fault]:
-    """Yield what is wrong with everything but the dependencies."""
-    text = document.text
-    seen: dict[str, Node] = {}
-    for node, element in elements:
-        tag = node.tag
-        if tag in seen and tag in ("name", "version", "description", "export"):
-            yield Fault("repeated-tag", f"there must be one <{tag}> only; remove the others", node.start, node.end)
-        seen[tag] = node
-        start, end = node.inner, max(node.close, node.inner)
-        if tag == "name":
-            if not element.text:
-                yield Fault("empty-tag", "<name> is empty; write the name of the package", node.start, node.end)
-            elif not _NAME.match(element.text):
-                message = f'"{element.text}" is no package name; use letters, digits and underscores only'
-                yield Fault("invalid-name", message, start, end)
-        elif tag == "version":
-            yield from _version(text, node, element)
-        elif tag in ("maintainer", "author"):
-            email = node.attributes.get("email")
-            if email is None:
-                if tag == "maintainer":
-                    message = f'maintainer "{element.text}" has no email; add the attribute email'
-                    yield Fault("missing-attribute", message, node.start, node.inner)
-            elif not _EMAIL.match(email):
-                _, start, end = attribute(text, node, "email")
-                yield Fault("invalid-email", f'"{email}" is no e-mail address; write name@example.org', start, end)
-        elif tag == "license":
-            if not element.text.strip():
-                message = "<license> is empty; name the licence, such as Apache-2.0"
-                yield Fault("empty-tag", message, node.start, node.end)
-        elif tag == "description" and not element.text:
-            yield Fault("empty-tag", "<description> is empty; say what the package is for", node.start, node.end)
+def _presence(document: Document, root: Node, elements: _Elements) -> Iterator[Fault]:
+    """Yield what is missing, and what is there more than once."""
+    tags = [node.tag for node, _ in elements]
+    for tag in ("name", "version", "description", "export"):
+        if tags.count(tag) > 1:
+            first = tags.index(tag)
+            for node, _ in elements[first + 1 :]:
+                if node.tag == tag:
+                    yield Fault("repeated-tag", f"there must be one <{tag}> only; remove the others", node.start, node.end)
     if not document.faults:
         for tag in ("name", "version", "description", "maintainer", "license"):
-            if tag not in seen:
+            if tag not in tags:
                 message = f"<package> has no <{tag}>; add it"
                 yield Fault("missing-tag", message, root.start + 1, root.start + 1 + len(root.tag))
+
+
+def _name(_: str, node: Node, element: Element) -> Iterator[Fault]:
+    if not element.text:
+        yield Fault("empty-tag", "<name> is empty; write the name of the package", node.start, node.end)
+    elif not _NAME.match(element.text):
+        message = f'"{element.text}" is no package name; use letters, digits and underscores only'
+        yield Fault("invalid-name", message, node.inner, node.close)
 
 
 def _version(text: str, node: Node, element: Element) -> Iterator[Fault]:
@@ -171,39 +216,59 @@ def _version(text: str, node: Node, element: Element) -> Iterator[Fault]:
         yield Fault("empty-tag", "<version> is empty; write one of the form 1.2.3", node.start, node.end)
     elif not _VERSION.match(element.text):
         message = f'version "{element.text}" is not of the form 1.2.3; write three numbers'
-        start = text.find(element.text, node.inner, node.close)
-        whole = (start, start + len(element.text)) if start >= 0 else (node.inner, node.close)
-        yield Fault("invalid-version", message, *whole)
+        _, start, end = value(text, node)
+        yield Fault("invalid-version", message, start, end)
 
 
-def _depends(depends: list[tuple[Node, Depend]], name: str, form: int) -> Iterator[Fault]:
-    """Yield what is wrong with the dependencies among each other. ``name`` is the package's own."""
-    generic = False
-    group_depends, groups = set(), set()
+def _description(_: str, node: Node, element: Element) -> Iterator[Fault]:
+    if not element.text:
+        yield Fault("empty-tag", "<description> is empty; say what the package is for", node.start, node.end)
+
+
+def _person(text: str, node: Node, element: Element) -> Iterator[Fault]:
+    email = node.attributes.get("email")
+    if email is None:
+        if node.tag == "maintainer":
+            message = f'maintainer "{element.text}" has no email; add the attribute email'
+            yield Fault("missing-attribute", message, node.start, node.inner)
+    elif not _EMAIL.match(email):
+        _, start, end = attribute(text, node, "email")
+        yield Fault("invalid-email", f'"{email}" is no e-mail address; write name@example.org', start, end)
+
+
+def _license(_: str, node: Node, element: Element) -> Iterator[Fault]:
+    if not element.text.strip():
+        yield Fault("empty-tag", "<license> is empty; name the licence, such as Apache-2.0", node.start, node.end)
+
+
+_CHECKS: dict[str, Callable[[str, Node, Element], Iterator[Fault]]] = {
+    "name": _name,
+    "version": _version,
+    "description": _description,
+    "maintainer": _person,
+    "author": _person,
+    "license": _license,
+}
+
+
+def _alone(depends: _Depends, own_name: str) -> Iterator[Fault]:
+    """Yield dependencies of the package on itself, or on a group of which it is a member."""
     for node, depend in depends:
-        if name and depend.name == name and node.tag in _NOT_ON_ITSELF:
+        if depend.name == own_name and own_name and node.tag in _NOT_ON_ITSELF:
             message = f"the package depends on itself; remove this <{node.tag}>"
             yield Fault("self-dependency", message, node.start, node.end)
-        if node.tag == "depend":
-            generic = True
-        elif node.tag == "group_depend":
-            group_depends.add(depend.name)
-        elif node.tag == "member_of_group":
-            groups.add(depend.name)
-    if both := group_depends & groups:
-        for node, depend in depends:
-            if node.tag == "group_depend" and depend.name in both:
-                message = f"the package depends on group {depend.name}, of which it is a member itself; remove one of the two"
-                yield Fault("own-group", message, node.start, node.end)
-    if form == 1:
-        yield from _duplicate_tests(depends)
-    elif generic:
-        yield from _duplicates(depends)
+        elif node.tag == "group_depend" and any(
+            other.tag == "member_of_group" and other.name == depend.name for _, other in depends
+        ):
+            message = f"the package depends on group {depend.name}, of which it is a member itself; remove one of the two"
+            yield Fault("own-group", message, node.start, node.end)
 
 
-def _duplicates(depends: list[tuple[Node, Depend]]) -> Iterator[Fault]:
+def _duplicates(depends: _Depends) -> Iterator[Fault]:
     """Yield the dependencies that an equal <depend> holds already: equal in name, versions and condition, letter by letter."""
     kept = {_equality(node, depend): node for node, depend in reversed(depends) if node.tag == "depend"}
+    if not kept:
+        return
     for node, depend in depends:
         first = kept.get(_equality(node, depend)) if node.tag in _GENERIC else None
         if first is not None and first is not node:
@@ -211,7 +276,7 @@ def _duplicates(depends: list[tuple[Node, Depend]]) -> Iterator[Fault]:
             yield Fault("duplicate-dependency", message, node.start, node.end)
 
 
-def _duplicate_tests(depends: list[tuple[Node, Depend]]) -> Iterator[Fault]:
+def _duplicate_tests(depends: _Depends) -> Iterator[Fault]:
     others = {_equality(node, depend): node.tag for node, depend in depends if node.tag in ("build_depend", "run_depend")}
     for node, depend in depends:
         if node.tag == "test_depend" and (tag := others.get(_equality(node, depend))):
@@ -220,4 +285,4 @@ def _duplicate_tests(depends: list[tuple[Node, Depend]]) -> Iterator[Fault]:
 
 
 def _equality(node: Node, depend: Depend) -> tuple[object, ...]:
-    return (depend.name, node.attributes.get("condition"), frozenset(depend.versions))
+    return (depend.name, node.attributes.get("condition"), frozenset(depend.versions)) if node.attributes else (depend.name,)

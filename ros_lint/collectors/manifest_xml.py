@@ -7,12 +7,13 @@ Offsets count code points of the text. Nothing outside the file is looked up.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from contextlib import suppress
 from typing import Final, NamedTuple
 from xml.parsers import expat
 
 from ros_lint.text import Text
+
+_new = tuple.__new__  # half the time of calling a named tuple
 
 MOST_DEPTH = 200
 """Deeper nesting is refused; tools that walk such a file recursively fail sooner or later."""
@@ -40,36 +41,42 @@ class Fault(NamedTuple):
     end: int
 
 
-class Node:
-    """An element. ``inner`` and ``close`` are the offsets where its content starts and ends, equal in ``<a/>``."""
+Start = tuple[str, dict[str, str], int]
+"""A start tag as expat sees it: name and attributes, namespaces resolved, and offset."""
 
-    __slots__ = ("attributes", "children", "close", "end", "inner", "start", "tag")
+Event = Start | int
+"""A start tag, or where an element ends as expat sees it: at its end tag, or after ``<a/>``."""
 
-    def __init__(self, tag: str, attributes: dict[str, str], start: int) -> None:
-        self.tag = tag
-        self.attributes = attributes
-        self.start = start
-        self.inner = self.close = self.end = -1
-        self.children: list[Node] = []
+
+class Node(NamedTuple):
+    """An element. ``end`` is -1 when it is never closed; content is from ``inner`` to ``close``, equal in ``<a/>``."""
+
+    tag: str
+    attributes: dict[str, str]
+    start: int
+    inner: int
+    close: int
+    end: int
+    children: tuple[Node, ...] = ()
+    """Grandchildren are not kept."""
 
 
 class Document(NamedTuple):
-    """A file as XML: the root, its children and their children; what is nested deeper only counts as content."""
+    """A file as XML. Without a root, nothing was read."""
 
     text: str
     """As expat read it. Offsets are good for the text that was given, too."""
+    events: list[Event]
+    """All tags in order. The first is the root's."""
     root: Node | None
+    """Without its children, see :func:`children`."""
     faults: tuple[Fault, ...]
     read: int
     """How far the file could be read: its length, or the offset where it breaks off."""
 
 
-class _Refused(Exception):
-    """Raised inside a handler, to stop at something that is not read for safety."""
-
-
 def read(source: Text) -> Document:
-    """Return the elements of a manifest. Elements that were not closed before a fault have ``end`` -1. Never raises."""
+    """Return a file as XML. Never raises."""
     text, faults = _as_utf8(source)
     document = _parse(text)
     if document.faults and (conflicts := _conflicts(text, document.faults[0].start)):
@@ -138,8 +145,10 @@ def _resolve(piece: re.Match[str]) -> str:
     entity = piece["entity"]
     if entity is None:
         return piece[0].replace("\r\n", "\n").replace("\r", "\n")
+    if entity.startswith("#x"):
+        return chr(int(f"0{entity[1:]}", 0))
     if entity.startswith("#"):
-        return chr(int(entity[2:], 16) if entity[1] == "x" else int(entity[1:]))
+        return chr(int(entity[1:]))
     return _ENTITIES.get(entity, "")  # others come from a document type elsewhere, which nobody fetches
 
 
@@ -163,94 +172,140 @@ def _as_utf8(source: Text) -> tuple[str, tuple[Fault, ...]]:
 
 
 def _parse(text: str) -> Document:
+    data = text.encode()
+    events, fault, stopped = _events(text, data)
+    if len(data) != len(text):
+        events = _in_code_points(events, data)
+    faults = (fault,) if fault else ()
+    if not events or isinstance(first := events[0], int):
+        return Document(text, [], None, faults, stopped)
+    if len(events) > MOST_DEPTH and (start := _too_deep(events)) >= 0:
+        message = f"nested more than {MOST_DEPTH} levels deep; no manifest needs that"
+        faults = (*faults, Fault("too-deep", message, start, start + 1))
+    if fault is None and isinstance(last := events[-1], int):
+        root = _closed(text, first, last, ())
+    else:
+        root = _unclosed(text, first, stopped, ())
+    return Document(text, events, root, faults, stopped)
+
+
+def children(document: Document) -> list[Node]:
+    """Return the children of the root with their children."""
+    found = []
+    at, last = 1, len(document.events)
+    while at < last and not isinstance(document.events[at], int):
+        node, at = child(document, at)
+        found.append(node)
+    return found
+
+
+def child(document: Document, at: int) -> tuple[Node, int]:
+    """Return the element that starts at an event, and the next event after its end."""
+    text, events, last = document.text, document.events, len(document.events)
+    opened: list[tuple[Start, list[Node]]] = []
+    while at < last:
+        event = events[at]
+        at += 1
+        if not isinstance(event, int):
+            opened.append((event, []))
+            continue
+        begun, inside = opened.pop()
+        if not opened:
+            return _closed(text, begun, event, tuple(inside)), at
+        if len(opened) == 1:
+            opened[0][1].append(_closed(text, begun, event, ()))
+    begun, inside = opened[0]
+    return _unclosed(text, begun, document.read, tuple(inside)), at
+
+
+def _events(text: str, data: bytes) -> tuple[list[Event], Fault | None, int]:
+    """Return start and end tags with offsets in bytes, what stopped the parser, and the offset in the text where it did."""
     # Namespaces as in xml.dom.minidom, through which catkin_pkg reads.
     parser = expat.ParserCreate("utf-8", " ")
     parser.namespace_prefixes = True
     parser.specified_attributes = True
-    data = text.encode()
-    here: Callable[[], int] = _counter(parser, data) if len(data) != len(text) else lambda: parser.CurrentByteIndex
-    roots: list[Node] = []
-    children: list[Node] = []
-    depth = 0
-
-    def on_start(tag: str, attributes: dict[str, str]) -> None:
-        nonlocal depth
-        depth += 1
-        if depth == 2:
-            children.append(Node(tag, attributes, here()))
-        elif depth == 3:
-            children[-1].children.append(Node(tag, attributes, here()))
-        elif depth == 1:
-            roots.append(Node(tag, attributes, here()))
-        elif depth > MOST_DEPTH:
-            raise _Refused("too-deep", f"nested more than {MOST_DEPTH} levels deep; no manifest needs that")
-
-    def on_end(_: str) -> None:
-        nonlocal depth
-        if depth == 2:
-            children[-1].end = here()
-        elif depth == 3:
-            children[-1].children[-1].end = here()
-        elif depth == 1:
-            roots[0].end = here()
-        depth -= 1
-
-    def on_entity(*_: object) -> None:
-        raise _Refused("entity", "declares an entity, which is not resolved here; write its text in its place")
-
-    parser.StartElementHandler = on_start
-    parser.EndElementHandler = on_end
-    parser.EntityDeclHandler = on_entity
-    faults: tuple[Fault, ...] = ()
-    end = len(text)
+    events: list[Event] = []
+    push = events.append
+    parser.StartElementHandler = lambda tag, attributes: push((tag, attributes, parser.CurrentByteIndex))
+    parser.EndElementHandler = lambda _: push(parser.CurrentByteIndex)
+    parser.EntityDeclHandler = _refuse_entity
+    fault = None
+    stopped = len(text)
     try:
         parser.Parse(data, True)
     except expat.ExpatError as error:
-        end = len(data[: max(parser.ErrorByteIndex, 0)].decode("utf-8", "ignore"))
-        faults = (_explain(text, error.code, end),)
-    except _Refused as refused:
-        end = here()
-        faults = (Fault(*refused.args, end, min(end + 1, len(text))),)
-    root = roots[0] if roots else None
-    if root is not None:
-        root.children = children
-        for node in (root, *children, *(inner for child in children for inner in child.children)):
-            _settle(text, node, end)
-    return Document(text, root, faults, end)
+        stopped = len(data[: max(parser.ErrorByteIndex, 0)].decode("utf-8", "ignore"))
+        fault = _explain(text, error.code, stopped)
+    except _EntityDeclaredError:
+        stopped = len(data[: parser.CurrentByteIndex].decode("utf-8", "ignore"))
+        message = "declares an entity, which is not resolved here; write its text where it is used"
+        fault = Fault("entity", message, stopped, text.find(">", stopped) + 1 or len(text))
+    finally:
+        # Parser and handlers hold each other, and the garbage collector may be off: parsers that stay cost more than all else.
+        parser.StartElementHandler = parser.EndElementHandler = parser.EntityDeclHandler = None
+    return events, fault, stopped
 
 
-def _counter(parser: expat.XMLParserType, data: bytes) -> Callable[[], int]:
-    """Return a function that gives the parser's place in code points; the places must come in order."""
+class _EntityDeclaredError(Exception):
+    """A manifest declares an entity: it could be a bomb, or read other files."""
+
+
+def _refuse_entity(*_: object) -> None:
+    raise _EntityDeclaredError
+
+
+def _in_code_points(events: list[Event], data: bytes) -> list[Event]:
+    """Return events whose offsets, which come in order, count code points instead of bytes."""
     done = count = 0
-
-    def here() -> int:
-        nonlocal done, count
-        index = parser.CurrentByteIndex
+    result: list[Event] = []
+    for event in events:
+        index = event if isinstance(event, int) else event[2]
         count += len(data[done:index].decode("utf-8", "ignore"))
         done = index
-        return count
+        result.append(count if isinstance(event, int) else (event[0], event[1], count))
+    return result
 
-    return here
+
+def _too_deep(events: list[Event]) -> int:
+    """Return the offset of the first element that is nested too deep, or -1."""
+    depth = 0
+    for event in events:
+        depth += -1 if isinstance(event, int) else 1
+        if depth > MOST_DEPTH and not isinstance(event, int):
+            return event[2]
+    return -1
 
 
-def _settle(text: str, node: Node, read: int) -> None:
-    """Complete a node: its name as written, and where content and end tag start. expat says only where the tags start."""
-    tag = node.tag
-    if " " in tag:
-        tag = node.tag = _qualified(tag)
-    if node.attributes and " " in "".join(node.attributes):
-        node.attributes = {_qualified(name): text for name, text in node.attributes.items()}
-    node.inner = inner = node.start + len(tag) + 2
-    if text[inner - 1 : inner] != ">":
-        opened = _OPEN_TAG.match(text, node.start)
-        node.inner = inner = opened.end() if opened else read
-    if node.end < 0:
-        node.close = max(inner, read)
-    elif text[inner - 2 : inner] == "/>":
-        node.close = node.end = inner
+def _closed(text: str, event: Start, after: int, children: tuple[Node, ...]) -> Node:
+    """Return a closed element. ``after`` is where it ends as expat sees it."""
+    tag, inner = _start_tag(text, event)
+    if text[inner - 2] == "/":
+        after = end = inner
     else:
-        node.close = node.end
-        node.end = text.index(">", node.close) + 1
+        end = text.index(">", after) + 1
+    return _new(Node, (tag, _names(event[1]), event[2], inner, after, end, children))
+
+
+def _unclosed(text: str, event: Start, read: int, children: tuple[Node, ...]) -> Node:
+    tag, inner = _start_tag(text, event)
+    return Node(tag, _names(event[1]), event[2], inner, max(inner, read), -1, children)
+
+
+def _start_tag(text: str, event: Start) -> tuple[str, int]:
+    """Return the name of a tag as written, and the offset after the tag. expat says only where it starts."""
+    name, _, start = event
+    inner = start + len(name) + 2
+    if text[inner - 1 : inner] == ">" and " " not in name:
+        return name, inner
+    opened = _OPEN_TAG.match(text, start)
+    return (opened[1], opened.end()) if opened else (name, len(text))
+
+
+def _names(attributes: dict[str, str]) -> dict[str, str]:
+    """Return attributes under their names as written. expat gives ``uri name prefix``."""
+    if not attributes or " " not in "".join(attributes):
+        return attributes
+    return {_qualified(name): value for name, value in attributes.items()}
 
 
 def _qualified(name: str) -> str:
