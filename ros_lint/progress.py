@@ -1,0 +1,58 @@
+"""One line on the terminal that says what takes so long."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable
+from typing import TextIO
+
+_PATIENCE = 0.5
+"""Seconds without a word: most runs end before."""
+_PAUSE = 0.1
+"""Seconds between two changes of the line."""
+
+
+class Progress:
+    """Tells how far a run is, once it takes long and only to a terminal. To be used as a context: leaving it cleans up."""
+
+    def __init__(self, stream: TextIO, wanted: bool = True, clock: Callable[[], float] = time.monotonic) -> None:
+        self._stream = stream
+        self._clock = clock
+        self._shown = False
+        on = wanted and stream.isatty() and os.environ.get("TERM") != "dumb"
+        self._next = clock() + _PATIENCE if on else float("inf")
+
+    def __enter__(self) -> Progress:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.clear()
+
+    def tell(self, what: str, done: int, total: int) -> None:
+        """Say that ``done`` of ``total`` are done. ``what`` is what is being done, ``total`` is 0 when it is not known."""
+        if (now := self._clock()) < self._next:
+            return
+        self._next = now + _PAUSE
+        text = f"{what} {done}/{total}" if total else what
+        self._write(f"\r{text[: self._columns() - 1]}\x1b[K")
+        self._shown = True
+
+    def clear(self) -> None:
+        """Take the line away, before something else is written."""
+        if self._shown:
+            self._write("\r\x1b[K")
+            self._shown = False
+
+    def _columns(self) -> int:
+        try:
+            return os.get_terminal_size(self._stream.fileno()).columns or 80
+        except (OSError, ValueError):
+            return 80
+
+    def _write(self, text: str) -> None:
+        try:
+            self._stream.write(text)
+            self._stream.flush()
+        except OSError:
+            self._next = float("inf")  # a terminal that has gone keeps nobody from their work
