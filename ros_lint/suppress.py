@@ -102,14 +102,16 @@ def collect(text: Text) -> tuple[Suppression, ...]:
 
 
 def apply(
-    issues: Iterable[Issue], suppressions: Iterable[Suppression], known: Iterable[Rule], ran: Container[str]
+    issues: Iterable[Issue], suppressions: Iterable[Suppression], known: Iterable[Rule], ran: Container[str | None]
 ) -> Outcome:
     """Return which issues stay.
 
     ``known`` are all rules there are; ``ran`` has the names of those that looked at everything: only these can leave a
-    suppression unused. To be called before issues are hidden for other reasons, or their suppressions will seem unused.
+    suppression unused. To be called before issues are hidden for other reasons, or their suppressions will seem unused,
+    and once more for what rules say about the outcome, of which the issues kept are all that matters.
     """
     names = {key.lower(): rule.name for rule in known for key in (rule.name, rule.code)}
+    judging = {rule.name for rule in known if rule.suppressions}  # they speak later, so what they need is not known
     in_file: dict[str, list[Suppression]] = {}
     for suppression in suppressions:
         in_file.setdefault(suppression.span.path, []).append(suppression)
@@ -139,7 +141,7 @@ def apply(
         idle = [
             name
             for name in suppression.names
-            if names.get(name.text.lower()) in ran and (suppression, name) not in used
+            if (rule := names.get(name.text.lower())) in ran and rule not in judging and (suppression, name) not in used
         ]
         if idle:
             unused.append(Unused(suppression, tuple(idle)))

@@ -301,6 +301,18 @@ def test_two_suppressions_for_one_finding_are_both_used() -> None:
     assert (outcome.unused, outcome.kept) == ((), ())
 
 
+def test_what_is_said_about_a_suppression_can_be_suppressed() -> None:
+    judge = RULES[0]._replace(name="unused-suppression", code="ROS901", suppressions=lambda outcome: ())
+    known = (*RULES, judge)
+    names = NAMES | {judge.name}
+    for mark in ("x  # {}", "# {}\nx"):
+        found = collect(Text("a.py", mark.format("ros-lint: ignore[ROS201, ROS901] so\n")))
+        outcome = apply([], found, known, names)
+        assert [[name.text for name in unused.names] for unused in outcome.unused] == [["ROS201"]]
+        about = [Issue(judge, "p", Finding("", unused.names[0].span, "")) for unused in outcome.unused]
+        assert apply(about, found, known, names).kept == ()
+
+
 # --- fixes ---------------------------------------------------------------------------------------------------------
 
 
