@@ -22,9 +22,11 @@ from ros_lint.facts import (
 from ros_lint.facts import Target as BuildTarget
 from ros_lint.launch_files import Launchable, Programs, launchable, programs
 from ros_lint.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
+from ros_lint.strangers import Stranger, declared_names
 from ros_lint.suppress import Outcome
 from ros_lint.text import Span
 from ros_lint.workspace import Declared, Package, Target, Workspace
+from ros_lint.world import Meant
 
 __all__ = [
     "ANYTHING",
@@ -45,6 +47,7 @@ __all__ = [
     "LaunchReference",
     "Launchable",
     "Manifest",
+    "Meant",
     "Opaque",
     "Outcome",
     "Package",
@@ -56,9 +59,11 @@ __all__ = [
     "Rule",
     "Severity",
     "Span",
+    "Stranger",
     "Target",
     "Use",
     "Workspace",
+    "declared_names",
     "launchable",
     "programs",
 ]

@@ -22,9 +22,12 @@ if TYPE_CHECKING:
     from ros_lint.knowledge import Facet, Knowledge, Known, Released
     from ros_lint.underlay import Installed, Underlay
 
-__all__ = ["Closure", "Layer", "Meant", "Member", "Providers", "World"]
+__all__ = ["Closure", "Layer", "Meant", "Member", "Providers", "Standing", "World"]
 
 Layer = Literal["workspace", "underlay", "index"]
+Standing = Literal["known", "elsewhere", "end-of-life", "unknown", "unknowable"]
+"""What a declared name is: a package or key; a package of other distributions only; one of distributions at their end of
+life only; nothing that anybody knows; or nobody can tell, because there is no index of the distribution."""
 
 
 class Member(NamedTuple):
@@ -89,6 +92,16 @@ class World:
     def is_key(self, name: str) -> bool:
         """Return whether a name is a rosdep key, whatever platform it resolves on."""
         return self._look_up(name)[1]
+
+    def standing(self, name: str) -> Standing:
+        """Return what a declared name is."""
+        if self.is_package(name) or self.is_key(name):
+            return "known"
+        if not self.knowledge.covered:
+            return "unknowable"
+        if self.knowledge.elsewhere(name):
+            return "elsewhere"
+        return "end-of-life" if self.knowledge.names.end_of_life(name) else "unknown"
 
     def version(self, name: str) -> str | None:
         """Return the version of a package where it is taken from, or None."""

@@ -118,6 +118,16 @@ class Knowledge:
         """Return the other distributions that have a package, oldest first."""
         return tuple(other.distro for other in self.others if name in other)
 
+    @property
+    def platform(self) -> str:
+        """Return the first platform of the distribution, such as "ubuntu:noble", or "" when it is not known."""
+        return next(iter(PLATFORMS.get(self.distro, ())), "")
+
+    def resolving(self, key: str) -> tuple[str, ...]:
+        """Return the distributions for which a rosdep key resolves, oldest first."""
+        known = distros(self._store.places)
+        return tuple(distro.name for distro in known if self.rosdep.resolves(key, distro.name))
+
     def resolves(self, key: str) -> bool | None:
         """Return whether a rosdep key has a rule for a platform of the distribution: None when that is not known."""
         return self.rosdep.resolves(key, self.distro)

@@ -95,6 +95,10 @@ class Names:
             return ()
         return tuple(package for package, distros in self._py_ros.get(top, ()) if distro in distros)
 
+    def successor(self, name: str) -> str:
+        """Return what does in ROS 2 what a package did in ROS 1, or ""."""
+        return self._successors.get(name, "")
+
     def end_of_life(self, name: str) -> tuple[str, ...]:
         """Return the distributions at their end of life that had a package which no active one has, newest first."""
         row = self._eol.row(name)
@@ -153,6 +157,10 @@ class Names:
             module, package, distros = (*line.split("\t"), "", "")[:3]
             found[module] = (*found.get(module, ()), (package, frozenset(distros.split())))
         return found
+
+    @cached_property
+    def _successors(self) -> Mapping[str, str]:
+        return dict(self._rows("ros1_successors.tsv"))
 
     @cached_property
     def _eol(self) -> Table:
