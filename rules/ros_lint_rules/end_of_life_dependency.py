@@ -1,0 +1,56 @@
+"""
+## What it finds
+
+A dependency that only ROS 1 or a ROS 2 distribution at its end of life has released: `roscpp`, `message_generation`,
+`tf`, `move_base` ...
+
+## Why it matters
+
+The package was not ported to the end. `rosdep install` stops at the name, and so does everybody who installs the package.
+
+## How to fix it
+
+Depend on what took its place in ROS 2, which the message names where there is one, or drop the dependency.
+
+## When it keeps silent
+
+For packages whose build type is catkin: they belong to ROS 1. For tags under a condition such as
+`condition="$ROS_VERSION == 1"`. Without a successor that is known the confidence is medium: others may have ported the
+package without releasing it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros_lint.api import Confidence, Finding, Rule, Severity, Workspace, declared_names
+
+
+def check(workspace: Workspace) -> Iterator[Finding]:
+    world = workspace.world
+    names = world.knowledge.names
+    for stranger in declared_names(workspace):
+        if world.standing(stranger.name) != "end-of-life":
+            continue
+        successor = names.successor(stranger.name)
+        successor = successor if world.is_package(successor) else ""
+        way_out = f"use {successor}" if successor else "replace it, or add its sources to the workspace"
+        last = names.end_of_life(stranger.name)[0]
+        yield Finding(
+            f"{stranger.name} was last released for {last} (as of {world.knowledge.date}): {way_out}",
+            stranger.declared.depend.name_span,
+            stranger.name,
+            confidence=Confidence.HIGH if successor else Confidence.MEDIUM,
+            package=stranger.package.name,
+        )
+
+
+RULE = Rule(
+    name="end-of-life-dependency",
+    code="ROS116",
+    summary="a dependency must exist in a distribution that is alive",
+    severity=Severity.WARNING,
+    since="0.1",
+    doc=__doc__,
+    workspace=check,
+)

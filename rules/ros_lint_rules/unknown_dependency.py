@@ -1,0 +1,123 @@
+"""
+## What it finds
+
+A dependency in `package.xml` whose name means nothing to anybody: no package of the workspace, of an underlay or of any
+distribution has it, and no rosdep key is called so. Misspelt packages, the name that CMake, Python, apt or pip use instead
+of the rosdep key, and `ament_python`, which is a build type and no package.
+
+## Why it matters
+
+colcon ignores names that it does not know, so a workspace that is built already goes on working. `rosdep install` stops
+with "Cannot locate rosdep definition", in every container and on the build farm.
+
+## How to fix it
+
+Write the name of the package or the rosdep key. Where it is clear which one is meant, the fix does this. When the package
+is not released, put its sources into the workspace, or name the prefix it is installed in with `--underlay`.
+
+## When it keeps silent
+
+For tags under a condition that is false or cannot be evaluated, for packages of ROS 1 (build type catkin), and when there
+is no index of the distribution. Unless the name is clearly a slip the confidence is medium, so that the finding shows with
+`--pedantic` only: packages that are not released anywhere cannot be told from those that do not exist. So it is for the
+names of libraries when a `.repos` file or `.gitmodules` says that sources of the workspace are elsewhere.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from ros_lint.api import (
+    Confidence,
+    Edit,
+    Finding,
+    Fix,
+    Meant,
+    Rule,
+    Severity,
+    Stranger,
+    Workspace,
+    declared_names,
+    remove_dependency,
+)
+
+_CALLED_SO_BY = {"cmake": "find_package", "python": "Python", "system": "the system's package manager"}
+_MAY_BE_A_PACKAGE = re.compile(r"[a-z][a-z0-9_]*")
+_PYTHON_BUILD = "ament_python"
+
+
+def check(workspace: Workspace) -> Iterator[Finding]:
+    for stranger in declared_names(workspace):
+        if workspace.world.standing(stranger.name) != "unknown":
+            continue
+        yield _build_type(stranger) if stranger.name == _PYTHON_BUILD else _unknown(stranger, workspace)
+
+
+def _build_type(stranger: Stranger) -> Finding:
+    package, name = stranger.package, stranger.name
+    message = f"{name} is a build type and no package, so rosdep cannot resolve it: remove the tag"
+    edits = tuple(edit for tag in stranger.tags for edit in remove_dependency(package, tag))
+    script = package.script
+    if package.builds_with == "ament_cmake" and script is not None and "ament_python_install_package" in script.calls:
+        message = f"{name} is a build type and no package, so rosdep cannot resolve it: write ament_cmake_python"
+        edits = _rename(stranger, "ament_cmake_python")
+    fix = Fix(message.rpartition(": ")[2].replace("the tag", f"the dependency on {name}"), edits) if edits else None
+    return Finding(message, stranger.declared.depend.span, name, fix=fix, package=package.name)
+
+
+def _unknown(stranger: Stranger, workspace: Workspace) -> Finding:
+    name, world, target = stranger.name, workspace.world, workspace.target
+    known = f"{target.distro}, as of {world.knowledge.date}"
+    what = f"{name} is neither a package nor a rosdep key ({known})"
+    meant = world.meant(name, python=stranger.runs_python)
+    fix = None
+    if meant is None:
+        near = world.suggest(name, python=stranger.runs_python)
+        hint = f"did you mean {' or '.join(near)}?" if near else "correct it, or add what provides it"
+        message = f"{what}: {hint}"
+    else:
+        caller = _CALLED_SO_BY.get(meant.by)
+        why = f", but what {caller} calls it" if caller else ""
+        message = f"{what}{why}: write {meant.name}"
+        edits = _rename(stranger, meant.name)
+        fix = Fix(f"write {meant.name} for {name}", edits) if edits else None
+    return Finding(
+        message,
+        stranger.declared.depend.name_span,
+        name,
+        fix=fix,
+        confidence=_confidence(stranger, meant, workspace),
+        package=stranger.package.name,
+    )
+
+
+def _confidence(stranger: Stranger, meant: Meant | None, workspace: Workspace) -> Confidence:
+    if meant is None:
+        return Confidence.MEDIUM
+    # A library may be wrapped in a package of its own name whose sources come with another repository.
+    elsewhere = bool(workspace.source_lists) and meant.by in _CALLED_SO_BY
+    return Confidence.MEDIUM if elsewhere and _MAY_BE_A_PACKAGE.fullmatch(stranger.name) else Confidence.HIGH
+
+
+def _rename(stranger: Stranger, name: str) -> tuple[Edit, ...]:
+    """Return the edits that put another name into every tag. None where tags would then repeat each other."""
+    package = stranger.package
+    if any(declared.name == name for declared in package.declared):
+        have = {declared.depend.tag for declared in package.declared if declared.name == name}
+        if have <= {"depend"} or have == {tag.tag for tag in stranger.tags}:
+            return tuple(edit for tag in stranger.tags for edit in remove_dependency(package, tag))
+        return ()
+    return tuple(Edit(tag.name_span, name) for tag in stranger.tags)
+
+
+RULE = Rule(
+    name="unknown-dependency",
+    code="ROS104",
+    summary="a declared name must be that of a package or of a rosdep key",
+    severity=Severity.ERROR,
+    since="0.1",
+    doc=__doc__,
+    fixable=True,
+    workspace=check,
+)
