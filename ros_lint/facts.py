@@ -291,6 +291,54 @@ class BuildScript(NamedTuple):
 # --- launch files --------------------------------------------------------------------------------------------------
 
 
+class LaunchValue(NamedTuple):
+    """What a text in a launch file can be when it runs."""
+
+    texts: tuple[str, ...]
+    """Each alternative, never empty; with the marks of :mod:`ros_lint.collectors.launch_text` for what is not known yet."""
+    span: Span
+    exact: bool = False
+    """Whether ``span`` covers the only text and nothing else, so that a fix can put another one there."""
+
+
+class LaunchCondition(NamedTuple):
+    """What must be so for an action to be taken."""
+
+    texts: tuple[str, ...]
+    """With the same marks."""
+    equals: str | None
+    """The text must be this one; None: it must mean true, as IfCondition takes it."""
+    wanted: bool = True
+    """False: it must not."""
+
+
+class LaunchAction(NamedTuple):
+    """What a launch file does, before it is known how it is called. Which fields count depends on the kind."""
+
+    kind: str
+    """``argument``, ``set``, ``node``, ``component``, ``include``, ``group``, ``process``, ``namespace``, ``remap``,
+    ``parameter``, ``environment``, ``later`` (what a timer or an event starts), or ``other``."""
+    span: Span
+    package: LaunchValue | None = None
+    package_span: Span | None = None
+    """Where a package is written that ``target`` looks up."""
+    target: LaunchValue | None = None
+    """The executable, class or file; the name of an argument, a configuration or a variable; the command line."""
+    value: LaunchValue | None = None
+    """The default of an argument, None if it has to be given; what is set or pushed."""
+    name: LaunchValue | None = None
+    namespace: LaunchValue | None = None
+    arguments: tuple[tuple[str, LaunchValue], ...] = ()
+    """What is passed to an included file by name; what a process or node is given otherwise, under ""."""
+    choices: tuple[str, ...] = ()
+    parameters: tuple[tuple[str, LaunchValue], ...] = ()
+    """By name; a file under ""."""
+    remappings: tuple[tuple[LaunchValue, LaunchValue], ...] = ()
+    conditions: tuple[LaunchCondition, ...] = ()
+    """All of them must hold; an unknown one has UNKNOWN for its text."""
+    children: tuple[LaunchAction, ...] = ()
+
+
 class LaunchReference(NamedTuple):
     """A line of a launch file that names a package, and mostly something in it."""
 
@@ -307,6 +355,8 @@ class LaunchReference(NamedTuple):
     """Whether ``span`` covers the name and nothing else, so that a fix can put another one there."""
     package_exact: bool = True
     """The same of ``package_span`` and the package."""
+    by_default: bool = False
+    """Whether it holds only as long as nobody gives the arguments of the launch file other values than their defaults."""
 
 
 class LaunchFile(NamedTuple):
@@ -321,3 +371,4 @@ class LaunchFile(NamedTuple):
     """Whether it serves tests only: it has generate_test_description() (launch_testing)."""
     helper: bool = False
     """Whether it cannot be launched itself: a Python module without generate_launch_description() that builds actions."""
+    actions: tuple[LaunchAction, ...] = ()

@@ -31,10 +31,13 @@ def test_recognised_by_content(path: str, text: str, wanted: str | None) -> None
     assert launch.is_launch_file(path, text) == wanted
 
 
-def test_what_it_is_for() -> None:
-    assert collect("a.py", HEAD + " pass")[1][-2:] == (False, False)
-    assert collect("a.py", "def generate_test_description():\n pass")[1][-2:] == (True, False)
-    assert collect("a.py", "import launch")[1][-2:] == (False, True)
+@pytest.mark.parametrize(
+    ("text", "test", "helper"),
+    [(HEAD + " pass", False, False), ("def generate_test_description():\n pass", True, False), ("import launch", False, True)],
+)
+def test_what_it_is_for(text: str, test: bool, helper: bool) -> None:
+    _, found = collect("a.py", text)
+    assert (found.test, found.helper) == (test, helper)
 
 
 @pytest.mark.parametrize(

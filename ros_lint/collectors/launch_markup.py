@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Literal as OneOf
 from typing import NamedTuple
 
-from ros_lint.collectors.install_paths import UNKNOWN, installed, prefix, share
+from ros_lint.collectors.launch_text import UNKNOWN, installed, prefix, share
 from ros_lint.collectors.substitution import Literal, Piece, Substitution, SubstitutionError, parse
 from ros_lint.facts import Facet, LaunchReference, Opaque, Problem
 from ros_lint.text import Span, Text

@@ -14,7 +14,7 @@ from collections.abc import Callable, Mapping
 from posixpath import normpath
 from typing import Literal
 
-from ros_lint.collectors.install_paths import UNKNOWN, Installed, installed, share
+from ros_lint.collectors.launch_text import UNKNOWN, Installed, installed, share
 from ros_lint.collectors.launch_py_scopes import Expression, Scope, Where, children, scan
 from ros_lint.collectors.launch_py_values import ANYTHING, LOOK_UPS, Evaluator, argument, callee
 from ros_lint.facts import Facet, LaunchFile, LaunchReference, Opaque, Problem

@@ -7,7 +7,7 @@ import posixpath
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
-from ros_lint.collectors.install_paths import OWN_FOLDER, UNKNOWN, prefix, share
+from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, prefix, share
 from ros_lint.collectors.launch_py_scopes import Binding, Step, Where, reaching
 
 _MOST = 16

@@ -1,0 +1,165 @@
+"""Texts of launch files in which something is not known yet.
+
+What a launch configuration holds, where a package is installed and what a command prints is known only when the launch
+file runs. Characters of the private use area stand for it, so that such texts can be joined, split and formatted like
+any others while the file is read, and filled in later:
+
+- ``UNKNOWN`` for any text at all;
+- ``OWN_FOLDER`` for the folder of the launch file;
+- an absolute path that no file system has for the install prefix of a package;
+- marks around the name of a launch configuration, a Python expression, a command.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Iterator
+from itertools import islice, product
+from typing import NamedTuple
+
+UNKNOWN = "\ue000"
+_ROOT = "\ue001"
+OWN_FOLDER = "/\ue002"
+"""The folder of the launch file itself, which is one place in the source and another one where it is installed."""
+
+_CONFIGURATION = ("\ue010", "\ue011")
+_EXPRESSION = ("\ue012", "\ue013")
+_COMMAND = ("\ue014", "\ue015")
+_DEFAULT = "\ue016"
+
+MOST = 24
+"""How many alternatives of a text are kept apart."""
+
+LONGEST = 20_000
+"""How many characters of a text are followed."""
+
+_ANY_MARK = re.compile("[\ue000-\ue016]")
+# A path ends where a command line or a list of paths goes on; an unknown piece belongs to it.
+_PREFIX = re.compile(rf"/{_ROOT}([^/\s]*)((?:/[^/\s'\":;,]*)*)")
+_INNERMOST = re.compile("\ue010([^\ue010\ue011]*)\ue011")
+_INNER_EXPRESSION = re.compile("\ue012([^\ue012\ue013]*)\ue013")
+_TWICE_ROOTED = re.compile(rf".*/(?=/(?:{_ROOT}|\ue002))", re.DOTALL)
+
+
+class Installed(NamedTuple):
+    """A place in the install space of a package."""
+
+    package: str
+    path: str
+    """Relative to the prefix of the package, such as ``share/<package>/launch/a.launch.py``."""
+
+    @property
+    def known(self) -> bool:
+        """Whether the package is known."""
+        return bool(self.package) and is_plain(self.package)
+
+    @property
+    def share(self) -> str | None:
+        """The path below share/<package>, "" for the folder itself; None when it is elsewhere or not known whole."""
+        folder = f"share/{self.package}"
+        if not is_plain(self.path) or not (self.path == folder or self.path.startswith(folder + "/")):
+            return None
+        return self.path[len(folder) + 1 :]
+
+    @property
+    def executable(self) -> str:
+        """The name directly in lib/<package>, "" when the path is no such thing."""
+        folder, _, name = self.path.rpartition("/")
+        return name if folder == f"lib/{self.package}" and is_plain(name) else ""
+
+
+def prefix(package: str) -> str:
+    """Return the path that stands for the install prefix of a package."""
+    return f"/{_ROOT}{package}"
+
+
+def share(package: str) -> str:
+    """Return the path that stands for the share folder of a package."""
+    return f"/{_ROOT}{package}/share/{package}"
+
+
+def configuration(name: str, default: str | None = None) -> str:
+    """Return what stands for the value of a launch configuration; ``default`` is what it is when nobody set it."""
+    inner = name if default is None else f"{name}{_DEFAULT}{default}"
+    return f"{_CONFIGURATION[0]}{inner}{_CONFIGURATION[1]}"
+
+
+def expression(text: str) -> str:
+    """Return what stands for the value of a Python expression."""
+    return f"{_EXPRESSION[0]}{text}{_EXPRESSION[1]}"
+
+
+def command(text: str) -> str:
+    """Return what stands for the output of a command."""
+    return f"{_COMMAND[0]}{text}{_COMMAND[1]}"
+
+
+def is_plain(text: str) -> bool:
+    """Return whether a text is known whole."""
+    return not _ANY_MARK.search(text)
+
+
+def is_settled(text: str) -> bool:
+    """Return whether a text is known but for the place where packages are installed."""
+    return all(mark in (_ROOT, OWN_FOLDER[1]) for mark in _ANY_MARK.findall(text))
+
+
+def configurations(text: str) -> Iterator[tuple[str, bool]]:
+    """Yield the names of the launch configurations that a text depends on, and whether it does without."""
+    for match in _INNERMOST.finditer(text):
+        name, mark, _ = match[1].partition(_DEFAULT)
+        yield name, bool(mark)
+
+
+def installed(text: str) -> Iterator[Installed]:
+    """Yield the install places that a text mentions: one path, or several in a command line."""
+    if _ROOT not in text:
+        return
+    for match in _PREFIX.finditer(text):
+        parts: list[str] = []
+        for part in match[2].split("/"):
+            if part == ".." and parts:
+                parts.pop()
+            elif part not in ("", ".", ".."):
+                parts.append(part)
+        yield Installed(match[1], "/".join(parts))
+
+
+def joined(rows: Iterable[tuple[str, ...]], function: Callable[[tuple[str, ...]], str]) -> tuple[str, ...]:
+    """Return what a function makes of one alternative of each row, for every choice."""
+    found = dict.fromkeys(
+        function(choice) if sum(map(len, choice)) <= LONGEST else UNKNOWN for choice in islice(product(*rows), MOST + 1)
+    )
+    return tuple(found) if len(found) <= MOST else (UNKNOWN,)
+
+
+def fill(text: str, values: Callable[[str], tuple[str, ...] | None], evaluate: Callable[[str], str]) -> tuple[str, ...]:
+    """Return what a text becomes when launch configurations have values.
+
+    ``values`` returns the alternatives of a configuration, None if nobody set it; ``evaluate`` the value of an
+    expression that is known whole, UNKNOWN if it has none.
+    """
+    waiting = [text]
+    done: dict[str, None] = {}
+    while waiting:
+        one = waiting.pop()
+        match = _INNERMOST.search(one)
+        if match is None:
+            done[_settle(one, evaluate)] = None
+            continue
+        name, mark, default = match[1].partition(_DEFAULT)
+        found = values(name)
+        if found is None:
+            found = (default,) if mark else (UNKNOWN,)
+        if len(waiting) + len(done) + len(found) > MOST or len(one) > LONGEST:
+            return (UNKNOWN,)
+        waiting += [one[: match.start()] + value + one[match.end() :] for value in reversed(found)]
+    return tuple(done)
+
+
+def _settle(text: str, evaluate: Callable[[str], str]) -> str:
+    while match := _INNER_EXPRESSION.search(text):
+        value = evaluate(match[1]) if is_settled(match[1]) else UNKNOWN
+        text = text[: match.start()] + value + text[match.end() :]
+    # A configuration that holds an absolute path replaces what it was joined to.
+    return _TWICE_ROOTED.sub("", text) if "//" in text else text
