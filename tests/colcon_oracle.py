@@ -34,14 +34,14 @@ def colcon_list(base: Path) -> Listing:
 
 
 def _list() -> Listing:
-    from colcon_metadata import metadata
-    from colcon_python_setup_py.package_identification import python_setup_py as setup_py
-    from colcon_ros.package_identification import ros
     from colcon_core.location import set_default_config_path
     from colcon_core.package_augmentation import augment_packages
     from colcon_core.package_discovery import add_package_discovery_arguments, discover_packages
     from colcon_core.package_identification import get_package_identification_extensions
     from colcon_core.topological_order import topological_order_packages
+    from colcon_metadata import metadata
+    from colcon_python_setup_py.package_identification import python_setup_py as setup_py
+    from colcon_ros.package_identification import ros
 
     for cache in (
         metadata.metadata_by_name,
