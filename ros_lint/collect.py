@@ -22,6 +22,8 @@ Kind = Literal["manifest", "cpp", "python", "cmake", "interface", "xml", "yaml",
 MOST_BYTES = 4 << 20
 """A larger file is not read: it is generated data, and no source."""
 
+FAILED = "ros-lint failed on it ({}); please report this"
+
 _FILES_A_PROCESS = 500
 """Below this many files a further process costs more than it saves."""
 
@@ -148,7 +150,10 @@ def _read_and_collect(tree: Tree, path: str, kind: Kind) -> Collected:
         return Collected(unreadable=f"{len(data) >> 20} MB is more than a source has")
     if b"\0" in data[:1024] and not data.startswith((b"\xff\xfe", b"\xfe\xff")):
         return Collected(unreadable="binary data")
-    return collect(read(path, data), kind)
+    try:
+        return collect(read(path, data), kind)
+    except Exception as error:  # a mistake of ours in one file must not cost the user all the others
+        return Collected(unreadable=FAILED.format(f"{type(error).__name__}: {error}"))
 
 
 def _suppressions(text: Text) -> tuple[Suppression, ...]:

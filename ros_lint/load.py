@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from ros_lint import conditions, evidence, scripts
 from ros_lint.cache import Cache
-from ros_lint.collect import Collected, collect_all, kind_of
+from ros_lint.collect import FAILED, Collected, collect_all, kind_of
 from ros_lint.discover import Found, discover
 from ros_lint.facts import ROLES, BuildScript, FileFacts, LaunchFile, Manifest, Role
 from ros_lint.knowledge import Knowledge
@@ -75,7 +75,7 @@ class Loader:
         world = World(tuple(self._members(reads, discovery.rejected)), self._underlays, self._knowledge)
         packages = tuple(self._join(tree, reads, world))
         unusable = tuple(self._unusable(manifest) for manifest in discovery.rejected if not self._exclude(manifest.path))
-        not_checked = (*discovery.not_checked, *_unreadable(collected))
+        not_checked = (*discovery.not_checked, *_unreadable(collected), *_failed(reads))
         return Workspace(packages, unusable, world, self.target, tuple(not_checked))
 
     def text(self, path: str) -> Text | None:
@@ -231,6 +231,13 @@ def _unreadable(collected: Mapping[str, Collected]) -> Iterator[NotChecked]:
     for path, c in sorted(collected.items()):
         if c.unreadable:
             yield NotChecked(path, c.unreadable, Span(path, 1, 1, 1, 1))
+
+
+def _failed(reads: Sequence[_Read]) -> Iterator[NotChecked]:
+    for done in reads:
+        for opaque in done.script.opaque if done.script else ():
+            if opaque.reason.startswith(FAILED.partition("{")[0]):
+                yield NotChecked(opaque.span.path, opaque.reason, opaque.span)
 
 
 def _may_trace(file: str) -> bool:

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence, Set
 from typing import TYPE_CHECKING, NamedTuple
 
+from ros_lint.collect import FAILED
 from ros_lint.collectors.cmake_syntax import Parsed
 from ros_lint.discover import Found
-from ros_lint.facts import BuildScript
-from ros_lint.text import Text, read
+from ros_lint.facts import ANYTHING, BuildScript, Opaque
+from ros_lint.text import Span, Text, read
 from ros_lint.tree import Tree, join
 
 if TYPE_CHECKING:
@@ -34,17 +35,29 @@ def evaluate(tree: Tree, packages: Sequence[Parts], distro: str) -> list[BuildSc
     in_order = [*_helping(packages), *(number for number, parts in enumerate(packages) if not _helps(parts))]
     for number in in_order:
         parts = packages[number]
-        if "CMakeLists.txt" in parts.commands and parts.found.type != "ros.ament_python":
-            from ros_lint.interpret import cmake  # noqa: PLC0415
-
-            sources = _sources(tree, parts)
-            script = cmake.evaluate(sources, distro, helpers)
-            if script.extras:
-                helpers[parts.found.name] = cmake.Helper(sources, script)
-            result[number] = script
-        else:
-            result[number] = _python(tree, parts.found)
+        try:
+            if "CMakeLists.txt" in parts.commands and parts.found.type != "ros.ament_python":
+                result[number] = _cmake(tree, parts, distro, helpers)
+            else:
+                result[number] = _python(tree, parts.found)
+        except Exception as error:  # a mistake of ours in one script must not cost the user all the others
+            result[number] = _failed(parts, FAILED.format(f"{type(error).__name__}: {error}"))
     return result
+
+
+def _cmake(tree: Tree, parts: Parts, distro: str, helpers: dict[str, Helper]) -> BuildScript:
+    from ros_lint.interpret import cmake  # noqa: PLC0415
+
+    sources = _sources(tree, parts)
+    script = cmake.evaluate(sources, distro, helpers)
+    if script.extras:
+        helpers[parts.found.name] = cmake.Helper(sources, script)
+    return script
+
+
+def _failed(parts: Parts, reason: str) -> BuildScript:
+    path = join(parts.found.path, "CMakeLists.txt" if "CMakeLists.txt" in parts.commands else "setup.py")
+    return BuildScript(path, opaque=(Opaque(ANYTHING, reason, Span(path, 1, 1, 1, 1)),))
 
 
 def _sources(tree: Tree, parts: Parts) -> Sources:
