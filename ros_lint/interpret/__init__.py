@@ -1,0 +1,1 @@
+"""Static evaluation: what build scripts do, worked out without running them."""

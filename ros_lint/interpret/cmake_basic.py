@@ -1,0 +1,373 @@
+"""CMake's commands for variables, files of code and control: set(), option(), include(), project(), return() ..."""
+
+from __future__ import annotations
+
+import posixpath
+from typing import Final
+
+from ros_lint.collectors.cmake_syntax import PLAIN
+from ros_lint.facts import ANYTHING, Facet
+from ros_lint.interpret.cmake_conditions import version
+from ros_lint.interpret.cmake_flow import run_file
+from ros_lint.interpret.cmake_run import Handler, Run
+from ros_lint.interpret.cmake_state import BREAK, CONTINUE, RETURN, STOP, Frame, Variables
+from ros_lint.interpret.cmake_values import BINARY, FOREIGN, HOLE, SOURCE, is_fixed, is_known, join
+from ros_lint.tree import join as join_path
+
+
+def _set(run: Run, args: list[str]) -> None:
+    if not args or HOLE in args[0]:
+        return
+    name = args[0]
+    if name.startswith("ENV{"):
+        run.put(run.environment, name[4:-1], join(args[1:2]))
+        return
+    if len(args) == 1:
+        run.set(name, None)
+        return
+    if len(args) > 3 and "CACHE" in args[1:]:
+        at = len(args) - 3 if args[-3] == "CACHE" else len(args) - 4 if args[-4] == "CACHE" and args[-1] == "FORCE" else 0
+        if at:
+            _set_cache(run, name, join(args[1:at]), args[at + 1], args[-1] == "FORCE")
+            return
+    if args[-1] == "PARENT_SCOPE":
+        run.set_outer(name, join(args[1:-1]) if len(args) > 2 else None)
+        return
+    run.set(name, join(args[1:]))
+    command = run.frames[-1].command
+    if command is not None and run.frames[-1].own:
+        for argument in command.args[1:]:
+            if argument[1] == PLAIN:
+                run.literals.setdefault(argument[0], (run.frames[-1].path, command, argument))
+
+
+def _set_cache(run: Run, name: str, value: str, kind: str, force: bool) -> None:
+    new = name not in run.cache
+    if kind != "INTERNAL" and not force:
+        run.settable.add(name)
+    if new or force or kind == "INTERNAL":
+        run.put(run.cache, name, value)
+        if run.versions < (3, 21):  # policy CMP0126
+            run.remove(run.scopes[-1], name)
+
+
+def _unset(run: Run, args: list[str]) -> None:
+    if not args or HOLE in args[0]:
+        return
+    if args[0].startswith("ENV{"):
+        run.put(run.environment, args[0][4:-1], "")
+    elif "CACHE" in args[1:]:
+        run.remove(run.cache, args[0])
+    elif "PARENT_SCOPE" in args[1:]:
+        run.set_outer(args[0], None)
+    else:
+        run.set(args[0], None)
+
+
+def _option(run: Run, args: list[str]) -> None:
+    if not args or HOLE in args[0]:
+        return
+    run.settable.add(args[0])
+    if run.get(args[0]) is None or args[0] not in run.cache:
+        if run.scopes[-1].get(args[0]) is not None and run.versions >= (3, 13):  # policy CMP0077
+            return
+        run.put(run.cache, args[0], args[2] if len(args) > 2 else "OFF")
+        if run.versions < (3, 13):
+            run.remove(run.scopes[-1], args[0])
+
+
+def _message(_run: Run, args: list[str]) -> int | None:
+    return STOP if args and args[0] == "FATAL_ERROR" else None
+
+
+def _return(run: Run, args: list[str]) -> int:
+    if "PROPAGATE" in args:
+        for name in args[args.index("PROPAGATE") + 1 :]:
+            run.set_outer(name, run.get(name))
+    return RETURN
+
+
+def _break(_run: Run, _args: list[str]) -> int:
+    return BREAK
+
+
+def _continue(_run: Run, _args: list[str]) -> int:
+    return CONTINUE
+
+
+def _minimum(run: Run, args: list[str]) -> None:
+    if "VERSION" in args[:-1]:
+        _policies(run, args[args.index("VERSION") + 1])
+
+
+def _policy(run: Run, args: list[str]) -> None:
+    if args[:1] == ["VERSION"] and len(args) > 1:
+        _policies(run, args[1])
+
+
+def _policies(run: Run, wanted: str) -> None:
+    found = version(wanted.rpartition("...")[2])
+    if is_known(wanted) and found:
+        run.versions = (found[0], found[1] if len(found) > 1 else 0)
+
+
+def _project(run: Run, args: list[str]) -> None:
+    name = args[0] if args and is_fixed(args[0]) else HOLE
+    number = ""
+    if "VERSION" in args[1:-1]:
+        number = args[args.index("VERSION") + 1]
+    top = not run.name and len(run.directories) == 1
+    if top:
+        run.name = name if is_known(name) else ""
+        run.name_span = run.where(args[0]) if args else None
+        if is_known(number) and number:
+            run.version, run.version_span = number, run.where(number)
+        run.set("CMAKE_PROJECT_NAME", name)
+    folder, build = run.places["CMAKE_CURRENT_SOURCE_DIR"], run.places["CMAKE_CURRENT_BINARY_DIR"]
+    values: dict[str, str | None] = {
+        "PROJECT_NAME": name,
+        "PROJECT_SOURCE_DIR": folder,
+        "PROJECT_BINARY_DIR": build,
+        "PROJECT_VERSION": number,
+        f"{name}_SOURCE_DIR": folder,
+        f"{name}_BINARY_DIR": build,
+        f"{name}_VERSION": number,
+    }
+    parts = number.split(".") if is_known(number) else [HOLE] * 4
+    for index, part in enumerate(("MAJOR", "MINOR", "PATCH", "TWEAK")):
+        values[f"PROJECT_VERSION_{part}"] = values[f"{name}_VERSION_{part}"] = parts[index] if index < len(parts) else ""
+    for variable, value in values.items():
+        if HOLE not in variable:
+            run.set(variable, value)
+
+
+def _include(run: Run, args: list[str]) -> int | None:
+    optional = "OPTIONAL" in args
+    if "RESULT_VARIABLE" in args[:-1]:
+        run.set(args[args.index("RESULT_VARIABLE") + 1], HOLE)
+    name = args[0] if args else ""
+    if not name or name in MODULES:
+        if name in MODULES:
+            _module(run, name)
+        return None
+    if not is_fixed(name):
+        run.hide(ANYTHING, "include() of a file whose name is not known")
+        run.open_world = True
+        return None
+    return _include_file(run, name, optional)
+
+
+def _include_file(run: Run, name: str, optional: bool) -> int | None:
+    if name.startswith(FOREIGN):
+        return _include_foreign(run, name)
+    is_module = "/" not in name and not name.endswith(".cmake")
+    folders = run.get("CMAKE_MODULE_PATH") or ""
+    candidates = [name]
+    if is_module:
+        candidates = [f"{folder}/{name}.cmake" for folder in folders.split(";") if is_fixed(folder)]
+    for candidate in candidates:
+        path = run.source(candidate)
+        if path is not None and path in run.sources.scripts:
+            return include_own(run, path)
+    if optional:
+        return None
+    if is_module:
+        # Whatever a found package's or CMake's own module does, it is made to be called, not to build things itself.
+        run.open_world = True
+        if not folders or HOLE not in folders:
+            run.hide(Facet.USES, f"include() of the module {name}, which is not in sight")
+        return None
+    path = run.source(name)
+    if path is not None and not name.startswith(BINARY) and path not in run.files:
+        run.problem("missing-file", f"include() of {path}, which does not exist", run.where(args_text(name)))
+        return None
+    run.open_world = True
+    run.hide(ANYTHING, f"include() of {readable(name)} cannot be followed")
+    return None
+
+
+def args_text(value: str) -> str:
+    """Return a value for looking up where it stands."""
+    return value
+
+
+def include_own(run: Run, path: str) -> int | None:
+    """Run a script of the package in the current scope."""
+    frame = Frame(True, join_path(run.sources.path, path), f"{SOURCE}/{path}")
+    return run_file(run, run.sources.scripts[path].commands, frame)
+
+
+def _include_foreign(run: Run, name: str) -> int | None:
+    package, _, installed = name[len(FOREIGN) :].partition("/")
+    helper = run.helpers.get(package)
+    if helper is not None:
+        source = next((file.source for file in helper.script.provides if file.path == installed), None)
+        if source is not None and source in helper.sources.scripts:
+            return include_foreign(run, package, source)
+    run.open_world = True
+    run.hide(Facet.USES, f"include() of {installed} of {package} cannot be followed")
+    return None
+
+
+def include_foreign(run: Run, package: str, source: str) -> int | None:
+    """Run a script of another package of the workspace in the current scope."""
+    helper = run.helpers[package]
+    installed = f"share/{package}/cmake/{posixpath.basename(source).removesuffix('.in')}"
+    installed = next((file.path for file in helper.script.provides if file.source == source), installed)
+    frame = Frame(False, join_path(helper.sources.path, source), f"{FOREIGN}{package}/{installed}", provider=package)
+    return run_file(run, helper.sources.scripts[source].commands, frame)
+
+
+MODULES: Final = frozenset({
+    "CMakePackageConfigHelpers", "CTest", "CheckCXXCompilerFlag", "CheckCXXSourceCompiles", "CheckCXXSourceRuns",
+    "CheckCCompilerFlag", "CheckCSourceCompiles", "CheckFunctionExists", "CheckIPOSupported", "CheckIncludeFile",
+    "CheckIncludeFileCXX", "CheckIncludeFiles", "CheckLanguage", "CheckLibraryExists", "CheckSymbolExists",
+    "CheckTypeSize", "CMakeDependentOption", "CMakeParseArguments", "CMakePrintHelpers", "CPack", "ExternalProject",
+    "FeatureSummary", "FetchContent", "FindPackageHandleStandardArgs", "FindPkgConfig", "GNUInstallDirs",
+    "GenerateExportHeader", "GoogleTest", "InstallRequiredSystemLibraries", "ProcessorCount", "TestBigEndian",
+    "UseJava", "UseSWIG", "WriteBasicConfigVersionFile", "CheckLinkerFlag", "CheckCompilerFlag", "CheckCXXSymbolExists",
+    "CheckStructHasMember", "CheckPIESupported", "CheckSourceCompiles", "DefaultPolicies", "FortranCInterface",
+    "CMakePushCheckState", "CheckCXXLinkerFlag",
+})  # fmt: skip
+"""CMake's own modules. They define commands and build nothing by themselves."""
+
+
+def _module(run: Run, name: str) -> None:
+    if name == "CTest":
+        run.settable.add("BUILD_TESTING")
+
+
+def _add_subdirectory(run: Run, args: list[str]) -> int | None:
+    name = args[0] if args else ""
+    path = run.source(name) if is_fixed(name) else None
+    if path is None:
+        run.open_world = True
+        run.hide(ANYTHING, "add_subdirectory() of a folder that is not in sight")
+        return None
+    script = f"{path}/CMakeLists.txt" if path else "CMakeLists.txt"
+    if script not in run.sources.scripts:
+        if run.is_folder(path):
+            run.open_world = True
+            run.hide(ANYTHING, f"add_subdirectory() of {path}, which has no CMakeLists.txt in sight")
+        else:
+            run.problem("missing-file", f"add_subdirectory() of {path}, which does not exist", run.where(name))
+        return None
+    run.enter_directory(path)
+    run.scopes.append(Variables())
+    kept = run.versions
+    frame = Frame(True, join_path(run.sources.path, script), f"{SOURCE}/{script}")
+    try:
+        return run_file(run, run.sources.scripts[script].commands, frame)
+    finally:
+        run.versions = kept
+        run.scopes.pop()
+        run.leave_directory()
+
+
+def readable(value: str) -> str:
+    """Return a value for a message."""
+    return value.replace(f"{SOURCE}/", "").replace(BINARY, "the build folder").replace(HOLE, "…").replace("\1", "")
+
+
+def _parse_arguments(run: Run, args: list[str]) -> None:
+    """cmake_parse_arguments(prefix options one multi args...) and its PARSE_ARGV form."""
+    if args[:1] == ["PARSE_ARGV"]:
+        prefix, options, ones, multis = (*args[2:6], "", "", "", "")[:4]
+        given = _rest_of_call(run, args[1])
+    else:
+        prefix, options, ones, multis = (*args[:4], "", "", "", "")[:4]
+        given = args[4:]
+    if not is_known(prefix) or not all(map(is_known, (options, ones, multis))):
+        return
+    from ros_lint.interpret.cmake_arguments import parse_keywords  # noqa: PLC0415
+
+    for name, value in parse_keywords(prefix, options, ones, multis, given).items():
+        run.set(name, value)
+
+
+def _rest_of_call(run: Run, first: str) -> list[str]:
+    argc = run.get("ARGC") or ""
+    if not first.isdigit() or not argc.isdigit():
+        return [HOLE]
+    return [run.get(f"ARGV{index}") or "" for index in range(int(first), int(argc))]
+
+
+def _set_unknown(run: Run, args: list[str]) -> None:
+    """A command whose first argument names the variable that gets something unknown."""
+    if args and HOLE not in args[0]:
+        run.set(args[0], HOLE)
+
+
+def _set_last_unknown(run: Run, args: list[str]) -> None:
+    if args and HOLE not in args[-1]:
+        run.set(args[-1], HOLE)
+
+
+def _execute_process(run: Run, args: list[str]) -> None:
+    for keyword in ("RESULT_VARIABLE", "OUTPUT_VARIABLE", "ERROR_VARIABLE", "RESULTS_VARIABLE"):
+        for index in range(len(args) - 1):
+            if args[index] == keyword:
+                run.set(args[index + 1], HOLE)
+
+
+def nothing(_run: Run, _args: list[str]) -> None:
+    """Carry out a command that changes nothing that matters here."""
+
+
+COMMANDS: Final[dict[str, Handler]] = {
+    "set": _set,
+    "unset": _unset,
+    "option": _option,
+    "message": _message,
+    "return": _return,
+    "break": _break,
+    "continue": _continue,
+    "cmake_minimum_required": _minimum,
+    "cmake_policy": _policy,
+    "project": _project,
+    "include": _include,
+    "add_subdirectory": _add_subdirectory,
+    "cmake_parse_arguments": _parse_arguments,
+    "execute_process": _execute_process,
+    "find_library": _set_unknown,
+    "find_path": _set_unknown,
+    "find_program": _set_unknown,
+    "find_file": _set_unknown,
+    "check_cxx_compiler_flag": _set_last_unknown,
+    "check_c_compiler_flag": _set_last_unknown,
+    "check_cxx_source_compiles": _set_last_unknown,
+    "check_c_source_compiles": _set_last_unknown,
+    "check_cxx_source_runs": _set_last_unknown,
+    "check_include_file": _set_last_unknown,
+    "check_include_files": _set_last_unknown,
+    "check_include_file_cxx": _set_last_unknown,
+    "check_library_exists": _set_last_unknown,
+    "check_symbol_exists": _set_last_unknown,
+    "check_cxx_symbol_exists": _set_last_unknown,
+    "check_function_exists": _set_last_unknown,
+    "check_cxx_linker_flag": _set_last_unknown,
+    "check_type_size": _set_last_unknown,
+    "check_language": nothing,
+    "test_big_endian": _set_unknown,
+    "site_name": _set_unknown,
+    "try_compile": _set_unknown,
+    "try_run": _set_unknown,
+    "processorcount": _set_unknown,
+}
+COMMANDS.update(
+    dict.fromkeys(
+        (
+            "mark_as_advanced", "include_guard", "enable_testing", "enable_language", "add_definitions",
+            "add_compile_definitions", "add_compile_options", "add_link_options", "link_directories", "source_group",
+            "add_dependencies", "set_tests_properties", "remove_definitions", "set_source_files_properties",
+            "variable_watch", "build_command", "create_test_sourcelist", "define_property", "include_regular_expression",
+            "include_external_msproject", "load_cache", "cmake_print_variables", "cmake_print_properties",
+            "feature_summary", "add_feature_info", "set_package_properties", "ctest_start", "ctest_test", "export",
+            "target_compile_definitions", "target_compile_features", "target_compile_options", "target_link_options",
+            "target_link_directories", "target_precompile_headers", "gtest_discover_tests", "gtest_add_tests",
+            "check_ipo_supported", "cmake_push_check_state", "cmake_pop_check_state", "cmake_host_system_information",
+            "cmake_file_api", "write_file", "make_directory", "add_test", "check_struct_has_member",
+        ),
+        nothing,
+    )
+)  # fmt: skip

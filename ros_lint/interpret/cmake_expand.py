@@ -1,0 +1,112 @@
+"""Arguments of commands: references to variables, escapes, list splitting (cmake-language(7), policy CMP0053)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import Final
+
+from ros_lint.interpret.cmake_values import HOLE, LONGEST, MAYBE, flat
+
+Part = str | tuple[str, "Template"]
+"""Text, or a reference: where to look ("", "ENV" or "CACHE") and the template of the name."""
+Template = tuple[Part, ...]
+Lookup = Callable[[str, str], str]
+"""From name and where to look to a value."""
+
+_PIECE = re.compile(r"([^\\$}]+)|\\(?:([tnr])|(\n)|(;)|([^A-Za-z0-9;])|(.?))|\$(ENV|CACHE|)\{|(\})|(\$)", re.DOTALL)
+_LETTERS: Final = {"t": "\t", "n": "\n", "r": "\r"}
+_NAME = re.compile(r"[A-Za-z0-9/_.+\-\0\1\2]*\Z")
+_MOST_TEMPLATES: Final = 20_000
+
+
+class ExpansionError(Exception):
+    """CMake refuses the argument: an unclosed reference, a bad escape or a bad character in a name."""
+
+
+_templates: dict[str, Template] = {}
+
+
+def template(text: str) -> Template:
+    """Return an argument taken apart. Raises ExpansionError when CMake would refuse it."""
+    found = _templates.get(text)
+    if found is None:
+        if len(_templates) > _MOST_TEMPLATES:
+            _templates.clear()
+        found = _templates[text] = _compile(text)
+    return found
+
+
+def _compile(text: str) -> Template:
+    stack: list[tuple[str, list[Part]]] = []
+    parts: list[Part] = []
+    for match in _PIECE.finditer(text):
+        group = match.lastindex
+        if group == 1 or group == 9:  # noqa: PLR1714
+            if stack and not _NAME.match(match[0]):
+                raise ExpansionError(text)
+            parts.append(match[0])
+        elif group == 7:
+            stack.append((match[7], parts))
+            parts = []
+        elif group == 8:
+            if stack:
+                where, outer = stack.pop()
+                outer.append((where, _joined(parts)))
+                parts = outer
+            else:
+                parts.append("}")
+        elif group == 2:
+            parts.append(_LETTERS[match[2]])
+        elif group == 3:
+            pass  # a line that goes on
+        elif group == 4:
+            parts.append(";" if stack else "\\;")
+        elif group == 5:
+            parts.append(match[5])
+        else:
+            raise ExpansionError(text)
+    if stack:
+        raise ExpansionError(text)
+    return _joined(parts)
+
+
+def _joined(parts: list[Part]) -> Template:
+    """Return the parts with neighbouring texts in one."""
+    joined: list[Part] = []
+    for part in parts:
+        if joined and isinstance(part, str) and isinstance(joined[-1], str):
+            joined[-1] += part
+        else:
+            joined.append(part)
+    return tuple(joined)
+
+
+def expand(parts: Template, lookup: Lookup) -> str:
+    """Return the value of an argument. A reference that stands alone keeps the marks of its list elements."""
+    if len(parts) == 1:
+        part = parts[0]
+        if isinstance(part, str):
+            return part
+        return _reference(part, lookup)
+    pieces = [part if isinstance(part, str) else _reference(part, lookup) for part in parts]
+    text = "".join(pieces)
+    if MAYBE in text:
+        text = "".join(_stands_alone(pieces, index) for index in range(len(pieces)))
+    return text if len(text) <= LONGEST else HOLE
+
+
+def _stands_alone(pieces: list[str], index: int) -> str:
+    """Return a piece with its marks if only list separators are around it, else as it is within a longer text."""
+    before = "".join(pieces[:index])
+    after = "".join(pieces[index + 1 :])
+    alone = (not before or before.endswith(";")) and (not after or after.startswith(";"))
+    return pieces[index] if alone else flat(pieces[index])
+
+
+def _reference(part: tuple[str, Template], lookup: Lookup) -> str:
+    where, inner = part
+    name = inner[0] if len(inner) == 1 and isinstance(inner[0], str) else expand(inner, lookup)
+    if HOLE in name or MAYBE in name:
+        return HOLE
+    return lookup(name, where)

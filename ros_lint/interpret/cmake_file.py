@@ -1,0 +1,155 @@
+"""file(), get_filename_component(), configure_file(): paths and files."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from typing import Final
+
+from ros_lint.interpret.cmake_basic import nothing
+from ros_lint.interpret.cmake_glob import glob_regex
+from ros_lint.interpret.cmake_run import Handler, Run
+from ros_lint.interpret.cmake_targets import generate
+from ros_lint.interpret.cmake_values import HOLE, SOURCE, is_fixed, is_known, join
+
+
+def _file(run: Run, args: list[str]) -> None:
+    mode = args[0] if args else ""
+    if mode in ("GLOB", "GLOB_RECURSE"):
+        _glob(run, args[1:], mode == "GLOB_RECURSE")
+    elif mode in ("WRITE", "APPEND", "TOUCH", "GENERATE", "CONFIGURE", "TOUCH_NOCREATE"):
+        outputs = args[1:2] if mode not in ("GENERATE", "CONFIGURE") else args[args.index("OUTPUT") + 1 :][:1]
+        for output in outputs:
+            generate(run, output)
+    elif mode == "DOWNLOAD":
+        generate(run, args[2] if len(args) > 2 else "")
+    elif mode == "RELATIVE_PATH" and len(args) == 4:
+        run.set(args[1], _relative(args[3], args[2]))
+    elif mode in ("TO_CMAKE_PATH", "TO_NATIVE_PATH") and len(args) > 2:
+        run.set(args[2], args[1] if ":" not in args[1] and "\\" not in args[1] else HOLE)
+    elif mode == "REAL_PATH" and len(args) > 2:
+        run.set(args[2], _absolute(args[1], run.places["CMAKE_CURRENT_SOURCE_DIR"]))
+    elif mode in ("READ", "SIZE", "TIMESTAMP", "READ_SYMLINK", "MD5", "SHA1", "SHA256") or mode == "STRINGS":
+        run.set(args[2] if len(args) > 2 else "", HOLE)
+
+
+def _glob(run: Run, args: list[str], recurse: bool) -> None:
+    if not args or HOLE in args[0]:
+        return
+    relative: str | None = None
+    folders = not recurse
+    patterns: list[str] = []
+    index = 1
+    while index < len(args):
+        word = args[index]
+        index += 1
+        if word == "RELATIVE" and index < len(args):
+            relative = args[index]
+            index += 1
+        elif word == "LIST_DIRECTORIES" and index < len(args):
+            folders = args[index].upper() in ("TRUE", "ON", "1", "YES")
+            index += 1
+        elif word not in ("CONFIGURE_DEPENDS", "FOLLOW_SYMLINKS"):
+            patterns.append(word)
+    found: list[str] = []
+    for pattern in patterns:
+        if HOLE in pattern or (pattern.startswith("/") and not pattern.startswith(SOURCE)):
+            run.set(args[0], HOLE)
+            return
+        found += _matches(run, pattern, recurse, folders)
+    paths = [f"{SOURCE}/{path}" for path in sorted(dict.fromkeys(found), key=str.encode)]
+    if relative is not None:
+        paths = [_relative(path, relative) for path in paths]
+    run.set(args[0], join(paths))
+
+
+def _matches(run: Run, pattern: str, recurse: bool, folders: bool) -> list[str]:
+    """Return the files, and folders if they are wanted, that a pattern matches."""
+    path = pattern[len(SOURCE) + 1 :] if pattern.startswith(SOURCE) else posixpath.join(run.directory, pattern)
+    path = posixpath.normpath(path)
+    head, _, last = path.rpartition("/")
+    fixed = re.split(r"/?[^/]*[*?\[]", path, maxsplit=1)[0]
+    if fixed == path:
+        fixed = head
+    regex = glob_regex(head)
+    middle = "(?:[^/]+/)*" if recurse else ""
+    whole = re.compile(f"{regex}{'/' if head else ''}{middle}{glob_regex(last)}")
+    files = list(run.below(fixed))
+    found = [file for file in files if whole.fullmatch(file)]
+    if folders:
+        above = {file[:end] for file in files for end in range(len(file)) if file[end] == "/"}
+        found += [folder for folder in above if whole.fullmatch(folder)]
+    return found
+
+
+def _relative(path: str, base: str) -> str:
+    root = next((root for root in _ROOTS if path.startswith(root) and base.startswith(root)), None)
+    if root is not None and is_fixed(path) and is_fixed(base):
+        return posixpath.relpath(path, base).removeprefix("./")
+    if path.startswith("/") and base.startswith("/") and is_known(path) and is_known(base):
+        return posixpath.relpath(path, base)
+    return HOLE
+
+
+_ROOTS: Final = ("/\1source", "/\1build", "/\1prefix")
+
+
+def _absolute(path: str, base: str) -> str:
+    if not is_fixed(path) or not is_fixed(base):
+        return HOLE
+    return posixpath.normpath(path if path.startswith("/") else posixpath.join(base, path))
+
+
+def _component(run: Run, args: list[str]) -> None:
+    """``get_filename_component(variable path mode [BASE_DIR d] [CACHE])``."""
+    if len(args) < 3 or HOLE in args[0]:
+        return
+    name, path, mode = args[:3]
+    base = args[args.index("BASE_DIR") + 1] if "BASE_DIR" in args[:-1] else run.places["CMAKE_CURRENT_SOURCE_DIR"]
+    run.set(name, _part(run, path, mode, base))
+
+
+def _part(run: Run, path: str, mode: str, base: str) -> str:
+    if mode in ("ABSOLUTE", "REALPATH"):
+        return _absolute(path, base)
+    if mode in ("PROGRAM", "PROGRAM_ARGS") or "\2" in path:
+        return HOLE
+    path = path.rstrip("/") if len(path) > 1 else path
+    folder, slash, last = path.rpartition("/")
+    if mode in ("DIRECTORY", "PATH"):
+        return HOLE if HOLE in last or path == SOURCE else (folder or ("/" if slash else ""))
+    if path == SOURCE:
+        last = posixpath.basename(run.sources.path) or HOLE
+    if HOLE in last or "\1" in last:
+        return HOLE
+    stem, dot, end = last.partition(".")
+    if mode == "NAME":
+        return last
+    if mode == "EXT":
+        return dot + end
+    if mode == "NAME_WE":
+        return stem if stem or not dot else ""
+    root, dot, end = last.rpartition(".")
+    if mode == "LAST_EXT":
+        return dot + end if dot else ""
+    if mode == "NAME_WLE":
+        return root if dot else last
+    return HOLE
+
+
+def _configure(run: Run, args: list[str]) -> None:
+    """``configure_file(input output)``."""
+    if len(args) > 1:
+        output = args[1]
+        if not output.startswith("/") and is_fixed(output):
+            return  # below the build folder
+        generate(run, output)
+
+
+COMMANDS: Final[dict[str, Handler]] = {
+    "file": _file,
+    "get_filename_component": _component,
+    "configure_file": _configure,
+    "configure_package_config_file": nothing,
+    "write_basic_package_version_file": nothing,
+}

@@ -1,0 +1,158 @@
+"""Which packages a script names: find_package() and its kin, pkg-config, targets of others."""
+
+from __future__ import annotations
+
+import re
+from typing import Final
+
+from ros_lint.collectors.cmake_syntax import QUOTED, UNQUOTED
+from ros_lint.facts import ANYTHING, Facet
+from ros_lint.interpret.cmake_basic import include_foreign, include_own
+from ros_lint.interpret.cmake_run import Handler, Run
+from ros_lint.interpret.cmake_values import FOREIGN, HOLE, is_known, split, sure
+
+_FOREIGN_VARIABLE = re.compile(
+    r"\$\{([A-Za-z0-9_+.-]+?)_(?:TARGETS|LIBRARIES|LIBRARY|LIBS|INCLUDE_DIRS?|INCLUDES|DEFINITIONS|LDFLAGS|CFLAGS)\}"
+)
+_FOREIGN_TARGET = re.compile(r"(?<![\w:])([A-Za-z_][\w.+-]*)::[\w.+:-]*\w")
+
+
+def find_package(run: Run, args: list[str]) -> int | None:
+    """``find_package(name [version] [QUIET] [REQUIRED] ...)``."""
+    name, certain = sure(args[0]) if args else ("", True)
+    if not is_known(name):
+        run.open_world = True
+        run.hide(Facet.USES, "find_package() of a name that is not known")
+        return None
+    required = "REQUIRED" in args
+    module = next((path for path in run.sources.scripts if path.rpartition("/")[2] == f"Find{name}.cmake"), None)
+    if name and module is None and run.at_home():
+        span = run.where(args[0])
+        optional = not certain or ("QUIET" in args and not required)
+        run.mention(name, "cmake", span, optional=optional)
+        if not required and not run.muted:
+            run.loose.setdefault(name, []).append(span)
+    found(run, name, required=required and certain)
+    if module is not None:
+        return include_own(run, module)
+    return None
+
+
+def found(run: Run, name: str, *, required: bool) -> None:
+    """Take a package for found: what it sets is unknown from now on, and its CMake code runs if it is in sight."""
+    run.set(f"{name}_FOUND", "1" if required else HOLE)
+    run.open_world = True
+    folded = name.replace("_", "").replace("-", "").lower()
+    if folded not in run.prefixes:
+        run.prefixes.append(folded)
+    if name in ("ament_cmake_ros", "ament_cmake_ros_core") and run.get("BUILD_SHARED_LIBS") is None:
+        run.put(run.cache, "BUILD_SHARED_LIBS", "ON")
+        run.settable.add("BUILD_SHARED_LIBS")
+    helper = run.helpers.get(name)
+    if helper is None or name == run.sources.name:
+        return
+    run.set(f"{name}_DIR", f"{FOREIGN}{name}/share/{name}/cmake")
+    if name in run.included:
+        return
+    run.put(run.included, name, "1")
+    for source in helper.script.extras:
+        if source in helper.sources.scripts:
+            include_foreign(run, name, source)
+        else:
+            run.hide(Facet.USES, f"the CMake code of {name} is not in sight")
+
+
+def _find_all(run: Run, args: list[str]) -> None:
+    """``ros_lint_find(build|test)``: what the manifest declares is searched."""
+    for name in run.sources.build_depends if args[:1] == ["build"] else run.sources.test_depends:
+        found(run, name, required=True)
+
+
+def _uses(run: Run, args: list[str]) -> None:
+    """``ros_lint_uses(how names...)``: a macro is given the names of packages."""
+    for arg in args[1:]:
+        name, certain = sure(arg)
+        if HOLE in name:
+            run.hide(Facet.USES, "the name of a package is not known")
+        elif is_known(name):
+            what = f"{args[0]} {name}" if args[0] != "-" else ""
+            run.mention(name, "target", run.where(arg), what, optional=not certain)
+
+
+def _pkg_config(run: Run, args: list[str]) -> None:
+    if not args or HOLE in args[0]:
+        return
+    run.open_world = True
+    run.prefixes.append(args[0].replace("_", "").lower())
+    run.set(f"{args[0]}_FOUND", "1" if "REQUIRED" in args else HOLE)
+
+
+def link(run: Run, args: list[str]) -> None:
+    """Note the packages whose targets or variables a target command names."""
+    for arg in args[1:]:
+        if "::" not in arg:
+            continue
+        for match in _FOREIGN_TARGET.finditer(arg):
+            name = match[0]
+            if name not in run.targets and match[1] not in (run.name, run.sources.name):
+                run.mention(name, "target", run.where(arg), optional=arg.startswith("\2"))
+    if not run.at_home():
+        return
+    frame = run.frames[-1]
+    command = frame.command
+    if command is None:
+        return
+    for text, kind, start, end in command.args:
+        if kind not in (UNQUOTED, QUOTED) or "_" not in text:
+            continue
+        for match in _FOREIGN_VARIABLE.finditer(text):
+            if match[1] in run.sources.name or match[1] == "PROJECT_NAME":
+                continue
+            package = _package_of(run, match[1])
+            if package:
+                run.mention(package, "target", command.span(frame.path, start, end), match[0])
+
+
+def _package_of(run: Run, prefix: str) -> str:
+    """Return the found package whose variables begin with a prefix, or ""."""
+    if f"{prefix}_FOUND" in run.scopes[-1]:
+        return prefix
+    folded = prefix.replace("_", "").replace("-", "").lower()
+    if folded not in run.prefixes:
+        return ""
+    for scope in run.scopes:
+        for name in scope:
+            if name.endswith("_FOUND") and name[:-6].replace("_", "").replace("-", "").lower() == folded:
+                return name[:-6]
+    return ""
+
+
+def _hide(run: Run, args: list[str]) -> None:
+    """``ros_lint_hide(facets reason)``."""
+    facet = Facet(0)
+    for name in split(args[0]):
+        facet |= ANYTHING if name == "ANYTHING" else Facet[name]
+    run.hide(facet, args[1])
+
+
+def _external_project(run: Run, _args: list[str]) -> None:
+    run.open_world = True
+    run.hide(ANYTHING & ~Facet.INTERFACES, "what a project from elsewhere builds and installs is not in sight")
+
+
+COMMANDS: Final[dict[str, Handler]] = {
+    "find_package": find_package,
+    "find_dependency": find_package,
+    "pkg_check_modules": _pkg_config,
+    "pkg_search_module": _pkg_config,
+    "target_link_libraries": link,
+    "target_include_directories": link,
+    "include_directories": link,
+    "link_libraries": link,
+    "externalproject_add": _external_project,
+    "fetchcontent_makeavailable": _external_project,
+    "fetchcontent_populate": _external_project,
+    "ros_lint_find": _find_all,
+    "ros_lint_uses": _uses,
+    "ros_lint_hide": _hide,
+}

@@ -1,0 +1,443 @@
+"""Running CMake code: blocks, conditions with an unknown outcome, loops, calls, files."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from typing import Final, NamedTuple
+
+from ros_lint.collectors.cmake_syntax import PLAIN, QUOTED, UNQUOTED, Argument, Command
+from ros_lint.facts import ANYTHING, Facet
+from ros_lint.interpret.cmake_blocks import (
+    Body,
+    Definition,
+    If,
+    Loop,
+    Node,
+    Scope,
+    UnbalancedError,
+    blocks,
+    rewritten,
+)
+from ros_lint.interpret.cmake_conditions import FALSE, LIKELY, TRUE, UNKNOWN, UNLIKELY, Truth, condition
+from ros_lint.interpret.cmake_run import DEEPEST, MOST_STEPS, BudgetError, Handler, Run
+from ros_lint.interpret.cmake_state import (
+    BREAK,
+    CONTINUE,
+    NEXT,
+    RETURN,
+    STOP,
+    Changes,
+    Choice,
+    Exit,
+    Frame,
+    Procedure,
+    Variables,
+)
+from ros_lint.interpret.cmake_values import HOLE, MAYBE, elements, join, sure
+
+HANDLERS: Final[dict[str, Handler]] = {}
+"""What carries out each command of CMake. Filled by :mod:`ros_lint.interpret.cmake`."""
+
+
+def run_body(run: Run, body: Sequence[Node], start: int = 0) -> Exit:
+    """Run commands one after the other, and return how that can end."""
+    for index in range(start, len(body)):
+        node = body[index]
+        ended = run_command(run, node) if type(node) is Command else _run_block(run, node)
+        if ended == NEXT:
+            continue
+        if not ended & NEXT:
+            return ended
+        if ended == NEXT | STOP:
+            continue  # only the ways that go on matter
+        rest, changes = _perhaps(run, partial(run_body, run, body, index + 1))
+        run.join([{}, changes])
+        return (ended & ~NEXT) | rest
+    return NEXT
+
+
+def _perhaps(run: Run, piece: partial[Exit]) -> tuple[Exit, Changes]:
+    """Run something that may also not run."""
+    run.unsure += 1
+    try:
+        return run.branch(piece)
+    finally:
+        run.unsure -= 1
+
+
+def run_command(run: Run, command: Command) -> Exit:
+    """Run a command that opens no block."""
+    run.steps += 1
+    if run.steps > MOST_STEPS:
+        raise BudgetError
+    run.frames[-1].command = command
+    name = command.name
+    run.calls.add(name)
+    procedure = run.procedures.get(name)
+    if procedure is None:
+        handler = HANDLERS.get(name)
+        if handler is not None:
+            return handler(run, run.arguments(command)) or NEXT
+        return run.foreign(run, name, run.arguments(command)) or NEXT
+    return call(run, procedure, run.arguments(command))
+
+
+def _run_block(run: Run, node: Node) -> Exit:
+    run.steps += 1
+    if run.steps > MOST_STEPS:
+        raise BudgetError
+    match node:
+        case If():
+            return _run_if(run, node)
+        case Loop():
+            run.frames[-1].command = node.command
+            if node.command.name == "foreach":
+                return _run_foreach(run, node)
+            return _run_while(run, node)
+        case Definition():
+            run.frames[-1].command = node.command
+            return _define(run, node)
+        case Scope():
+            run.frames[-1].command = node.command
+            return _run_scope(run, node.body, run.arguments(node.command))
+        case _:
+            raise AssertionError(node)
+
+
+# --- if ------------------------------------------------------------------------------------------------------------
+
+
+class _Way(NamedTuple):
+    body: Body
+    usual: bool
+    """Whether it is taken unless the user asks for something else."""
+    testing: bool
+
+
+def _run_if(run: Run, node: If) -> Exit:
+    ways: list[_Way] = []
+    open_end = True  # whether what was passed so far may all be false by default
+    testing = run.testing
+    certain = True
+    for command, body in node.branches:
+        if command is None:
+            truth = Truth(TRUE, False, False)
+        else:
+            run.frames[-1].command = command
+            truth = condition(run, command)
+        if truth.value == FALSE:
+            testing = testing or truth.test_if_false
+            continue
+        if truth.value == TRUE:
+            ways.append(_Way(body, open_end, testing or truth.test_if_true))
+            certain = False
+            break
+        ways.append(_Way(body, truth.value == LIKELY and open_end, testing or truth.test_if_true))
+        open_end = open_end and truth.value == UNLIKELY
+        testing = testing or truth.test_if_false
+    if certain:
+        ways.append(_Way((), open_end, testing))
+    if len(ways) == 1:
+        return _run_way(run, ways[0])
+    return _run_ways(run, ways)
+
+
+def _run_way(run: Run, way: _Way) -> Exit:
+    if way.testing == run.testing:
+        return run_body(run, way.body)
+    run.testing = True
+    try:
+        return run_body(run, way.body)
+    finally:
+        run.testing = False
+
+
+def _run_ways(run: Run, ways: Sequence[_Way]) -> Exit:
+    ended: Exit = 0
+    alive: list[tuple[Changes, bool]] = []
+    stopped: list[Changes] = []
+    for way in ways:
+        run.unsure += not way.usual
+        try:
+            one, changes = run.branch(partial(_run_way, run, way))
+        finally:
+            run.unsure -= not way.usual
+        if one == STOP:
+            stopped.append(changes)
+            continue
+        ended |= one & ~STOP
+        alive.append((changes, way.usual))
+    if not alive:
+        return STOP
+    default = next((index for index, (_, usual) in enumerate(alive) if usual), None)
+    run.join([changes for changes, _ in alive], default)
+    return ended
+
+
+# --- loops ---------------------------------------------------------------------------------------------------------
+
+
+def _run_foreach(run: Run, node: Loop) -> Exit:
+    args = run.arguments(node.command)
+    if not args:
+        return NEXT
+    rounds = _rounds(run, args)
+    names = _loop_names(args)
+    kept = [(name, run.scopes[-1].get(name, _ABSENT)) for name in names]
+    ended = _run_rounds(run, node.body, names, rounds, 0)
+    for name, value in kept:
+        if value is _ABSENT:
+            run.remove(run.scopes[-1], name)
+        else:
+            run.put(run.scopes[-1], name, value)
+    return ended
+
+
+_ABSENT: Final = object()
+
+
+def _loop_names(args: list[str]) -> list[str]:
+    if "ZIP_LISTS" in args:
+        names = args[: args.index("IN")]
+        lists = args[args.index("ZIP_LISTS") + 1 :]
+        return names if len(names) > 1 else [f"{names[0]}_{index}" for index in range(len(lists))]
+    return [args[0]]
+
+
+def _rounds(run: Run, args: list[str]) -> list[tuple[str, ...]]:
+    """Return what the loop variables hold in each round. A single HOLE stands for any number of rounds."""
+    rest = args[1:]
+    if "IN" in args and "ZIP_LISTS" in args:
+        lists = [elements(run.get(name) or "") for name in args[args.index("ZIP_LISTS") + 1 :]]
+        if any(HOLE in items or any(item.startswith(MAYBE) for item in items) for items in lists):
+            return [(HOLE,)]
+        longest = max(map(len, lists), default=0)
+        return [tuple(items[index] if index < len(items) else "" for items in lists) for index in range(longest)]
+    if rest[:1] == ["IN"]:
+        values: list[str] = []
+        mode = ""
+        for word in rest[1:]:
+            if word in ("LISTS", "ITEMS") and mode != "ITEMS":
+                mode = word
+            elif mode == "LISTS":
+                values += elements(run.get(word) or "") if HOLE not in word else [HOLE]
+            else:
+                values.append(word)
+        return [(value,) for value in values]
+    if rest[:1] == ["RANGE"]:
+        return [(value,) for value in _range(rest[1:])]
+    return [(value,) for value in rest]
+
+
+def _range(args: list[str]) -> list[str]:
+    try:
+        numbers = [int(arg) for arg in args]
+    except ValueError:
+        return [HOLE]
+    start, stop, step = 0, 0, 0
+    match numbers:
+        case [stop]:
+            step = 1
+        case [start, stop]:
+            step = 1 if start <= stop else -1
+        case [start, stop, step]:
+            pass
+        case _:
+            return [HOLE]
+    if step == 0 or (step > 0) != (stop >= start) or abs(stop - start) // abs(step) > MOST_STEPS:
+        return [HOLE]
+    return [str(number) for number in range(start, stop + (1 if step > 0 else -1), step)]
+
+
+def _run_rounds(run: Run, body: Body, names: list[str], rounds: list[tuple[str, ...]], start: int) -> Exit:
+    for index in range(start, len(rounds)):
+        items = rounds[index]
+        if HOLE in items:
+            ended = _run_any_number(run, partial(_run_round, run, body, names, (HOLE,) * len(names)))
+        else:
+            plain = tuple(sure(item)[0] for item in items)
+            if plain == items:
+                ended = _run_round(run, body, names, items)
+            else:
+                ended, changes = _perhaps(run, partial(_run_round, run, body, names, plain))
+                run.join([{}, changes])
+                ended |= NEXT
+        if ended & (RETURN | BREAK | STOP) and not ended & (NEXT | CONTINUE):
+            return NEXT if ended & BREAK and not ended & RETURN else (ended & ~BREAK) | (NEXT if ended & BREAK else 0)
+        leaves = ended & (RETURN | BREAK)
+        if leaves:
+            rest, changes = _perhaps(run, partial(_run_rounds, run, body, names, rounds, index + 1))
+            run.join([{}, changes])
+            return (ended & RETURN) | (NEXT if ended & BREAK else 0) | rest
+    return NEXT
+
+
+def _run_round(run: Run, body: Body, names: list[str], items: Sequence[str]) -> Exit:
+    for name, item in zip(names, items, strict=True):
+        run.set(name, item)
+    return run_body(run, body)
+
+
+def _run_any_number(run: Run, round_: partial[Exit]) -> Exit:
+    """Run the body of a loop that runs an unknown number of times."""
+    run.muted += 1
+    try:
+        _, changes = _perhaps(run, round_)
+    finally:
+        run.muted -= 1
+    run.forget(changes)
+    ended, changes = _perhaps(run, round_)
+    run.join([{}, changes])
+    return ended | NEXT
+
+
+def _run_while(run: Run, node: Loop) -> Exit:
+    while True:
+        run.steps += 1
+        if run.steps > MOST_STEPS:
+            raise BudgetError
+        run.frames[-1].command = node.command
+        truth = condition(run, node.command)
+        if truth.value in (FALSE, UNLIKELY):
+            return NEXT
+        if truth.value in (LIKELY, UNKNOWN):
+            ended = _run_any_number(run, partial(run_body, run, node.body))
+            return (ended & RETURN) | NEXT
+        ended = run_body(run, node.body)
+        if not ended & (NEXT | CONTINUE):
+            return NEXT if ended == BREAK else (ended & ~BREAK) | (NEXT if ended & BREAK else 0)
+        if ended & (BREAK | RETURN):
+            rest, changes = _perhaps(run, partial(_run_while, run, node))
+            run.join([{}, changes])
+            return (ended & RETURN) | NEXT | rest
+
+
+# --- functions and macros ------------------------------------------------------------------------------------------
+
+
+def _define(run: Run, node: Definition) -> Exit:
+    args = run.arguments(node.command)
+    if not args or HOLE in args[0]:
+        run.hide(Facet.USES, "the name of a function is not known")
+        return NEXT
+    frame = run.frames[-1]
+    body = node.body
+    if frame.replace:
+        body = rewritten(body, partial(_substituted, frame.replace))
+    file = next(frame for frame in reversed(run.frames) if frame.procedure is None)
+    procedure = Procedure(
+        args[0],
+        node.command.name == "macro",
+        tuple(args[1:]),
+        body,
+        frame.own,
+        frame.path,
+        file.folder,
+        frame.procedure.provider if frame.procedure else frame.provider,
+    )
+    run.put(run.procedures, args[0].lower(), procedure)
+    return NEXT
+
+
+def _substituted(replace: tuple[tuple[str, str], ...], args: tuple[Argument, ...]) -> tuple[Argument, ...]:
+    found = []
+    for text, kind, start, end in args:
+        changed = text
+        if kind in (PLAIN, UNQUOTED, QUOTED):
+            for old, new in replace:
+                changed = changed.replace(old, new)
+        found.append((changed, kind, start, end))
+    return tuple(found)
+
+
+def call(run: Run, procedure: Procedure | Choice, args: list[str]) -> Exit:
+    """Call a function or macro."""
+    if isinstance(procedure, Choice):
+        ended: Exit = 0
+        branches: list[Changes] = []
+        for option in procedure.procedures:
+            if option is None:
+                branches.append({})
+                ended |= NEXT
+                continue
+            one, changes = _perhaps(run, partial(call, run, option, args))
+            ended |= one
+            branches.append(changes)
+        run.join(branches)
+        return ended
+    if len(run.frames) > DEEPEST:
+        raise BudgetError
+    frame = Frame(procedure.own, procedure.path, procedure.folder, procedure)
+    values = _call_values(procedure.parameters, args)
+    if procedure.macro:
+        frame.replace = tuple((f"${{{name}}}", value) for name, value in values.items())
+        run.frames.append(frame)
+        try:
+            return run_body(run, procedure.body)
+        finally:
+            run.frames.pop()
+    run.scopes.append(Variables(values))
+    run.frames.append(frame)
+    try:
+        ended = run_body(run, procedure.body)
+    finally:
+        run.frames.pop()
+        run.scopes.pop()
+    return NEXT if ended & (NEXT | RETURN) else ended
+
+
+def _call_values(parameters: Sequence[str], args: list[str]) -> dict[str, str]:
+    """Return what the parameters, ARGC, ARGV, ARGN and ARGV0 and so on hold."""
+    # From the first argument on that may be missing or be several, nobody knows which is the how many-th.
+    firm = next((index for index, arg in enumerate(args) if arg == HOLE or arg.startswith(MAYBE)), len(args))
+    values = {name: args[index] if index < firm else HOLE for index, name in enumerate(parameters)}
+    if firm == len(args):
+        values = {name: args[index] if index < len(args) else "" for index, name in enumerate(parameters)}
+        values["ARGC"] = str(len(args))
+        values["ARGN"] = join(args[len(parameters) :])
+    else:
+        values["ARGC"] = HOLE
+        values["ARGN"] = join(args[len(parameters) :]) if firm >= len(parameters) else HOLE
+    values["ARGV"] = join(args)
+    values.update({f"ARGV{index}": arg for index, arg in enumerate(args[:firm])})
+    return values
+
+
+def _run_scope(run: Run, body: Body, args: list[str]) -> Exit:
+    """Run block(): what it sets is gone after it, unless it is propagated."""
+    if "SCOPE_FOR" in args and "VARIABLES" not in args:
+        return run_body(run, body)
+    names = args[args.index("PROPAGATE") + 1 :] if "PROPAGATE" in args else []
+    run.scopes.append(Variables())
+    try:
+        ended = run_body(run, body)
+        kept = {name: run.scopes[-1][name] for name in names if name in run.scopes[-1]}
+    finally:
+        run.scopes.pop()
+    for name, value in kept.items():
+        run.set(name, value)
+    return ended
+
+
+# --- files ---------------------------------------------------------------------------------------------------------
+
+
+def run_file(run: Run, commands: Sequence[Command], frame: Frame) -> Exit:
+    """Run the commands of a file. A return() in it ends the file only."""
+    if len(run.frames) > DEEPEST:
+        raise BudgetError
+    run.enter_file(frame)
+    try:
+        try:
+            body = blocks(commands)
+        except UnbalancedError as error:
+            body = error.body
+            if frame.own:
+                run.problem("cmake-syntax", str(error), error.command.place(frame.path))
+            run.hide(ANYTHING, str(error), error.command.place(frame.path) if frame.own else None)
+        ended = run_body(run, body)
+    finally:
+        run.frames.pop()
+        run.place_file()
+    return NEXT if ended & (NEXT | RETURN) else ended

@@ -1,0 +1,294 @@
+"""What install() puts where (cmake-commands install(7); reference, section C5)."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from collections.abc import Iterator
+from typing import Final, NamedTuple
+
+from ros_lint.facts import Facet, Opaque, Provided
+from ros_lint.interpret.cmake_arguments import sections
+from ros_lint.interpret.cmake_glob import glob_regex
+from ros_lint.interpret.cmake_run import Handler, Installed, InstalledTarget, Run
+from ros_lint.interpret.cmake_targets import output_name, real_target
+from ros_lint.interpret.cmake_values import HOLE, is_fixed, is_known, sure
+from ros_lint.text import Span
+from ros_lint.tree import join as join_path
+
+_ANYWHERE = Facet.EXECUTABLES | Facet.SHARE | Facet.LIBRARIES | Facet.PYTHON
+_TYPES: Final = {
+    "BIN": "bin", "SBIN": "sbin", "LIB": "lib", "INCLUDE": "include", "SYSCONF": "etc", "SHAREDSTATE": "com",
+    "LOCALSTATE": "var", "RUNSTATE": "var/run", "DATA": "share", "INFO": "share/info", "LOCALE": "share/locale",
+    "MAN": "share/man", "DOC": "share/doc",
+}  # fmt: skip
+_ARTIFACTS: Final = (
+    "ARCHIVE", "LIBRARY", "RUNTIME", "OBJECTS", "FRAMEWORK", "BUNDLE", "PRIVATE_HEADER", "PUBLIC_HEADER", "RESOURCE",
+    "INCLUDES", "CXX_MODULES_BMI",
+)  # fmt: skip
+_TARGET_WORDS: Final = {
+    "EXPORT": 1, "DESTINATION": 1, "PERMISSIONS": -1, "CONFIGURATIONS": -1, "COMPONENT": 1, "NAMELINK_COMPONENT": 1,
+    "OPTIONAL": 0, "EXCLUDE_FROM_ALL": 0, "NAMELINK_ONLY": 0, "NAMELINK_SKIP": 0, "RUNTIME_DEPENDENCIES": -1,
+    "RUNTIME_DEPENDENCY_SET": 1, "FILE_SET": 1,
+}  # fmt: skip
+_FILE_WORDS: Final = {
+    "TYPE": 1, "DESTINATION": 1, "PERMISSIONS": -1, "CONFIGURATIONS": -1, "COMPONENT": 1, "RENAME": 1, "OPTIONAL": 0,
+    "EXCLUDE_FROM_ALL": 0,
+}  # fmt: skip
+_DIRECTORY_WORDS: Final = {
+    "TYPE": 1, "DESTINATION": 1, "FILE_PERMISSIONS": -1, "DIRECTORY_PERMISSIONS": -1, "USE_SOURCE_PERMISSIONS": 0,
+    "OPTIONAL": 0, "MESSAGE_NEVER": 0, "CONFIGURATIONS": -1, "COMPONENT": 1, "EXCLUDE_FROM_ALL": 0, "FILES_MATCHING": 0,
+}  # fmt: skip
+
+
+def facet_of(run: Run, destination: str | None) -> Facet:
+    """Return which side of the package something installed there belongs to."""
+    if destination is None:
+        return _ANYWHERE
+    if destination.startswith("share"):
+        return Facet.SHARE
+    if destination.startswith("lib/python"):
+        return Facet.PYTHON
+    if destination in ("bin", f"lib/{run.sources.name}") or destination.startswith(f"lib/{run.sources.name}/"):
+        return Facet.EXECUTABLES
+    return Facet.LIBRARIES
+
+
+def _install(run: Run, args: list[str]) -> None:
+    mode = args[0] if args else ""
+    if mode == "TARGETS":
+        _install_targets(run, args[1:])
+    elif mode in ("FILES", "PROGRAMS"):
+        _install_files(run, args[1:], mode == "PROGRAMS")
+    elif mode == "DIRECTORY":
+        _install_directories(run, args[1:])
+    elif mode in ("CODE", "SCRIPT"):
+        run.hide(_ANYWHERE, f"install({mode}) runs code during the installation")
+    elif mode not in ("EXPORT", "EXPORT_ANDROID_MK", "IMPORTED_RUNTIME_ARTIFACTS", "RUNTIME_DEPENDENCY_SET"):
+        run.hide(_ANYWHERE, "install() of something unknown")
+
+
+# --- targets -------------------------------------------------------------------------------------------------------
+
+
+def _install_targets(run: Run, args: list[str]) -> None:
+    names: list[str] = []
+    destinations: dict[str, str] = {}
+    artifact = ""
+    room = -1
+    keyword = ""
+    for arg in args:
+        if arg in _ARTIFACTS:
+            artifact, keyword = arg, arg
+        elif arg in _TARGET_WORDS:
+            keyword, room = arg, _TARGET_WORDS[arg]
+        elif not keyword:
+            names.append(arg)
+        elif keyword == "DESTINATION" and room:
+            destinations[artifact] = arg
+            room -= 1
+    everywhere = destinations.get("")
+    runtime, library, archive = (
+        run.destination(sure(destinations.get(kind, everywhere or usual))[0])
+        for kind, usual in (("RUNTIME", "bin"), ("LIBRARY", "lib"), ("ARCHIVE", "lib"))
+    )
+    for name in names:
+        plain, certain = sure(name)
+        if not is_known(plain):
+            run.hide(Facet.EXECUTABLES | Facet.LIBRARIES, "install() of targets whose names are not known")
+        elif not run.muted:
+            conditional = run.conditional or run.testing or not certain
+            run.installed_targets.append(InstalledTarget(plain, runtime, library, archive, conditional, run.where(name)))
+
+
+def installed_targets(run: Run) -> Iterator[Provided]:
+    """Return the files of the targets that were installed, after the whole script has run."""
+    for name, executables, libraries, archives, conditional, span in run.installed_targets:
+        target = real_target(run, name)
+        if target is None:
+            if not run.open_world or "::" not in name:
+                run.undefined.append((name, span, conditional))
+            run.opaques.setdefault(_no_sight(f"what the target {name} is, is not known", span))
+            continue
+        kind = target["KIND"]
+        if kind in ("interface", "object", "other", "imported"):
+            continue
+        where = {"executable": executables, "static": archives}.get(kind, libraries)
+        file = output_name(target)
+        if where is None or file is None:
+            run.opaques.setdefault(_no_sight(f"where the target {name} is installed is not known", span))
+            continue
+        unsure = conditional or "CONDITIONAL" in target or "TEST" in target
+        yield Provided(join_path(where, file), "", kind == "executable", unsure, span)
+        if kind == "shared":
+            for number in {target.get("VERSION", ""), target.get("SOVERSION", "")} - {""}:
+                if is_known(number):
+                    yield Provided(join_path(where, f"{file}.{number}"), "", False, unsure, span)
+
+
+def _no_sight(reason: str, span: Span) -> Opaque:
+    return Opaque(Facet.EXECUTABLES | Facet.LIBRARIES, reason, span)
+
+
+# --- files ---------------------------------------------------------------------------------------------------------
+
+
+def _install_files(run: Run, args: list[str], program: bool) -> None:
+    parts = sections(args, _FILE_WORDS)
+    destination = _destination(run, parts)
+    rename = parts.get("RENAME", [""])[0] if parts.get("RENAME") else ""
+    if "PERMISSIONS" in parts:
+        program = any(word.endswith("_EXECUTE") for word in parts["PERMISSIONS"])
+    for value in parts[""]:
+        plain, certain = sure(value)
+        name = rename or posixpath.basename(plain)
+        if destination is None or HOLE in name or not is_fixed(name):
+            run.hide(facet_of(run, destination), "install() of files whose names or place are not known")
+            continue
+        _install_file(run, value, join_path(destination, name), program, certain, "OPTIONAL" in parts)
+
+
+def _install_file(run: Run, value: str, path: str, program: bool, certain: bool, optional: bool) -> None:
+    if run.muted:
+        return
+    plain = sure(value)[0]
+    span = run.where(value)
+    source = run.source(plain)
+    conditional = run.conditional or run.testing or not certain
+    if source is not None and source not in run.files:
+        if run.is_folder(source) and source:
+            run.problem("file-is-directory", f"install(FILES) of {source}, which is a directory", span)
+            return
+        if optional:
+            return
+        run.missing.append((source, span, conditional))
+        if source not in run.generated:
+            run.installed.append(Installed(path, source, program, True, span))
+            return
+        source = ""
+    run.installed.append(Installed(path, source or "", program, conditional, span))
+
+
+def _destination(run: Run, parts: dict[str, list[str]]) -> str | None:
+    found = parts.get("DESTINATION")
+    if found:
+        return run.destination(sure(found[0])[0]) if len(found) == 1 else None
+    kind = parts.get("TYPE")
+    return _TYPES.get(kind[0]) if kind else None
+
+
+# --- directories ---------------------------------------------------------------------------------------------------
+
+
+class _Pattern(NamedTuple):
+    matches: re.Pattern[str]
+    excluded: bool
+    executable: bool | None
+    """What its permissions say, None when it gives none."""
+
+
+def _install_directories(run: Run, args: list[str]) -> None:
+    at = next((index for index, arg in enumerate(args) if arg in ("PATTERN", "REGEX")), len(args))
+    parts = sections(args[:at], _DIRECTORY_WORDS)
+    destination = _destination(run, parts)
+    patterns = _patterns(args[at:])
+    if patterns is None:
+        run.hide(facet_of(run, destination), "install(DIRECTORY) with a pattern that is not known")
+        return
+    permissions = parts.get("FILE_PERMISSIONS")
+    executable: bool | None = None if "USE_SOURCE_PERMISSIONS" in parts else False
+    if permissions is not None:
+        executable = any(word.endswith("_EXECUTE") for word in permissions)
+    only = "FILES_MATCHING" in parts or "FILES_MATCHING" in args[at:]
+    for value in parts[""]:
+        plain, certain = sure(value)
+        source = run.source(plain)
+        if destination is None or HOLE in plain:
+            run.hide(facet_of(run, destination), "install(DIRECTORY) of a folder or to a place that is not known")
+        elif source is None:
+            run.hide(facet_of(run, destination), "install(DIRECTORY) of a folder that is not in the sources")
+        elif not run.muted:
+            target = destination
+            if not plain.endswith("/") and source and plain not in (".", ".."):
+                target = join_path(destination, posixpath.basename(source))
+            conditional = run.conditional or run.testing or not certain
+            _install_directory(run, value, source, target, patterns, only, executable, conditional, "OPTIONAL" in parts)
+
+
+def _install_directory(
+    run: Run,
+    value: str,
+    source: str,
+    target: str,
+    patterns: list[_Pattern],
+    only: bool,
+    executable: bool | None,
+    conditional: bool,
+    optional: bool,
+) -> None:
+    span = run.where(value)
+    if source in run.files:
+        run.installed.append(Installed(target, source, bool(executable), conditional, span))
+        return
+    if not run.is_folder(source):
+        if not optional:
+            run.missing.append((source, span, conditional))
+        return
+    skip = len(source) + 1 if source else 0
+    for file in run.below(source):
+        program = file in run.sources.executables if executable is None else executable
+        if patterns or only:
+            chosen, given = _chosen(file, source, patterns, only)
+            if not chosen:
+                continue
+            program = program if given is None else given
+        run.installed.append(Installed(join_path(target, file[skip:]), file, program, conditional, span))
+
+
+def _chosen(file: str, top: str, patterns: list[_Pattern], only: bool) -> tuple[bool, bool | None]:
+    """Return whether patterns leave a file in, and what permissions they give it."""
+    end = len(top)
+    while end != -1 and end < len(file):  # the folders on the way, from the top
+        if end and any(pattern.excluded and pattern.matches.search(f"/{file[:end]}") for pattern in patterns):
+            return False, None
+        end = file.find("/", end + 1)
+    matching = [pattern for pattern in patterns if pattern.matches.search(f"/{file}")]
+    if any(pattern.excluded for pattern in matching) or (only and not matching):
+        return False, None
+    given = [pattern.executable for pattern in matching if pattern.executable is not None]
+    return True, any(given) if given else None
+
+
+def _patterns(args: list[str]) -> list[_Pattern] | None:
+    found: list[_Pattern] = []
+    index = 0
+    while index < len(args):
+        word = args[index]
+        index += 1
+        if word not in ("PATTERN", "REGEX") or index >= len(args):
+            continue
+        text = args[index]
+        if not is_known(text):
+            return None
+        index += 1
+        regex = _regex(text) if word == "REGEX" else re.compile(f"/{glob_regex(text)}$")
+        if regex is None:
+            return None
+        excluded, executable = False, None
+        while index < len(args) and args[index] not in ("PATTERN", "REGEX"):
+            excluded = excluded or args[index] == "EXCLUDE"
+            if args[index] == "PERMISSIONS":
+                executable = False
+            executable = executable or (True if args[index].endswith("_EXECUTE") else executable)
+            index += 1
+        found.append(_Pattern(regex, excluded, executable))
+    return found
+
+
+def _regex(text: str) -> re.Pattern[str] | None:
+    from ros_lint.interpret.cmake_regex import translated  # noqa: PLC0415  (few packages match by expressions)
+
+    return translated(text)
+
+
+COMMANDS: Final[dict[str, Handler]] = {"install": _install}

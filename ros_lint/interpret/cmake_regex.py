@@ -1,0 +1,221 @@
+"""CMake's regular expressions (KWSys): simpler than Python's, and matched byte by byte."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from functools import lru_cache
+from typing import TYPE_CHECKING, Final
+
+from ros_lint.interpret.cmake_values import BINARY, HOLE, PREFIX, SOURCE, is_fixed
+
+if TYPE_CHECKING:
+    from ros_lint.interpret.cmake_run import Run
+
+
+class RegexError(Exception):
+    """CMake refuses the expression, or does something else with it in other versions."""
+
+
+@lru_cache(maxsize=512)
+def _compiled(text: str) -> re.Pattern[str]:
+    return re.compile(_Translator(_bytes(text)).whole(), re.DOTALL)
+
+
+def translated(text: str) -> re.Pattern[str] | None:
+    """Return an expression for Python's re, to be used on plain ASCII text, or None when CMake would refuse it."""
+    try:
+        return _compiled(text)
+    except RegexError:
+        return None
+
+
+def _bytes(text: str) -> str:
+    """Return a text with one character for each of its bytes."""
+    return text if text.isascii() else text.encode("utf-8", "surrogateescape").decode("latin-1")
+
+
+def _text(text: str) -> str:
+    return text if text.isascii() else text.encode("latin-1").decode("utf-8", "surrogateescape")
+
+
+class _Translator:
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.at = 0
+
+    def whole(self) -> str:
+        found = self.branches()
+        if self.at != len(self.text):
+            raise RegexError(self.text)
+        return found[0]
+
+    def branches(self) -> tuple[str, bool]:
+        """Return an expression up to the end or a closing parenthesis, and whether it can match nothing."""
+        pieces, empty = self.branch()
+        while self.text[self.at : self.at + 1] == "|":
+            self.at += 1
+            more, also = self.branch()
+            pieces, empty = f"{pieces}|{more}", empty or also
+        return pieces, empty
+
+    def branch(self) -> tuple[str, bool]:
+        pieces: list[str] = []
+        empty = True
+        while self.at < len(self.text) and self.text[self.at] not in "|)":
+            piece, also = self.piece()
+            pieces.append(piece)
+            empty = empty and also
+        return "".join(pieces), empty
+
+    def piece(self) -> tuple[str, bool]:
+        atom, empty = self.atom()
+        sign = self.text[self.at : self.at + 1]
+        if sign not in ("*", "+", "?"):
+            return atom, empty
+        if empty and sign != "?":
+            raise RegexError(self.text)
+        self.at += 1
+        if self.text[self.at : self.at + 1] in ("*", "+", "?"):
+            raise RegexError(self.text)
+        return f"{atom}{sign}", empty or sign != "+"
+
+    def atom(self) -> tuple[str, bool]:
+        letter = self.text[self.at]
+        self.at += 1
+        if letter == "^":
+            return r"(?:\A)", True
+        if letter == "$":
+            return r"(?:\Z)", True
+        if letter == ".":
+            return ".", False
+        if letter == "[":
+            return self.letters(), False
+        if letter == "(":
+            inner, empty = self.branches()
+            if self.text[self.at : self.at + 1] != ")":
+                raise RegexError(self.text)
+            self.at += 1
+            return f"({inner})", empty
+        if letter in "*+?" or (letter == "\\" and self.at == len(self.text)):
+            raise RegexError(self.text)
+        if letter == "\\":
+            letter = self.text[self.at]
+            self.at += 1
+        return re.escape(letter), False
+
+    def letters(self) -> str:
+        end = self.at + (self.text[self.at : self.at + 1] == "^")
+        end = self.text.find("]", end + 1)
+        if end < 0:
+            raise RegexError(self.text)
+        body = self.text[self.at : end]
+        self.at = end + 1
+        negated = body.startswith("^")
+        body = body[negated:]
+        found: list[str] = []
+        index = 0
+        while index < len(body):
+            if body[index + 1 : index + 2] == "-" and index + 2 < len(body):
+                low, high = body[index], body[index + 2]
+                if low > high:
+                    raise RegexError(self.text)
+                found.append(f"{re.escape(low)}-{re.escape(high)}")
+                index += 3
+            else:
+                found.append(re.escape(body[index]))
+                index += 1
+        return f"[{'^' if negated else ''}{''.join(found)}]"
+
+
+# --- use -----------------------------------------------------------------------------------------------------------
+
+
+def clear(run: Run) -> None:
+    """Empty the variables that hold the last match, as every use of an expression does first."""
+    last = run.get("CMAKE_MATCH_COUNT")
+    if last is None:
+        return
+    for index in range(int(last) + 1 if last.isdigit() else 10):
+        if run.get(f"CMAKE_MATCH_{index}"):
+            run.set(f"CMAKE_MATCH_{index}", "")
+    run.set("CMAKE_MATCH_COUNT", "0")
+
+
+def store(run: Run, groups: tuple[str, ...]) -> None:
+    """Set CMAKE_MATCH_0 and so on; the first of the groups is the whole match."""
+    highest = 0
+    for index, group in enumerate(groups[:10]):
+        if group:
+            run.set(f"CMAKE_MATCH_{index}", group)
+            highest = index
+    run.set("CMAKE_MATCH_COUNT", str(highest))
+
+
+def find(run: Run, regex: str, text: str) -> bool | None:
+    """Return whether an expression matches somewhere, and set the match variables. None: CMake refuses it."""
+    pattern = translated(regex)
+    if pattern is None:
+        return None
+    clear(run)
+    match = pattern.search(_bytes(text))
+    if match is None:
+        return False
+    store(run, _groups(match))
+    return True
+
+
+def _groups(match: re.Match[str]) -> tuple[str, ...]:
+    return tuple(_text(group or "") for group in (match[0], *match.groups()))
+
+
+def every(regex: str, text: str) -> list[tuple[str, str, tuple[str, ...]]]:
+    """Return all matches from left to right: what stands before each, the match, and the groups.
+
+    A last entry holds what stands after them, and no groups. Raises RegexError where CMake has an error or its versions
+    differ: empty matches, and ``^`` with more than one match (policy CMP0186).
+    """
+    pattern = translated(regex)
+    if pattern is None:
+        raise RegexError(regex)
+    rest = _bytes(text)
+    found: list[tuple[str, str, tuple[str, ...]]] = []
+    while match := pattern.search(rest):
+        if not match[0]:
+            raise RegexError(regex)
+        if found and "^" in regex.replace("[^", ""):
+            raise RegexError(regex)
+        found.append((_text(rest[: match.start()]), _text(match[0]), _groups(match)))
+        rest = rest[match.end() :]
+    found.append((_text(rest), "", ()))
+    return found
+
+
+_STAND_INS: Final = ("/zq7x/wk", "/vj9/pq-5yz/hb_w")
+"""Two places where a workspace could lie. What comes out the same for both does not depend on the place."""
+
+
+def anywhere(compute: Callable[..., str], *values: str) -> str:
+    """Return what a computation on texts gives, if it is the same wherever the package lies; else HOLE.
+
+    Raises what the computation raises.
+    """
+    if not any("\1" in value for value in values):
+        return compute(*values)
+    if not all(map(is_fixed, values)):
+        return HOLE
+    results = []
+    for number, stand_in in enumerate(_STAND_INS):
+        pairs = [(root, f"{stand_in}{number}{name}") for root, name in ((SOURCE, "s"), (BINARY, "b"), (PREFIX, "p"))]
+        placed = list(values)
+        for root, place in pairs:
+            placed = [value.replace(root, place) for value in placed]
+        if any("\1" in value for value in placed):
+            return HOLE
+        result = compute(*placed)
+        for root, place in pairs:
+            result = result.replace(place, root)
+        if any(part in result for part in stand_in.split("/") if part):
+            return HOLE
+        results.append(result)
+    return results[0] if results[0] == results[1] else HOLE

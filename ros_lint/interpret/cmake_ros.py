@@ -1,0 +1,200 @@
+"""Commands of ROS packages: the released macros, and the primitives that their effects are written in."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from functools import cache
+from typing import Final
+
+from ros_lint.facts import ANYTHING, Component, Facet
+from ros_lint.interpret.cmake_blocks import Definition, blocks
+from ros_lint.interpret.cmake_flow import HANDLERS, call
+from ros_lint.interpret.cmake_run import Handler, Installed, Run
+from ros_lint.interpret.cmake_state import Procedure, Properties
+from ros_lint.interpret.cmake_targets import generate
+from ros_lint.interpret.cmake_values import HOLE, is_known, sure
+from ros_lint.knowledge.cmake_commands import macros
+from ros_lint.tree import join as join_path
+
+_PRODUCER = re.compile(r"install|program|executable|node|script|package|component|launch|resource|share|deploy")
+"""Names of unknown commands that may well install something."""
+
+
+def foreign(run: Run, name: str, args: list[str]) -> int | None:
+    """Carry out a command that neither CMake nor the package defines."""
+    macro = macros().get(name)
+    if macro is not None:
+        if run.at_home() and macro.package:
+            run.mention(macro.package, "macro", run.here(), f"{name}()")
+        return call(run, _released(name), args)
+    run.open_world = True
+    hidden = Facet.USES
+    if _PRODUCER.search(name):
+        hidden = ANYTHING
+    run.hide(hidden, f"what {name}() does is not known")
+    return None
+
+
+@cache
+def _released(name: str) -> Procedure:
+    macro = macros()[name]
+    (node,) = blocks(macro.definition)
+    assert isinstance(node, Definition)
+    parameters = tuple(argument[0] for argument in node.command.args)
+    return Procedure(name, node.command.name == "macro", parameters[1:], node.body, False, "", "", macro.package)
+
+
+def _component(run: Run, args: list[str]) -> None:
+    """``ros_lint_component(class...)``."""
+    for arg in args:
+        name, certain = sure(arg)
+        if not is_known(name):
+            run.hide(Facet.COMPONENTS, "the class of a component is not known")
+        elif not run.muted:
+            run.components.append(Component(name, run.conditional or run.testing or not certain, run.where(arg)))
+
+
+def _interfaces(run: Run, args: list[str]) -> None:
+    """``ros_lint_interfaces(install|- files...)``: interface files to generate code from."""
+    package = run.sources.name or run.name
+    for arg in args[1:]:
+        plain, certain = sure(arg)
+        path = plain.rpartition(":")[2] if ":" in plain else plain
+        folder, name = posixpath.split(path)
+        stem, dot, suffix = name.rpartition(".")
+        kind = posixpath.basename(folder) or suffix
+        if not is_known(f"{kind}{stem}") or not dot:
+            run.hide(Facet.INTERFACES, "an interface file is not known")
+            continue
+        if run.muted:
+            continue
+        run.interfaces[f"{kind}/{stem}"] = None
+        span = run.where(arg)
+        source = run.source(plain.replace(":", "/") if ":" in plain else plain)
+        conditional = run.conditional or run.testing or not certain
+        if source is not None and source not in run.files:
+            run.missing.append((source, span, conditional))
+        if args[0] == "install":
+            written = source if source is not None and source not in run.generated else ""
+            for end in dict.fromkeys((suffix, "idl")):
+                made = written if end == suffix else ""
+                place = f"share/{package}/{kind}/{stem}.{end}"
+                run.installed.append(Installed(place, made or "", False, conditional, span))
+    if not run.muted and len(args) > 1:
+        run.python_packages[package] = None
+
+
+def _python(run: Run, args: list[str]) -> None:
+    """``ros_lint_python(module folder)``: an importable package or module is installed."""
+    if not is_known(args[0]):
+        run.hide(Facet.PYTHON, "the name of a Python package is not known")
+        return
+    if run.muted:
+        return
+    name = args[0].replace("/", ".")
+    run.python_packages[name] = None
+    folder = run.source(args[1]) if len(args) > 1 else None
+    if folder is None:
+        if len(args) > 1 and HOLE in args[1]:
+            run.hide(Facet.PYTHON, "the folder of a Python package is not known")
+        return
+    span = run.where(args[0])
+    base = run.get("PYTHON_INSTALL_DIR") or ""
+    skip = len(folder) + 1 if folder else 0
+    conditional = run.conditional or run.testing
+    for file in run.below(folder):
+        if file.endswith(".py"):
+            inner = posixpath.dirname(file[skip:])
+            if inner:
+                run.python_packages[f"{name}.{inner.replace('/', '.')}"] = None
+        path = join_path(join_path(base, args[0]), file[skip:])
+        if is_known(path) and not file.endswith((".pyc", ".pyo")):
+            run.installed.append(Installed(path, file, False, conditional, span))
+
+
+def _scripts(run: Run, args: list[str]) -> None:
+    """``ros_lint_console_scripts(destination setup.cfg)``: console_scripts of a setup.cfg become programs."""
+    run.hide(Facet.EXECUTABLES, f"the console_scripts of {args[1] if len(args) > 1 else 'setup.cfg'} are not read here")
+
+
+def _provide(run: Run, args: list[str]) -> None:
+    """``ros_lint_provide(path [program])``: a generated file is installed."""
+    path = run.destination(args[0])
+    if path is not None and not run.muted:
+        program = "program" in args[1:]
+        run.installed.append(Installed(path, "", program, run.conditional or run.testing, run.here()))
+
+
+def _generate(run: Run, args: list[str]) -> None:
+    for arg in args:
+        generate(run, arg)
+
+
+def _extras(run: Run, args: list[str]) -> None:
+    """``ros_lint_extras(files...)``: CMake code that runs in packages that find this one."""
+    for arg in args:
+        path = run.source(sure(arg)[0])
+        for candidate in (path, f"{path}.in"):
+            if path is not None and candidate in run.files:
+                run.extras.append(str(candidate))
+                break
+
+
+def _end(run: Run, _args: list[str]) -> None:
+    """``ros_lint_end()``: the package is complete; install rules belong before this."""
+    frame = next(frame for frame in reversed(run.frames) if frame.own)
+    top = join_path(run.sources.path, "CMakeLists.txt")
+    if run.end is None and not run.unsure and frame.procedure is None and frame.path == top and frame.command:
+        run.end = frame.command.place(frame.path).start()
+
+
+def _unknown(run: Run, args: list[str]) -> None:
+    """``ros_lint_unknown(variables...)``: variables hold something that cannot be known here."""
+    for arg in args:
+        if is_known(arg):
+            run.set(arg, HOLE)
+
+
+def _package_xml(run: Run, _args: list[str]) -> None:
+    """``ros_lint_package_xml()``: the manifest gives name and version."""
+    name = run.sources.name
+    run.set("_AMENT_PACKAGE_NAME", name)
+    run.set(f"{name}_VERSION", run.sources.version or HOLE)
+    run.set(f"{name}_MAINTAINER", HOLE)
+
+
+def _test_executable(run: Run, args: list[str]) -> None:
+    """``ros_lint_test_executable(target sources...)``: a program that tests, whether or not it stands in a test scope."""
+    testing, run.testing = run.testing, True
+    try:
+        run_handler(run, "add_executable", args)
+    finally:
+        run.testing = testing
+
+
+def _vendor(run: Run, args: list[str]) -> None:
+    """``ros_lint_vendor(target ...)``: a project from elsewhere is built and installed below opt/."""
+    run.put(run.targets, args[0], Properties(KIND="other"))
+    run.hide(Facet.USES | Facet.LIBRARIES, "what ament_vendor() builds comes from elsewhere")
+
+
+def run_handler(run: Run, name: str, args: list[str]) -> None:
+    """Carry out one of CMake's own commands."""
+    HANDLERS[name](run, args)
+
+
+COMMANDS: Final[dict[str, Handler]] = {
+    "ros_lint_component": _component,
+    "ros_lint_interfaces": _interfaces,
+    "ros_lint_python": _python,
+    "ros_lint_console_scripts": _scripts,
+    "ros_lint_provide": _provide,
+    "ros_lint_generate": _generate,
+    "ros_lint_extras": _extras,
+    "ros_lint_end": _end,
+    "ros_lint_unknown": _unknown,
+    "ros_lint_package_xml": _package_xml,
+    "ros_lint_test_executable": _test_executable,
+    "ros_lint_vendor": _vendor,
+}

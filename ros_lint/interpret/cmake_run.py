@@ -1,0 +1,359 @@
+"""A run of a package's CMake scripts: arguments, places, and what comes to light on the way."""
+
+from __future__ import annotations
+
+import posixpath
+from bisect import bisect_left
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Set as AbstractSet
+from typing import Final, NamedTuple
+
+from ros_lint.collectors.cmake_syntax import OPEN, QUOTED, UNQUOTED, Argument, Command, Parsed
+from ros_lint.facts import BuildScript, Component, Facet, Mention, Opaque, Problem, Via
+from ros_lint.interpret.cmake_expand import ExpansionError, expand, template
+from ros_lint.interpret.cmake_state import MISSING, Frame, Properties, State
+from ros_lint.interpret.cmake_values import BINARY, HOLE, PREFIX, SOURCE, split
+from ros_lint.knowledge.cmake_commands import SOFT_VARIABLES, UNKNOWN_VARIABLES, VARIABLES
+from ros_lint.text import Span
+from ros_lint.tree import join as join_path
+
+MOST_STEPS: Final = 50_000
+"""Commands that one package may run. The largest real one runs some 3,000."""
+DEEPEST: Final = 60
+"""Calls within calls. CMake allows 1,000; real packages need less than 20."""
+
+
+class Sources(NamedTuple):
+    """What a package's CMake scripts can see of it."""
+
+    name: str
+    """As package.xml gives it, or ""."""
+    path: str
+    """The folder of the package, relative to the base of the run; "" is the base."""
+    files: Sequence[str]
+    """Every file below the folder, relative to it, sorted."""
+    scripts: Mapping[str, Parsed]
+    """CMakeLists.txt and all ``*.cmake`` and ``*.cmake.in`` files, by path relative to the folder."""
+    executables: AbstractSet[str] = frozenset()
+    """Those of the files that have the executable bit."""
+    version: str = ""
+    """As package.xml gives it."""
+    build_depends: tuple[str, ...] = ()
+    """What ament_auto_find_build_dependencies() finds: declared to build, to build with, or for everything."""
+    test_depends: tuple[str, ...] = ()
+
+
+class Helper(NamedTuple):
+    """Another package of the workspace whose CMake code runs in those that find it (CONFIG_EXTRAS)."""
+
+    sources: Sources
+    script: BuildScript
+
+
+class InstalledTarget(NamedTuple):
+    """A target to install. Its file name is known only when the whole script has run."""
+
+    target: str
+    executables: str | None
+    """Where an executable goes, None when it is not installed."""
+    libraries: str | None
+    archives: str | None
+    conditional: bool
+    span: Span
+
+
+class Installed(NamedTuple):
+    """A file to install."""
+
+    path: str
+    source: str
+    program: bool
+    conditional: bool
+    span: Span
+
+
+class BudgetError(Exception):
+    """The script runs longer than any real one."""
+
+
+class Run(State):
+    """The state of an evaluation and all that it found."""
+
+    def __init__(
+        self, sources: Sources, distro: str, helpers: Mapping[str, Helper], foreign: Callable[[Run, str, list[str]], int | None]
+    ) -> None:
+        super().__init__()
+        self.foreign = foreign
+        """Carries out a command that neither CMake nor the package defines, given its name and arguments."""
+        self.sources = sources
+        self.distro = distro
+        self.helpers = helpers
+        self.files = frozenset(sources.files)
+        self.frames: list[Frame] = []
+        self.steps = 0
+        self.unsure = 0
+        """How many conditions that may be false lead here."""
+        self.testing = False
+        self.muted = 0
+        self.prefixes: list[str] = []
+        """Beginnings of the names of variables that found packages may have set, without case and underscores."""
+        self.open_world = False
+        self.settable: set[str] = set()
+        """Variables that the user may set from outside: options and cache entries."""
+        self.tested: set[str] = set()
+        """Variables of the form X_FOUND that a condition asks about."""
+        self.literals: dict[str, tuple[str, Command, Argument]] = {}
+        """Where list elements were written first."""
+        self.places: dict[str, str] = {}
+        """Variables that follow the directory and the file that is being run."""
+        self.versions: tuple[int, int] = (3, 0)
+        """Up to which CMake the policies are new."""
+        self.included: Properties = Properties()
+        """Packages of the workspace whose CMake code has run."""
+        self.loose: dict[str, list[Span]] = {}
+        """Where packages are searched without being required."""
+        self.generated: set[str] = set()
+        self.calls: set[str] = set()
+        self.mentions: dict[Mention, None] = {}
+        self.opaques: dict[Opaque, None] = {}
+        self.problems: dict[Problem, None] = {}
+        self.components: list[Component] = []
+        self.interfaces: dict[str, None] = {}
+        self.python_packages: dict[str, None] = {}
+        self.installed: list[Installed] = []
+        self.installed_targets: list[InstalledTarget] = []
+        self.built: list[tuple[str, Properties, Span]] = []
+        """Targets in the order of their definition."""
+        self.missing: list[tuple[str, Span, bool]] = []
+        """Files that are named and not there (unless they are generated), and whether that may not matter."""
+        self.undefined: list[tuple[str, Span, bool]] = []
+        """Targets that are installed and that nobody defines."""
+        self.directories: list[str] = [""]
+        """The folder whose CMakeLists.txt runs, relative to the package; outer ones before it."""
+        self.extras: list[str] = []
+        self.name = ""
+        self.name_span: Span | None = None
+        self.version = ""
+        self.version_span: Span | None = None
+        self.end: Span | None = None
+
+    # --- variables
+
+    def get(self, name: str) -> str | None:
+        """Return a variable, or None when it is not set."""
+        value = self.found(name)
+        if value is MISSING:
+            return self.default(name)
+        assert value is None or isinstance(value, str)
+        return value
+
+    def default(self, name: str) -> str | None:
+        """Return what a variable holds that no script has set."""
+        value = self.places.get(name)
+        if value is None:
+            value = VARIABLES.get(name)
+        if value is not None:
+            return value
+        if name in UNKNOWN_VARIABLES:
+            return HOLE
+        if self.open_world:
+            folded = name.replace("_", "").replace("-", "").lower()
+            if any(folded.startswith(prefix) for prefix in self.prefixes):
+                return HOLE
+        return None
+
+    def lookup(self, name: str, where: str) -> str:
+        """Return what a reference stands for; unset variables are empty."""
+        if where == "":
+            return self.get(name) or ""
+        if where == "CACHE":
+            return self.cache.get(name, "")
+        value = self.environment.get(name)
+        if value is not None:
+            return value
+        match name:
+            case "ROS_DISTRO":
+                return self.distro or HOLE
+            case "ROS_VERSION":
+                return "2"
+            case "ROS_PYTHON_VERSION":
+                return "3"
+        return HOLE
+
+    def is_soft(self, name: str) -> bool:
+        """Return whether a user, another platform or another compiler may give a variable another value."""
+        return name in self.settable or (name in SOFT_VARIABLES and self.found(name) is MISSING)
+
+    def may_be_set(self, name: str) -> bool:
+        """Return whether a user, or code that is out of sight, may have set a variable that looks known."""
+        return self.is_soft(name) or (self.open_world and self.found(name) is MISSING and name not in self.places)
+
+    # --- arguments
+
+    def arguments(self, command: Command) -> list[str]:
+        """Return the arguments of a command, evaluated and split."""
+        values: list[str] = []
+        for text, kind, _, _ in command.args:
+            if kind == UNQUOTED:
+                values += split(self.evaluated(text))
+            elif kind == QUOTED:
+                values.append(self.evaluated(text))
+            else:
+                values.append(text)
+        return values
+
+    def evaluated(self, text: str) -> str:
+        """Return the value of an argument before it is split."""
+        for old, new in self.frames[-1].replace:
+            text = text.replace(old, new)
+        try:
+            return expand(template(text), self.lookup)
+        except ExpansionError:
+            return HOLE
+
+    # --- places
+
+    def where(self, value: str = "") -> Span:
+        """Return the place in the package's own files that best stands for a value of the current command.
+
+        That is an argument that reads so, from the innermost call outwards, then a list element that reads so, then an
+        argument that gives the value, then the name of the command.
+        """
+        own = [frame for frame in reversed(self.frames) if frame.own and frame.command is not None]
+        if value:
+            for frame in own:
+                command = frame.command
+                assert command is not None
+                for text, kind, start, end in command.args:
+                    if text == value and kind < OPEN:
+                        return command.span(frame.path, start, end)
+            if value in self.literals:
+                path, command, (_, _, start, end) = self.literals[value]
+                return command.span(path, start, end)
+        frame = own[0]
+        command = frame.command
+        assert command is not None
+        if value and frame is self.frames[-1]:
+            for text, kind, start, end in command.args:
+                if kind in (UNQUOTED, QUOTED) and value in split(self.evaluated(text)):
+                    return command.span(frame.path, start, end)
+        return command.place(frame.path)
+
+    def here(self) -> Span:
+        """Return the place of the current command in the package's own files."""
+        return self.where()
+
+    def at_home(self) -> bool:
+        """Return whether the current command stands in a file of the package."""
+        return self.frames[-1].own
+
+    # --- paths
+
+    @property
+    def directory(self) -> str:
+        return self.directories[-1]
+
+    def source(self, value: str) -> str | None:
+        """Return a path relative to the package, or None for one that lies elsewhere or is not known."""
+        if HOLE in value:
+            return None
+        if value.startswith(SOURCE):
+            rest = value[len(SOURCE) :]
+            if rest and not rest.startswith("/"):
+                return None
+            path = rest.lstrip("/")
+        elif value.startswith(("/", "$<")) or not value:
+            return None
+        else:
+            path = join_path(self.directory, value)
+        path = posixpath.normpath(path)
+        if path.startswith("../") or path == ".." or "\1" in path:
+            return None
+        return "" if path == "." else path
+
+    def destination(self, value: str) -> str | None:
+        """Return an install destination relative to the prefix, or None when it is not known or lies elsewhere."""
+        if value.startswith(PREFIX):
+            value = value[len(PREFIX) :].lstrip("/")
+        if HOLE in value or "\1" in value or value.startswith("/") or "$<" in value:
+            return None
+        path = posixpath.normpath(value) if value else ""
+        return "" if path == "." else path
+
+    def is_folder(self, path: str) -> bool:
+        """Return whether the package has such a folder, with a file in it."""
+        return not path or self.first_below(path) is not None
+
+    def first_below(self, path: str) -> int | None:
+        """Return the index of the first file below a folder, or None when there is none."""
+        files = self.sources.files
+        start = f"{path}/" if path else ""
+        index = bisect_left(files, start)
+        return index if index < len(files) and files[index].startswith(start) else None
+
+    def below(self, path: str) -> Iterator[str]:
+        """Return the files below a folder, sorted."""
+        index = self.first_below(path)
+        if index is None:
+            return
+        files = self.sources.files
+        start = f"{path}/" if path else ""
+        while index < len(files) and files[index].startswith(start):
+            yield files[index]
+            index += 1
+
+    def enter_directory(self, path: str) -> None:
+        """Make a folder of the package the current one."""
+        self.directories.append(path)
+        self._place_directory()
+
+    def leave_directory(self) -> None:
+        self.directories.pop()
+        self._place_directory()
+
+    def _place_directory(self) -> None:
+        self.places["CMAKE_CURRENT_SOURCE_DIR"] = join_path(SOURCE, self.directory).rstrip("/")
+        self.places["CMAKE_CURRENT_BINARY_DIR"] = join_path(BINARY, self.directory).rstrip("/")
+
+    def enter_file(self, frame: Frame) -> None:
+        """Run a file from now on."""
+        self.frames.append(frame)
+        self.place_file()
+
+    def place_file(self) -> None:
+        """Set the variables that name the file that is being run."""
+        for frame in reversed(self.frames):
+            if frame.procedure is None:
+                self.places["CMAKE_CURRENT_LIST_FILE"] = frame.file
+                self.places["CMAKE_CURRENT_LIST_DIR"] = frame.folder
+                break
+
+    # --- findings
+
+    @property
+    def conditional(self) -> bool:
+        """Return whether what happens now may also not happen."""
+        return self.unsure > 0
+
+    def mention(self, name: str, via: Via, span: Span, what: str = "", *, optional: bool = False) -> None:
+        """Note that a line names a package."""
+        if not self.muted:
+            self.mentions[Mention(name, via, span, what, optional or self.unsure > 0, self.testing)] = None
+
+    def hide(self, facet: Facet, reason: str, span: Span | None = None) -> None:
+        """Note that something cannot be seen through."""
+        if not self.muted:
+            self.opaques[Opaque(facet, reason, span or self.here())] = None
+
+    def problem(self, kind: str, message: str, span: Span) -> None:
+        """Note that a command is wrong, if it runs for sure."""
+        if not self.muted and not self.unsure:
+            self.problems[Problem(kind, message, span)] = None
+
+    def property(self, target: str) -> Properties:
+        """Return what is known of a target."""
+        return self.targets.get(target, Properties())
+
+
+Handler = Callable[[Run, list[str]], "int | None"]
+"""What carries out a command: takes evaluated arguments, and returns how it ended; None is NEXT."""

@@ -1,0 +1,211 @@
+"""What a CMake run knows at a moment: variables in scopes, definitions, targets, and the ways a run can branch."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Final, NamedTuple
+
+from ros_lint.collectors.cmake_syntax import Command
+from ros_lint.interpret.cmake_blocks import Body
+from ros_lint.interpret.cmake_values import HOLE, merge
+
+Exit = int
+"""How a piece of script can end: a set of the bits below."""
+NEXT: Final = 1
+"""The next command follows."""
+BREAK: Final = 2
+CONTINUE: Final = 4
+RETURN: Final = 8
+STOP: Final = 16
+"""CMake gives up: message(FATAL_ERROR)."""
+
+
+class Variables(dict[str, "str | None"]):
+    """The variables of one scope. ``None`` is an unset variable, which hides the one of the outer scope."""
+
+    __slots__ = ()
+
+
+class Properties(dict[str, str]):
+    """What is known of a target, a directory or the whole run: properties by name."""
+
+    __slots__ = ()
+
+
+class Procedure(NamedTuple):
+    """A function or macro."""
+
+    name: str
+    macro: bool
+    parameters: tuple[str, ...]
+    body: Body
+    own: bool
+    """Whether it stands in a file of the package that is evaluated."""
+    path: str
+    """Of that file, relative to the base of the run."""
+    folder: str
+    """Of that file, as CMake would name it."""
+    provider: str = ""
+    """The package that brings it, when it is not the package's own."""
+
+
+class Choice(NamedTuple):
+    """Several procedures of one name, of which one was defined. ``None``: perhaps none was."""
+
+    procedures: tuple[Procedure | None, ...]
+
+
+class Change(NamedTuple):
+    """What a branch did to one entry of a mapping. ``value`` is MISSING when it removed it."""
+
+    mapping: dict[str, Any]
+    key: str
+    value: Any
+
+
+Changes = dict[tuple[int, str], Change]
+
+MISSING: Final = object()
+
+
+class State:
+    """Everything that commands write to, with an undo log.
+
+    Branches of an unknown condition are run one after the other, each from the same start, and joined afterwards.
+    """
+
+    def __init__(self) -> None:
+        self.scopes: list[Variables] = [Variables()]
+        self.cache: Properties = Properties()
+        self.environment: Properties = Properties()
+        self.procedures: dict[str, Procedure | Choice] = {}
+        self.targets: dict[str, Properties] = {}
+        self.globals: Properties = Properties()
+        self.log: list[tuple[dict[str, Any], str, Any]] | None = None
+
+    # --- writing
+
+    def put(self, mapping: dict[str, Any], key: str, value: Any) -> None:
+        """Write an entry; everything that a branch may write goes through here."""
+        if self.log is not None:
+            self.log.append((mapping, key, mapping.get(key, MISSING)))
+        mapping[key] = value
+
+    def remove(self, mapping: dict[str, Any], key: str) -> None:
+        if key in mapping:
+            if self.log is not None:
+                self.log.append((mapping, key, mapping[key]))
+            del mapping[key]
+
+    def set(self, name: str, value: str | None) -> None:
+        """Set a variable of the innermost scope, or unset it."""
+        self.put(self.scopes[-1], name, value)
+
+    def set_outer(self, name: str, value: str | None) -> None:
+        """Set a variable of the scope around the innermost (PARENT_SCOPE)."""
+        if len(self.scopes) > 1:
+            self.put(self.scopes[-2], name, value)
+
+    # --- reading
+
+    def found(self, name: str, depth: int | None = None) -> Any:
+        """Return a variable as scopes and cache hold it, or MISSING. ``depth`` leaves inner scopes out."""
+        scopes = self.scopes if depth is None else self.scopes[:depth]
+        for scope in reversed(scopes):
+            if name in scope:
+                value = scope[name]
+                if value is not None:
+                    return value
+                return self.cache.get(name)
+        return self.cache.get(name, MISSING)
+
+    # --- branching
+
+    def branch(self, run: Callable[[], Exit]) -> tuple[Exit, Changes]:
+        """Run something, take back all that it wrote, and return how it ended and what it wrote."""
+        outer, self.log = self.log, []
+        try:
+            ended = run()
+        finally:
+            log, self.log = self.log, outer
+            changes: Changes = {}
+            for mapping, key, old in reversed(log):
+                slot = (id(mapping), key)
+                if slot not in changes:
+                    changes[slot] = Change(mapping, key, mapping.get(key, MISSING))
+                if old is MISSING:
+                    mapping.pop(key, None)
+                else:
+                    mapping[key] = old
+        return ended, changes
+
+    def join(self, alternatives: Sequence[Changes], default: int | None = None) -> None:
+        """Write what holds after one of several branches, each given by what it changed.
+
+        ``default`` is the index of the branch that is taken unless the user asks for another.
+        """
+        if len(alternatives) == 1:
+            for change in alternatives[0].values():
+                if change.value is MISSING:
+                    self.remove(change.mapping, change.key)
+                else:
+                    self.put(change.mapping, change.key, change.value)
+            return
+        slots = {slot: change for changes in alternatives for slot, change in changes.items()}
+        for slot, (mapping, key, _) in slots.items():
+            before = self._before(mapping, key)
+            values = [changes[slot].value if slot in changes else before for changes in alternatives]
+            merged = _merged(mapping, values, default)
+            if merged is MISSING:
+                self.remove(mapping, key)
+            elif merged is not mapping.get(key, MISSING):
+                self.put(mapping, key, merged)
+
+    def forget(self, changes: Changes) -> None:
+        """Take every value that something changed for unknown from now on."""
+        for mapping, key, value in changes.values():
+            if isinstance(value, str) or value is None or isinstance(mapping, Variables):
+                self.put(mapping, key, HOLE)
+
+    def _before(self, mapping: dict[str, Any], key: str) -> Any:
+        value = mapping.get(key, MISSING)
+        if value is MISSING and isinstance(mapping, Variables):
+            for depth, scope in enumerate(self.scopes):
+                if scope is mapping:
+                    outer = self.found(key, depth)
+                    return None if outer is MISSING else outer
+        return value
+
+
+def _merged(mapping: Mapping[str, Any], values: Sequence[Any], default: int | None) -> Any:
+    first = values[0]
+    if all(value is first for value in values):
+        return first
+    if all(value is None or value is MISSING or isinstance(value, str) for value in values):
+        gone = None if isinstance(mapping, Variables) else MISSING
+        merged = merge([None if value is MISSING else value for value in values], default)
+        return gone if merged is None else merged
+    there = [value for value in values if value is not MISSING]
+    if isinstance(there[0], (Procedure, Choice)):
+        alternatives: list[Procedure | None] = []
+        for value in values:
+            options = value.procedures if isinstance(value, Choice) else (None if value is MISSING else value,)
+            alternatives += [option for option in options if not any(option is known for known in alternatives)]
+        return Choice(tuple(alternatives))
+    return there[0]
+
+
+class Frame:
+    """A file, function or macro that is being run."""
+
+    __slots__ = ("command", "file", "folder", "own", "path", "procedure", "provider", "replace")
+
+    def __init__(self, own: bool, path: str, file: str, procedure: Procedure | None = None, provider: str = "") -> None:
+        self.own = own
+        self.path = path
+        self.file = file
+        self.folder = file.rpartition("/")[0]
+        self.procedure = procedure
+        self.provider = provider
+        self.replace: tuple[tuple[str, str], ...] = ()
+        self.command: Command | None = None

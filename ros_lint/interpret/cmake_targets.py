@@ -1,0 +1,218 @@
+"""Targets: add_executable(), add_library(), their sources and properties."""
+
+from __future__ import annotations
+
+from typing import Final, Literal
+
+from ros_lint.facts import Facet, Target
+from ros_lint.interpret.cmake_conditions import constant
+from ros_lint.interpret.cmake_run import Handler, Run
+from ros_lint.interpret.cmake_state import Properties
+from ros_lint.interpret.cmake_values import HOLE, elements, is_fixed, is_known, join, sure
+
+_LIBRARY_TYPES: Final = ("STATIC", "SHARED", "MODULE", "OBJECT", "INTERFACE", "UNKNOWN")
+
+
+def _add_executable(run: Run, args: list[str]) -> None:
+    _add(run, args, "executable", ("WIN32", "MACOSX_BUNDLE", "EXCLUDE_FROM_ALL"))
+
+
+def _add_library(run: Run, args: list[str]) -> None:
+    kind = next((word.lower() for word in args[1:3] if word in _LIBRARY_TYPES), "")
+    if not kind:
+        shared = run.get("BUILD_SHARED_LIBS")
+        kind = "static" if shared is None or constant(shared) is False else "shared"
+    _add(run, args, kind, (*_LIBRARY_TYPES, "EXCLUDE_FROM_ALL"))
+
+
+def _add(run: Run, args: list[str], kind: str, keywords: tuple[str, ...]) -> None:
+    if not args or not is_known(args[0]):
+        run.hide(Facet.EXECUTABLES | Facet.LIBRARIES, "the name of a target is not known")
+        return
+    name = args[0]
+    if "ALIAS" in args[1:2]:
+        run.put(run.targets, name, Properties(KIND="alias", ALIASED=args[2] if len(args) > 2 else HOLE))
+        return
+    if "IMPORTED" in args[1:4]:
+        kind = "imported"
+    target = Properties(KIND=kind, SOURCES="", NAME=name)
+    if run.conditional:
+        target["CONDITIONAL"] = "1"
+    if run.testing:
+        target["TEST"] = "1"
+    run.put(run.targets, name, target)
+    run.built.append((name, target, run.where(name)))
+    _add_sources(run, target, [arg for arg in args[1:] if arg not in keywords])
+
+
+def _add_sources(run: Run, target: Properties, sources: list[str]) -> None:
+    if not sources:
+        return
+    have = elements(target.get("SOURCES", ""))
+    for source in sources:
+        plain, certain = sure(source)
+        path = run.source(plain)
+        if path is not None and "$<" not in plain:
+            have.append(path)
+            if certain and path not in run.files:
+                run.missing.append((path, run.where(source), bool(run.muted or run.unsure)))
+        elif HOLE in plain:
+            have.append(HOLE)
+    run.put(target, "SOURCES", join(have))
+
+
+def _target_sources(run: Run, args: list[str]) -> None:
+    if not args or args[0] not in run.targets:
+        return
+    words = ("PRIVATE", "PUBLIC", "INTERFACE", "FILE_SET", "TYPE", "HEADERS", "BASE_DIRS", "FILES")
+    _add_sources(run, run.targets[args[0]], [arg for arg in args[1:] if arg not in words])
+
+
+def _set_target_properties(run: Run, args: list[str]) -> None:
+    if "PROPERTIES" not in args:
+        return
+    at = args.index("PROPERTIES")
+    for name in args[:at]:
+        _set_properties(run, name, args[at + 1 :])
+
+
+def _set_properties(run: Run, name: str, pairs: list[str]) -> None:
+    target = run.targets.get(name)
+    if target is None:
+        return
+    for index in range(0, len(pairs) - 1, 2):
+        run.put(target, pairs[index], pairs[index + 1])
+
+
+def _set_property(run: Run, args: list[str]) -> None:
+    if "PROPERTY" not in args[1:]:
+        return
+    at = args.index("PROPERTY")
+    name, values = args[at + 1] if at + 1 < len(args) else "", args[at + 2 :]
+    modes = {"APPEND", "APPEND_STRING"}.intersection(args[:at])
+    holders: list[Properties] = []
+    if args[0] == "GLOBAL":
+        holders = [run.globals]
+    elif args[0] == "TARGET":
+        holders = [run.targets[target] for target in args[1:at] if target in run.targets]
+    elif args[0] == "CACHE":
+        for entry in args[1:at]:
+            if name == "VALUE" and entry in run.cache:
+                run.put(run.cache, entry, join(values))
+        return
+    for holder in holders:
+        old = holder.get(name, "")
+        if "APPEND" in modes:
+            run.put(holder, name, join([*([old] if old else []), *values]))
+        elif modes:
+            run.put(holder, name, old + "".join(values))
+        else:
+            run.put(holder, name, join(values))
+
+
+def _get_property(run: Run, args: list[str]) -> None:
+    """``get_property(variable GLOBAL|TARGET t|... PROPERTY name [SET|DEFINED])``."""
+    if len(args) < 4 or "PROPERTY" not in args[:-1] or HOLE in args[0]:
+        return
+    name = args[args.index("PROPERTY") + 1]
+    value: str | None = HOLE
+    if args[-1] not in ("SET", "DEFINED", "BRIEF_DOCS", "FULL_DOCS"):
+        if args[1] == "GLOBAL":
+            value = run.globals.get(name, HOLE if run.open_world or name.isupper() else "")
+        elif args[1] == "TARGET":
+            value = _property(run, args[2], name, "")
+    run.set(args[0], value)
+
+
+def _get_target_property(run: Run, args: list[str]) -> None:
+    if len(args) >= 3 and HOLE not in args[0]:
+        run.set(args[0], _property(run, args[1], args[2], f"{args[0]}-NOTFOUND"))
+
+
+def _property(run: Run, name: str, wanted: str, missing: str) -> str:
+    target = run.targets.get(name)
+    if target is None or not is_fixed(wanted):
+        return HOLE
+    if target["KIND"] == "alias":
+        return _property(run, target["ALIASED"], wanted, missing) if target["ALIASED"] in run.targets else HOLE
+    types = {"executable": "EXECUTABLE"}
+    kind = target["KIND"]
+    if wanted == "TYPE":
+        return types.get(kind, f"{kind.upper()}_LIBRARY")
+    if wanted in ("NAME", "OUTPUT_NAME") or (wanted in target and wanted != "SOURCES"):
+        return target.get(wanted, missing)
+    return HOLE
+
+
+def _custom_command(run: Run, args: list[str]) -> None:
+    """What add_custom_command() writes may be named as a source before it is there."""
+    outputs = False
+    for arg in args:
+        if arg in ("OUTPUT", "BYPRODUCTS"):
+            outputs = True
+        elif arg.isupper() and len(arg) > 4 and "/" not in arg:
+            outputs = False
+        elif outputs:
+            generate(run, arg)
+
+
+def generate(run: Run, path: str) -> None:
+    """Note that a file comes into being during the build."""
+    place = run.source(path)
+    if place is not None:
+        run.generated.add(place)
+
+
+def _custom_target(run: Run, args: list[str]) -> None:
+    if args and is_known(args[0]):
+        run.put(run.targets, args[0], Properties(KIND="other"))
+        _custom_command(run, args)
+
+
+def output_name(target: Properties) -> str | None:
+    """Return the file name of what a target builds, None when it is unknown or there is none."""
+    kind = target["KIND"]
+    specific = {"executable": "RUNTIME", "shared": "LIBRARY", "module": "LIBRARY", "static": "ARCHIVE"}.get(kind)
+    if specific is None:
+        return None
+    name = target.get(f"{specific}_OUTPUT_NAME", target.get("OUTPUT_NAME", target["NAME"]))
+    prefix = target.get("PREFIX", "" if kind == "executable" else "lib")
+    suffix = target.get("SUFFIX", {"executable": "", "static": ".a"}.get(kind, ".so"))
+    whole = f"{prefix}{name}{suffix}"
+    return whole if is_known(whole) and "$<" not in whole else None
+
+
+def targets(run: Run) -> tuple[Target, ...]:
+    """Return the targets that the package builds, in the order of their definition."""
+    found = []
+    for name, target, span in run.built:
+        kind = target["KIND"]
+        if kind == "imported":
+            continue
+        sources = tuple(dict.fromkeys(sure(path)[0] for path in elements(target["SOURCES"]) if HOLE not in path))
+        found.append(Target(name, _KINDS.get(kind, "library"), sources, "TEST" in target, span))
+    return tuple(dict.fromkeys(found))
+
+
+_KINDS: Final[dict[str, Literal["executable", "interface"]]] = {"executable": "executable", "interface": "interface"}
+
+
+def real_target(run: Run, name: str) -> Properties | None:
+    """Return a target by its name or that of an alias, or None."""
+    target = run.targets.get(name)
+    if target is not None and target["KIND"] == "alias":
+        return run.targets.get(target["ALIASED"])
+    return target
+
+
+COMMANDS: Final[dict[str, Handler]] = {
+    "add_executable": _add_executable,
+    "add_library": _add_library,
+    "target_sources": _target_sources,
+    "set_target_properties": _set_target_properties,
+    "set_property": _set_property,
+    "get_property": _get_property,
+    "get_target_property": _get_target_property,
+    "add_custom_command": _custom_command,
+    "add_custom_target": _custom_target,
+}

@@ -1,0 +1,149 @@
+"""Values of CMake variables: strings in which some pieces may be unknown.
+
+A value is a ``str``. Three characters that no CMake file can hold (the parser sees to it) mark what is not plain text:
+
+- :data:`HOLE` stands for any text, also for none and for several list elements;
+- :data:`ATOM` and the letters after it stand for one text that is fixed and not empty, but unknown: where the package lies
+  on the disk, say. It holds no semicolon, and two equal atoms are the same text;
+- :data:`MAYBE` at the start of a list element says that the element may be missing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Final
+
+HOLE: Final = "\0"
+ATOM: Final = "\1"
+MAYBE: Final = "\2"
+
+SOURCE: Final = f"/{ATOM}source"
+"""The folder of the package."""
+BINARY: Final = f"/{ATOM}build"
+"""The build folder of the package."""
+PREFIX: Final = f"/{ATOM}prefix"
+"""Where the package is installed."""
+FOREIGN: Final = f"/{ATOM}foreign-"
+"""Followed by the name of another package of the workspace: where that one is installed."""
+
+LONGEST: Final = 1 << 20
+"""A longer value is taken for unknown, so that no script can make a run take all memory."""
+
+
+def is_known(value: str) -> bool:
+    """Return whether every character of the value is known."""
+    return HOLE not in value and ATOM not in value and MAYBE not in value
+
+
+def is_fixed(value: str) -> bool:
+    """Return whether the value is one text, even if a piece of it cannot be seen."""
+    return HOLE not in value and MAYBE not in value
+
+
+def flat(value: str) -> str:
+    """Return a value for use within a longer text: elements that may be missing make it unknown."""
+    return HOLE if MAYBE in value else value
+
+
+def split(value: str) -> list[str]:
+    """Return the elements of a list without the empty ones, as an unquoted argument is split (cmake-language(7))."""
+    if ";" not in value:
+        return [value] if value else []
+    if "\\" not in value and "[" not in value and "]" not in value:
+        return [element for element in value.split(";") if element]
+    return [element for element in _split(value) if element]
+
+
+def elements(value: str) -> list[str]:
+    """Return the elements of a list, the empty ones too. The empty text is the list without elements."""
+    if not value:
+        return []
+    if ";" not in value:
+        return [value]
+    if "\\" not in value and "[" not in value and "]" not in value:
+        return value.split(";")
+    return _split(value)
+
+
+def _split(value: str) -> list[str]:
+    found: list[str] = []
+    piece: list[str] = []
+    depth = position = 0
+    while position < len(value):
+        letter = value[position]
+        if letter == "\\" and value[position + 1 : position + 2] == ";":
+            piece.append(";")
+            position += 2
+            continue
+        if letter == "[":
+            depth += 1
+        elif letter == "]":
+            depth -= 1
+        if letter == ";" and not depth:
+            found.append("".join(piece))
+            piece = []
+        else:
+            piece.append(letter)
+        position += 1
+    found.append("".join(piece))
+    return found
+
+
+def join(values: Iterable[str]) -> str:
+    """Return a list as CMake stores it."""
+    return ";".join(values)
+
+
+def sure(element: str) -> tuple[str, bool]:
+    """Return a list element without its mark, and whether it is certainly there."""
+    return (element[1:], False) if element.startswith(MAYBE) else (element, True)
+
+
+def maybe(element: str) -> str:
+    """Return a list element that may be missing."""
+    return element if element.startswith(MAYBE) or element == HOLE else MAYBE + element
+
+
+def merge(values: Sequence[str | None], default: int | None = None) -> str | None:
+    """Return what a variable holds after one of several branches ran, each of which left it with one of the values.
+
+    ``None`` is an unset variable. ``default`` is the index of the value that it has unless the user asks for another; then
+    what the others add is kept as elements that may be missing, and nothing of the default is lost.
+    """
+    first = values[0]
+    if all(value == first for value in values):
+        return first
+    if default is not None:
+        base = values[default]
+        have = set(elements(base or ""))
+        if HOLE in have or base is None or ";" not in base:
+            if all(_extends(value, base) for value in values):
+                return _merge_lists(values)
+            return base
+        more = dict.fromkeys(
+            maybe(element) for value in values for element in elements(value or "") if sure(element)[0] not in have
+        )
+        return join([base, *(element for element in more if element != HOLE)])
+    return _merge_lists(values)
+
+
+def _extends(value: str | None, base: str | None) -> bool:
+    """Return whether a list begins with the elements of another."""
+    old, new = elements(base or ""), elements(value or "")
+    return new[: len(old)] == old
+
+
+def _merge_lists(values: Sequence[str | None]) -> str | None:
+    lists = [elements(value or "") for value in values]
+    first = lists[0]
+    if all(one == first for one in lists):
+        return values[0] if values[0] is not None else values[1]
+    shortest = min(map(len, lists))
+    head = 0
+    while head < shortest and all(one[head] == first[head] for one in lists):
+        head += 1
+    tail = 0
+    while tail < shortest - head and all(one[-1 - tail] == first[-1 - tail] for one in lists):
+        tail += 1
+    middle = dict.fromkeys(maybe(element) for one in lists for element in one[head : len(one) - tail])
+    return join([*first[:head], *middle, *first[len(first) - tail :]])

@@ -1,0 +1,108 @@
+"""What the released CMake code of ROS 2 provides: variables, and macros with what they do.
+
+The macros are written in CMake themselves, reduced to their effects, in ``data/ros_macros.cmake``; the evaluator runs them
+in place of the real ones. See the head of that file.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from functools import cache
+from typing import Final, NamedTuple
+
+from ros_lint.collectors.cmake_syntax import Command, parse
+from ros_lint.knowledge.store import SHIPPED
+from ros_lint.text import Text
+
+VARIABLES: Final[Mapping[str, str]] = {
+    "CMAKE_SOURCE_DIR": "/\1source",
+    "CMAKE_CURRENT_SOURCE_DIR": "/\1source",
+    "PROJECT_SOURCE_DIR": "/\1source",
+    "CMAKE_BINARY_DIR": "/\1build",
+    "CMAKE_CURRENT_BINARY_DIR": "/\1build",
+    "PROJECT_BINARY_DIR": "/\1build",
+    "CMAKE_INSTALL_PREFIX": "/\1prefix",
+    "CMAKE_INSTALL_BINDIR": "bin",
+    "CMAKE_INSTALL_SBINDIR": "sbin",
+    "CMAKE_INSTALL_LIBEXECDIR": "libexec",
+    "CMAKE_INSTALL_LIBDIR": "lib",
+    "CMAKE_INSTALL_INCLUDEDIR": "include",
+    "CMAKE_INSTALL_DATAROOTDIR": "share",
+    "CMAKE_INSTALL_DATADIR": "share",
+    "CMAKE_INSTALL_DOCDIR": "share/doc",
+    "CMAKE_INSTALL_MANDIR": "share/man",
+    "CMAKE_INSTALL_SYSCONFDIR": "etc",
+    "CMAKE_INSTALL_FULL_BINDIR": "/\1prefix/bin",
+    "CMAKE_INSTALL_FULL_LIBDIR": "/\1prefix/lib",
+    "CMAKE_INSTALL_FULL_INCLUDEDIR": "/\1prefix/include",
+    "CMAKE_INSTALL_FULL_DATADIR": "/\1prefix/share",
+    "PYTHON_INSTALL_DIR": "lib/python/site-packages",
+    "UNIX": "1",
+    "LINUX": "1",
+    "CMAKE_SYSTEM_NAME": "Linux",
+    "CMAKE_HOST_SYSTEM_NAME": "Linux",
+    "CMAKE_HOST_UNIX": "1",
+    "CMAKE_COMPILER_IS_GNUCXX": "1",
+    "CMAKE_COMPILER_IS_GNUCC": "1",
+    "CMAKE_CXX_COMPILER_ID": "GNU",
+    "CMAKE_C_COMPILER_ID": "GNU",
+    "CMAKE_SHARED_LIBRARY_PREFIX": "lib",
+    "CMAKE_SHARED_LIBRARY_SUFFIX": ".so",
+    "CMAKE_STATIC_LIBRARY_PREFIX": "lib",
+    "CMAKE_STATIC_LIBRARY_SUFFIX": ".a",
+    "CMAKE_SIZEOF_VOID_P": "8",
+    "CMAKE_FILES_DIRECTORY": "/CMakeFiles",
+}
+"""What variables hold in a build by colcon on Linux, as far as it is the same on every machine. GNUInstallDirs gives
+``lib`` on Debian and its kin, and PYTHON_INSTALL_DIR stands for ``lib/pythonX.Y/site-packages``. Of the marked folders see
+:mod:`ros_lint.interpret.cmake_values`."""
+
+SOFT_VARIABLES: Final = frozenset({
+    "ANDROID", "APPLE", "BUILD_SHARED_LIBS", "CMAKE_BUILD_TYPE", "CMAKE_CROSSCOMPILING", "CMAKE_C_COMPILER_ID",
+    "CMAKE_COMPILER_IS_GNUCC", "CMAKE_COMPILER_IS_GNUCXX", "CMAKE_CXX_COMPILER_ID", "CMAKE_CXX_STANDARD",
+    "CMAKE_C_STANDARD", "CMAKE_HOST_APPLE", "CMAKE_HOST_SYSTEM_NAME", "CMAKE_HOST_UNIX", "CMAKE_HOST_WIN32",
+    "CMAKE_SYSTEM_NAME", "CYGWIN", "EMSCRIPTEN", "IOS", "LINUX", "MINGW", "MSVC", "QNX", "QNXNTO", "UNIX", "WIN32",
+    "XCODE", "CMAKE_SIZEOF_VOID_P", "CMAKE_COMPILER_IS_CLANG", "VXWORKS", "BORLAND", "MSYS", "COVERAGE",
+})  # fmt: skip
+"""Variables that another platform, another compiler or the user gives another value."""
+
+UNKNOWN_VARIABLES: Final = frozenset({
+    "CMAKE_COMMAND", "CMAKE_CTEST_COMMAND", "CMAKE_CXX_COMPILER", "CMAKE_CXX_COMPILER_VERSION", "CMAKE_CXX_FLAGS",
+    "CMAKE_CXX_FLAGS_DEBUG", "CMAKE_CXX_FLAGS_RELEASE", "CMAKE_C_COMPILER", "CMAKE_C_COMPILER_VERSION", "CMAKE_C_FLAGS",
+    "CMAKE_EXE_LINKER_FLAGS", "CMAKE_GENERATOR", "CMAKE_HOST_SYSTEM_PROCESSOR", "CMAKE_HOST_SYSTEM_VERSION",
+    "CMAKE_INSTALL_RPATH", "CMAKE_LIBRARY_ARCHITECTURE", "CMAKE_MAJOR_VERSION", "CMAKE_MINOR_VERSION",
+    "CMAKE_MODULE_PATH", "CMAKE_PATCH_VERSION", "CMAKE_PREFIX_PATH", "CMAKE_ROOT", "CMAKE_SHARED_LINKER_FLAGS",
+    "CMAKE_SYSTEM", "CMAKE_SYSTEM_PROCESSOR", "CMAKE_SYSTEM_VERSION", "CMAKE_VERSION", "CMAKE_CXX_BYTE_ORDER",
+    "CMAKE_C_BYTE_ORDER", "CMAKE_MAKE_PROGRAM", "CMAKE_PROJECT_VERSION", "CMAKE_CXX_COMPILE_FEATURES",
+    "CMAKE_CXX_IMPLICIT_INCLUDE_DIRECTORIES", "CMAKE_CXX_IMPLICIT_LINK_DIRECTORIES", "CMAKE_THREAD_LIBS_INIT",
+    "CMAKE_DL_LIBS", "CMAKE_SYSROOT", "CMAKE_TOOLCHAIN_FILE", "PYTHON_EXECUTABLE", "Python3_EXECUTABLE",
+    "PYTHON_VERSION_MAJOR", "PYTHON_VERSION_MINOR", "PYTHON_VERSION_STRING",
+})  # fmt: skip
+"""Variables that hold something else on each machine."""
+
+
+class Macro(NamedTuple):
+    """A released function or macro: its definition, reduced to its effects, and the package that brings it."""
+
+    package: str
+    definition: tuple[Command, ...]
+
+
+@cache
+def macros() -> Mapping[str, Macro]:
+    """Return the released macros that are known, by name in lower case."""
+    path = os.path.join(SHIPPED, "ros_macros.cmake")
+    with open(path, encoding="utf-8") as file:
+        commands = parse(Text("ros_macros.cmake", file.read())).commands
+    found: dict[str, Macro] = {}
+    package = ""
+    begin = 0
+    for index, command in enumerate(commands):
+        if command.name == "package":
+            package = command.args[0][0]
+        elif command.name in ("function", "macro"):
+            begin = index
+        elif command.name in ("endfunction", "endmacro"):
+            found[commands[begin].args[0][0].lower()] = Macro(package, commands[begin : index + 1])
+    return found
