@@ -1,0 +1,283 @@
+"""The graph against colcon and networkx, and its questions one by one."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Iterable, Mapping
+from itertools import combinations, pairwise, permutations
+from pathlib import Path
+from random import Random
+
+import networkx as nx
+import pytest
+
+from ros_lint.collectors import manifest as readers
+from ros_lint.facts import ColconDepend, Manifest, Role
+from ros_lint.graph import Edge, Graph, Reason, build, components, is_acyclic
+from ros_lint.graph_cut import arcs_within, cheapest_cut, shortest_cycle
+from ros_lint.graph_metrics import measure
+from ros_lint.graph_paths import paths
+from ros_lint.text import Span, Text
+from tests.colcon_oracle import colcon_list
+from tests.packages import made, package
+from tests.random_graphs import manifests
+
+SEEDS = range(int(os.environ.get("ROS_LINT_SEEDS", "60")))
+HERE = Span("x", 1, 1, 1, 1)
+
+
+def graph_of(edges: Mapping[str, Iterable[str]], tag: str = "depend") -> Graph:
+    names = {*edges, *(other for others in edges.values() for other in others)}
+    reason = Reason(tag, {"test_depend": ("test",), "exec_depend": ("run",)}.get(tag, ("build", "run")), HERE)
+    return Graph(dict.fromkeys(names, ()), {name: dict.fromkeys(edges.get(name, ()), (reason,)) for name in names})
+
+
+def random_graph(random: Random, most: int) -> Graph:
+    names = [f"n{number:02}" for number in range(random.randint(1, most))]
+    count = random.randint(0, 3 * len(names))
+    edges: dict[str, set[str]] = {name: set() for name in names}
+    for _ in range(count):
+        edges[random.choice(names)].add(random.choice(names))
+    return graph_of(edges)
+
+
+def digraph(graph: Graph) -> nx.DiGraph[str]:
+    made: nx.DiGraph[str] = nx.DiGraph()
+    made.add_nodes_from(graph.names)
+    made.add_edges_from(graph.edges)
+    return made
+
+
+def without(text: str, manifest: Manifest, cut: Iterable[Edge], graph: Graph) -> str:
+    """Return the manifest without the elements that make the edges to cut."""
+    spans = {reason.span for edge in cut for reason in graph.reasons(edge) if reason.span.path == manifest.path}
+    source = Text(manifest.path, text)
+    for span in sorted(spans, reverse=True):
+        start, end = source.offset(span.line, span.column), source.offset(span.end_line, span.end_column)
+        text = text[:start] + " " * (end - start) + text[end:]
+    return text
+
+
+def write(base: Path, texts: Mapping[str, str]) -> None:
+    for name, text in texts.items():
+        (base / name).mkdir(parents=True, exist_ok=True)
+        (base / name / "package.xml").write_text(text)
+
+
+def test_orders_and_refuses_as_colcon_does(tmp_path: Path) -> None:
+    refused = 0
+    for seed in SEEDS:
+        base = tmp_path / str(seed)
+        texts = manifests(Random(seed))
+        write(base, texts)
+        read = {name: readers.collect(Text(f"{name}/package.xml", text)) for name, text in texts.items()}
+        graph = build([made(name, name, "ros.ament_cmake", manifest) for name, manifest in read.items()])
+        theirs = colcon_list(base)
+        where = f"seed {seed}: {base}"
+        assert {name for name, _, _ in theirs.packages} == set(texts), where
+        assert (theirs.order is None) == bool(graph.order.stuck) == bool(graph.cycles), where
+        for name in texts:
+            known = {other: kinds for other, kinds in theirs.needs.get(name, {}).items() if other in texts}
+            assert set(graph.needs[name]) == set(known), where
+        if theirs.order is None:
+            refused += 1
+            cut = [edge for cycle in graph.cycles for edge in cheapest_cut(graph, arcs_within(graph.arcs, cycle))]
+            write(base, {name: without(texts[name], read[name], cut, graph) for name in texts})
+            assert colcon_list(base).order is not None, where
+        else:
+            assert sorted(graph.order.names) == sorted(texts)
+            place = {name: index for index, name in enumerate(graph.order.names)}
+            needs = theirs.needs
+            assert all(place[other] < place[name] for name in texts for other in needs.get(name, {}) if other in texts), where
+    assert len(SEEDS) / 5 < refused < len(SEEDS) * 4 / 5, "the generated workspaces must tell something"
+
+
+def test_components_are_those_of_networkx() -> None:
+    for seed in range(300):
+        graph = random_graph(Random(seed), 25)
+        theirs = digraph(graph)
+        wanted = sorted(
+            tuple(sorted(nodes))
+            for nodes in nx.strongly_connected_components(theirs)
+            if len(nodes) > 1 or theirs.has_edge(*nodes, *nodes)
+        )
+        assert list(components(graph.arcs)) == list(graph.cycles) == wanted
+        assert bool(wanted) == bool(graph.order.stuck) == (not nx.is_directed_acyclic_graph(theirs))
+        if not wanted:
+            assert list(graph.order.names) == list(nx.lexicographical_topological_sort(theirs.reverse()))
+
+
+def test_a_shortest_cycle_is_as_short_as_any() -> None:
+    for seed in range(200):
+        graph = random_graph(Random(seed), 9)
+        cycle = shortest_cycle(graph.arcs)
+        lengths = [len(found) for found in nx.simple_cycles(digraph(graph))]
+        assert len(cycle) == min(lengths, default=0)
+        assert all(other in graph.arcs[name] for name, other in zip(cycle, (*cycle[1:], *cycle[:1]), strict=True))
+        assert not cycle or cycle[0] == min(cycle)
+
+
+def test_the_cut_of_a_small_component_is_the_smallest() -> None:
+    for seed in range(150):
+        graph = random_graph(Random(seed), 6)
+        cut = cheapest_cut(graph, graph.arcs)
+        assert is_acyclic(without_edges(graph, cut))
+        edges = list(graph.edges)
+        smaller = (found for size in range(len(cut)) for found in combinations(edges, size))
+        if len(edges) <= 14:
+            assert not any(is_acyclic(without_edges(graph, found)) for found in smaller), cut
+
+
+@pytest.mark.parametrize("size", [13, 20, 40])
+def test_the_cut_of_a_large_component_breaks_it_and_can_spare_nothing(size: int) -> None:
+    for seed in range(12):
+        random = Random(seed)
+        names = [f"n{number:02}" for number in range(size)]
+        edges = {name: {random.choice(names) for _ in range(random.choice((1, 2, 3)))} for name in names}
+        graph = graph_of(edges)
+        cut = cheapest_cut(graph, graph.arcs)
+        assert is_acyclic(without_edges(graph, cut))
+        assert all(not is_acyclic(without_edges(graph, set(cut) - {edge})) for edge in cut)
+
+
+def test_a_single_edge_that_closes_a_large_ring_is_found() -> None:
+    names = [f"n{number:02}" for number in range(60)]
+    edges = {name: set(names[:index][-4:]) for index, name in enumerate(names)}
+    edges["n00"] = {"n59"}
+    graph = graph_of(edges)
+    assert cheapest_cut(graph, graph.arcs) == (("n00", "n59"),)
+
+
+def test_a_clique_is_cut_in_time() -> None:
+    names = [f"n{number:02}" for number in range(30)]
+    graph = graph_of({name: set(names) - {name} for name in names})
+    assert len(cheapest_cut(graph, graph.arcs)) == 30 * 29 // 2
+
+
+def without_edges(graph: Graph, cut: Iterable[Edge]) -> dict[str, set[str]]:
+    gone = set(cut)
+    return {name: {other for other in graph.arcs[name] if (name, other) not in gone} for name in graph.names}
+
+
+def test_test_dependencies_are_cut_first_then_those_of_run_time_then_single_tags() -> None:
+    tags = [("<depend>{0}</depend>", "<build_depend>{0}</build_depend>"), ("<build_depend>{0}</build_depend>",)]
+    tags += [("<exec_depend>{0}</exec_depend>",), ("<test_depend>{0}</test_depend>",)]
+    for costly, cheap in combinations(range(4), 2):
+        for names in permutations("ab"):
+            lines = {names[0]: tags[costly], names[1]: tags[cheap]}
+            other = dict(zip("ab", "ba", strict=True))
+            graph = build([package(name, [line.format(other[name]) for line in lines[name]]) for name in "ab"])
+            assert cheapest_cut(graph, graph.arcs) == ((names[1], names[0]),)
+
+
+def test_reasons_are_the_elements_that_make_an_edge() -> None:
+    graph = build(
+        [
+            package("a", ["<depend>b</depend>", "<test_depend>b</test_depend>", "<group_depend>g</group_depend>"]),
+            package("b", extra=[ColconDepend("c", Role.BUILD | Role.EXEC, Span("b/colcon.pkg", 2, 5, 2, 6))]),
+            package("c", ["<member_of_group>g</member_of_group>", "<doc_depend>a</doc_depend>", "<exec_depend>z</exec_depend>"]),
+            package("d", ["<depend>a</depend>"], kind="cmake"),
+        ]
+    )
+    assert list(graph.edges) == [("a", "b"), ("a", "c"), ("b", "c")]
+    assert [(reason.tag, reason.categories, reason.span.line) for reason in graph.reasons(("a", "b"))] == [
+        ("depend", ("build", "run"), 7),
+        ("test_depend", ("test",), 8),
+    ]
+    assert [(reason.tag, reason.categories) for reason in graph.reasons(("a", "c"))] == [("group_depend", ("group",))]
+    assert [(reason.tag, reason.categories) for reason in graph.reasons(("b", "c"))] == [("colcon.pkg", ("build", "run"))]
+    assert graph.order.names == ("c", "b", "a", "d")
+
+
+def test_packages_of_one_name_are_one_node() -> None:
+    same = [package("a", ["<depend>b</depend>"], "x"), package("a", ["<depend>c</depend>"], "y")]
+    graph = build([*same, package("b"), package("c")])
+    assert graph.arcs["a"] == {"b", "c"}
+    assert [place.path for place in graph.places["a"]] == ["x", "y"]
+
+
+def test_an_unknown_condition_orders_but_makes_no_sure_cycle() -> None:
+    maybe = '<depend condition="$WHO_KNOWS == 1">{0}</depend>'
+    graph = build([package("a", [maybe.format("z")]), package("z")])
+    assert graph.order == (("z", "a"), ())
+    graph = build([package("a", [maybe.format("z")]), package("z", ["<depend>a</depend>"]), package("m", ["<depend>z</depend>"])])
+    assert graph.order == (("a", "z", "m"), ())
+    assert (graph.cycles, graph.possible_cycles) == ((), (("a", "z"),))
+    graph = build([package("a", [maybe.format("z"), "<test_depend>z</test_depend>"]), package("z", ["<depend>a</depend>"])])
+    assert (graph.cycles, graph.possible_cycles) == ((("a", "z"),), ())
+
+
+def test_paths_are_all_simple_paths_shortest_first() -> None:
+    for seed in range(200):
+        random = Random(seed)
+        graph = random_graph(random, 7)
+        start, end = random.choice(graph.names), random.choice(graph.names)
+        found = paths(graph.needs.__getitem__, start, end, 1000)
+        if start == end:
+            continue
+        wanted = sorted(map(tuple, nx.all_simple_paths(digraph(graph), start, end)), key=lambda path: (len(path), path))
+        assert list(found.found) == wanted
+        assert not found.more
+        few = paths(graph.needs.__getitem__, start, end, 2)
+        assert few.found == found.found[:2]
+        assert few.more == (len(wanted) > 2)
+
+
+def test_a_way_from_a_package_to_itself_is_a_cycle() -> None:
+    graph = graph_of({"a": ["b"], "b": ["c", "a"], "c": ["a"]})
+    assert paths(graph.needs.__getitem__, "a", "a", 9).found == (("a", "b", "a"), ("a", "b", "c", "a"))
+
+
+def test_paths_end_in_a_knot_of_cycles() -> None:
+    names = [f"n{number:02}" for number in range(40)]
+    graph = graph_of({name: [other for other in names if other != name] for name in names})
+    found = paths(graph.needs.__getitem__, "n00", "n39", 10)
+    assert len(found.found) == 10
+    assert found.more
+
+
+def test_metrics_are_those_of_networkx_where_there_is_no_cycle() -> None:
+    for seed in range(200):
+        random = Random(seed)
+        names = [f"n{number:02}" for number in range(random.randint(1, 14))]
+        below = {name: names[:index] for index, name in enumerate(names)}
+        graph = graph_of({name: random.sample(found, min(len(found), random.randint(0, 4))) for name, found in below.items()})
+        theirs = digraph(graph)
+        reduced = nx.transitive_reduction(theirs)
+        for name, metrics in measure(graph).items():
+            assert metrics.needed_by == theirs.in_degree(name)
+            assert metrics.needs == theirs.out_degree(name)
+            assert metrics.reach == len(nx.ancestors(theirs, name))
+            assert metrics.depth == nx.dag_longest_path_length(theirs.subgraph({name, *nx.descendants(theirs, name)}))
+            redundant = [way[-1] for way in metrics.redundant]
+            assert redundant == sorted(set(graph.needs[name]) - set(reduced[name]))
+            for way in metrics.redundant:
+                assert way[0] == name
+                assert all(graph.reasons(edge) for edge in pairwise(way))
+                shorter = theirs.copy()
+                shorter.remove_edge(name, way[-1])
+                assert len(way) - 1 == nx.shortest_path_length(shorter, name, way[-1])
+
+
+def test_metrics_take_a_cycle_for_one_package() -> None:
+    graph = graph_of({"top": ["a", "low"], "a": ["b", "low"], "b": ["a", "low"]})
+    found = measure(graph)
+    assert {name: (m.needed_by, m.needs, m.depth, m.reach) for name, m in found.items()} == {
+        "a": (2, 2, 1, 2),
+        "b": (1, 2, 1, 2),
+        "low": (3, 0, 0, 3),
+        "top": (0, 2, 2, 0),
+    }
+    assert {name: m.redundant for name, m in found.items() if m.redundant} == {"top": (("top", "a", "low"),)}
+
+
+def test_a_graph_without_a_cycle_waits_for_no_library() -> None:
+    """The time of the import would be a tenth of a whole run."""
+    code = (
+        "import sys; from ros_lint.graph import Graph; g = Graph({'a': (), 'b': ()}, {'a': {'b': ()}});"
+        "assert g.order.names == ('b', 'a') and g.cycles == () and g.possible_cycles == ();"
+        "assert 'networkx' not in sys.modules"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True, env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)})
