@@ -1,0 +1,260 @@
+"""Edits of ``package.xml``: minimal, in the file's own style, comments kept.
+
+They are computed from the places in a :class:`Manifest` alone, for rules have no text. What stands between the elements
+comes from ``Manifest.asides``, so lines on which nothing stands are known to be blank. Every edit is meant for the text
+that the manifest was read from; of a text that is not well-formed the edits are as good as what could be read.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Final, NamedTuple
+
+from ros_lint.facts import Depend, Element, Manifest
+from ros_lint.rule import Edit
+from ros_lint.text import Span
+
+_HABIT: Final = (
+    *("buildtool_depend", "buildtool_export_depend", "depend", "build_depend", "build_export_depend", "exec_depend"),
+    *("run_depend", "test_depend", "doc_depend", "conflict", "replace", "group_depend", "member_of_group"),
+)
+"""The order of dependencies in most manifests. The schemas only want the last two after the others."""
+
+_GROUPS = ("group_depend", "member_of_group")
+
+SCHEMA_ORDER: Final = ("name", "version", "description", "maintainer", "license", "url", "author", "", *_GROUPS, "export")
+"""The order of the schemas; "" stands for the dependency tags, in any mix (reference, section A1.7)."""
+
+
+def schema_rank(tag: str) -> int:
+    """Return the place of a tag in :data:`SCHEMA_ORDER`."""
+    return SCHEMA_ORDER.index(tag) if tag in SCHEMA_ORDER else SCHEMA_ORDER.index("")
+
+
+def add(manifest: Manifest, tag: str, name: str) -> Edit:
+    """Return the edit that declares a dependency without attributes.
+
+    It goes among the tags of its kind, at its place if they are sorted; else to where the usual order wants it, set off by
+    a blank line if that is the habit of the file.
+    """
+    layout = _Layout(manifest)
+    element = f"<{tag}>{_escape(name)}</{tag}>"
+    siblings = [depend for depend in manifest.depends if depend.tag == tag]
+    if siblings:
+        names = [depend.name for depend in siblings]
+        before = siblings
+        if len(names) > 1 and names == sorted(names):
+            before = [depend for depend in siblings if depend.name < name]
+        return layout.after(before[-1].span, element) if before else layout.before(siblings[0].span, element)
+    if manifest.depends:
+        apart = layout.kinds_apart()
+        if tag in _GROUPS:
+            return layout.after(manifest.depends[-1].span, element, apart=apart)
+        rank = _HABIT.index(tag)
+        lower = [depend for depend in manifest.depends if _HABIT.index(depend.tag) < rank]
+        if lower:
+            last = max(lower, key=lambda depend: (_HABIT.index(depend.tag), depend.span))
+            return layout.after(last.span, element, apart=apart)
+        return layout.before(layout.with_heading(manifest.depends[0].span), element, apart=apart)
+    head = [child for child in manifest.elements if child.tag != "export"]
+    if head:
+        return layout.after(head[-1].span, element, apart=layout.blank_after(head[-1].span))
+    if manifest.elements:
+        return layout.before(manifest.elements[0].span, element)
+    return layout.last(element)
+
+
+def remove(manifest: Manifest, depend: Depend) -> Edit:
+    """Return the edit that takes a dependency out: its line, if nothing else is on it. Comments stay."""
+    return _Layout(manifest).removal(depend.span)
+
+
+def rename(depend: Depend, name: str) -> Edit:
+    """Return the edit that puts another name into a dependency."""
+    if not depend.name:
+        return Edit(depend.span, _written(depend._replace(name=name)))
+    return Edit(depend.name_span, _escape(name))
+
+
+def change_tag(depend: Depend, tag: str) -> tuple[Edit, ...]:
+    """Return the edits that make another kind of dependency of one, where it is."""
+    span, old = depend.span, len(depend.tag)
+    if not depend.close:
+        return (Edit(span, _written(depend._replace(tag=tag))),)
+    column = span.end_column - depend.close + 2
+    return (
+        Edit(Span(span.path, span.line, span.column + 1, span.line, span.column + 1 + old), tag),
+        Edit(Span(span.path, span.end_line, column, span.end_line, column + old), tag),
+    )
+
+
+def sort(manifest: Manifest) -> tuple[Edit, ...]:
+    """Return the edits that bring the children of ``<package>`` into the order of the schemas, as few moves as possible.
+
+    Empty when they are in order, or when something would have to move that cannot be moved without harm: it shares its
+    line, has a comment, or is written in a way that only its text can tell.
+    """
+    children: list[Element | Depend] = sorted((*manifest.elements, *manifest.depends), key=lambda child: child.span)
+    ranks = [schema_rank(child.tag) for child in children]
+    kept = _longest_ascent(ranks)
+    moved = [child for at, child in enumerate(children) if at not in kept]
+    stay = [child for at, child in enumerate(children) if at in kept]
+    layout = _Layout(manifest)
+    if not moved or not all(layout.alone(child.span) and _is_verbatim(child) for child in moved):
+        return ()
+    edits: list[Edit] = []
+    for child in moved:
+        before = [other for other in stay if schema_rank(other.tag) <= schema_rank(child.tag)]
+        written = _written(child)
+        edits.append(layout.after(before[-1].span, written) if before else layout.before(stay[0].span, written))
+    return (*edits, *(layout.removal(child.span) for child in moved))
+
+
+class _Line(NamedTuple):
+    """What shares the first and the last line of an element with it."""
+
+    before: Span | None
+    after: Span | None
+
+
+class _Layout:
+    """Lines, and what is on them."""
+
+    def __init__(self, manifest: Manifest) -> None:
+        self.manifest = manifest
+        self.path = manifest.path
+        self.begin = manifest.begin or manifest.end
+        spans = (child.span for children in (manifest.elements, manifest.depends) for child in children)
+        self.items = sorted((*spans, *manifest.asides))
+        self.covered = {self.begin.line, manifest.end.line}
+        for item in self.items:
+            self.covered.update(range(item.line, item.end_line + 1))
+
+    def neighbours(self, span: Span) -> _Line:
+        """Return what ends on the line where an item starts, and what starts on the line where it ends."""
+        at = self.items.index(span)
+        previous = self.items[at - 1] if at else self.begin
+        following = self.items[at + 1] if at + 1 < len(self.items) else self.manifest.end
+        return _Line(
+            previous if previous.end_line == span.line else None, following if following.line == span.end_line else None
+        )
+
+    def alone(self, span: Span) -> bool:
+        """Whether an item has its lines for itself, and no comment right above it."""
+        at = self.items.index(span)
+        heading = at > 0 and self.items[at - 1] in self.manifest.asides and self.items[at - 1].end_line == span.line - 1
+        return self.neighbours(span) == (None, None) and not heading
+
+    def after(self, span: Span, element: str, *, apart: bool = False) -> Edit:
+        """Return the edit that puts an element after an item and the comments on its line."""
+        tail = span
+        while (following := self.neighbours(tail).after) is not None and following in self.manifest.asides:
+            tail = following
+        if following is not None:
+            return Edit(span.end(), element)
+        blank = self.manifest.newline if apart else ""
+        place = Span(self.path, tail.end_line + 1, 1, tail.end_line + 1, 1)
+        return Edit(place, f"{blank}{self._indent(span)}{element}{self.manifest.newline}")
+
+    def before(self, span: Span, element: str, *, apart: bool = False) -> Edit:
+        """Return the edit that puts an element before an item."""
+        if self.neighbours(span).before is not None:
+            return Edit(span.start(), element)
+        blank = self.manifest.newline if apart else ""
+        place = Span(self.path, span.line, 1, span.line, 1)
+        return Edit(place, f"{self._indent(span)}{element}{self.manifest.newline}{blank}")
+
+    def last(self, element: str) -> Edit:
+        """Return the edit that puts an element into a package that has none."""
+        end, newline = self.manifest.end, self.manifest.newline
+        if end.line == self.begin.line:
+            return Edit(end, f"{newline}{self.manifest.indent}{element}{newline}")
+        place = Span(self.path, end.line, 1, end.line, 1)
+        return Edit(place, f"{self.manifest.indent}{element}{newline}")
+
+    def removal(self, span: Span) -> Edit:
+        """Return the edit that takes an item out without leaving a trace."""
+        before, after = self.neighbours(span)
+        path = self.path
+        if before is not None:
+            return Edit(Span(path, before.end_line, before.end_column, span.end_line, span.end_column), "")
+        if after is not None:
+            return Edit(Span(path, span.line, span.column, after.line, after.column), "")
+        end = span.end_line + 1
+        while self._is_blank(span.line - 1) and self._is_blank(end):
+            end += 1
+        return Edit(Span(path, span.line, 1, end, 1), "")
+
+    def with_heading(self, span: Span) -> Span:
+        """Return the first of the comments that stand right above an item, or the item."""
+        at = self.items.index(span)
+        while at and self.items[at - 1] in self.manifest.asides and self.items[at - 1].end_line == span.line - 1:
+            if self.neighbours(self.items[at - 1]).before is not None:
+                break
+            at -= 1
+            span = self.items[at]
+        return span
+
+    def blank_after(self, span: Span) -> bool:
+        """Whether a blank line follows an item and the comments on its line."""
+        while (following := self.neighbours(span).after) is not None and following in self.manifest.asides:
+            span = following
+        return self._is_blank(span.end_line + 1)
+
+    def kinds_apart(self) -> bool:
+        """Whether the file sets kinds of dependencies off by blank lines; with one kind only, whether that stands apart."""
+        depends = self.manifest.depends
+        changes = [(one.span, other.span) for one, other in zip(depends, depends[1:], strict=False) if one.tag != other.tag]
+        if changes:
+            return 2 * sum(any(map(self._is_blank, range(one.end_line, other.line))) for one, other in changes) > len(changes)
+        return self._is_blank(self.with_heading(depends[0].span).line - 1) and self.blank_after(depends[-1].span)
+
+    def _is_blank(self, line: int) -> bool:
+        return self.begin.line < line < self.manifest.end.line and line not in self.covered
+
+    def _indent(self, span: Span) -> str:
+        """Return the white space before an item, the usual one if it does not start its line."""
+        usual = self.manifest.indent
+        width = span.column - 1
+        if self.neighbours(span).before is not None or width == len(usual):
+            return usual
+        return ("\t" if usual.startswith("\t") else " ") * width
+
+
+def _written(child: Element | Depend) -> str:
+    """Return an element as it is mostly written."""
+    if isinstance(child, Depend):
+        condition = (("condition", child.condition),) if child.condition else ()
+        return _tagged(child.tag, (*child.versions, *condition), child.name)
+    return _tagged(child.tag, child.attributes, child.text)
+
+
+def _tagged(tag: str, attributes: Iterable[tuple[str, str]], text: str) -> str:
+    written = "".join(f' {name}="{_escape(value).replace(chr(34), "&quot;")}"' for name, value in attributes)
+    return f"<{tag}{written}>{_escape(text)}</{tag}>"
+
+
+def _is_verbatim(child: Element | Depend) -> bool:
+    """Whether :func:`_written` gives a child as it stands, but for quotes and the order of attributes."""
+    span = child.span
+    if child.tag in ("description", "export") or span.line != span.end_line:
+        return False
+    return len(_written(child)) == span.end_column - span.column
+
+
+def _escape(text: str) -> str:
+    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+
+
+def _longest_ascent(ranks: list[int]) -> frozenset[int]:
+    """Return the indexes of a longest run, gaps allowed, in which ranks never fall."""
+    best: list[tuple[int, int]] = []  # length of the longest run that ends here, and the index before
+    for at, rank in enumerate(ranks):
+        length, previous = max(((best[i][0], i) for i in range(at) if ranks[i] <= rank), default=(0, -1))
+        best.append((length + 1, previous))
+    at = max(range(len(best)), key=lambda i: best[i][0], default=-1)
+    kept = set()
+    while at >= 0:
+        kept.add(at)
+        at = best[at][1]
+    return frozenset(kept)
