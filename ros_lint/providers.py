@@ -129,7 +129,7 @@ def _other_names(world: World, name: str, *, python: bool) -> Iterator[Meant | N
     names, rosdep = world.knowledge.names, world.knowledge.rosdep
     bare = name.removeprefix("python3-").removeprefix("python-").removesuffix("-pip")
     if python or bare != name:
-        yield _first(world, [f"python3-{bare}", f"python3-{bare}-pip"], "python")
+        yield _first(world, [f"python3-{bare}", f"python3-{bare}-pip"], "spelling")
         yield _first(world, (*names.module_packages(bare, world.knowledge.distro), *names.module(bare)), "python")
         yield _only(world, rosdep.installing(bare), "system")
     else:
@@ -137,7 +137,7 @@ def _other_names(world: World, name: str, *, python: bool) -> Iterator[Meant | N
     yield _only(world, rosdep.installing(name), "system")
 
 
-def _first(world: World, names: Iterable[str], by: Literal["cmake", "python"]) -> Meant | None:
+def _first(world: World, names: Iterable[str], by: Literal["spelling", "cmake", "python"]) -> Meant | None:
     found = _declarable(world, names)
     return Meant(found[0], by) if found else None
 

@@ -53,7 +53,7 @@ class Spelling:
         scored = [(-_overlap(words, _words(other)), other) for other in alike]
         candidates = [other for _, other in sorted(scored)[:30]]
         candidates += self.one_slip(name)
-        return tuple(difflib.get_close_matches(name, dict.fromkeys(candidates), most, 0.75))
+        return tuple(difflib.get_close_matches(name, dict.fromkeys(candidates), most, 0.8))
 
     @cached_property
     def _plain(self) -> Mapping[str, list[str]]:
