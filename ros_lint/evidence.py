@@ -6,12 +6,12 @@ spaces (reference, sections C2b, D6, E3.8). This module is the only one that goe
 
 from __future__ import annotations
 
-import posixpath
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
-from ros_lint.facts import BuildScript, Facet, FileFacts, LaunchFile, Mention, Opaque, Role, Use, Via
+from ros_lint.facts import BuildScript, FileFacts, LaunchFile, Mention, Opaque, Role, Use, Via
+from ros_lint.liveness import HEADERS, Liveness
 from ros_lint.text import Span, Text
 
 if TYPE_CHECKING:
@@ -41,13 +41,8 @@ class Source(NamedTuple):
     builds_with: str
 
 
-TEST_FOLDERS = frozenset({"test", "tests", "testing", "integration_tests", "benchmark", "benchmarks", "gtest", "unit_tests"})
-"""Folders whose files serve tests when no build target says otherwise (reference, section C6.4)."""
-
-_IDLE_FOLDERS = frozenset({"doc", "docs", "example", "examples", "tutorial", "tutorials", "tools", "sphinx"})
-"""Folders whose files are often not part of what the package builds and installs."""
-
-_HEADERS = (".h", ".hh", ".hpp", ".hxx", ".inl", ".ipp", ".tpp", ".cuh")
+_LOOKED_UP = Role.EXEC
+"""A package whose files are looked up at run time is not compiled against (reference, section E2, rows 17 and 24)."""
 
 
 def resolve(source: Source, names: Names, headers: Mapping[str, tuple[str, ...]]) -> tuple[Use, ...]:
@@ -55,7 +50,8 @@ def resolve(source: Source, names: Names, headers: Mapping[str, tuple[str, ...]]
 
     ``headers`` maps the include path of each header that the workspace has below an include folder to its packages.
     """
-    own = _Own(source)
+    launched = frozenset(_relative(source, launch.path) for launch in source.launch)
+    own = Liveness(source.name, source.files, source.script, source.facts, launched)
     uses: list[Use] = []
     if source.script is not None:
         for mention in source.script.mentions:
@@ -64,7 +60,10 @@ def resolve(source: Source, names: Names, headers: Mapping[str, tuple[str, ...]]
     for path, facts in source.facts.items():
         role, sure = own.place(path)
         for mention in facts.mentions:
-            uses += _use(source, own, names, headers, mention, Role.TEST if mention.test else role, sure)
+            if mention.via == "package" and path in launched:
+                continue  # the launch collector has it, too
+            needed = Role.TEST if mention.test else _LOOKED_UP if mention.via == "package" and role != Role.TEST else role
+            uses += _use(source, own, names, headers, mention, needed, sure)
     for launch in source.launch:
         uses += _launch_uses(source, own, names, launch)
     return tuple(sorted(set(uses), key=lambda use: (use.span, use.package, use.via)))
@@ -76,80 +75,9 @@ def _script_role(source: Source, via: Via) -> Role:
     return Role.TOOL if via == "macro" else Role.BUILD
 
 
-class _Own:
-    """What belongs to the package itself, and what its files serve."""
-
-    def __init__(self, source: Source) -> None:
-        self._source = source
-        self._by_name: dict[str, list[str]] = {}
-        modules: set[str] = set()
-        for file in source.files:
-            folder, _, name = file.rpartition("/")
-            self._by_name.setdefault(name, []).append(file)
-            if name.endswith(".py"):
-                modules.add(name[:-3])
-                modules.update(folder.split("/"))
-        self.modules = modules
-        script = source.script
-        self._tests: set[str] = set()
-        self._built: set[str] = set()
-        self._installed: set[str] = set()
-        self._packages: tuple[str, ...] = ()
-        self._sees_targets = self._sees_python = False
-        if script is not None:
-            for target in script.targets:
-                (self._tests if target.test else self._built).update(target.sources)
-            self._tests -= self._built
-            self._installed = {provided.source for provided in script.provides if provided.source}
-            hidden = Facet(0)
-            for opaque in script.opaque:
-                hidden |= opaque.hides
-            self._sees_targets = bool(self._built) and not hidden & (Facet.LIBRARIES | Facet.EXECUTABLES)
-            self._sees_python = not hidden & (Facet.PYTHON | Facet.EXECUTABLES)
-            self._packages = tuple(name.replace(".", "/") for name in script.python_packages)
-
-    def place(self, path: str) -> tuple[Role, bool]:
-        """Return what a file is needed for, and whether it is sure to be alive."""
-        folders = path.split("/")[:-1]
-        name = path.rpartition("/")[2]
-        if path in self._tests:
-            return Role.TEST, True
-        if path in self._built:
-            return Role.BUILD | Role.EXEC, True
-        if name.endswith((".msg", ".srv", ".action", ".idl")):
-            return Role.BUILD | Role.EXPORT | Role.EXEC, True
-        if TEST_FOLDERS.intersection(folders) or (name.startswith("test_") and name.endswith(".py")) or name == "conftest.py":
-            return Role.TEST, True
-        if name.endswith(_HEADERS):
-            public = path.startswith("include/")
-            role = Role.BUILD | Role.EXPORT | Role.EXEC if public else Role.BUILD | Role.EXEC
-            return role, public or not _IDLE_FOLDERS.intersection(folders)
-        if name.endswith((".py", ".py.in")) or "." not in name:
-            if path == "setup.py":
-                return Role.TOOL, True
-            alive = path in self._installed or any(
-                path.startswith(f"{package}/") or path == f"{package}.py" for package in self._packages
-            )
-            return Role.EXEC, alive or (not self._sees_python and not _IDLE_FOLDERS.intersection(folders))
-        return Role.BUILD | Role.EXEC, not self._sees_targets and not _IDLE_FOLDERS.intersection(folders)
-
-    def has_header(self, header: str, includer: str) -> bool:
-        """Whether an include can mean a file of the package."""
-        if header.startswith(("./", "../")):
-            return True
-        head, _, name = header.rpartition("/")
-        own = self._source.name
-        if header.partition("/")[0] in (own, f"{own}_export") and "/" in header:
-            return True
-        stems = (name, f"{name}.in", f"{name}.em")
-        return any(
-            not head or file.rpartition("/")[0].endswith(head) for stem in stems for file in self._by_name.get(stem, ())
-        ) or posixpath.normpath(posixpath.join(posixpath.dirname(includer), header)) in self._by_name.get(name, ())
-
-
 def _use(
     source: Source,
-    own: _Own,
+    own: Liveness,
     names: Names,
     headers: Mapping[str, tuple[str, ...]],
     mention: Mention,
@@ -177,18 +105,18 @@ _WHAT: Mapping[Via, str] = {
 
 
 def _providers(
-    source: Source, own: _Own, names: Names, headers: Mapping[str, tuple[str, ...]], mention: Mention
+    source: Source, own: Liveness, names: Names, headers: Mapping[str, tuple[str, ...]], mention: Mention
 ) -> tuple[str, ...]:
     name = mention.name
     match mention.via:
         case "include":
-            if own.has_header(name, mention.span.path.removeprefix(f"{source.path}/")):
+            if own.has_header(name, _relative(source, mention.span.path)):
                 return ()
             if found := headers.get(name):
                 return found
             return names.by_include(name).names
         case "import":
-            if name.partition(".")[0] in own.modules:
+            if own.has_module(name.partition(".")[0]):
                 return ()
             return names.by_import(name).names
         case "cmake":
@@ -204,18 +132,19 @@ def _providers(
             return (name,)
 
 
-def _launch_uses(source: Source, own: _Own, names: Names, launch: LaunchFile) -> Iterator[Use]:
-    relative = launch.path.removeprefix(f"{source.path}/") if source.path else launch.path
-    role, sure = own.place(relative)
-    role = Role.TEST if role == Role.TEST else Role.EXEC
+def _relative(source: Source, path: str) -> str:
+    return path.removeprefix(f"{source.path}/") if source.path else path
+
+
+def _launch_uses(source: Source, own: Liveness, names: Names, launch: LaunchFile) -> Iterator[Use]:
+    role, sure = own.place(_relative(source, launch.path))
+    role = Role.TEST if launch.test else role
     for reference in launch.references:
         package = reference.package
         if package == source.name or not names.is_package(package):
             continue
-        starts = reference.kind in ("node", "component", "include")
-        what = f"{reference.kind} {reference.name}".strip() if starts else package
-        via: Via = "launch" if starts else "package"
-        yield Use(package, (package,), role, what, via, False, reference.package_span, sure)
+        what = package if reference.kind == "package" else f"{reference.kind} {reference.name}"
+        yield Use(package, (package,), role, what, "launch", False, reference.package_span, sure)
 
 
 def include_index(sources: Iterable[Source]) -> dict[str, tuple[str, ...]]:
@@ -223,7 +152,7 @@ def include_index(sources: Iterable[Source]) -> dict[str, tuple[str, ...]]:
     found: dict[str, tuple[str, ...]] = {}
     for source in sources:
         for file in source.files:
-            if not file.endswith(_HEADERS):
+            if not file.endswith(HEADERS):
                 continue
             _, marker, header = f"/{file}".partition("/include/")
             if not marker:

@@ -13,7 +13,7 @@ from ros_lint import conditions, evidence, scripts
 from ros_lint.cache import Cache
 from ros_lint.collect import FAILED, Collected, collect_all, kind_of
 from ros_lint.discover import Found, discover
-from ros_lint.facts import ROLES, BuildScript, FileFacts, LaunchFile, Manifest, Role
+from ros_lint.facts import ROLES, BuildScript, FileFacts, LaunchFile, Manifest, Role, Use
 from ros_lint.knowledge import Knowledge
 from ros_lint.knowledge.index import TAG_KINDS
 from ros_lint.text import Span, Text, read
@@ -169,7 +169,7 @@ class Loader:
                 opaque=evidence.opaque_of(source),
             )
 
-    def _traces(self, tree: Tree, found: Found, declared: Sequence[Declared], uses: Sequence[evidence.Use]) -> Mapping[str, Span]:
+    def _traces(self, tree: Tree, found: Found, declared: Sequence[Declared], uses: Sequence[Use]) -> Mapping[str, Span]:
         """Look for the names of what seems unused in every text of the package (reference, section F3, condition 7)."""
         built = [d.name for d in declared if d.depend.tag in ("depend", "build_depend")]
         wanted = evidence.unused_names(built, uses)

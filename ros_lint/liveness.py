@@ -1,0 +1,162 @@
+"""What the files of a package serve, and whether they are alive: built, installed, included, tested, or lying around.
+
+By target membership first, by include from what is alive second, by folder names last (reference, section C6.4).
+"""
+
+from __future__ import annotations
+
+import posixpath
+from collections.abc import Container, Iterable, Mapping
+from functools import cached_property
+
+from ros_lint.facts import BuildScript, Facet, FileFacts, Role
+
+TEST_FOLDERS = frozenset({"test", "tests", "testing", "integration_tests", "benchmark", "benchmarks", "gtest", "unit_tests"})
+"""Folders whose files serve tests when nothing else says what they serve."""
+
+_IDLE_FOLDERS = frozenset({"doc", "docs", "example", "examples", "tutorial", "tutorials", "tools", "sphinx"})
+"""Folders whose files are often not part of what the package builds and installs."""
+
+HEADERS = (".h", ".hh", ".hpp", ".hxx", ".inl", ".ipp", ".tpp", ".cuh")
+_INTERFACES = (".msg", ".srv", ".action", ".idl")
+_PROGRAMS = ("lib/", "bin/")
+
+PRODUCTION = Role.BUILD | Role.EXEC
+PUBLIC = Role.BUILD | Role.EXPORT | Role.EXEC
+
+
+class Liveness:
+    """Answers for the files of one package. Paths are relative to it; ``launched`` are its launch files."""
+
+    def __init__(
+        self,
+        name: str,
+        files: Iterable[str],
+        script: BuildScript | None,
+        facts: Mapping[str, FileFacts],
+        launched: Container[str] = (),
+    ) -> None:
+        self._name = name
+        self._files = tuple(files)
+        self._script = script
+        self._facts = facts
+        self._launched = launched
+        hidden = Facet(0)
+        for opaque in script.opaque if script else ():
+            hidden |= opaque.hides
+        self._sees_targets = bool(script and script.targets) and not hidden & (Facet.LIBRARIES | Facet.EXECUTABLES)
+        self._sees_share = script is not None and not hidden & Facet.SHARE
+        self._sees_python = script is not None and not hidden & (Facet.PYTHON | Facet.EXECUTABLES)
+
+    def place(self, path: str) -> tuple[Role, bool]:
+        """Return what a file is needed for, and whether it is sure to be alive."""
+        name = path.rpartition("/")[2]
+        if path in self._public:
+            return PUBLIC, True
+        if path in self._production:
+            return PRODUCTION, True
+        if path in self._tests:
+            return Role.TEST, True
+        if name.endswith(_INTERFACES):
+            return PUBLIC, True
+        python = name.endswith((".py", ".py.in")) or "." not in name
+        folders = set(path.split("/")[:-1])
+        if path in self._launched and path in self._installed:
+            return Role.EXEC, True
+        if TEST_FOLDERS & folders or (python and name.startswith("test_")) or name == "conftest.py":
+            return Role.TEST, python or not self._sees_targets
+        idle = bool(_IDLE_FOLDERS & folders)
+        if path in self._launched:
+            return Role.EXEC, not (self._sees_share or idle)
+        if path == "setup.py":
+            return Role.TOOL, True
+        if python:
+            return Role.EXEC, path in self._installed_python or not (self._sees_python or idle)
+        return PRODUCTION, not (self._sees_targets or idle)
+
+    def has_module(self, module: str) -> bool:
+        """Whether an import can mean a file of the package."""
+        return module in self._modules
+
+    def own_headers(self, header: str, includer: str) -> tuple[str, ...]:
+        """Return the files of the package that an include can mean."""
+        beside = posixpath.normpath(posixpath.join(posixpath.dirname(includer), header))
+        name = header.rpartition("/")[2]
+        candidates = self._by_name.get(name, ())
+        if beside in candidates:
+            return (beside,)
+        end = f"/{header}"
+        return tuple(file for file in candidates if f"/{file}".endswith(end))
+
+    def has_header(self, header: str, includer: str) -> bool:
+        """Whether an include can mean a file of the package, generated ones included."""
+        first, slash, _ = header.partition("/")
+        if slash and first in (self._name, ".", ".."):
+            return True
+        if self.own_headers(header, includer):
+            return True
+        return any(self.own_headers(f"{header}{suffix}", includer) for suffix in (".in", ".em"))
+
+    @cached_property
+    def _by_name(self) -> Mapping[str, tuple[str, ...]]:
+        found: dict[str, tuple[str, ...]] = {}
+        for file in self._files:
+            name = file.rpartition("/")[2]
+            found[name] = (*found.get(name, ()), file)
+        return found
+
+    @cached_property
+    def _modules(self) -> frozenset[str]:
+        found: set[str] = set()
+        for file in self._files:
+            if file.endswith(".py"):
+                folder, _, name = file.rpartition("/")
+                found.add(name[:-3])
+                found.update(folder.split("/"))
+        return frozenset(found)
+
+    @cached_property
+    def _public(self) -> frozenset[str]:
+        """Headers that are installed, and those that they include."""
+        installed = {p.source for p in self._script.provides if p.path.startswith("include/")} if self._script else set()
+        roots = {file for file in self._files if file.endswith(HEADERS) and (file in installed or file.startswith("include/"))}
+        return self._reached(roots)
+
+    @cached_property
+    def _production(self) -> frozenset[str]:
+        targets = self._script.targets if self._script else ()
+        return self._reached({source for target in targets if not target.test for source in target.sources})
+
+    @cached_property
+    def _tests(self) -> frozenset[str]:
+        targets = self._script.targets if self._script else ()
+        return self._reached({source for target in targets if target.test for source in target.sources})
+
+    @cached_property
+    def _installed(self) -> frozenset[str]:
+        return frozenset(p.source for p in self._script.provides if p.source) if self._script else frozenset()
+
+    @cached_property
+    def _installed_python(self) -> frozenset[str]:
+        if self._script is None:
+            return frozenset()
+        found = {p.source for p in self._script.provides if p.source and p.path.startswith(_PROGRAMS)}
+        packages = tuple(name.replace(".", "/") for name in self._script.python_packages)
+        for file in self._files:
+            if any(file.startswith(f"{package}/") or file in (f"{package}.py", f"{package}.py.in") for package in packages):
+                found.add(file)
+        return frozenset(found)
+
+    def _reached(self, roots: Iterable[str]) -> frozenset[str]:
+        reached: set[str] = set()
+        waiting = [root for root in roots if root in self._facts]
+        while waiting:
+            path = waiting.pop()
+            if path in reached:
+                continue
+            reached.add(path)
+            facts = self._facts.get(path)
+            for mention in facts.mentions if facts else ():
+                if mention.via == "include":
+                    waiting += self.own_headers(mention.name, path)
+        return frozenset(reached)
