@@ -20,6 +20,8 @@ from ros_lint.facts import (
     Use,
 )
 from ros_lint.facts import Target as BuildTarget
+from ros_lint.graph import Edge, Graph, Reason
+from ros_lint.graph_cut import Knot, knots
 from ros_lint.launch_files import Launchable, Programs, launchable, programs
 from ros_lint.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
 from ros_lint.strangers import Stranger, declared_names
@@ -37,12 +39,15 @@ __all__ = [
     "Confidence",
     "Declared",
     "Depend",
+    "Edge",
     "Edit",
     "Element",
     "EntryPoint",
     "Facet",
     "Finding",
     "Fix",
+    "Graph",
+    "Knot",
     "LaunchFile",
     "LaunchReference",
     "Launchable",
@@ -54,6 +59,7 @@ __all__ = [
     "Problem",
     "Programs",
     "Provided",
+    "Reason",
     "Related",
     "Role",
     "Rule",
@@ -63,7 +69,12 @@ __all__ = [
     "Target",
     "Use",
     "Workspace",
+    "add_dependency",
     "declared_names",
+    "knots",
     "launchable",
     "programs",
+    "remove_dependency",
+    "tag_for",
+    "works_unseen",
 ]

@@ -2,17 +2,38 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.graph import Arcs, Edge, Graph, components, is_acyclic, reverse
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+    from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 
 _MOST_EXACT = 12
 """Up to this many nodes every order is weighed, which takes time in proportion to n * 2**n."""
 _MOST_CUTS = 2
 """Up to this many edges the smallest cut is found in larger components, too."""
+
+
+class Knot(NamedTuple):
+    """Packages of which each needs all the others, directly or not."""
+
+    names: tuple[str, ...]
+    """Sorted."""
+    cycle: tuple[str, ...]
+    """A shortest cycle among them, the first name in front."""
+    cut: tuple[Edge, ...]
+    """The cheapest edges to do without, so that there is an order. At least one of them lies on the cycle."""
+    certain: bool
+    """False when it is a knot only if a condition holds that nobody can evaluate here."""
+
+
+def knots(graph: Graph) -> Iterator[Knot]:
+    """Yield the knots of a graph, the certain ones first."""
+    for found, arcs, certain in ((graph.cycles, graph.certain_arcs, True), (graph.possible_cycles, graph.arcs, False)):
+        for names in found:
+            inner = arcs_within(arcs, names)
+            yield Knot(names, shortest_cycle(inner), cheapest_cut(graph, inner), certain)
 
 
 def arcs_within(arcs: Mapping[str, Collection[str]], nodes: Collection[str]) -> Arcs:
