@@ -63,8 +63,10 @@ class Liveness:
         folders = set(path.split("/")[:-1])
         if path in self._launched and path in self._installed:
             return Role.EXEC, True
-        if TEST_FOLDERS & folders or (python and name.startswith("test_")) or name == "conftest.py":
-            return Role.TEST, python or not self._sees_targets
+        if TEST_FOLDERS & folders or (python and _is_test(name)):
+            # pytest takes what is called test; beside it at the top lie its helpers, further down lies anything.
+            taken = _is_test(name) or path.partition("/")[0] in TEST_FOLDERS and path.count("/") == 1
+            return Role.TEST, taken if python else not self._sees_targets
         idle = bool(_IDLE_FOLDERS & folders)
         if path in self._launched:
             return Role.EXEC, not (self._sees_share or idle)
@@ -160,3 +162,7 @@ class Liveness:
                 if mention.via == "include":
                     waiting += self.own_headers(mention.name, path)
         return frozenset(reached)
+
+
+def _is_test(name: str) -> bool:
+    return name.startswith("test_") or name.endswith("_test.py") or name == "conftest.py"

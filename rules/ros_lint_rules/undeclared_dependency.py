@@ -21,7 +21,8 @@ needed at run time, `<exec_depend>` for what is needed at run time only, `<test_
 - The use is optional: `find_package(QUIET)` behind `if(X_FOUND)`, `try: import`, `__has_include`.
 - The name belongs to no package or rosdep key that is known, or to the system.
 - A declared dependency is itself not known, so that anything might come with it: then the confidence is medium.
-- What a launch file starts or includes is the business of `launch-outside-closure`.
+- The package needs this one itself, so that declaring it would close a cycle: then, too, the confidence is medium.
+- What a launch file starts, includes or looks up is the business of `launch-outside-closure`.
 """
 
 from __future__ import annotations
@@ -56,15 +57,22 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         best, *others = sorted(uses, key=_rank)
         role = _union(uses)
         tag = tag_for(package, workspace, name, role)
-        confidence = Confidence.HIGH if best.sure and closure.complete else Confidence.MEDIUM
+        circular = package.name in workspace.world.closure((name,)).names
+        sure = best.sure and closure.complete and not circular
         yield Finding(
-            f"{name} is used here, but package.xml does not declare it: add <{tag}>{name}</{tag}>",
+            _message(name, tag, circular),
             best.span,
             name,
             tuple(Related(f"also used here: {use.what}", use.span) for use in others[:_MOST_RELATED]),
             Fix(f"declare {name} as <{tag}>", add_dependency(package, tag, name)),
-            confidence,
+            Confidence.HIGH if sure else Confidence.MEDIUM,
         )
+
+
+def _message(name: str, tag: str, circular: bool) -> str:
+    if circular:
+        return f"{name} is used here, but cannot be declared: it needs this package itself"
+    return f"{name} is used here, but package.xml does not declare it: add <{tag}>{name}</{tag}>"
 
 
 def _missing(package: Package, covered: frozenset[str]) -> dict[str, list[Use]]:
