@@ -33,7 +33,6 @@ from ros_lint.api import (
     Edit,
     Finding,
     Fix,
-    Meant,
     Rule,
     Severity,
     Stranger,
@@ -45,6 +44,7 @@ from ros_lint.api import (
 _CALLED_SO_BY = {"cmake": "find_package", "python": "Python", "system": "the system's package manager"}
 _MAY_BE_A_PACKAGE = re.compile(r"[a-z][a-z0-9_]*")
 _PYTHON_BUILD = "ament_python"
+_MOST_KEYS = 3
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
@@ -72,7 +72,10 @@ def _unknown(stranger: Stranger, workspace: Workspace) -> Finding:
     what = f"{name} is neither a package nor a rosdep key ({known})"
     meant = world.meant(name, python=stranger.runs_python)
     fix = None
-    if meant is None:
+    installing = world.knowledge.rosdep.installing(name)
+    if meant is None and installing:
+        message = f"{what}, but what {_CALLED_SO_BY['system']} calls it: write {' or '.join(installing[:_MOST_KEYS])}"
+    elif meant is None:
         near = world.suggest(name, python=stranger.runs_python)
         hint = f"did you mean {' or '.join(near)}?" if near else "correct it, or add what provides it"
         message = f"{what}: {hint}"
@@ -87,16 +90,16 @@ def _unknown(stranger: Stranger, workspace: Workspace) -> Finding:
         stranger.declared.depend.name_span,
         name,
         fix=fix,
-        confidence=_confidence(stranger, meant, workspace),
+        confidence=_confidence(stranger, meant.by if meant else "system" if installing else "", workspace),
         package=stranger.package.name,
     )
 
 
-def _confidence(stranger: Stranger, meant: Meant | None, workspace: Workspace) -> Confidence:
-    if meant is None:
+def _confidence(stranger: Stranger, by: str, workspace: Workspace) -> Confidence:
+    if not by:
         return Confidence.MEDIUM
     # A library may be wrapped in a package of its own name whose sources come with another repository.
-    elsewhere = bool(workspace.source_lists) and meant.by in _CALLED_SO_BY
+    elsewhere = bool(workspace.source_lists) and by in _CALLED_SO_BY
     return Confidence.MEDIUM if elsewhere and _MAY_BE_A_PACKAGE.fullmatch(stranger.name) else Confidence.HIGH
 
 
