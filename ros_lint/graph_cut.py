@@ -74,9 +74,9 @@ def _cycle_through(arcs: Mapping[str, Collection[str]], start: str, below: int) 
 def cheapest_cut(graph: Graph, arcs: Mapping[str, Collection[str]]) -> tuple[Edge, ...]:
     """Return the fewest edges without which ``arcs``, a part of the graph, has no cycle.
 
-    Of cuts with as many edges, the one that is easiest to live without: test dependencies first, then what is needed
-    at run time only, then what a single tag asks for. With more than 12 nodes and more than 2 edges to cut there may
-    be a smaller cut, but none of its edges can be left out.
+    Of cuts with as many edges, the one that is easiest to live without: what may not count anyway, then test
+    dependencies, then what is needed at run time only, then what a single tag asks for, groups last. With more than 12
+    nodes and more than 2 edges to cut there may be a smaller cut, but none of its edges can be left out.
     """
     loops = [(name, name) for name in sorted(arcs) if name in arcs[name]]
     plain = {name: frozenset(others) - {name} for name, others in arcs.items()}
@@ -90,10 +90,14 @@ def cheapest_cut(graph: Graph, arcs: Mapping[str, Collection[str]]) -> tuple[Edg
 def _cost(graph: Graph, edge: Edge) -> int:
     reasons = graph.reasons(edge)
     categories = {category for reason in reasons for category in reason.categories}
+    if not any(reason.certain for reason in reasons):
+        return 0
     if categories == {"test"}:
         return 1
     if {reason.tag for reason in reasons} <= {"exec_depend", "test_depend"}:
         return 2
+    if "group" in categories:
+        return 5
     return 3 if len(reasons) == 1 else 4
 
 

@@ -1,0 +1,51 @@
+"""
+## What it finds
+
+Several packages of one name in the workspace, and where they are. Plain CMake and Python packages count as colcon counts
+them: under the name in `project()` or `setup()`.
+
+## Why it matters
+
+`colcon build` refuses the whole workspace: "Duplicate package names not supported". It looks at the names after it has
+chosen packages, so `--packages-select` does not help to build one of the two.
+
+## How to fix it
+
+Rename one, remove one, or put an empty file `COLCON_IGNORE` into the folder of the one that is not to be built.
+
+## When it keeps silent
+
+About folders that are ignored, and about packages of the same name in an underlay: see `shadowed-package`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros_lint.api import Finding, Related, Rule, Severity, Workspace
+
+
+def check(workspace: Workspace) -> Iterator[Finding]:
+    for name, same in workspace.by_name.items():
+        if len(same) < 2:
+            continue
+        first, *others = same
+        places = " and ".join(package.path or "." for package in same)
+        yield Finding(
+            f"{len(same)} packages are called {name}: {places}; colcon refuses them: rename one or put COLCON_IGNORE into it",
+            first.place,
+            name,
+            tuple(Related(f"{name} is here, too", package.place) for package in others),
+            package=name,
+        )
+
+
+RULE = Rule(
+    name="duplicate-package",
+    code="ROS102",
+    summary="a name must belong to one package of the workspace",
+    severity=Severity.ERROR,
+    since="0.1",
+    doc=__doc__,
+    workspace=check,
+)

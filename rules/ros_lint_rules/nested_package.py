@@ -1,0 +1,68 @@
+"""
+## What it finds
+
+A valid `package.xml` in a folder below another package.
+
+## Why it matters
+
+colcon looks no further once a folder is a package. The nested package is neither built nor listed nor tested, without a
+word. The outer package need not have a `package.xml`: a `CMakeLists.txt` with a `project()`, or a `setup.py`, in the
+root of a repository makes colcon take all of it for one plain package.
+
+## How to fix it
+
+Move the nested package beside the outer one. If the outer folder is not meant to be a package, put the packages into
+a folder of their own and build from there, or rename the script. If the nested one is not meant to be built, put an
+empty `COLCON_IGNORE` beside its manifest.
+
+## When it keeps silent
+
+- The folder, or one between the two, has `COLCON_IGNORE`, `AMENT_IGNORE` or `CATKIN_IGNORE`.
+- The nested manifest would be rejected anyway.
+- In folders of tests, templates, examples or vendored code the confidence is medium: such manifests are mostly data.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from ros_lint.api import Confidence, Finding, Package, Rule, Severity, Workspace
+
+_DATA = re.compile(
+    r"\..*|tests?|testing|fixtures|data|resources?|templates?|examples?|demos?|docs?|vendor|third_?party|3rdparty|external|contrib",
+    re.IGNORECASE,
+)
+"""Folders in which a manifest is rather data than a package that somebody forgot."""
+
+
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    for nested in package.nested:
+        if nested.problems:
+            continue
+        between = nested.path.removeprefix(f"{package.path}/").split("/")[:-1]
+        data = any(_DATA.fullmatch(folder) for folder in between)
+        yield Finding(
+            f"colcon does not see {nested.name}: it lies in {_outer(package)}; move it out, or mark it with COLCON_IGNORE",
+            nested.name_span,
+            nested.name,
+            confidence=Confidence.MEDIUM if data else Confidence.HIGH,
+        )
+
+
+def _outer(package: Package) -> str:
+    if package.type.startswith("ros."):
+        return f"the package {package.name}"
+    script = "CMakeLists.txt" if package.type == "cmake" else "setup.py"
+    return f"{package.path or 'a folder'}, which is the plain package {package.name} because of its {script}"
+
+
+RULE = Rule(
+    name="nested-package",
+    code="ROS115",
+    summary="a package must not lie in another one",
+    severity=Severity.WARNING,
+    since="0.1",
+    doc=__doc__,
+    package=check,
+)
