@@ -7,10 +7,12 @@ import traceback
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
+from ros_lint import suppress
 from ros_lint.knowledge import KnowledgeError
 from ros_lint.registry import matching, suggest
 from ros_lint.report import Crash, Hidden, Issue
 from ros_lint.rule import Confidence, Rule, Severity
+from ros_lint.suppress import Suppression
 from ros_lint.workspace import Package, Workspace
 
 
@@ -83,6 +85,32 @@ def run(workspace: Workspace, rules: Iterable[Rule]) -> tuple[tuple[Issue, ...],
             except Exception:
                 crashes.append(Crash(rule.name, package.name if package else "", traceback.format_exc()))
     return tuple(sorted(issues, key=order)), tuple(crashes)
+
+
+class Checked(NamedTuple):
+    """What rules and comments made of a workspace."""
+
+    issues: tuple[Issue, ...]
+    """Sorted by place, suppressed ones left out."""
+    suppressed: tuple[Issue, ...]
+    crashes: tuple[Crash, ...]
+
+
+def check(
+    workspace: Workspace, rules: Sequence[Rule], suppressions: Iterable[Suppression], known: Sequence[Rule]
+) -> Checked:
+    """Return what the rules say once comments have been heard. ``known`` are all the rules that a comment can name."""
+    issues, crashes = run(workspace, rules)
+    ran = {rule.name for rule in rules} - {crash.rule for crash in crashes}
+    outcome = suppress.apply(issues, suppressions, known, ran)
+    about_comments = [
+        Issue(rule, owner(workspace, finding.span.path), finding)
+        for rule in rules
+        if rule.suppressions
+        for finding in rule.suppressions(outcome)
+    ]
+    kept = tuple(sorted((*outcome.kept, *about_comments), key=order))
+    return Checked(kept, tuple(issue for issue, _ in outcome.suppressed), crashes)
 
 
 def order(issue: Issue) -> tuple[object, ...]:

@@ -16,6 +16,7 @@ from ros_lint.discover import Found, discover
 from ros_lint.facts import ROLES, BuildScript, FileFacts, LaunchFile, Manifest, Role, Use
 from ros_lint.knowledge import Knowledge
 from ros_lint.knowledge.index import TAG_KINDS
+from ros_lint.suppress import Suppression
 from ros_lint.text import Span, Text, read
 from ros_lint.tree import OverlayTree, Tree, join
 from ros_lint.underlay import Underlay
@@ -85,11 +86,11 @@ class Loader:
         except OSError:
             return None
 
-    def suppressions(self) -> Iterator[tuple[str, object]]:
-        """Yield path and suppression for every comment that suppresses something, in any file that was collected."""
-        for path, collected in sorted(self._collected.items()):
-            for suppression in collected.suppressions:
-                yield path, suppression
+    def suppressions(self, changed: Mapping[str, bytes] | None = None) -> Iterator[Suppression]:
+        """Yield every comment that suppresses something, in any file of the packages loaded."""
+        collected = self._changed(changed or {})
+        for path in sorted(collected):
+            yield from collected[path].suppressions
 
     def _without_excluded(self, found: Found) -> Found:
         return found._replace(files=tuple(file for file in found.files if not self._exclude(join(found.path, file))))
@@ -100,7 +101,10 @@ class Loader:
             self._collected = collect_all(
                 self.tree, paths, self._jobs, self._cache, lambda done: self._progress("reading", done, len(paths))
             )
-        again = [path for path in changed if kind_of(path)]
+        return self._changed(changed)
+
+    def _changed(self, changed: Mapping[str, bytes]) -> Mapping[str, Collected]:
+        again = [path for path in changed if path in self._collected]
         if not again:
             return self._collected
         fresh = collect_all(OverlayTree(self.tree, changed), again, 1, Cache("", ""), lambda done: None)

@@ -19,14 +19,14 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-from ros_lint import edits, engine
+from ros_lint import edits, engine, registry
 from ros_lint.load import Loader
 from ros_lint.patch import unified
 from ros_lint.report import Issue
 from ros_lint.rule import Rule
 from ros_lint.text import Text, read
 from ros_lint.tree import MemoryTree, OverlayTree, Tree
-from ros_lint.workspace import Target, Workspace
+from ros_lint.workspace import Target
 
 FENCE = re.compile(
     r"^(?:`(?P<path>[^`\n]+)`\n+)?(?P<fence>`{3,})(?P<kind>\w*)\n(?P<body>.*?)^(?P=fence)$", re.MULTILINE | re.DOTALL
@@ -90,23 +90,24 @@ def read_cases(source: Path) -> Iterator[Case]:
         )
 
 
-def load(tree: Tree, case: Case) -> Workspace:
-    """Return the workspace of a case, with the shipped knowledge and no underlay."""
-    return Loader(tree, ("",), Target(case.distro, "--distro" if case.told else "default", case.told)).load()
+def issues_of(tree: Tree, case: Case, rule: Rule) -> tuple[Issue, ...]:
+    """Return what a rule says of a case, with the shipped knowledge and no underlay.
 
-
-def issues_of(workspace: Workspace, rule: Rule) -> tuple[Issue, ...]:
-    """Return what a rule says. Raises AssertionError with the traceback when it crashes."""
-    issues, crashes = engine.run(workspace, [rule])
-    if crashes:
-        raise AssertionError(crashes[0].traceback)
-    return issues
+    A rule about suppressions hears what all rules say. Raises AssertionError with the traceback when a rule crashes.
+    """
+    loader = Loader(tree, ("",), Target(case.distro, "--distro" if case.told else "default"))
+    every = registry.load()
+    rules = every if rule.suppressions else (rule,)
+    checked = engine.check(loader.load(), rules, loader.suppressions(), every)
+    if checked.crashes:
+        raise AssertionError(checked.crashes[0].traceback)
+    return tuple(issue for issue in checked.issues if issue.rule is rule)
 
 
 def differences(case: Case, rule: Rule) -> Iterator[str]:
     """Say, line by line, in what the rule does not do what the case wants. Silence means success."""
     tree = case.tree()
-    issues = issues_of(load(tree, case), rule)
+    issues = issues_of(tree, case, rule)
     wanted = case.wants()
     for issue in issues:
         span, message = issue.finding.span, issue.finding.message
@@ -124,18 +125,18 @@ def differences(case: Case, rule: Rule) -> Iterator[str]:
         yield f"the fix is\n{got}"
     if changed:
         after = OverlayTree(tree, {path: text.encode() for path, text in changed.items()})
-        again = issues_of(load(after, case), rule)
+        again = issues_of(after, case, rule)
         yield from (f"{issue.finding.span}: still there after its fix" for issue in again if issue.finding.fix)
 
     backwards = case._replace(files=dict(reversed(list(case.files.items())))).tree()
-    if issues_of(load(backwards, case), rule) != issues:
+    if issues_of(backwards, case, rule) != issues:
         yield "the result depends on the order of the files"
 
 
 def bless(case: Case, rule: Rule) -> None:
     """Rewrite the blocks ``output`` and ``diff`` of the case from what the tool does now."""
     tree = case.tree()
-    issues = issues_of(load(tree, case), rule)
+    issues = issues_of(tree, case, rule)
     new = {"output": _output(tree, issues), "diff": _diff(tree, fixed(tree, issues))}
     head, found, rest = case.source.read_text("utf-8").partition(f"## {case.title}\n")
     body, more, tail = rest.partition("\n## ")

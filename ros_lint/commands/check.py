@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 from ros_lint.progress import Progress
 
-from ros_lint import __version__, engine, registry, suppress
+from ros_lint import __version__, engine, registry
 from ros_lint.config import ConfigError, Settings
 from ros_lint.knowledge import KnowledgeError
 from ros_lint.opening import Opened, UsageError, open_workspace
-from ros_lint.report import Hidden, Issue, Report, Unseen
+from ros_lint.report import Hidden, Report, Unseen
 from ros_lint.rule import Severity
 from ros_lint.workspace import Workspace
 
@@ -65,19 +65,11 @@ def select(settings: Settings) -> engine.Selection:
 
 def check(opened: Opened, workspace: Workspace, selection: engine.Selection) -> Report:
     """Return what the selected rules say of a workspace, suppressions and settings respected."""
-    issues, crashes = engine.run(workspace, selection.rules)
     known = registry.load(opened.settings["plugins"])
-    ran = {rule.name for rule in selection.rules} - {crash.rule for crash in crashes}
-    outcome = suppress.apply(issues, (found for _, found in opened.loader.suppressions()), known, ran)
-    about_comments = [
-        Issue(rule, engine.owner(workspace, finding.span.path), finding)
-        for rule in selection.rules
-        if rule.suppressions
-        for finding in rule.suppressions(outcome)
-    ]
-    shown, hidden = engine.show(sorted((*outcome.kept, *about_comments), key=engine.order), selection)
-    if outcome.suppressed:
-        hidden = (*hidden, Hidden("suppressed by comments", len(outcome.suppressed)))
+    checked = engine.check(workspace, selection.rules, opened.loader.suppressions(), known)
+    shown, hidden = engine.show(checked.issues, selection)
+    if checked.suppressed:
+        hidden = (*hidden, Hidden("suppressed by comments", len(checked.suppressed)))
     return Report(
         issues=shown,
         rules=selection.rules,
@@ -88,7 +80,7 @@ def check(opened: Opened, workspace: Workspace, selection: engine.Selection) -> 
         hidden=hidden,
         not_checked=workspace.not_checked,
         unseen=_unseen(workspace),
-        crashes=crashes,
+        crashes=checked.crashes,
         workspace=opened.roots[0] if len(opened.roots) == 1 else "",
     )
 

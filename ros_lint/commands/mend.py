@@ -93,12 +93,13 @@ class _Proof:
     def __init__(self, opened: Opened, selection: engine.Selection) -> None:
         self._opened = opened
         self._selection = selection
-        every = registry.load(opened.settings["plugins"])
-        self._rules = tuple(rule for rule in every if rule.default or rule in selection.rules)
+        self._every = registry.load(opened.settings["plugins"])
+        self._rules = tuple(rule for rule in self._every if rule.default or rule in selection.rules)
 
     def issues(self, changed: Mapping[str, bytes]) -> tuple[Issue, ...]:
-        issues, _ = engine.run(self._opened.loader.load(changed), self._rules)
-        return issues
+        loader = self._opened.loader
+        workspace = loader.load(changed)
+        return engine.check(workspace, self._rules, loader.suppressions(changed), self._every).issues
 
     def fixable(self, issues: Sequence[Issue]) -> list[Issue]:
         """Return the issues that are shown and carry a fix of the wanted kind."""
