@@ -192,6 +192,8 @@ def _as_ros(folder: Folder, name: str, manifest: Manifest | None, context: Mappi
         return Ignored(reason)
     if manifest and (kind := build_type(manifest, context)):
         return Identity(name or manifest.name, f"ros.{kind}", ())
+    if manifest and not manifest.problems and conditions.problems(manifest):
+        return None  # colcon fails before it looks for the other file
     # A package of rosbuild must not be taken for one of CMake.
     return Ignored("manifest.xml") if _exists(folder.names, "manifest.xml") else None
 
