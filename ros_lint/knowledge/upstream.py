@@ -142,6 +142,6 @@ def _beside(index: str, place: str) -> str:
 
 
 def _mapping(place: str, found: object, key: str) -> dict[str, Any]:
-    if not isinstance(found, dict) or not isinstance(found.get(key), dict | None):
+    if not isinstance(found, dict) or not isinstance(found.get(key, ""), dict | None):
         raise KnowledgeError(f"{place} has no mapping {key!r}, so it is not what it should be")
     return found
