@@ -7,6 +7,8 @@ import re
 from typing import Any
 
 _LONE = re.compile("[\ud800-\udfff]")
+# Valid in JSON as they are, but not harmless on a terminal: controls, and what turns the direction of writing.
+_HARMFUL = re.compile("[\x7f-\x9f\u200e\u200f\u2028-\u202e\u2066-\u2069]")
 
 
 def encode(value: Any, levels: int) -> str:
@@ -14,7 +16,8 @@ def encode(value: Any, levels: int) -> str:
 
     What no UTF-8 can say, bytes of a file that is in no known encoding, becomes U+FFFD.
     """
-    return _LONE.sub("\ufffd", f"{_lines(value, levels, '')}\n")
+    text = _LONE.sub("\ufffd", f"{_lines(value, levels, '')}\n")
+    return _HARMFUL.sub(lambda found: f"\\u{ord(found[0]):04x}", text)
 
 
 def _lines(value: Any, levels: int, indent: str) -> str:

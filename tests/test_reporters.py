@@ -1,0 +1,309 @@
+"""What reporters write, to the letter (tests/golden, rewritten by ``pytest --bless``), and against what others compute."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import ros_lint.reporters
+from ros_lint.options import FORMATS as OPTION_FORMATS
+from ros_lint.report import Report
+from ros_lint.reporters import FORMATS, Style, reporter, sarif
+from ros_lint.reporters.ansi import glyph
+from ros_lint.reporters.fingerprint import line_hashes
+from ros_lint.reporters.frames import Mark, frame
+from ros_lint.reporters.github import command
+from ros_lint.reporters.text import render_issues
+from ros_lint.rule import Severity
+from ros_lint.text import Span, Text, read
+from ros_lint.workspace import NotChecked
+from tests.reports import ARM, EVERYTHING, ISSUES, REPORTS, SOURCES, texts
+
+GOLDEN = Path(__file__).parent / "golden"
+NARROW = Style(width=100, fixes=True)
+OUTPUTS = [
+    *((f"{name}.{form}", name, form, Style()) for name in REPORTS for form in FORMATS),
+    ("narrow.text", "everything", "text", NARROW),
+    ("color.text", "everything", "text", NARROW._replace(color=True)),
+    ("color.concise", "everything", "concise", Style(color=True)),
+    ("ascii.text", "everything", "text", NARROW._replace(ascii=True)),
+]
+
+
+@pytest.mark.parametrize(("file", "name", "form", "style"), OUTPUTS, ids=[output[0] for output in OUTPUTS])
+def test_golden(file: str, name: str, form: str, style: Style, request: pytest.FixtureRequest) -> None:
+    got = reporter(form)(REPORTS[name], texts, style)
+    if request.config.getoption("bless"):
+        (GOLDEN / file).write_text(got, "utf-8", newline="")
+    with (GOLDEN / file).open(encoding="utf-8", newline="") as file_:
+        assert got == file_.read()
+
+
+def test_the_formats_are_those_of_the_option() -> None:
+    assert FORMATS == OPTION_FORMATS
+    with pytest.raises(KeyError):
+        reporter("html")
+
+
+@pytest.mark.parametrize("form", FORMATS)
+def test_nothing_reaches_a_terminal_that_could_harm_it(form: str) -> None:
+    got = reporter(form)(EVERYTHING, texts, NARROW)
+    assert not re.search("[\x00-\x09\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\ud800-\udfff]", got)
+    assert got.endswith("\n")
+    assert got.encode("utf-8")
+
+
+@pytest.mark.parametrize("form", FORMATS)
+def test_a_file_that_cannot_be_read_costs_no_finding(form: str) -> None:
+    got = reporter(form)(EVERYTHING, lambda path: None, NARROW)
+    for issue in ISSUES:
+        assert issue.rule.name in got or issue.rule.code in got
+        assert issue.finding.message.split()[0] in got
+
+
+def test_ascii_is_ascii() -> None:
+    for form in ("text", "concise"):
+        assert reporter(form)(EVERYTHING, texts, NARROW._replace(ascii=True)).isascii()
+
+
+def test_without_colour_it_is_the_same_text() -> None:
+    for form in ("text", "concise"):
+        colored = reporter(form)(EVERYTHING, texts, NARROW._replace(color=True))
+        assert re.sub(r"\x1b\[[0-9;]*m", "", colored) == reporter(form)(EVERYTHING, texts, NARROW)
+
+
+# --- text ----------------------------------------------------------------------------------------------------------
+
+
+def test_concise_fits_a_problem_matcher() -> None:
+    lines = reporter("concise")(EVERYTHING, texts, Style()).split("\n")
+    found = [m for line in lines if (m := re.match(r"^(.+?):(\d+):(\d+): (error|warning|info): (.+) \[([a-z-]+)\]$", line))]
+    assert [(m[1], int(m[2]), int(m[3]), m[4], m[6]) for m in found] == [
+        (i.finding.span.path, i.finding.span.line, i.finding.span.column, str(i.severity), i.rule.name) for i in ISSUES
+    ]
+
+
+def test_issues_alone_have_no_summary() -> None:
+    got = render_issues(ISSUES, texts)
+    assert got.count("\n\n") == len(ISSUES) - 1
+    assert "Found" not in got
+
+
+@pytest.mark.parametrize("form", ["text", "concise", "github"])
+def test_long_lists_are_cut_and_say_so(form: str) -> None:
+    entries = tuple(NotChecked(f"file {n}", "gone", None) for n in range(30))
+    got = reporter(form)(EVERYTHING._replace(not_checked=entries), texts, Style())
+    assert "and 20 more, which --format json lists" in got
+
+
+def flat(source: Text, span: Span, style: Style = Style(width=60)) -> tuple[str, str]:  # noqa: B008
+    """Return the source row of a mark in one line, and what stands over the carets, in columns."""
+    rows, _ = frame([Mark(span, "", "error", "^")], lambda path: source, style)
+    head, carets = rows[-2], rows[-1]
+    assert re.fullmatch(r" *\| +\^+", carets)
+    shown = head.partition(" | ")[2] if " | " in head else head.partition(" |")[2]
+    columns = "".join(c + "\0" * (glyph(c, False)[1] - 1) if glyph(c, False)[1] else "" for c in shown)
+    offset = head.index("|") + 2
+    return shown, columns[carets.index("^") - offset : carets.rindex("^") + 1 - offset].replace("\0", "")
+
+
+@pytest.mark.parametrize(
+    ("line", "words", "over"),
+    [
+        ("abc def", "def", "def"),
+        ("\ta\tb", "b", "b"),
+        ("日本 x", "x", "x"),
+        ("日本 x", "本", "本"),
+        ("e\u0301e\u0301 x", "x", "x"),
+        ("\x1b[31m x", "x", "x"),
+        ("\u202eabc\u202c x", "x", "x"),
+        ("caf\udce9 x", "x", "x"),
+        ("ᄒ\u1161\u11ab x", "x", "x"),
+        ("😀👍 x", "x", "x"),
+        ("-" * 500 + "x" + "-" * 500, "x", "x"),
+        ("日" * 500 + "x" + "本" * 500, "x", "x"),
+        ("abc", "", ""),
+    ],
+)
+def test_carets_stand_below_the_words(line: str, words: str, over: str) -> None:
+    source = Text("a", f"before\n{line}\nafter")
+    start = source.text.index(words or "c\n") + (1 if not words else 0)
+    assert flat(source, source.span(start, start + len(words)))[1] == over
+
+
+LINES = st.text(st.sampled_from("ab \t日e\u0301\x1b\u202e\udce9😀\u200d-"), max_size=90)
+
+
+@given(st.lists(LINES, min_size=1, max_size=12), st.data())
+def test_frames_of_anything(lines: list[str], data: st.DataObject) -> None:
+    source = Text("a", "\n".join(lines))
+    offsets = st.integers(0, len(source.text))
+    marks = []
+    for _ in range(data.draw(st.integers(1, 4))):
+        start, end = sorted((data.draw(offsets), data.draw(offsets)))
+        marks.append(Mark(source.span(start, end), data.draw(st.sampled_from(["", "label"])), "error", "^"))
+    rows, _ = frame(marks, lambda path: source, Style(width=60))
+    assert sum("label" in row for row in rows) == sum(bool(mark.label) for mark in marks)
+    for row in rows:
+        assert sum(glyph(character, False)[1] for character in row.removesuffix(" label")) <= 62
+        assert not re.search("[\x00-\x1f\u202e\ud800-\udfff]", row)
+
+
+def test_spans_beyond_the_file() -> None:
+    source = Text("a", "x\ny")
+    for span in (Span("a", 1, 1, 9, 9), Span("a", 1, 9, 1, 12), Span("a", 9, 1, 9, 2), Span("a", 2, 2, 2, 2)):
+        rows, _ = frame([Mark(span, "label", "error", "^")], lambda path: source, Style())
+        assert sum("label" in row for row in rows) == 1
+
+
+# --- json ----------------------------------------------------------------------------------------------------------
+
+SCHEMA = json.loads(Path(ros_lint.reporters.__file__).with_name("report.schema.json").read_text("utf-8"))
+
+
+def strict(schema: Any) -> Any:
+    """Return a schema that allows no key it does not name, whatever comes with a later release."""
+    if isinstance(schema, dict):
+        closed = {"unevaluatedProperties": False} if "properties" in schema and schema is not SCHEMA["$defs"]["place"] else {}
+        return {key: strict(value) for key, value in schema.items()} | closed
+    return [strict(entry) for entry in schema] if isinstance(schema, list) else schema
+
+
+@pytest.mark.parametrize("name", REPORTS)
+def test_json_has_the_shape_of_its_schema(name: str) -> None:
+    jsonschema.Draft202012Validator.check_schema(SCHEMA)
+    document = json.loads(reporter("json")(REPORTS[name], texts, Style()))
+    jsonschema.validate(document, strict(SCHEMA), jsonschema.Draft202012Validator)
+
+
+@pytest.mark.parametrize(
+    ("key", "value"), [("schema_version", 2), ("packages", -1), ("findings", [{}]), ("summary", {}), ("more", 1)]
+)
+def test_the_schema_refuses_something(key: str, value: object) -> None:
+    document = json.loads(reporter("json")(EVERYTHING, texts, Style())) | {key: value}
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate(document, strict(SCHEMA), jsonschema.Draft202012Validator)
+
+
+def test_json_says_all_there_is() -> None:
+    document = json.loads(reporter("json")(EVERYTHING, texts, Style()))
+    for found, issue in zip(document["findings"], ISSUES, strict=True):
+        finding = issue.finding
+        assert (found["rule"], found["code"], found["package"]) == (issue.rule.name, issue.rule.code, issue.package)
+        assert Span(*(found[key] for key in Span._fields)) == finding.span
+        assert (found["message"], found["subject"], found["steps"]) == (finding.message, finding.subject, finding.steps)
+        assert [(r["message"], Span(*(r[key] for key in Span._fields))) for r in found["related"]] == list(finding.related)
+        assert (found["fix"] is None) is (finding.fix is None)
+        if finding.fix:
+            edits = [(Span(*(e[key] for key in Span._fields)), e["text"]) for e in found["fix"]["edits"]]
+            assert (found["fix"]["title"], found["fix"]["safe"], edits) == (
+                finding.fix.title,
+                finding.fix.safe,
+                list(finding.fix.edits),
+            )
+    assert document["summary"] == {"error": 3, "warning": 7, "info": 2, "fixable": 1, "unsafely_fixable": 1}
+
+
+def test_json_has_one_finding_a_line() -> None:
+    lines = reporter("json")(EVERYTHING, texts, Style()).splitlines()
+    assert sum('"code": ' in line for line in lines) == len(ISSUES)
+
+
+# --- github --------------------------------------------------------------------------------------------------------
+
+COMMANDS = json.loads((GOLDEN / "workflow_commands.json").read_text("utf-8"))
+
+
+@pytest.mark.parametrize("case", COMMANDS, ids=range(len(COMMANDS)))
+def test_workflow_commands_are_those_of_actions_core(case: dict[str, Any]) -> None:
+    """The lines were printed by @actions/core 3.0.1."""
+    assert command(case["level"], case["properties"], case["message"]) == case["line"]
+
+
+def commands(report: Report) -> list[str]:
+    return [line for line in reporter("github")(report, texts, Style()).split("\n") if line.startswith("::")]
+
+
+def test_annotations_have_the_worst_first() -> None:
+    levels = [line[2:].partition(" ")[0] for line in commands(EVERYTHING._replace(not_checked=(), crashes=()))]
+    assert levels == sorted(levels, key=("error", "warning", "notice").index)
+
+
+def test_annotations_that_github_does_not_show_are_announced() -> None:
+    issue = next(issue for issue in ISSUES if issue.severity is Severity.WARNING)
+    for number, announced in ((10, False), (11, True)):
+        lines = commands(EVERYTHING._replace(issues=(issue,) * number, not_checked=(), crashes=()))
+        assert len(lines) == number + announced
+        assert ("11 warnings" in lines[-1]) is announced
+
+
+def test_no_finding_forges_an_annotation() -> None:
+    hostile = ISSUES[0].finding._replace(message="x\n::error::y\r::warning::z")
+    lines = reporter("github")(EVERYTHING._replace(issues=(ISSUES[0]._replace(finding=hostile),)), texts, Style())
+    assert not re.search(r"^::error::y|^::warning::z", lines.replace("\r", "\n"), re.MULTILINE)
+
+
+# --- sarif: see also test_sarif_invariants.py ----------------------------------------------------------------------
+
+HASHES = json.loads((GOLDEN / "line_hashes.json").read_text("utf-8"))
+
+
+@pytest.mark.parametrize("case", HASHES, ids=lambda case: case["name"])
+def test_line_hashes_are_those_of_microsoft(case: dict[str, Any]) -> None:
+    """The hashes were computed by Sarif.Multitool 5.7.0 (rewrite --insert RollingHashPartialFingerprints)."""
+    source = read(case["name"], case["bytes"].encode("latin-1"))
+    wanted = range(1, len(case["hashes"]) + 1)
+    assert list(line_hashes(source, wanted).values()) == case["hashes"]
+    assert line_hashes(source, [wanted[-1]]) == {wanted[-1]: case["hashes"][-1]}
+    assert line_hashes(source, [wanted[-1] + 1]) == {}
+
+
+def run_of(report: Report) -> dict[str, Any]:
+    run: dict[str, Any] = json.loads(reporter("sarif")(report, texts, Style()))["runs"][0]
+    return run
+
+
+def test_sarif_keeps_the_most_important_results(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sarif, "_RESULTS", 4)
+    whole = run_of(EVERYTHING._replace(issues=ISSUES))
+    assert [result["level"] for result in whole["results"]].count("error") == 2
+    assert len(whole["results"]) == 4
+    notes = whole["invocations"][0]["toolExecutionNotifications"]
+    assert notes[-1]["message"]["text"] == "7 results of the least severity are left out, a file holds 4."
+
+
+def test_two_findings_of_a_rule_on_a_line_are_one_result() -> None:
+    issues = tuple(issue for issue in ISSUES if issue.rule.name == "undeclared-dependency")
+    (result,) = run_of(EVERYTHING._replace(issues=issues))["results"]
+    assert len(issues) == 2
+    assert "rclcpp is used" in result["message"]["text"]
+    assert "Also [std_msgs is used, but package.xml does not declare it](1)." in result["message"]["text"]
+    assert result["relatedLocations"][0]["physicalLocation"]["region"]["startColumn"] == 41
+    assert result["partialFingerprints"]["rosLint/v1"] == "ROS201/talker/rclcpp ROS201/talker/std_msgs"
+    assert len(result["fixes"]) == 1
+
+
+@pytest.mark.parametrize(
+    ("version", "semantic"),
+    [("1.2.3", "1.2.3"), ("1.2", "1.2.0"), ("1.2.3rc1", "1.2.3-rc1"), ("1.2.3.dev4+gabc", "1.2.3-dev4.gabc"), ("x", "0.0.0-x")],
+)
+def test_versions(version: str, semantic: str) -> None:
+    driver = run_of(EVERYTHING._replace(version=version))["tool"]["driver"]
+    assert (driver["version"], driver["semanticVersion"]) == (version, semantic)
+
+
+def test_a_line_moves_and_the_fingerprint_stays() -> None:
+    issue = next(issue for issue in ISSUES if issue.finding.span.path == ARM)
+    span = issue.finding.span
+    moved = issue._replace(finding=issue.finding._replace(span=span._replace(line=span.line + 1, end_line=span.end_line + 1)))
+    pushed = read(ARM, SOURCES[ARM].replace(b"\r\n<package", b"\r\n<!-- new -->\r\n<package"))
+    before = run_of(EVERYTHING._replace(issues=(issue,)))["results"][0]["partialFingerprints"]
+    after = json.loads(sarif.render(EVERYTHING._replace(issues=(moved,)), lambda path: pushed, Style()))["runs"][0]
+    assert after["results"][0]["partialFingerprints"] == before
