@@ -1,0 +1,196 @@
+"""What a workspace can do to a tool: each gets a clear message with the place, and the other packages are checked all the same."""
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import pytest
+
+GOOD = """<?xml version="1.0"?>
+<package format="3">
+  <name>{0}</name>
+  <version>1.0.0</version>
+  <description>Good.</description>
+  <maintainer email="ada@robots.example">Ada</maintainer>
+  <license>Apache-2.0</license>
+  <buildtool_depend>ament_cmake</buildtool_depend>
+  <export><build_type>ament_cmake</build_type></export>
+</package>
+"""
+CMAKE = "cmake_minimum_required(VERSION 3.16)\nproject({0})\nfind_package(ament_cmake REQUIRED)\nfind_package(sensor_msgs REQUIRED)\nament_package()\n"
+
+
+class Ran(NamedTuple):
+    code: int
+    out: dict[str, Any]
+    err: str
+    text: str
+
+
+def lint(*arguments: str | os.PathLike[str], cwd: Path | None = None, text: bool = False) -> Ran:
+    command = [sys.executable, "-m", "ros_lint", *map(str, arguments), "--no-cache", "--distro", "jazzy"]
+    form = [] if text else ["--format", "json"]
+    done = subprocess.run([*command, *form], capture_output=True, cwd=cwd, timeout=60, check=False)
+    assert b"Traceback" not in done.stderr, done.stderr.decode()
+    out = json.loads(done.stdout) if done.stdout.startswith(b"{") else {}
+    return Ran(done.returncode, out, done.stderr.decode(), done.stdout.decode())
+
+
+def package(folder: Path, name: str) -> Path:
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "package.xml").write_text(GOOD.format(name))
+    (folder / "CMakeLists.txt").write_text(CMAKE.format(name))
+    return folder
+
+
+def rules(ran: Ran, path: str) -> list[str]:
+    return [finding["rule"] for finding in ran.out["findings"] if finding["path"].startswith(path)]
+
+
+def test_an_empty_folder(tmp_path: Path) -> None:
+    for form in (True, False):
+        ran = lint(tmp_path, text=form)
+        assert ran.code == 2
+        assert "no package found" in ran.err
+        assert form or ran.out["packages"] == 0
+
+
+def test_a_missing_path(tmp_path: Path) -> None:
+    ran = lint(tmp_path / "nowhere")
+    assert ran.code == 2
+    assert f"{tmp_path}/nowhere: no such file or directory" in ran.err
+
+
+def test_a_file_instead_of_a_folder(tmp_path: Path) -> None:
+    (tmp_path / "f").write_text("")
+    ran = lint(tmp_path / "f")
+    assert ran.code == 2
+    assert "f: not a directory" in ran.err
+
+
+def manifest_bytes(content: bytes) -> Callable[[Path], None]:
+    def make(folder: Path) -> None:
+        (folder / "package.xml").write_bytes(content)
+
+    return make
+
+
+BOMB = b'<!DOCTYPE p [<!ENTITY a "aaaaaaaaaa">' + b"".join(
+    b'<!ENTITY %c "%s">' % (98 + n, b"&%c;" % (97 + n) * 10) for n in range(9)
+) + b"]>\n<package><name>&j;</name></package>"
+EXTERNAL = b'<!DOCTYPE p [<!ENTITY x SYSTEM "file:///etc/passwd">]>\n<package format="3"><name>&x;</name></package>'
+MANIFESTS = {
+    "binary garbage": (bytes(range(256)) * 8, 1),
+    "empty": (b"", 1),
+    "entity bomb": (BOMB, 1),
+    "external entity": (EXTERNAL, 1),
+    "deep nesting": (b"<package><description>" + b"<a>" * 100_000 + b"</a>" * 100_000 + b"</description></package>", 1),
+    "not UTF-8": (GOOD.format("bad").replace("Ada", "\xc4da").encode("latin-1"), 6),
+    "merge conflict": (GOOD.format("bad").replace("  <version>", "<<<<<<< HEAD\n  <version>").encode(), 4),
+    "10 MB": (GOOD.format("bad").replace("Good.", "Good. " * 1_800_000).encode(), None),
+}
+
+
+@pytest.mark.parametrize("case", MANIFESTS)
+def test_manifests(tmp_path: Path, case: str) -> None:
+    content, line = MANIFESTS[case]
+    package(tmp_path / "good", "good")
+    (tmp_path / "bad").mkdir()
+    (tmp_path / "bad" / "package.xml").write_bytes(content)
+    ran = lint(tmp_path)
+    assert rules(ran, "good/") == ["undeclared-dependency"]
+    assert ran.code == 1
+    found = [finding for finding in ran.out["findings"] if finding["path"] == "bad/package.xml"]
+    if line is None:
+        assert "rejected-manifest" not in [finding["rule"] for finding in found]
+    else:
+        assert [finding["line"] for finding in found if finding["rule"] == "rejected-manifest"][0] == line
+    assert "root:" not in ran.text
+
+
+def test_a_folder_called_package_xml(tmp_path: Path) -> None:
+    package(tmp_path / "good", "good")
+    (tmp_path / "bad" / "package.xml").mkdir(parents=True)
+    ran = lint(tmp_path)
+    assert rules(ran, "good/") == ["undeclared-dependency"]
+    assert ran.code == 1
+
+
+def test_files_that_cannot_be_read(tmp_path: Path) -> None:
+    """Root reads everything, so a link to itself stands for a file without permission; it takes the same way."""
+    good = package(tmp_path / "good", "good")
+    (good / "src").mkdir()
+    (good / "src" / "a.cpp").write_bytes(b"\0" * 100)
+    if os.geteuid():
+        (good / "src" / "b.cpp").write_text("")
+        (good / "src" / "b.cpp").chmod(0)
+    ran = lint(tmp_path)
+    assert rules(ran, "good/") == ["undeclared-dependency"]
+    assert "good/src/a.cpp" in [entry["what"] for entry in ran.out["not_checked"]]
+    assert "good/src/a.cpp" in lint(tmp_path, text=True).text
+
+
+def test_link_loops(tmp_path: Path) -> None:
+    good = package(tmp_path / "good", "good")
+    (good / "up").symlink_to(tmp_path)
+    (good / "self").symlink_to("self")
+    (tmp_path / "again").symlink_to(good)
+    ran = lint(tmp_path)
+    assert ran.out["packages"] == 1
+    assert ran.code == 1
+
+
+def test_a_path_with_spaces_and_letters(tmp_path: Path) -> None:
+    folder = package(tmp_path / "mein Röböter 漢" / "src a", "good")
+    ran = lint(tmp_path)
+    assert rules(ran, "mein Röböter 漢/src a/") == ["undeclared-dependency"]
+    assert lint(tmp_path, "--fix").code == 0
+    assert "<depend>sensor_msgs</depend>" in (folder / "package.xml").read_text()
+
+
+@pytest.mark.parametrize("what", ["file", "folder"])
+def test_a_read_only_tree(tmp_path: Path, what: str) -> None:
+    good = package(tmp_path / "good", "good")
+    before = (good / "package.xml").read_bytes()
+    place = good / "package.xml" if what == "file" else good
+    place.chmod(0o444 if what == "file" else 0o555)
+    try:
+        ran = lint(tmp_path, "--fix")
+    finally:
+        place.chmod(0o755)
+    assert ran.code == 2
+    assert "good/package.xml: cannot be written: it is read-only; nothing was changed" in ran.err
+    assert (good / "package.xml").read_bytes() == before
+    assert sorted(os.listdir(good)) == ["CMakeLists.txt", "package.xml"]
+
+
+HOSTILE = {
+    "CMakeLists.txt": ["project(x", 'set(a "', "while(1)\nendwhile()\n", "macro(m)\nm()\nendmacro()\nm()\n", "]]]]((((" * 500],
+    "setup.py": ["while True:\n    pass\n", "def f():\n    f()\nf()\n", "x = " + "(" * 500, "import os; os.abort()", "x = 'a' * 10**12"],
+    "launch/a.launch.py": ["def generate_launch_description():\n    while True: pass\n", "def generate_launch_description(:", "\0"],
+    "launch/a.launch.xml": ["<launch", "<launch>" + "<group>" * 5000, '<!DOCTYPE l [<!ENTITY a "b">]><launch>&a;</launch>'],
+    "launch/a.launch.yaml": ["launch:\n - &a [*a]", "launch: [", "launch:\n  - node: {pkg: !!python/object/apply:os.abort []}"],
+    "src/a.cpp": ["/*" * 10000, 'R"(' * 1000, "#include <", "#if 0\n" * 1000],
+    "msg/A.msg": ["a" * 100_000, "///", "int32 x y z"],
+    "a.urdf": ["<robot", "<a " * 1000],
+}
+
+
+@pytest.mark.parametrize(("file", "content"), [(file, text) for file, texts in HOSTILE.items() for text in texts])
+def test_hostile_files(tmp_path: Path, file: str, content: str) -> None:
+    package(tmp_path / "good", "good")
+    bad = package(tmp_path / "bad", "bad")
+    if file == "setup.py":
+        (bad / "package.xml").write_text(GOOD.format("bad").replace("ament_cmake</build_type>", "ament_python</build_type>"))
+        (bad / "CMakeLists.txt").unlink()
+    (bad / file).parent.mkdir(exist_ok=True)
+    (bad / file).write_text(content)
+    ran = lint(tmp_path)
+    assert "undeclared-dependency" in rules(ran, "good/")
+    assert ran.code == 1
+    assert not [entry for entry in ran.out["not_checked"] if "failed on it" in entry["reason"]]
+    assert not ran.out["crashes"]
