@@ -67,7 +67,7 @@ def glyph(character: str, only_ascii: bool) -> tuple[str, int]:
         shown = _escape(ord(character))
         return shown, len(shown)
     # Hangul vowels and finals join the syllable before them.
-    if category in ("Mn", "Me") or "\u1160" <= character <= "\u11ff":
+    if category in ("Mn", "Me", "Mc") or "\u1160" <= character <= "\u11ff" or "\ud7b0" <= character <= "\ud7fb":
         return character, 0
     return character, 2 if unicodedata.east_asian_width(character) in "WF" else 1
 
