@@ -138,8 +138,9 @@ def _unparsable(manifest: Manifest) -> Iterator[Problem]:
         try:
             parse(text)
         except ConditionError as error:
-            shown = text.strip() or "(empty)"
-            message = f"condition {shown} of <{tag}> does not parse: {error.message} at character {error.offset + 1}"
+            message = f"condition {text} of <{tag}> does not parse: at character {error.offset + 1}, {error.message}"
+            if not text.strip():
+                message = f"condition of <{tag}> is empty: remove the attribute"
             yield Problem("invalid-condition", message, span)
 
 

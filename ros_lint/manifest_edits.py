@@ -8,6 +8,7 @@ that the manifest was read from; of a text that is not well-formed the edits are
 from __future__ import annotations
 
 from collections.abc import Iterable
+from itertools import pairwise
 from typing import Final, NamedTuple
 
 from ros_lint.facts import Depend, Element, Manifest
@@ -204,7 +205,7 @@ class _Layout:
     def kinds_apart(self) -> bool:
         """Whether the file sets kinds of dependencies off by blank lines; with one kind only, whether that stands apart."""
         depends = self.manifest.depends
-        changes = [(one.span, other.span) for one, other in zip(depends, depends[1:], strict=False) if one.tag != other.tag]
+        changes = [(one.span, other.span) for one, other in pairwise(depends) if one.tag != other.tag]
         if changes:
             return 2 * sum(any(map(self._is_blank, range(one.end_line, other.line))) for one, other in changes) > len(changes)
         return self._is_blank(self.with_heading(depends[0].span).line - 1) and self.blank_after(depends[-1].span)
@@ -218,7 +219,7 @@ class _Layout:
         width = span.column - 1
         if self.neighbours(span).before is not None or width == len(usual):
             return usual
-        return ("\t" if usual.startswith("\t") else " ") * width
+        return ("\t" if usual.startswith("\t") or width == 1 else " ") * width
 
 
 def _written(child: Element | Depend) -> str:
@@ -248,13 +249,16 @@ def _escape(text: str) -> str:
 
 def _longest_ascent(ranks: list[int]) -> frozenset[int]:
     """Return the indexes of a longest run, gaps allowed, in which ranks never fall."""
-    best: list[tuple[int, int]] = []  # length of the longest run that ends here, and the index before
+    chains: list[tuple[int, int]] = []  # by index: length of the longest run that ends here, and the index before
+    longest: dict[int, int] = {}  # by rank: the index where the longest run ends that ends in this rank
     for at, rank in enumerate(ranks):
-        length, previous = max(((best[i][0], i) for i in range(at) if ranks[i] <= rank), default=(0, -1))
-        best.append((length + 1, previous))
-    at = max(range(len(best)), key=lambda i: best[i][0], default=-1)
+        length, previous = max(((chains[i][0], i) for other, i in longest.items() if other <= rank), default=(0, -1))
+        chains.append((length + 1, previous))
+        if rank not in longest or chains[longest[rank]][0] <= length:
+            longest[rank] = at
+    at = max(longest.values(), key=lambda i: chains[i], default=-1)
     kept = set()
     while at >= 0:
         kept.add(at)
-        at = best[at][1]
+        at = chains[at][1]
     return frozenset(kept)

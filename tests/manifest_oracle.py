@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 import io
 import re
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
@@ -51,12 +52,14 @@ class Verdict(NamedTuple):
 
 def by_catkin_pkg(data: bytes) -> Verdict:
     """As ``parse_package`` does with a file: UTF-8, universal line ends."""
-    try:
-        text = io.TextIOWrapper(io.BytesIO(data), encoding="utf8").read()
-        package = parse_package_string(text, warnings=[])
-    except (InvalidPackage, AssertionError, ValueError):
-        return Verdict(False)
-    found = tuple(_catkin_evaluated(package, context) for context in CONTEXTS)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)  # catkin_pkg uses old names of pyparsing
+        try:
+            text = io.TextIOWrapper(io.BytesIO(data), encoding="utf8").read()
+            package = parse_package_string(text, warnings=[])
+        except (InvalidPackage, AssertionError, ValueError):
+            return Verdict(False)
+        found = tuple(_catkin_evaluated(package, context) for context in CONTEXTS)
     return Verdict(True, package.name, package.version, package.package_format, found)
 
 

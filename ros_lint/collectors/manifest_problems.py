@@ -52,6 +52,9 @@ ALLOWED: Final = {form: _allowed(form) for form in (1, 2, 3)}
 _GENERIC = frozenset(("depend", "build_depend", "build_export_depend", "exec_depend"))
 """A <depend>, and the tags that it stands for."""
 
+_OF_EXPORT = frozenset(("build_type", "metapackage", "architecture_independent", "deprecated", "message_generator"))
+"""Tags that have a meaning, but in <export> (reference, section A5.6)."""
+
 _NOT_ON_ITSELF = frozenset((*_SINCE_2, "build_depend", "buildtool_depend", "test_depend", "run_depend"))
 
 
@@ -163,6 +166,8 @@ def _unknown_tag(node: Node, form: int) -> Fault:
         way_out = "write <exec_depend>"
     elif tag == "exec_depend":
         way_out = 'write <run_depend>, or raise the format to "2" or "3"'
+    elif tag in _OF_EXPORT:
+        way_out = "move it into <export>"
     elif form < 3 and tag in ALLOWED[3]:
         way_out = f'raise the format to "{2 if tag in ALLOWED[2] else 3}"'
     else:
@@ -198,12 +203,13 @@ def _presence(document: Document, root: Node, elements: _Elements) -> Iterator[F
                 yield Fault("missing-tag", message, root.start + 1, root.start + 1 + len(root.tag))
 
 
-def _name(_: str, node: Node, element: Element) -> Iterator[Fault]:
+def _name(text: str, node: Node, element: Element) -> Iterator[Fault]:
     if not element.text:
         yield Fault("empty-tag", "<name> is empty; write the name of the package", node.start, node.end)
     elif not _NAME.match(element.text):
         message = f'"{element.text}" is no package name; use letters, digits and underscores only'
-        yield Fault("invalid-name", message, node.inner, node.close)
+        _, start, end = value(text, node)
+        yield Fault("invalid-name", message, start, end)
 
 
 def _version(text: str, node: Node, element: Element) -> Iterator[Fault]:

@@ -332,9 +332,11 @@ def _explain(text: str, code: int, at: int) -> Fault:
             return Fault("invalid-xml", "the file is empty", 0, 0)
         message = f"the file breaks off inside {_still_open(text)}" if "<" in text else "no element found"
     elif code in (errors[expat.errors.XML_ERROR_UNCLOSED_TOKEN], errors[expat.errors.XML_ERROR_UNCLOSED_CDATA_SECTION]):
-        opened = re.compile(r"<!--|<!\[CDATA\[|<\?|</?[^\s>]*|").match(text, at)
-        start, end = at, len(text)
-        message = f"{opened[0] if opened and opened[0] else 'a section <![CDATA['} is never closed"
+        if not text.startswith("<", at):
+            start = max(text.rfind("<![CDATA[", 0, at), 0)
+        opened = re.compile(r"<!--|<!\[CDATA\[|<\?|</?[^\s>]*|").match(text, start)
+        end = len(text)
+        message = f"{opened[0] if opened else ''} is never closed"
     elif code == errors[expat.errors.XML_ERROR_TAG_MISMATCH]:
         name = re.compile(r"[^\s>]*").match(text, at)
         end = name.end() if name else end

@@ -1,0 +1,254 @@
+"""Edited manifests mean what was wanted: asked of catkin_pkg, and of the text around."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Callable, Sequence
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ros_lint import edits, manifest_edits
+from ros_lint.collectors.manifest import collect
+from ros_lint.facts import Manifest
+from ros_lint.rule import Edit, Fix
+from ros_lint.text import Text
+from tests.manifest_oracle import KINDS, by_catkin_pkg
+
+TAGS = [tag for tag in KINDS if tag != "run_depend"]
+NAMES = ["rclcpp", "rclpy", "std_msgs", "tf2", "tf2_ros", "a-key", "eigen", "zlib"]
+HEAD = ["<name>p</name>", "<version>1.0.0</version>", "<description>d &amp; <b>e</b></description>"]
+HEAD += ['<maintainer email="a@b.cc">m</maintainer>', "<license>MIT</license>"]
+
+
+def apply(text: str, changes: Sequence[Edit]) -> str:
+    source = Text("package.xml", text)
+    return edits.apply([Fix("", tuple(changes))], lambda _: source)["package.xml"] if changes else text
+
+
+def read(text: str) -> Manifest:
+    return collect(Text("package.xml", text))
+
+
+def manifest_of(body: str, head: str = "\n".join(f"  {line}" for line in HEAD)) -> str:
+    return f'<?xml version="1.0"?>\n<package format="3">\n{head}\n{body}\n</package>\n'
+
+
+def declared(text: str) -> Counter[tuple[str, str, str]]:
+    """What is declared, as ros-lint reads it, once catkin_pkg has agreed to the file."""
+    assert by_catkin_pkg(text.encode()).accepted, text
+    return Counter((depend.tag, depend.name, depend.condition) for depend in read(text).depends)
+
+
+def comments(text: str) -> list[str]:
+    return re.findall(r"<!--.*?-->", text, re.DOTALL)
+
+
+def assert_in_style(before: str, after: str) -> None:
+    assert comments(after) == comments(before)
+    if "\n\n\n" not in before.replace("\r", "").replace(" ", "").replace("\t", ""):
+        assert "\n\n\n" not in after.replace("\r", "").replace(" ", "").replace("\t", "")
+    if "\r\n" in before:
+        assert not re.search(r"(?<!\r)\n", after)
+
+
+def choice(draw: st.DrawFn, values: Sequence[str]) -> str:
+    return draw(st.sampled_from(values))
+
+
+@st.composite
+def manifests(draw: st.DrawFn) -> str:
+    """Manifests that catkin_pkg takes, in many styles."""
+    depends: list[tuple[str, str]] = []
+    for tag, name in draw(st.lists(st.tuples(st.sampled_from(TAGS), st.sampled_from(NAMES)), max_size=8)):
+        taken = [other for other, its_name in depends if its_name == name]
+        if not taken and not (tag in ("group_depend", "member_of_group") and name in [n for t, n in depends if "group" in t]):
+            depends.append((tag, name))
+    if draw(st.booleans()):
+        depends.sort(key=lambda pair: (TAGS.index(pair[0]), pair[1]))
+    indent = choice(draw, ["  ", "\t", "    ", ""])
+    lines: list[str] = []
+    for tag, name in depends:
+        name_written = choice(draw, [name, name, name, f" {name}\n  ", f"<!-- in -->{name}"])
+        attributes = choice(draw, ["", "", "", ' condition="$ROS_VERSION == 2"', " condition='$A == 1'\n   "])
+        close = choice(draw, [">", ">", ">", " >", "\n>"])
+        lead = choice(draw, ["", "", "", "<!-- above -->\n", "\n", "\n\n", "\n<!-- group -->\n", "<!-- l -->"])
+        tail = choice(draw, ["\n", "\n", "\n", "  <!-- why -->\n", "<!-- of\n two lines -->\n", "", " ", "\n\n"])
+        lines.append(f"{lead}{indent}<{tag}{attributes}>{name_written}</{tag}{close}{tail}")
+    body = "".join(lines)
+    export = choice(draw, ["", "<export><build_type>ament_cmake</build_type></export>", "\n  <export>\n  </export>\n"])
+    separator = choice(draw, ["\n", "\n\n", ""])
+    head = separator.join(f"{indent}{line}" for line in HEAD)
+    text = f'<package format="3">{separator}{head}{separator}{body}{separator}{export}{separator}</package>'
+    if draw(st.booleans()):
+        text = text.replace("\n", "\r\n")
+    return text
+
+
+@settings(max_examples=300, deadline=None)
+@given(manifests(), st.sampled_from(TAGS), st.sampled_from(["mid_name", "aaa", "zzz"]))
+def test_add(text: str, tag: str, name: str) -> None:
+    after = apply(text, [manifest_edits.add(read(text), tag, name)])
+    assert declared(after) == declared(text) + Counter([(tag, name, "")])
+    assert_in_style(text, after)
+
+
+@settings(max_examples=300, deadline=None)
+@given(manifests(), st.integers(0, 7))
+def test_remove(text: str, which: int) -> None:
+    manifest = read(text)
+    if not manifest.depends:
+        return
+    depend = manifest.depends[which % len(manifest.depends)]
+    after = apply(text, [manifest_edits.remove(manifest, depend)])
+    assert declared(after) == declared(text) - Counter([(depend.tag, depend.name, depend.condition)])
+    outer = [comment for comment in comments(text) if comment != "<!-- in -->"]
+    assert [comment for comment in comments(after) if comment != "<!-- in -->"] == outer
+    assert_in_style(re.sub("<!-- in -->", "", text), re.sub("<!-- in -->", "", after))
+
+
+@settings(max_examples=200, deadline=None)
+@given(manifests(), st.integers(0, 7), st.sampled_from([tag for tag in TAGS if "group" not in tag]))
+def test_change_tag_and_rename(text: str, which: int, tag: str) -> None:
+    manifest = read(text)
+    depends = [depend for depend in manifest.depends if "group" not in depend.tag]
+    if not depends:
+        return
+    depend = depends[which % len(depends)]
+    changed = apply(text, manifest_edits.change_tag(depend, tag))
+    gone = Counter([(depend.tag, depend.name, depend.condition)])
+    assert declared(changed) == declared(text) - gone + Counter([(tag, depend.name, depend.condition)])
+    renamed = apply(text, [manifest_edits.rename(depend, "renamed")])
+    assert declared(renamed) == declared(text) - gone + Counter([(depend.tag, "renamed", depend.condition)])
+
+
+@settings(max_examples=200, deadline=None)
+@given(manifests())
+def test_sort(text: str) -> None:
+    changes = manifest_edits.sort(read(text))
+    after = apply(text, changes)
+    assert declared(after) == declared(text)
+    assert_in_style(text, after)
+    if changes:
+        found = read(after)
+        children = sorted((child.span, child.tag) for child in (*found.elements, *found.depends))
+        ranks = [manifest_edits.schema_rank(tag) for _, tag in children]
+        assert ranks == sorted(ranks)
+
+
+@pytest.mark.parametrize(
+    ("body", "tag", "name", "expected"),
+    [
+        (
+            "  <depend>a</depend>\n  <depend>c</depend>",
+            "depend",
+            "b",
+            "  <depend>a</depend>\n  <depend>b</depend>\n  <depend>c</depend>",
+        ),
+        (
+            "  <depend>c</depend>\n  <depend>a</depend>",
+            "depend",
+            "b",
+            "  <depend>c</depend>\n  <depend>a</depend>\n  <depend>b</depend>",
+        ),
+        (
+            "  <depend>a</depend>  <!-- why -->\n\n  <test_depend>t</test_depend>",
+            "depend",
+            "b",
+            "  <depend>a</depend>  <!-- why -->\n  <depend>b</depend>\n\n  <test_depend>t</test_depend>",
+        ),
+        (
+            "\n  <buildtool_depend>t</buildtool_depend>\n\n  <depend>a</depend>\n\n  <export/>",
+            "exec_depend",
+            "b",
+            "\n  <buildtool_depend>t</buildtool_depend>\n\n  <depend>a</depend>\n\n  <exec_depend>b</exec_depend>\n\n  <export/>",
+        ),
+        (
+            "\n  <buildtool_depend>t</buildtool_depend>\n  <depend>a</depend>\n\n  <export/>",
+            "exec_depend",
+            "b",
+            "\n  <buildtool_depend>t</buildtool_depend>\n  <depend>a</depend>\n  <exec_depend>b</exec_depend>\n\n  <export/>",
+        ),
+        ("  <export/>", "depend", "b", "  <depend>b</depend>\n  <export/>"),
+        ("\n  <export/>", "depend", "b", "\n  <depend>b</depend>\n\n  <export/>"),
+        (
+            "  <!-- run -->\n  <exec_depend>a</exec_depend>",
+            "depend",
+            "b",
+            "  <depend>b</depend>\n  <!-- run -->\n  <exec_depend>a</exec_depend>",
+        ),
+        (
+            "  <test_depend>t</test_depend>\n  <depend>a</depend>\n  <export/>",
+            "member_of_group",
+            "g",
+            "  <test_depend>t</test_depend>\n  <depend>a</depend>\n  <member_of_group>g</member_of_group>\n  <export/>",
+        ),
+        ("\t<depend>a</depend>", "depend", "b", "\t<depend>a</depend>\n\t<depend>b</depend>"),
+        ("  <depend>a</depend><depend>c</depend>", "depend", "b", "  <depend>a</depend><depend>b</depend><depend>c</depend>"),
+        (
+            "  <depend>a</depend> <!-- on\n  two lines -->",
+            "depend",
+            "b",
+            "  <depend>a</depend> <!-- on\n  two lines -->\n  <depend>b</depend>",
+        ),
+    ],
+)
+def test_add_finds_the_place(body: str, tag: str, name: str, expected: str) -> None:
+    text = manifest_of(body)
+    assert apply(text, [manifest_edits.add(read(text), tag, name)]) == manifest_of(expected)
+
+
+def test_add_to_a_package_without_anything() -> None:
+    for text in ("<package></package>", "<package>\n</package>\n"):
+        after = apply(text, [manifest_edits.add(read(text), "depend", "a")])
+        assert after.strip() == "<package>\n  <depend>a</depend>\n</package>"
+
+
+@pytest.mark.parametrize(
+    ("body", "expected"),
+    [
+        ("  <depend>x</depend>\n  <depend>a</depend>", "  <depend>a</depend>"),
+        ("\n  <depend>x</depend>\n\n  <depend>a</depend>", "\n  <depend>a</depend>"),
+        ("  <depend>x</depend>  <!-- why -->\n", "  <!-- why -->\n"),
+        ("  <depend>a</depend> <depend>x</depend>", "  <depend>a</depend>"),
+        ("  <depend>x</depend> <depend>a</depend>", "  <depend>a</depend>"),
+        ("  <depend\n    >x</depend>\n  <depend>a</depend>", "  <depend>a</depend>"),
+        ("  <!-- heading -->\n  <depend>x</depend>\n  <depend>a</depend>", "  <!-- heading -->\n  <depend>a</depend>"),
+    ],
+)
+def test_remove_leaves_no_trace(body: str, expected: str) -> None:
+    text = manifest_of(body)
+    manifest = read(text)
+    depend = next(depend for depend in manifest.depends if depend.name == "x")
+    assert apply(text, [manifest_edits.remove(manifest, depend)]) == manifest_of(expected)
+
+
+@pytest.mark.parametrize(
+    ("body", "expected"),
+    [
+        ("  <depend>a</depend>\n  <export/>", None),
+        ("  <export/>\n  <depend>a</depend>", "  <depend>a</depend>\n  <export/>"),
+        (
+            "  <member_of_group>g</member_of_group>\n  <depend>a</depend>\n  <depend>b</depend>",
+            "  <depend>a</depend>\n  <depend>b</depend>\n  <member_of_group>g</member_of_group>",
+        ),
+        ('  <author>a</author>\n  <url type="website">u</url>', '  <url type="website">u</url>\n  <author>a</author>'),
+        ("  <export/>\n  <depend>a</depend> <!-- why -->", None),
+        ("  <export/>\n  <!-- for the tests -->\n  <depend>a</depend>", None),
+        ("  <export/>\n  <depend>a<!-- inside --></depend>", None),
+    ],
+)
+def test_sort_moves_as_little_as_it_can(body: str, expected: str | None) -> None:
+    text = manifest_of(body)
+    assert apply(text, manifest_edits.sort(read(text))) == (text if expected is None else manifest_of(expected))
+
+
+def test_names_are_escaped() -> None:
+    text = manifest_of("  <depend/>\n  <exec_depend>a</exec_depend>")
+    manifest = read(text)
+    edit: Callable[..., Edit] = manifest_edits.rename
+    assert "<depend>a&lt;b</depend>" in apply(text, [edit(manifest.depends[0], "a<b")])
+    assert "<exec_depend>a&amp;b</exec_depend>" in apply(text, [edit(manifest.depends[1], "a&b")])
+    assert "<test_depend></test_depend>" in apply(text, manifest_edits.change_tag(manifest.depends[0], "test_depend"))
