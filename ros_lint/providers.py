@@ -158,7 +158,7 @@ def _declarable(world: World, names: Iterable[str]) -> tuple[str, ...]:
 def _has_module(world: World, package: str) -> bool:
     """Whether a package of the name of a module can be taken for its provider: not when it is known to have none."""
     if world.layer(package) == "workspace":
-        return True
+        return False  # its own word has been heard
     return world.is_package(package) and world.python_modules(package).ask(package) != "missing"
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from ros_lint import providers
 from ros_lint.knowledge import NOTHING_KNOWN
-from ros_lint.knowledge.index import RUNTIME
+from ros_lint.knowledge.index import INTERFACES, RUNTIME
 from ros_lint.knowledge.reach import Closure, Reach
 from ros_lint.knowledge.spelling import Spelling
 from ros_lint.providers import Meant, Providers
@@ -231,7 +231,10 @@ class World:
     def offering(self, module: str) -> tuple[str, ...]:
         """Return the packages of the workspace that offer a Python module: by their word, else by their name."""
         found = self._modules.get(module, ())
-        return found or ((module,) if module in self._members and not self._members[module].modules else ())
+        member = self._members.get(module)
+        if not found and member is not None and (not member.modules or INTERFACES in member.groups):
+            return (module,)
+        return found
 
     def where_else(self, name: str) -> tuple[str, ...]:
         """Return the other distributions that have a package, oldest first."""

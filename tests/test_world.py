@@ -1,0 +1,406 @@
+"""Questions about names: which layer, what comes along, what packages provide, whose a name is, what was meant."""
+
+from __future__ import annotations
+
+import itertools
+import random
+from pathlib import Path
+
+import networkx as nx
+import pytest
+
+from ros_lint import underlay
+from ros_lint.knowledge import Knowledge
+from ros_lint.knowledge.reach import Reach
+from ros_lint.world import Member, World
+
+JAZZY = Knowledge("jazzy")
+
+
+def world(*members: Member, distro: str = "jazzy", prefixes: tuple[str, ...] = ()) -> World:
+    return World(members, underlay.read(prefixes), Knowledge(distro))
+
+
+def member(name: str, version: str = "1.0.0", groups: tuple[str, ...] = (), **kinds: tuple[str, ...]) -> Member:
+    return Member(name, version, kinds, groups)
+
+
+@pytest.fixture
+def prefix(tmp_path: Path) -> str:
+    manifest = (
+        "<package format='3'><name>{0}</name><version>{1}</version><description>d</description>"
+        "<maintainer email='a@robots.example'>A</maintainer><license>A</license>{2}</package>"
+    )
+    for name, version, depends in (
+        ("rclcpp", "99.0.0", "<depend>private_base</depend>"),
+        ("private_base", "1.0.0", "<exec_depend>std_msgs</exec_depend>"),
+        ("private_tool", "1.0.0", "<exec_depend>rclcpp</exec_depend><depend>rclpy</depend>"),
+    ):
+        (tmp_path / "share" / name).mkdir(parents=True)
+        (tmp_path / "share" / name / "package.xml").write_text(manifest.format(name, version, depends))
+        (tmp_path / "include" / name / name).mkdir(parents=True)
+        (tmp_path / "include" / name / name / f"{name}.hpp").touch()
+    (tmp_path / "lib/private_tool").mkdir(parents=True)
+    (tmp_path / "lib/private_tool/tool").touch(0o755)
+    return str(tmp_path)
+
+
+# --- layers ----------------------------------------------------------------------------------------------------------
+
+
+def test_the_topmost_layer_wins(prefix: str) -> None:
+    found = world(member("rclcpp", "100.0.0"), member("mine"), prefixes=(prefix,))
+    assert found.layers("rclcpp") == ("workspace", "underlay", "index")
+    assert found.layer("rclcpp") == "workspace"
+    assert found.version("rclcpp") == "100.0.0"
+    assert world(prefixes=(prefix,)).version("rclcpp") == "99.0.0"
+    assert world().version("rclcpp") == (JAZZY.index.get("rclcpp") or found.released("x")).version  # type: ignore[union-attr]
+    assert [found.layer(name) for name in ("mine", "private_tool", "rclpy", "eigen", "nonsense_pkg")] == [
+        "workspace", "underlay", "index", None, None
+    ]  # fmt: skip
+    assert found.version("nonsense_pkg") is None
+
+
+def test_packages_and_keys_are_two_things() -> None:
+    found = world(member("mine"))
+    assert [(found.is_package(n), found.is_key(n)) for n in ("mine", "eigen", "rclcpp", "nonsense_pkg")] == [
+        (True, False), (False, True), (True, False), (False, False)
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("name", "standing"),
+    [
+        ("rclcpp", "known"),
+        ("eigen", "known"),
+        ("mine", "known"),
+        ("gazebo_ros", "elsewhere"),
+        ("roscpp", "end-of-life"),
+        ("nonsense_pkg", "unknown"),
+        ("ament_python", "unknown"),
+    ],
+)
+def test_what_a_declared_name_is(name: str, standing: str) -> None:
+    assert world(member("mine")).standing(name) == standing
+
+
+def test_nothing_is_unknown_without_an_index() -> None:
+    found = world(member("mine"), distro="iron")
+    assert found.standing("nonsense_pkg") == "unknowable"
+    assert found.standing("mine") == found.standing("eigen") == "known"
+    assert not found.closure(["rclcpp"]).complete
+
+
+def test_of_two_members_with_a_name_the_first_counts() -> None:
+    assert world(member("twin", "1.0.0"), member("twin", "2.0.0")).version("twin") == "1.0.0"
+
+
+def test_dependencies_by_kind(prefix: str) -> None:
+    found = world(member("mine", b=("rclcpp",), x=("rclpy", "eigen")), prefixes=(prefix,))
+    assert found.depends("mine", "bx") == ("eigen", "rclcpp", "rclpy")
+    assert found.depends("private_tool", "x") == ("rclcpp", "rclpy")
+    assert found.depends("private_tool", "b") == ("rclpy",)
+    assert "rosidl_default_runtime" in (found.depends("std_msgs", "x") or ())
+    assert found.depends("nonsense_pkg", "x") is None
+    assert found.depends("unbag", "x") is None  # only its name is known
+
+
+def test_who_below_depends_on_a_package(prefix: str) -> None:
+    assert world(member("rclcpp"), prefixes=(prefix,)).dependents_below("rclcpp") == ("private_tool",)
+    assert world(member("rclcpp"), member("private_tool"), prefixes=(prefix,)).dependents_below("rclcpp") == ()
+
+
+# --- closures --------------------------------------------------------------------------------------------------------
+
+
+def _expected(known: Knowledge, starts: list[str]) -> set[str]:
+    """Return the closure over the index alone, as networkx finds it."""
+    graph = nx.DiGraph()
+    for name in known.index.names():
+        package = known.index.get(name)
+        assert package is not None
+        graph.add_node(name)
+        if package.described:
+            graph.add_edges_from((name, other) for kind in "eux" for other in package.depends.get(kind, ()))
+    return set().union(*({start} | nx.descendants(graph, start) for start in starts))
+
+
+def test_closures_are_those_of_networkx() -> None:
+    chance = random.Random(3)
+    names = list(JAZZY.index.names())
+    found = world()
+    for _ in range(15):
+        starts = chance.sample(names, chance.randint(1, 8))
+        closure = found.closure(starts)
+        expected = _expected(JAZZY, starts)
+        assert closure.names == expected
+        assert len(closure) == len(expected)
+        assert sorted(closure) == sorted(expected)
+        assert all((name in closure) == (name in expected) for name in names[::11])
+
+
+def test_circles_in_any_order_of_asking() -> None:
+    chance = random.Random(5)
+    for _ in range(200):
+        count = chance.randint(1, 12)
+        edges = [(a, b) for a, b in itertools.product(range(count), repeat=2) if chance.random() < 0.2]
+        graph = nx.DiGraph(edges)
+        graph.add_nodes_from(range(count))
+        dark = {str(node) for node in range(count) if chance.random() < 0.1}
+        graph.remove_edges_from([edge for edge in edges if str(edge[0]) in dark])
+        after = {str(node): tuple(map(str, graph.successors(node))) for node in graph}
+        reach = Reach(lambda name, after=after, dark=dark: None if name in dark else after[name])
+        asked = list(map(str, range(count)))
+        chance.shuffle(asked)
+        for name in asked:
+            expected = {name} | {str(node) for node in nx.descendants(graph, int(name))}
+            closure = reach.closure([name])
+            assert closure.names == expected
+            assert closure.complete == expected.isdisjoint(dark)
+            assert {*closure.unknown} == expected & dark
+            for goal in map(str, range(count)):
+                path = reach.path([name], goal)
+                if goal not in expected:
+                    assert path == ()
+                    continue
+                assert (path[0], path[-1]) == (name, goal)
+                assert all(b in after[a] for a, b in itertools.pairwise(path))
+                assert len(path) == 1 + nx.shortest_path_length(graph, int(name), int(goal))
+
+
+def test_what_propagates_and_what_does_not() -> None:
+    found = world(
+        member("app", b=("built",), t=("tool",), s=("tested",), d=("docs",), x=("run",)),
+        *(member(name) for name in ("built", "tool", "tested", "docs", "run")),
+    )
+    assert found.closure(["app"]).names == {"app", "run"}
+    kinds = {"e": ("exported",), "u": ("exported_tool",), "x": ("run",)}
+    found = world(member("app", **kinds), member("exported"), member("exported_tool"), member("run"))
+    assert found.closure(["app"]).names == {"app", "exported", "exported_tool", "run"}
+
+
+def test_members_of_a_group_come_along_from_the_workspace() -> None:
+    found = world(member("app", G=("talkers",)), member("ada", groups=("talkers",)), member("bob"))
+    assert found.closure(["app"]).names == {"app", "ada"}
+    assert found.group_members("talkers") == ("ada",)
+    assert found.group_members("nobody") == ()
+    assert "rmw_cyclonedds_cpp" in found.group_members("rmw_implementation_packages")
+    assert "std_msgs" in found.group_members("rosidl_interface_packages")
+
+
+def test_layers_are_followed_from_the_top(prefix: str) -> None:
+    found = world(member("mine", x=("private_tool",)), prefixes=(prefix,))
+    closure = found.closure(["mine"])
+    assert {"private_tool", "rclcpp", "private_base", "std_msgs", "builtin_interfaces", "rcl"} <= closure.names
+    assert closure.complete
+    assert found.path(["mine"], "builtin_interfaces")[:2] == ("mine", "private_tool")
+    # The rclcpp of the underlay needs nothing but private_base, and the one of the workspace nothing at all.
+    assert "libstatistics_collector" not in found.closure(["rclcpp"])
+    assert found.closure(["rclcpp"]).names >= {"private_base", "std_msgs"}
+    assert world(member("rclcpp"), prefixes=(prefix,)).closure(["rclcpp"]).names == {"rclcpp"}
+
+
+@pytest.mark.parametrize(
+    ("name", "complete"),
+    [("rclcpp", True), ("eigen", True), ("nonsense_pkg", False), ("unbag", False), ("roscpp", False)],
+)
+def test_a_closure_knows_whether_it_is_complete(name: str, complete: bool) -> None:
+    closure = world(member("mine", x=(name,))).closure(["mine"])
+    assert closure.complete is complete
+    assert closure.unknown == (() if complete else (name,))
+
+
+@pytest.mark.parametrize(
+    ("declared", "comes", "distros"),
+    [
+        ("rclcpp_components", "class_loader", "humble jazzy lyrical"),
+        ("rclcpp_components", "ament_index_cpp", "humble jazzy lyrical"),
+        ("pluginlib", "class_loader", "humble jazzy lyrical"),
+        ("launch_ros", "ament_index_python", "humble jazzy lyrical"),
+        ("ros2launch", "launch_xml", "humble jazzy lyrical"),
+        ("tf2_ros", "geometry_msgs", "humble jazzy lyrical"),
+        ("rclcpp_lifecycle", "lifecycle_msgs", "humble jazzy lyrical"),
+        ("ament_cmake_auto", "ament_cmake", "humble jazzy lyrical"),
+        ("controller_interface", "hardware_interface", "humble jazzy lyrical"),
+        ("launch_testing_ament_cmake", "launch_testing", "humble jazzy lyrical"),
+        ("rosidl_default_generators", "action_msgs", "jazzy lyrical"),
+        ("std_msgs", "service_msgs", "jazzy lyrical"),
+        ("tf2_ros", "tf2_ros_py", ""),
+        ("launch_ros", "launch_xml", ""),
+        ("rclcpp", "rosidl_runtime_py", ""),
+    ],
+)
+def test_closures_that_were_verified_elsewhere(declared: str, comes: str, distros: str) -> None:
+    """Taken from the packages as another distributor builds them (reference, section E3.7)."""
+    known = {distro for distro in ("humble", "jazzy", "lyrical") if comes in world(distro=distro).closure([declared])}
+    assert known == {*distros.split()}
+
+
+# --- what packages provide ----------------------------------------------------------------------------------------------
+
+
+def test_what_packages_provide(prefix: str) -> None:
+    found = world(member("mine"), prefixes=(prefix,))
+    assert found.executables("demo_nodes_cpp").ask("talker") == "exists"
+    assert found.executables("demo_nodes_cpp").ask("tolker") == "missing"
+    assert found.executables("private_tool").ask("tool") == "exists"
+    assert found.executables("private_tool").ask("tol") == "missing"
+    assert found.executables("mine").ask("anything") == "unknowable"
+    assert found.executables("nonsense_pkg").ask("anything") == "unknowable"
+    assert found.components("composition").ask("composition::Talker") == "exists"
+    assert found.launch_files("turtlebot3_bringup").ask("launch/robot.launch.py") == "exists"
+    assert found.interfaces("std_msgs").ask("msg/String") == "exists"
+    assert found.interfaces("std_msgs").ask("msg/Strings") == "missing"
+    assert found.python_modules("std_msgs").ask("std_msgs") == "exists"
+    assert found.python_modules("tf2_ros").ask("tf2_ros") == "missing"
+    assert found.plugins("ackermann_steering_controller").names
+    assert found.programs("ament_clang_format").ask("ament_clang_format") == "exists"
+    assert found.share_files("turtlebot3_bringup").ask("config/x.yaml") == "unknowable"
+    assert found.share_files("private_tool").ask("config/x.yaml") == "missing"
+
+
+# --- whose name is it ------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("name", "first", "packages", "keys"),
+    [
+        ("rclcpp", "rclcpp", {"rclcpp"}, set()),
+        ("Eigen3", "eigen", {"eigen3_cmake_module"}, {"eigen"}),
+        ("osqp", "osqp_vendor", {"osqp_vendor"}, set()),
+        ("octomap", "octomap", {"octomap"}, {"liboctomap-dev"}),
+        ("ament_cmake_internal", "ament_cmake_core", {"ament_cmake_core"}, set()),
+        ("gz-sim8", "gz_sim_vendor", {"gz_sim_vendor"}, set()),
+    ],
+)
+def test_cmake_packages(name: str, first: str, packages: set[str], keys: set[str]) -> None:
+    found = world().by_cmake(name)
+    assert (found.names[0], {*found.packages}, {*found.keys}) == (first, packages, keys)
+    assert found.known
+    assert not found.none_needed
+
+
+def test_cmake_packages_that_need_nothing_or_are_not_known() -> None:
+    found = world(member("fmt"))
+    assert found.by_cmake("Threads").none_needed
+    assert found.by_cmake("Threads").known
+    assert not found.by_cmake("SomebodysLibrary").known
+    assert found.by_cmake("fmt").names == ("fmt",)  # the workspace has a package of that name
+    retired = found.by_cmake("roscpp")
+    assert not retired.known
+    assert retired.end_of_life[0] == "ROS 1 Noetic"
+
+
+@pytest.mark.parametrize(
+    ("header", "names"),
+    [
+        ("rclcpp/rclcpp.hpp", ("rclcpp",)),
+        ("std_msgs/msg/string.hpp", ("std_msgs",)),
+        ("Eigen/Dense", ("eigen", "eigen3_cmake_module")),
+        ("octomap/OcTree.h", ("octomap", "liboctomap-dev")),
+        ("moveit/benchmarks/server.h", ("moveit_ros_benchmarks",)),
+        ("moveit/move_group_interface/move_group_interface.hpp", ()),
+        ("mine/mine.hpp", ("mine",)),
+        ("autoware/mine_too/x.hpp", ("autoware_mine_too",)),
+        ("autoware/nobody/x.hpp", ()),
+        ("mine.hpp", ()),
+        ("ros/ros.h", ()),
+    ],
+)
+def test_headers(header: str, names: tuple[str, ...]) -> None:
+    found = world(member("mine"), member("autoware_mine_too"), member("moveit")).by_include(header)
+    assert found.names == names
+    assert found.known == bool(names)
+
+
+def test_headers_of_the_tool_chain_need_nothing() -> None:
+    assert all(world().by_include(header).none_needed for header in ("vector", "sys/stat.h", "cstdint", "unistd.h"))
+
+
+def test_headers_of_an_underlay(prefix: str) -> None:
+    found = world(prefixes=(prefix,))
+    assert found.by_include("private_base/private_base.hpp").names == ("private_base",)
+    (Path(prefix) / "include/private_base/odd_root").mkdir()
+    (Path(prefix) / "include/private_base/odd_root/odd.hpp").touch()
+    assert world(prefixes=(prefix,)).by_include("odd_root/odd.hpp").names == ("private_base",)
+    assert not world(prefixes=(prefix,)).by_include("odd_root/other.hpp").known
+
+
+@pytest.mark.parametrize(
+    ("module", "names"),
+    [
+        ("rclpy.node", ("rclpy",)),
+        ("std_msgs.msg", ("std_msgs",)),
+        ("tf2_ros", ("tf2_ros_py",)),
+        ("yaml", ("python3-yaml",)),
+        ("numpy.linalg", ("python3-numpy",)),
+        ("rclcpp", ()),
+        ("my_parts", ("mine",)),
+        ("other_name", ("other",)),
+        ("other", ()),
+        ("somebodys_library", ()),
+        ("rospy", ()),
+    ],
+)
+def test_modules(module: str, names: tuple[str, ...]) -> None:
+    found = world(
+        Member("mine", "1.0.0", {}, (), ("my_parts",)), Member("other", "1.0.0", {}, (), ("other_name",))
+    ).by_import(module)
+    assert found.names == names
+    assert found.known == bool(names)
+
+
+def test_modules_of_the_language_need_nothing() -> None:
+    assert all(world().by_import(module).none_needed for module in ("os.path", "tomllib", "distutils", "typing"))
+
+
+# --- what was meant --------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("wrong", "right"),
+    [
+        # What maintainers wrote instead, in commits that mended these names.
+        ("Eigen3", "eigen"),
+        ("GeographicLib", "geographiclib"),
+        ("PkgConfig", "pkg-config"),
+        ("gz-sim8", "gz_sim_vendor"),
+        ("nlohmann-json3-dev", "nlohmann-json-dev"),
+        ("uuid-dev", "uuid"),
+        ("urdfdom-headers", "urdfdom_headers"),
+        ("buildin_interfaces", "builtin_interfaces"),
+        ("laser_filter", "laser_filters"),
+        ("nav2_utils", "nav2_util"),
+        ("turtlebot3_fakenode", "turtlebot3_fake_node"),
+        ("python-urdf2webots", "urdf2webots-pip"),
+        ("mine_msg", "mine_msgs"),
+        # No doubt is allowed.
+        ("nonsense_pkg", ""),
+        ("python3-pcl", ""),
+        ("rmf_msgs", ""),
+        ("ament_python", ""),
+    ],
+)
+def test_what_was_meant(wrong: str, right: str) -> None:
+    found = world(member("mine_msgs")).meant(wrong)
+    assert (found.name if found else "") == right
+
+
+@pytest.mark.parametrize(
+    ("wrong", "right"),
+    [("numpy", "python3-numpy"), ("cv2", "python3-opencv"), ("pycollada", "python3-collada-pip"), ("cv-bridge", "cv_bridge")],
+)
+def test_what_was_meant_in_python(wrong: str, right: str) -> None:
+    found = world().meant(wrong, python=True)
+    assert found is not None
+    assert found.name == right
+
+
+def test_only_what_resolves_is_suggested() -> None:
+    """The key that apt's name stands for has no rule for every distribution."""
+    for distro in ("humble", "jazzy", "lyrical"):
+        found = world(distro=distro)
+        for wrong in ("python-numpy", "python-yaml", "gazebo9", "ament_cmake_lint_copyright", "libqt5core5a"):
+            for name in found.suggest(wrong):
+                assert found.is_package(name) or found.knowledge.resolves(name)
+    assert world().suggest("ament_cmake_lint_copyright") == ("ament_cmake_copyright",)
