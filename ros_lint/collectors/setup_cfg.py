@@ -1,0 +1,100 @@
+"""Read ``setup.cfg``, as ``configparser`` does, but with places."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.facts import Problem
+
+if TYPE_CHECKING:
+    from ros_lint.text import Span, Text
+
+
+class Line(NamedTuple):
+    """A line of a value, without blanks around it."""
+
+    text: str
+    span: Span
+
+
+class Option(NamedTuple):
+    """A key of a section."""
+
+    section: str
+    key: str
+    """As written, except that it has underscores for dashes: distutils takes both for one."""
+    lines: tuple[Line, ...]
+    """Those of the value that are not empty, comments left out."""
+    span: Span
+    """Of the key."""
+
+    @property
+    def value(self) -> str:
+        return "\n".join(line.text for line in self.lines)
+
+
+class SetupCfg(NamedTuple):
+    """A ``setup.cfg``, as far as it can be read."""
+
+    path: str
+    options: tuple[Option, ...]
+    problems: tuple[Problem, ...]
+
+    def section(self, name: str) -> dict[str, Option]:
+        """Return the options of a section by key."""
+        return {option.key: option for option in self.options if option.section == name}
+
+
+_SECTION = re.compile(r"\[(.+)\]")
+_OPTION = re.compile(r"(.*?)\s*[=:]\s*(.*)$")
+# Where distutils looks for options of commands. Elsewhere a dash is part of the key.
+_DASHED = frozenset({"develop", "install", "metadata", "options"})
+
+
+def collect(source: Text) -> SetupCfg:
+    """Return the options of a ``setup.cfg``.
+
+    Problems are what setuptools stops at (``setup-cfg-syntax``), and keys with a dash, which it rejects or warns about
+    (``dashed-key``; reference, section D1.6).
+    """
+    options: list[Option] = []
+    problems: list[Problem] = []
+    section = ""
+    indent = 0
+    open_option: Option | None = None
+
+    def close() -> None:
+        if open_option is not None:
+            options.append(open_option)
+
+    for number in range(1, source.line_count + 1):
+        line = source.line(number)
+        text = line.strip()
+        start = source.offset(number, 1) + len(line) - len(line.lstrip())
+        if not text or text[0] in "#;":
+            continue
+        width = len(line) - len(line.lstrip())
+        if open_option is not None and width > indent:
+            added = Line(text, source.span(start, start + len(text)))
+            open_option = open_option._replace(lines=(*open_option.lines, added))
+            continue
+        close()
+        open_option = None
+        indent = width
+        header, given = _SECTION.match(text), _OPTION.match(text)
+        if header:
+            section = header[1]
+        elif given is None or not section or not given[1]:
+            message = "this line is in no section" if not section else "this line is neither a section nor an option"
+            problems.append(Problem("setup-cfg-syntax", message, source.span(start, start + len(text))))
+        else:
+            span = source.span(start, start + len(given[1]))
+            at = start + given.start(2)
+            lines = (Line(given[2], source.span(at, at + len(given[2]))),) if given[2] else ()
+            open_option = Option(section, given[1].replace("-", "_"), lines, span)
+            if "-" in given[1] and section in _DASHED:
+                better = given[1].replace("-", "_")
+                problems.append(Problem("dashed-key", f"{given[1]} with a dash; write {better}", span))
+    close()
+    return SetupCfg(source.path, tuple(options), tuple(problems))

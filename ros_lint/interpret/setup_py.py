@@ -1,0 +1,154 @@
+"""Evaluate ``setup.py``, ``setup.cfg`` and ``pyproject.toml`` of a Python package without running anything.
+
+Reference, section D: setup.py is a program, and colcon runs it. Here a small interpreter goes through it with the names
+of the package's files at hand. What it cannot know becomes opaque, for the side of the package that it hides.
+"""
+
+from __future__ import annotations
+
+import ast
+import posixpath
+import re
+from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Set as AbstractSet
+from typing import TYPE_CHECKING
+
+from ros_lint.collectors import setup_cfg as setup_cfg_collector
+from ros_lint.collectors.python_imports import walk
+from ros_lint.collectors.python_syntax import NotPythonError, parse, span_of, syntax_problem
+from ros_lint.facts import BuildScript, Facet, Mention, Opaque
+from ros_lint.interpret.setup_py_distribution import Context, Distribution
+from ros_lint.interpret.setup_py_files import Files
+from ros_lint.interpret.setup_py_options import completed
+from ros_lint.interpret.setup_py_run import Program, Setup
+from ros_lint.interpret.setup_py_values import Value
+from ros_lint.text import Span
+from ros_lint.tree import join
+
+if TYPE_CHECKING:
+    from ros_lint.collectors.setup_cfg import SetupCfg
+    from ros_lint.text import Text
+
+_INSTALLED = Facet.SHARE | Facet.EXECUTABLES | Facet.PYTHON
+_PLAIN_SETUPS = frozenset({"setuptools", "distutils", "distutils.core"})
+
+
+def evaluate(
+    name: str,
+    path_prefix: str,
+    files: Sequence[str],
+    setup_py: Text | None,
+    setup_cfg: Text | None,
+    pyproject: Text | None,
+    executables: AbstractSet[str] = frozenset(),
+) -> BuildScript:
+    """Return what building a Python package with setuptools does.
+
+    ``name`` is that of package.xml, ``path_prefix`` the folder of the package, and ``files`` are those below it,
+    relative to it, ``executables`` those of them that have the executable bit. Problems are of the kinds
+    ``syntax``, ``missing-file``, ``directory-in-data-files``, ``empty-glob``, ``data-files-form``,
+    ``absolute-destination``, ``entry-point-form``, and those of :mod:`ros_lint.collectors.setup_cfg`.
+    """
+    first = setup_py or setup_cfg or pyproject
+    start = Span(first.path if first else join(path_prefix, "setup.py"), 1, 1, 1, 1)
+    cfg = setup_cfg_collector.collect(setup_cfg) if setup_cfg else None
+    program = Program(name, Files(files))
+    if setup_py is None:
+        script = BuildScript(start.path)
+        program.setups.append(Setup({}, None, "setuptools"))
+    else:
+        script = _run(program, setup_py, start)
+    place = _placer(setup_py)
+    folder, unknown_folder = _scripts_folder(cfg)
+    found = [unknown_folder] if unknown_folder else []
+    for setup in program.setups:
+        call = place(setup, start)
+        options = completed(setup.options, program.files, cfg, pyproject)
+        context = Context(program.files, executables, folder, call, len(program.setups) > 1)
+        distribution = Distribution(context, place)
+        distribution.read(options)
+        if setup.module not in _PLAIN_SETUPS:
+            reason = f"setup() of {setup.module} may install more than its arguments say"
+            found.append(Opaque(_INSTALLED | Facet.LIBRARIES, reason, call))
+        script = _with(script, distribution, options, place, call)
+    return script._replace(
+        python_packages=tuple(sorted({*script.python_packages, *program.generated})),
+        opaque=tuple(dict.fromkeys([*script.opaque, *found])),
+        problems=tuple(dict.fromkeys([*script.problems, *(cfg.problems if cfg else ())])),
+    )
+
+
+def _run(program: Program, source: Text, start: Span) -> BuildScript:
+    """Run a setup.py. Return its imports, and what keeps it from being seen through."""
+    script = BuildScript(source.path)
+    try:
+        tree = parse(source)
+    except NotPythonError as error:
+        problem = syntax_problem(source, error)
+        opaque = Opaque(_INSTALLED, f"no Python that can be read: {error.message}", start)
+        return script._replace(opaque=(opaque,), problems=(problem,) if problem else ())
+    program.run(tree)
+    imports = [item for item in walk(source, tree) if item.module != "__future__"]
+    spans = source.spans([(item.start, item.start + len(item.module)) for item in imports])
+    script = script._replace(
+        mentions=tuple(
+            Mention(module, "import", span, f"import of {module}", optional)
+            for (_, module, optional), span in zip(imports, spans, strict=True)
+        )
+    )
+    if program.end or not program.setups:
+        reason = f"setup.py is not followed to its end: {program.end}" if program.end else "no call of setup() is seen"
+        return script._replace(opaque=(Opaque(_INSTALLED, reason, start),))
+    return script
+
+
+def _placer(setup_py: Text | None) -> Callable[[Value, Span], Span]:
+    """Return what says where a value comes from."""
+
+    def place(value: Value, default: Span) -> Span:
+        node = getattr(value, "node", None)
+        if isinstance(node, Span):
+            return node
+        if setup_py is not None and isinstance(node, (ast.expr, ast.stmt)):
+            return span_of(setup_py, node)
+        if isinstance(value, (tuple, list)) and value:
+            return place(value[0], default)
+        return default
+
+    return place
+
+
+def _scripts_folder(cfg: SetupCfg | None) -> tuple[str | None, Opaque | None]:
+    """Return where programs go below the prefix, or what hides it. Reference, section D1.4 and D1.5."""
+    option = cfg.section("install").get("install_scripts") if cfg else None
+    if option is None:
+        return "bin", None
+    match = _BASE.match(option.value)
+    if match and "$" not in match[1]:
+        return posixpath.normpath(match[1]), None
+    return None, Opaque(Facet.EXECUTABLES, f"the folder {option.value} is not followed", option.span)
+
+
+_BASE = re.compile(r"\$\{?(?:base|prefix)\}?/(.*)\Z")
+
+
+def _with(
+    script: BuildScript,
+    distribution: Distribution,
+    options: Mapping[str, Value],
+    place: Callable[[Value, Span], Span],
+    call: Span,
+) -> BuildScript:
+    """Return a script with what one call of setup() adds."""
+    name, version = options.get("name"), options.get("version")
+    return script._replace(
+        name=str(name) if isinstance(name, str) else "",
+        name_span=place(name, call) if isinstance(name, str) else None,
+        version=str(version) if isinstance(version, str) else "",
+        version_span=place(version, call) if isinstance(version, str) else None,
+        provides=(*script.provides, *distribution.provides),
+        entry_points=(*script.entry_points, *distribution.entry_points),
+        python_packages=(*script.python_packages, *distribution.python_packages),
+        opaque=(*script.opaque, *distribution.opaque),
+        problems=(*script.problems, *distribution.problems),
+    )

@@ -1,0 +1,148 @@
+"""The values of a setup.py that is evaluated without being run: those of Python, and what is not known about them."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable
+from typing import Any, NamedTuple
+
+from ros_lint.text import Span
+
+Value = Any
+"""A str, int, float, bool, None, list, tuple, dict, set or PurePosixPath as in Python, or one of the classes below."""
+
+
+class Unknown:
+    """A value that is not known. As an element of a list it stands for any number of unknown elements."""
+
+    __slots__ = ("node", "reason")
+
+    def __init__(self, reason: str, node: ast.AST | Span | None) -> None:
+        self.reason = reason
+        """A clause without subject, such as "os.environ is not known"."""
+        self.node = node
+
+
+REST = "\ue002"
+"""The key of a dict that stands for unknown keys; its value is Unknown."""
+
+
+class Maybe:
+    """An element of a list that is there or not, depending on something that is not known."""
+
+    __slots__ = ("value",)
+
+    def __init__(self, value: Value) -> None:
+        self.value = value
+
+
+class Word(str):
+    """A text that knows where it comes from: an expression, or a place in another file than setup.py."""
+
+    __slots__ = ("node",)
+    node: ast.AST | Span
+
+    @classmethod
+    def at(cls, text: str, node: ast.AST | Span) -> Word:
+        word = cls(text)
+        word.node = node
+        return word
+
+
+class Globbed(list[Value]):
+    """What one glob gave, nothing added."""
+
+    __slots__ = ("pattern",)
+    pattern: str
+
+
+class Module(NamedTuple):
+    """A module that is imported, dotted, or a part of one."""
+
+    name: str
+
+
+class Native(NamedTuple):
+    """A function that is known by its name: ``os.path.join``, or the method of a value."""
+
+    name: str
+    owner: Value = None
+
+
+class Function(NamedTuple):
+    """A function of setup.py itself."""
+
+    node: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
+    scopes: tuple[dict[str, Value], ...]
+    """Of the place where it is defined, innermost first."""
+    defaults: tuple[Value, ...]
+    keyword_defaults: tuple[Value, ...]
+
+
+class Class(NamedTuple):
+    """A class of setup.py, or one that it imports: known by name only."""
+
+    name: str
+    bases: tuple[str, ...]
+
+
+def certain(value: Value) -> bool:
+    """Return whether nothing about a value is unknown."""
+    if isinstance(value, (Unknown, Maybe)):
+        return False
+    if isinstance(value, dict):
+        return all(certain(item) for item in value.values())
+    if isinstance(value, (list, set, frozenset)) or type(value) is tuple:
+        return all(certain(item) for item in value)
+    return True
+
+
+def unknown_in(values: Iterable[Value]) -> Unknown | None:
+    """Return the first of some values that is unknown, or partly so."""
+    for value in values:
+        if isinstance(value, Unknown):
+            return value
+        if isinstance(value, Maybe):
+            return Unknown("it depends on something that is not known", getattr(value.value, "node", None))
+        inner = None
+        if isinstance(value, dict):
+            inner = unknown_in(value.values())
+        elif isinstance(value, (list, set, frozenset)) or type(value) is tuple:
+            inner = unknown_in(value)
+        if inner:
+            return inner
+    return None
+
+
+def located(value: Value, node: ast.AST) -> Value:
+    """Return a value whose texts, also those in a list, know the expression that gave them."""
+    if type(value) is str:
+        return Word.at(value, node)
+    if isinstance(value, list):
+        value[:] = [Word.at(item, node) if type(item) is str else item for item in value]
+    elif type(value) is tuple:
+        return tuple(Word.at(item, node) if type(item) is str else item for item in value)
+    return value
+
+
+def same(left: Value, right: Value) -> bool:
+    """Return whether two values are known to be equal."""
+    return left is right or (certain(left) and certain(right) and type(left) is type(right) and bool(left == right))
+
+
+def either(left: Value, right: Value, unknown: Unknown) -> Value:
+    """Return what a value is that is one of two, depending on what is unknown."""
+    if same(left, right):
+        return left
+    if isinstance(left, list) and isinstance(right, list):
+        return merged(left, right)
+    return unknown
+
+
+def merged(left: list[Value], right: list[Value]) -> list[Value]:
+    """Return the list that is one of two: what both start with, and the rest of each as Maybe."""
+    shared = 0
+    while shared < min(len(left), len(right)) and same(left[shared], right[shared]):
+        shared += 1
+    rest = [*left[shared:], *right[shared:]]
+    return [*left[:shared], *(item if isinstance(item, (Maybe, Unknown)) else Maybe(item) for item in rest)]
