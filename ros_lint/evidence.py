@@ -41,6 +41,9 @@ class Source(NamedTuple):
     builds_with: str
 
 
+_BUILD_MODULES = frozenset({"setuptools", "distutils", "pkg_resources", "pip"})
+"""Whoever builds a Python package has these (reference, section D1.9)."""
+
 _LOOKED_UP = Role.EXEC
 """A package whose files are looked up at run time is not compiled against (reference, section E2, rows 17 and 24)."""
 
@@ -116,7 +119,8 @@ def _providers(
                 return found
             return names.by_include(name).names
         case "import":
-            if own.has_module(name.partition(".")[0]):
+            top = name.partition(".")[0]
+            if own.has_module(top) or (top in _BUILD_MODULES and mention.span.path.endswith("setup.py")):
                 return ()
             return names.by_import(name).names
         case "cmake":

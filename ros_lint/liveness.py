@@ -44,7 +44,7 @@ class Liveness:
         hidden = Facet(0)
         for opaque in script.opaque if script else ():
             hidden |= opaque.hides
-        self._sees_targets = bool(script and script.targets) and not hidden & (Facet.LIBRARIES | Facet.EXECUTABLES)
+        self._sees_targets = script is not None and not hidden & (Facet.LIBRARIES | Facet.EXECUTABLES)
         self._sees_share = script is not None and not hidden & Facet.SHARE
         self._sees_python = script is not None and not hidden & (Facet.PYTHON | Facet.EXECUTABLES)
 

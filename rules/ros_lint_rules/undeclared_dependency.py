@@ -22,6 +22,7 @@ needed at run time, `<exec_depend>` for what is needed at run time only, `<test_
 - The name belongs to no package or rosdep key that is known, or to the system.
 - A declared dependency is itself not known, so that anything might come with it: then the confidence is medium.
 - The package needs this one itself, so that declaring it would close a cycle: then, too, the confidence is medium.
+- Modules of launch itself that only launch files import come with `ros2 launch`: then the severity is info.
 - What a launch file starts, includes or looks up is the business of `launch-outside-closure`.
 """
 
@@ -45,6 +46,8 @@ from ros_lint.api import (
 )
 
 _MOST_RELATED = 4
+_LAUNCH = frozenset({"launch", "launch_ros", "ament_index_python"})
+"""What `ros2 launch` brings along."""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -66,7 +69,14 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             tuple(Related(f"also used here: {use.what}", use.span) for use in others[:_MOST_RELATED]),
             Fix(f"declare {name} as <{tag}>", add_dependency(package, tag, name)),
             Confidence.HIGH if sure else Confidence.MEDIUM,
+            Severity.INFO if _comes_with_launching(package, uses) else None,
         )
+
+
+def _comes_with_launching(package: Package, uses: Sequence[Use]) -> bool:
+    """Whether only launch files import it, and it is part of whatever can launch them (reference, section E2, row 15)."""
+    launched = {launch.path for launch in package.launch}
+    return all(use.via == "import" and use.package in _LAUNCH and use.span.path in launched for use in uses)
 
 
 def _message(name: str, tag: str, circular: bool) -> str:
