@@ -18,7 +18,7 @@ class Paths(NamedTuple):
     found: tuple[tuple[str, ...], ...]
     """Each from start to end, no node twice; by length, then by name."""
     more: bool
-    """Whether there are others."""
+    """Whether there are others, or may be."""
 
 
 def paths(successors: Callable[[str], Iterable[str]], start: str, end: str, most: int) -> Paths:

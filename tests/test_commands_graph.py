@@ -1,0 +1,242 @@
+"""The commands over the graph: order, why, graph, overlay."""
+
+from __future__ import annotations
+
+import html
+import json
+import re
+import shutil
+import subprocess
+from collections.abc import Iterable
+from pathlib import Path
+
+import pytest
+
+from ros_lint import underlay
+from ros_lint.commands import graph, order, overlay, why
+from ros_lint.facts import Role, Use
+from ros_lint.knowledge import Knowledge
+from ros_lint.text import Span
+from ros_lint.workspace import Package, Target, Workspace
+from ros_lint.world import Member, World
+from tests.packages import manifest_text, package
+
+ODD = 'a "b" \\ <c>\n;'
+
+
+def workspace(packages: Iterable[Package], prefixes: Iterable[Path] = ()) -> Workspace:
+    found = tuple(packages)
+    members = [Member(each.name, each.manifest.version if each.manifest else "", {}) for each in found]
+    underlays = underlay.read([str(prefix) for prefix in prefixes]) if prefixes else ()
+    return Workspace(found, (), World(members, underlays, Knowledge("jazzy")), Target("jazzy", "--distro"), ())
+
+
+CHAIN = (
+    package("top", ["<depend>middle</depend>", "<test_depend>low</test_depend>"]),
+    package("middle", ["<exec_depend>low</exec_depend>", "<build_depend>low</build_depend>", "<depend>rclcpp</depend>"]),
+    package("low"),
+)
+KNOT = (
+    package("a", ["<depend>b</depend>"]),
+    package("b", ["<test_depend>a</test_depend>"]),
+    package("c", ["<depend>b</depend>"]),
+    package("free"),
+)
+
+
+def test_order() -> None:
+    assert order.run(workspace(CHAIN)) == ("low\nmiddle\ntop\n", "", 0)
+    assert order.run(workspace(())) == ("", "", 0)
+
+
+def test_order_with_a_cycle_names_what_is_stuck() -> None:
+    assert order.run(workspace(KNOT)) == (
+        "free\n",
+        "cannot be ordered: a, b\n"
+        "  a shortest cycle: a -> b -> a\n"
+        "    a/package.xml:7:3: a needs b (depend)\n"
+        "    b/package.xml:7:3: b needs a (test_depend); removing this breaks the cycle\n"
+        "left out, since they need one of these: c\n",
+        1,
+    )
+
+
+def test_order_with_a_name_twice() -> None:
+    out, said, code = order.run(workspace([package("a", path="x"), package("a", path="y"), package("b", ["<depend>a</depend>"])]))
+    assert (out, code) == ("a\nb\n", 1)
+    assert said == "2 packages are called a, which colcon refuses: x and y\n"
+
+
+def test_why_tells_every_way_with_tag_and_line() -> None:
+    use = Use("low", ("low",), Role.BUILD, "#include <low/low.hpp>", "include", False, Span("middle/src/m.cpp", 3, 1, 3, 9))
+    packages = [each._replace(uses=(use,) * (each.name == "middle")) for each in CHAIN]
+    assert why.run(workspace(packages), "top", "low") == (
+        "top needs low, in 2 ways:\n"
+        "\n"
+        "1. top -> low\n"
+        "   top -> low: <test_depend> top/package.xml:8:3\n"
+        "\n"
+        "2. top -> middle -> low\n"
+        "   top -> middle: <depend> top/package.xml:7:3\n"
+        "   middle -> low: <exec_depend> middle/package.xml:7:3\n"
+        "   middle -> low: <build_depend> middle/package.xml:8:3\n"
+        "      for #include <low/low.hpp> middle/src/m.cpp:3:1\n",
+        "",
+        0,
+    )
+
+
+def test_why_follows_what_comes_along_with_released_packages() -> None:
+    out, said, code = why.run(workspace(CHAIN), "top", "rcl", 1)
+    assert (said, code) == ("", 0)
+    assert out.startswith("top needs rcl, in 1 way or more, of which these are the shortest:\n\n1. top -> middle -> rclcpp -> rcl\n")
+    assert "   middle -> rclcpp: <depend> middle/package.xml:9:3\n" in out
+    assert "   rclcpp -> rcl: <exec_depend> as released in jazzy\n" in out
+
+
+def test_why_not() -> None:
+    assert why.run(workspace(CHAIN), "middle", "top") == (
+        "middle does not need top; but top needs middle: ros-lint why top middle\n",
+        "",
+        1,
+    )
+    assert why.run(workspace(CHAIN), "low", "rclcpp") == ("low does not need rclcpp\n", "", 1)
+
+
+def test_why_with_names_that_nobody_knows() -> None:
+    out, said, code = why.run(workspace(CHAIN), "midle", "rclcp")
+    assert (out, code) == ("", 2)
+    first, second = said.splitlines()
+    assert first.startswith("ros-lint: no package or rosdep key is called midle; did you mean middle")
+    assert re.match("ros-lint: no package or rosdep key is called rclcp; did you mean .*rclcpp", second)
+
+
+def test_why_under_a_condition() -> None:
+    lines = ['<depend condition="$X == 1">b</depend>', '<depend condition="$X == 2">curl</depend>']
+    found = workspace([package("a", lines), package("b")])
+    assert "a -> b: <depend> if a condition holds a/package.xml:7:3" in why.run(found, "a", "b")[0]
+    assert "a -> curl: <depend> if $X == 2 a/package.xml:8:3" in why.run(found, "a", "curl")[0]
+
+
+def test_why_knows_no_edge_of_a_manifest_that_colcon_does_not_use() -> None:
+    found = workspace([package("a", ["<depend>b</depend>", "<depend>rclcpp</depend>"], kind="cmake"), package("b")])
+    assert why.run(found, "a", "b")[2] == why.run(found, "a", "rclcpp")[2] == 1
+
+
+def test_graph_as_dot() -> None:
+    assert graph.run(workspace(CHAIN)) == (
+        "digraph workspace {\n"
+        "  rankdir=LR;\n"
+        "  node [shape=box, fontname=Helvetica];\n"
+        '  "low";\n'
+        '  "middle";\n'
+        '  "top";\n'
+        '  "middle" -> "low";\n'
+        '  "top" -> "low" [style=dashed];\n'
+        '  "top" -> "middle";\n'
+        "}\n",
+        "",
+        0,
+    )
+    assert '"b" -> "a" [style=dashed, color=red];' in graph.run(workspace(KNOT))[0]
+
+
+def test_graph_as_mermaid() -> None:
+    assert graph.run(workspace(KNOT), "mermaid")[0] == (
+        "flowchart LR\n"
+        '  p0["a"]\n'
+        '  p1["b"]\n'
+        '  p2["c"]\n'
+        '  p3["free"]\n'
+        "  p0 --> p1\n"
+        "  p1 -.-> p0\n"
+        "  p2 --> p1\n"
+        "  linkStyle 0,1 stroke:red\n"
+    )
+
+
+def test_odd_names_are_quoted() -> None:
+    found = workspace([package("a")._replace(name=ODD)])
+    assert '  "a \\"b\\" &#92; <c>\n;";\n' in graph.run(found)[0]
+    assert '  p0["a #34;b#34; #92; #60;c#62;#10;#59;"]\n' in graph.run(found, "mermaid")[0]
+
+
+@pytest.mark.skipif(shutil.which("dot") is None, reason="Graphviz is not installed")
+def test_graphviz_reads_the_names() -> None:
+    for packages in (CHAIN, KNOT, [package("a")._replace(name=ODD)]):
+        text = graph.run(workspace(packages))[0]
+        read = json.loads(subprocess.run(["dot", "-Tjson0"], input=text, capture_output=True, text=True, check=True).stdout)
+        assert [html.unescape(node["name"]) for node in read["objects"]] == sorted(package.name for package in packages)
+
+
+def test_graph_as_json() -> None:
+    document = json.loads(graph.run(workspace(KNOT), "json", metrics=True)[0])
+    assert document["schema_version"] == 1
+    assert [each["name"] for each in document["packages"]] == ["a", "b", "c", "free"]
+    assert document["packages"][2] == {
+        "name": "c",
+        "places": [{"path": "c", "type": "ros.ament_cmake"}],
+        "metrics": {"needed_by": 0, "needs": 1, "depth": 1, "reach": 0, "redundant": []},
+    }
+    assert document["edges"][1] == {
+        "from": "b",
+        "to": "a",
+        "test_only": True,
+        "certain": True,
+        "reasons": [{"tag": "test_depend", "categories": ["test"], "path": "b/package.xml", "line": 7, "column": 3}],
+    }
+    assert document["cycles"] == [{"packages": ["a", "b"], "cycle": ["a", "b"], "cut": [["b", "a"]], "certain": True}]
+    assert "metrics" not in json.loads(graph.run(workspace(KNOT), "json")[0])["packages"][0]
+
+
+def test_metrics_as_a_table() -> None:
+    assert graph.run(workspace(CHAIN), metrics=True)[0] == (
+        "package  needed by  needs  depth  reach  redundant\n"
+        "low              2      0      0      2          0\n"
+        "middle           1      1      1      1          0\n"
+        "top              0      2      2      0          1\n"
+        "\n"
+        "Redundant for the order of building, since another way implies the edge:\n"
+        "  top -> low: top -> middle -> low\n"
+    )
+
+
+def prefix(root: Path, *names: str) -> Path:
+    for name in names:
+        (root / "share" / name).mkdir(parents=True)
+        (root / "share" / name / "package.xml").write_text(manifest_text(name).replace("0.1.0", "7.0.0"))
+        (root / "share" / "ament_index" / "resource_index" / "packages").mkdir(parents=True, exist_ok=True)
+        (root / "share" / "ament_index" / "resource_index" / "packages" / name).write_text("")
+    return root
+
+
+def test_overlay_tells_who_wins(tmp_path: Path) -> None:
+    upper, lower = prefix(tmp_path / "upper", "mine", "both"), prefix(tmp_path / "lower", "both", "alone")
+    found = workspace([package("mine", path="src/mine"), package("new")], [upper, lower])
+    text, said, code = overlay.run(found)
+    assert (said, code) == ("", 0)
+    assert text.replace(str(tmp_path), "/opt") == (
+        "both\n"
+        "  * /opt/upper  7.0.0  underlay 1\n"
+        "    /opt/lower  7.0.0  underlay 2\n"
+        "\n"
+        "mine\n"
+        f"  * src/mine{' ' * (len(str(upper)) - len('src/mine'))}  0.1.0  workspace\n"
+        "    /opt/upper  7.0.0  underlay 1\n"
+    )
+
+
+def test_overlay_knows_what_is_released_and_what_is_refused() -> None:
+    text = overlay.run(workspace([package("rclcpp", path="x"), package("rclcpp", path="y"), package("own")]))[0]
+    assert re.fullmatch(
+        r"rclcpp\n"
+        r"  \? x                  0\.1\.0  +workspace\n"
+        r"  \? y                  0\.1\.0  +workspace\n"
+        r"    released in jazzy  \d+\.\d+\.\d+ +distribution\n"
+        r"    colcon refuses the workspace: 2 packages are called rclcpp\n",
+        text,
+    )
+
+
+def test_overlay_with_nothing_to_tell() -> None:
+    assert overlay.run(workspace([package("own")])) == ("No package hides another one.\n", "", 0)
