@@ -192,6 +192,20 @@ def test_the_schema_refuses_something(key: str, value: object) -> None:
         jsonschema.validate(document, strict(SCHEMA), jsonschema.Draft202012Validator)
 
 
+def keys(schema: Any) -> set[str]:
+    if isinstance(schema, list):
+        return set().union(*map(keys, schema))
+    if not isinstance(schema, dict):
+        return set()
+    return set(schema.get("properties", ())).union(*map(keys, schema.values()))
+
+
+def test_every_key_is_in_the_docs() -> None:
+    docs = (Path(__file__).parent.parent / "docs" / "output.md").read_text("utf-8")
+    section = docs.partition("## json\n")[2].partition("\n## ")[0]
+    assert keys(SCHEMA) <= set(re.findall(r"`([a-z_]+)`", section))
+
+
 def test_json_says_all_there_is() -> None:
     document = json.loads(reporter("json")(EVERYTHING, texts, Style()))
     for found, issue in zip(document["findings"], ISSUES, strict=True):

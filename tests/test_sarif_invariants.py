@@ -44,7 +44,7 @@ DEFECTS = [
     (f"{DRIVER}.semanticVersion", "1.0", "semanticVersion"),
     (f"{DRIVER}.informationUri", None, "informationUri"),
     (f"{DRIVER}.notifications.0.help", None, "help"),
-    ("runs.0.invocations.0.toolExecutionNotifications.0.descriptor.index", 0, "descriptor"),
+    ("runs.0.invocations.0.toolExecutionNotifications.0.descriptor.index", 4, "descriptor"),
     ("runs.0.invocations.0.toolExecutionNotifications.0.message.text", "no stop", "full stop"),
     (f"{RULE}.properties.security-severity", "5.0", "security-severity"),
     (f"{RULE}.properties.precision", "sure", "precision"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING
 
 from ros_lint.reporters.ansi import Style, safe
@@ -23,6 +24,7 @@ _COMMANDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO
 
 def render(report: Report, texts: Texts, style: Style) -> str:
     """Return one workflow command a line, the worst findings first, and the summary for who reads the log."""
+    texts = cache(texts)
     ranked = sorted(report.issues, key=lambda issue: -issue.severity)
     problems = list(_problems(report))
     loud = [_annotation(issue, texts, style) for issue in ranked if issue.severity is not Severity.INFO]

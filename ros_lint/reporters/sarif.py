@@ -7,6 +7,7 @@ out, because GitHub shows them as open.
 from __future__ import annotations
 
 import re
+from functools import cache
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
@@ -39,6 +40,7 @@ _ROOT = "%SRCROOT%"
 
 def render(report: Report, texts: Texts, style: Style) -> str:  # noqa: ARG001  (a reporter takes it)
     """Return the report as SARIF."""
+    texts = cache(texts)
     groups = _groups(report.issues)
     kept = _most_important(groups)
     rules = {rule.code: rule for rule in (*report.rules, *(issue.rule for issue in report.issues))}

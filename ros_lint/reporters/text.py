@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING
 
 from ros_lint.reporters.ansi import Style, paint, safe
@@ -23,6 +24,7 @@ _RELATED = 8
 
 def render(report: Report, texts: Texts, style: Style) -> str:
     """Return the report as text."""
+    texts = cache(texts)
     packages: dict[str, list[Issue]] = {}
     for issue in report.issues:
         packages.setdefault(issue.package, []).append(issue)
