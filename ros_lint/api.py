@@ -1,6 +1,6 @@
 """Everything a rule may import."""
 
-from ros_lint.declare import add_dependency, remove_dependency, tag_for, works_unseen
+from ros_lint.declare import add_dependency, makes_something, remove_dependency, tag_for, works_unseen
 from ros_lint.facts import (
     ANYTHING,
     ROLES,
@@ -70,6 +70,7 @@ __all__ = [
     "Use",
     "Workspace",
     "add_dependency",
+    "makes_something",
     "declared_names",
     "knots",
     "launchable",

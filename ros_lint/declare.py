@@ -40,20 +40,40 @@ def remove_dependency(package: Package, depend: Depend) -> tuple[Edit, ...]:
     return (manifest_edits.remove(package.manifest, depend),)
 
 
-def works_unseen(workspace: Workspace, name: str) -> bool:
-    """Whether a dependency on a name can do its work without being named anywhere (reference, section F2).
+def works_unseen(package: Package, workspace: Workspace, name: str) -> bool:
+    """Whether a dependency of a package on a name can do its work without the name standing anywhere (reference, section F2).
 
-    True for what is no package that is known, for packages that give macros, plugins or components, and for those whose
-    name says that they stand for something else.
+    True for what is no package that is known; for packages that bring others, give macros, plugins or components, or are
+    mostly declared by others to be run; for those whose name says that they stand for something else; and for what
+    generated interfaces need.
     """
     world = workspace.world
     if not world.is_package(name) or world.is_key(name):
         return True
     if any(fnmatch.fnmatchcase(name, pattern) for pattern in world.knowledge.names.unseen):
         return True
+    if package.script and package.script.interfaces and name in _IN_INTERFACES:
+        return True
     if world.plugins(name).names or world.components(name).names:
         return True
-    return any(_gives_macros(package) for package in workspace.by_name.get(name, ()))
+    mine = workspace.by_name.get(name, ())
+    if mine:
+        return any(_gives_macros(each) or not makes_something(each) for each in mine)
+    released = world.released(name)
+    return released is not None and "m" in released.flags[1:] or _is_run(workspace, name)
+
+
+_IN_INTERFACES = frozenset({"action_msgs", "service_msgs", "builtin_interfaces", "unique_identifier_msgs"})
+"""What the generated code of actions and services includes; which of these must be declared has changed with time."""
+
+
+def makes_something(package: Package) -> bool:
+    """Whether a package builds or installs anything of its own, so that it does more than bring others along."""
+    script = package.script
+    if script is None or package.opaque:
+        return True
+    installs = any(not provided.path.endswith("/package.xml") for provided in script.provides)
+    return bool(installs or script.targets or script.interfaces or script.python_packages)
 
 
 def _gives_macros(package: Package) -> bool:
@@ -64,3 +84,9 @@ def _is_tool(workspace: Workspace, name: str) -> bool:
     """Whether released packages mostly declare a name as a build tool."""
     declared = workspace.world.knowledge.index.declared_as(name)
     return 2 * sum(count for kinds, count in declared.items() if "t" in kinds) > sum(declared.values())
+
+
+def _is_run(workspace: Workspace, name: str) -> bool:
+    """Whether released packages mostly declare a name without building against it."""
+    declared = workspace.world.knowledge.index.declared_as(name)
+    return 2 * sum(count for kinds, count in declared.items() if "b" not in kinds) > sum(declared.values())

@@ -33,6 +33,7 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
+    makes_something,
     remove_dependency,
     works_unseen,
 )
@@ -50,7 +51,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         depend = declared.depend
         if depend.tag not in _TAGS or depend.condition or depend.name in used or depend.name in package.traces:
             continue
-        if works_unseen(workspace, depend.name):
+        if works_unseen(package, workspace, depend.name):
             continue
         yield Finding(
             f"{depend.name} is declared, but nothing in the package uses it: remove <{depend.tag}>{depend.name}</{depend.tag}>",
@@ -67,7 +68,7 @@ def _is_seen_whole(package: Package) -> bool:
         return False
     if package.builds_with not in ("ament_cmake", "ament_python") or _FINDS_ALL in script.calls:
         return False
-    return bool(script.targets or script.python_packages or script.interfaces or script.components)
+    return makes_something(package)
 
 
 RULE = Rule(
