@@ -124,7 +124,7 @@ class Graph:
     @cached_property
     def possible_cycles(self) -> tuple[tuple[str, ...], ...]:
         """The strongly connected components that an unknown condition would close, and that hold no cycle without."""
-        if not sort(self.arcs)[1]:
+        if self.arcs == self.certain_arcs or is_acyclic(self.arcs):
             return ()
         certain = [set(cycle) for cycle in self.cycles]
         return tuple(found for found in components(self.arcs) if not any(cycle <= set(found) for cycle in certain))
