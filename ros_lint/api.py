@@ -1,5 +1,6 @@
 """Everything a rule may import."""
 
+from ros_lint import conditions, manifest_edits
 from ros_lint.declare import add_dependency, makes_something, remove_dependency, tag_for, works_unseen
 from ros_lint.facts import (
     ANYTHING,
@@ -70,10 +71,12 @@ __all__ = [
     "Use",
     "Workspace",
     "add_dependency",
+    "conditions",
     "makes_something",
     "declared_names",
     "knots",
     "launchable",
+    "manifest_edits",
     "programs",
     "remove_dependency",
     "tag_for",

@@ -89,6 +89,37 @@ def change_tag(depend: Depend, tag: str) -> tuple[Edit, ...]:
     )
 
 
+def set_build_type(manifest: Manifest, build_type: str) -> Edit:
+    """Return the edit that gives a manifest without a build type one: in its ``<export>``, or in a new one."""
+    layout, newline, indent = _Layout(manifest), manifest.newline, manifest.indent
+    element = f"<build_type>{_escape(build_type)}</build_type>"
+    whole = f"<export>{newline}{indent * 2}{element}{newline}{indent}</export>"
+    export = next((child for child in manifest.elements if child.tag == "export"), None)
+    if export is None:
+        children = sorted(child.span for child in (*manifest.elements, *manifest.depends))
+        if not children:
+            return layout.last(whole)
+        last = children[-1]
+        apart = layout.kinds_apart() if manifest.depends else layout.blank_after(last)
+        return layout.after(last, whole, apart=apart)
+    content = export.text_span
+    if content.start() == content.end():
+        return Edit(export.span, whole)
+    if content.line == export.span.line:
+        return Edit(content.start(), element)
+    between = ("\t" if indent.startswith("\t") else " ") * (content.column - 1)
+    return Edit(content.start(), f"{element}{newline}{between}")
+
+
+def raise_format(manifest: Manifest, form: int) -> Edit:
+    """Return the edit that gives a manifest another format. It has a ``<package>``."""
+    if manifest.format_span is not None:
+        return Edit(manifest.format_span, str(form))
+    begin = manifest.begin or manifest.end
+    before = begin._replace(column=begin.column - 1, end_column=begin.column - 1)
+    return Edit(before, f' format="{form}"')
+
+
 def sort(manifest: Manifest) -> tuple[Edit, ...]:
     """Return the edits that bring the children of ``<package>`` into the order of the schemas, as few moves as possible.
 

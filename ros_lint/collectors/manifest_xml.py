@@ -352,7 +352,9 @@ def _explain(text: str, code: int, at: int) -> Fault:
         message = "the prefix before ':' belongs to no namespace; remove it"
     elif code == errors[expat.errors.XML_ERROR_INVALID_TOKEN] and text[at - 1 : at] in ("&", "<"):
         start, end = at - 1, at
-        message = f"a bare {text[start]} is not valid in xml; write {'&amp;' if text[start] == '&' else '&lt;'}"
+        if text[start] == "&":
+            return Fault("bare-ampersand", "a bare & is not valid in xml; write &amp;", start, end)
+        message = "a bare < is not valid in xml; write &lt;"
     else:
         message = f"invalid xml: {(expat.ErrorString(code) or 'not well-formed').lower()}"
     return Fault("invalid-xml", message, start, end)
