@@ -37,8 +37,11 @@ def blind_spots(report: Report) -> Iterator[str]:
     if report.hidden:
         yield f"Not shown: {'; '.join(f'{hidden.count} {hidden.reason}' for hidden in report.hidden)}"
     if report.unseen:
-        sides = and_list([f"{unseen.what} of {count(unseen.packages, 'package')}" for unseen in report.unseen])
-        yield f"Not seen through: {sides}; rules that would claim something is missing kept silent there"
+        sides: dict[int, list[str]] = {}
+        for unseen in report.unseen:
+            sides.setdefault(unseen.packages, []).append(unseen.what)
+        told_of = "; ".join(f"{and_list(what)} of {count(number, 'package')}" for number, what in sides.items())
+        yield f"Not seen through: {told_of}. Rules that would claim something is missing kept silent there"
 
 
 def told(entry: NotChecked) -> str:
