@@ -10,8 +10,12 @@ import re
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from ros_lint.tree import join
+
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
+
+    from ros_lint.tree import Kind, Tree
 
 _INDEX = "share/ament_index/resource_index"
 _PLUGINS = "__pluginlib__plugin"
@@ -28,21 +32,21 @@ _NO_MODULES = (".egg-info", ".dist-info", ".pth", ".egg-link")
 
 
 class Prefix:
-    """An install prefix. ``single`` tells that all of it belongs to its one package."""
+    """An install prefix: a folder of a tree. ``single`` tells that all of it belongs to its one package."""
 
-    def __init__(self, root: str, *, single: bool = False) -> None:
+    def __init__(self, tree: Tree, root: str, *, single: bool = False) -> None:
+        self._tree = tree
         self.root = root
         self.single = single
 
     def alone(self) -> Prefix:
         """Return the same prefix as that of one package, if it has one."""
-        return Prefix(self.root, single=len(self.packages) == 1)
+        return Prefix(self._tree, self.root, single=len(self.packages) == 1)
 
     def read(self, path: str) -> bytes | None:
         """Return a file below the prefix, or None."""
         try:
-            with open(f"{self.root}/{path}", "rb") as file:
-                return file.read()
+            return self._tree.read(join(self.root, path))
         except OSError:
             return None
 
@@ -51,10 +55,15 @@ class Prefix:
         """Return "isolated" or "merged" as colcon marks it, else ""."""
         return (self.read(".colcon_install_layout") or b"").decode("ascii", "replace").strip()
 
+    @property
+    def indexed(self) -> bool:
+        """Return whether there is an ament index, even an empty one."""
+        return self._is_there("share/ament_index")
+
     @cached_property
     def packages(self) -> tuple[str, ...]:
         """Return the packages, sorted: those with a manifest, and those that only ament's or colcon's index knows."""
-        found = {name for name, _ in self._list("share") if self._is_file(f"share/{name}/package.xml")}
+        found = {name for name, _ in self._list("share") if self._is_there(f"share/{name}/package.xml")}
         found.update(name for name, _ in self._list(f"{_INDEX}/packages"))
         found.update(name for name, _ in self._list("share/colcon-core/packages"))
         return tuple(sorted(found))
@@ -78,9 +87,9 @@ class Prefix:
         for name, kind in self._list(f"lib/{package}"):
             if name.endswith(_LIBRARIES) or _LIBRARY.search(name) or kind == "directory":
                 continue
-            if kind == "broken":
+            if kind == "other":
                 broken.append(name)
-            elif self._mode(f"lib/{package}/{name}") & 0o111:
+            elif self._is_executable(f"lib/{package}/{name}"):
                 found.append(name)
         return tuple(found), tuple(broken)
 
@@ -151,9 +160,9 @@ class Prefix:
         first = path.partition("/")[0]
         if self.single:
             (package,) = self.packages
-            return (package,) if any(self._is_file(f"include/{at}{path}") for at in ("", f"{package}/")) else ()
-        owners = [name for name in self._include_folders.get(first, ()) if self._is_file(f"include/{name}/{path}")]
-        if not owners and first in self.packages and self._is_file(f"include/{path}"):
+            return (package,) if any(self._is_there(f"include/{at}{path}") for at in ("", f"{package}/")) else ()
+        owners = [name for name in self._include_folders.get(first, ()) if self._is_there(f"include/{name}/{path}")]
+        if not owners and first in self.packages and self._is_there(f"include/{path}"):
             owners = [first]
         return tuple(owners)
 
@@ -228,8 +237,8 @@ class Prefix:
         data = self.read(f"{_INDEX}/{kind}/{package}")
         return data.decode("utf-8", "replace").splitlines() if data else []
 
-    def _walk(self, folder: str, inside: str, above: frozenset[str] = frozenset()) -> Iterator[str]:
-        identity = os.path.realpath(f"{self.root}/{folder}")
+    def _walk(self, folder: str, inside: str, above: frozenset[object] = frozenset()) -> Iterator[str]:
+        identity = self._tree.identity(join(self.root, folder))
         if identity in above:
             return  # a link that leads back up
         for name, kind in self._list(folder):
@@ -238,27 +247,22 @@ class Prefix:
             else:
                 yield f"{inside}{name}"
 
-    def _list(self, path: str) -> list[tuple[str, str]]:
-        """Return names and kinds of what lies in a folder, sorted: directory, file, or broken for a link to nowhere."""
-        found = []
+    def _list(self, path: str) -> list[tuple[str, Kind]]:
+        """Return names and kinds of what lies in a folder, sorted: nothing for a folder that is not there."""
         try:
-            with os.scandir(f"{self.root}/{path}") as entries:
-                for entry in entries:
-                    try:
-                        kind = "directory" if entry.is_dir() else "file" if entry.is_file() else "broken"
-                    except OSError:
-                        kind = "broken"
-                    found.append((entry.name, kind))
+            return [(name, kind) for name, kind, _ in self._tree.list(join(self.root, path))]
         except OSError:
             return []
-        found.sort()
-        return found
 
-    def _is_file(self, path: str) -> bool:
-        return os.path.isfile(f"{self.root}/{path}")
-
-    def _mode(self, path: str) -> int:
+    def _is_there(self, path: str) -> bool:
         try:
-            return os.stat(f"{self.root}/{path}").st_mode
+            self._tree.stamp(join(self.root, path))
         except OSError:
-            return 0
+            return False
+        return True
+
+    def _is_executable(self, path: str) -> bool:
+        try:
+            return self._tree.stamp(join(self.root, path)).executable
+        except OSError:
+            return False

@@ -9,7 +9,7 @@ path in backticks, then a fenced block, is a file. In the files, comments say wh
 A block ``output`` is what the tool prints for the case, a block ``diff`` what its fixes change. Both are checked to the
 letter, and rewritten by ``pytest --bless``. A line ``settings: distro=humble, executable=scripts/a.py`` in the prose sets
 the distribution (jazzy if not said) and gives files the executable bit; ``settings: told=no`` makes the distribution an
-assumption.
+assumption; ``settings: underlay=opt`` takes the folder opt of the case for an underlay (mark it with COLCON_IGNORE).
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ from ros_lint.report import Issue
 from ros_lint.rule import Rule
 from ros_lint.text import Text, read
 from ros_lint.tree import MemoryTree, OverlayTree, Tree
+from ros_lint.underlay import in_tree
 from ros_lint.workspace import Target
 
 FENCE = re.compile(
@@ -47,6 +48,7 @@ class Case(NamedTuple):
     distro: str
     told: bool
     executable: frozenset[str]
+    underlay: str
 
     def wants(self) -> list[tuple[str, int, str]]:
         """Return path, line and piece of message of every finding that is wanted."""
@@ -87,6 +89,7 @@ def read_cases(source: Path) -> Iterator[Case]:
             settings.get("distro", ["jazzy"])[0],
             settings.get("told", ["yes"])[0] == "yes",
             frozenset(settings.get("executable", [])),
+            settings.get("underlay", [""])[0],
         )
 
 
@@ -95,7 +98,9 @@ def issues_of(tree: Tree, case: Case, rule: Rule) -> tuple[Issue, ...]:
 
     A rule about suppressions hears what all rules say. Raises AssertionError with the traceback when a rule crashes.
     """
-    loader = Loader(tree, ("",), Target(case.distro, "--distro" if case.told else "default"))
+    target = Target(case.distro, "--distro" if case.told else "default", case.told)
+    underlays = (in_tree(tree, case.underlay, case.distro),) if case.underlay else ()
+    loader = Loader(tree, ("",), target, underlays=underlays)
     every = registry.load()
     rules = every if rule.suppressions else (rule,)
     checked = engine.check(loader.load(), rules, loader.suppressions(), every)

@@ -15,11 +15,13 @@ from ros_lint.knowledge.index import Released
 from ros_lint.knowledge.manifests import context, describe
 from ros_lint.knowledge.provides import NOTHING_KNOWN, Known
 from ros_lint.text import read as read_text
+from ros_lint.tree import DiskTree, join
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
     from ros_lint.knowledge.provides import Facet
+    from ros_lint.tree import Tree
 
 
 class UnderlayError(Exception):
@@ -41,9 +43,10 @@ class Installed:
         ``share/<package>/package.xml`` is the authority. A package without one, such as plain CMake, has what colcon or
         ament recorded of its run dependencies.
         """
-        data = self.prefix.read(f"share/{self.name}/package.xml")
+        path = f"share/{self.name}/package.xml"
+        data = self.prefix.read(path)
         if data is not None:
-            found = manifests.collect(read_text(f"{self.prefix.root}/share/{self.name}/package.xml", data))
+            found = manifests.collect(read_text(path, data))
             if found.name:
                 return describe(found, context(self._distro))._replace(name=self.name, repository=self.name)
         recorded = self.prefix.recorded_dependencies(self.name)
@@ -122,22 +125,31 @@ def read(prefixes: Sequence[str], distro: str = "", base: str = "") -> tuple[Und
     ``install`` folder is left out: what it has was made of the very packages that are looked at.
     Raises UnderlayError for any other folder.
     """
-    found: list[Underlay] = []
-    for place in prefixes:
-        root = os.path.abspath(place)
-        if base and _belongs_to(root, base):
-            continue
-        found.append(Underlay(root, tuple(_prefixes(root)), distro))
-    return tuple(found)
+    roots = [os.path.abspath(place) for place in prefixes]
+    return tuple(in_tree(_Disk(""), root, distro) for root in roots if not (base and _belongs_to(root, base)))
 
 
-def _prefixes(root: str) -> Iterator[Prefix]:
+class _Disk(DiskTree):
+    """All files of the machine, by their absolute paths."""
+
+    __slots__ = ()
+
+    def place(self, path: str) -> str:
+        return path
+
+
+def in_tree(tree: Tree, root: str, distro: str = "") -> Underlay:
+    """Return the underlay in a folder of a tree. Raises UnderlayError as :func:`read` does."""
+    return Underlay(root, tuple(_prefixes(tree, root)), distro)
+
+
+def _prefixes(tree: Tree, root: str) -> Iterator[Prefix]:
     """Yield the prefixes at a place. Raises UnderlayError when there is none."""
     try:
-        entries = sorted(entry.name for entry in os.scandir(root) if entry.is_dir())
+        names = [entry.name for entry in tree.list(root) if entry.kind == "directory"]
     except OSError as error:
         raise UnderlayError(f"underlay {root} cannot be read: {error.strerror}") from error
-    prefix = Prefix(root)
+    prefix = Prefix(tree, root)
     layout = prefix.layout
     if prefix.packages == (os.path.basename(root),):
         yield prefix.alone()
@@ -145,20 +157,20 @@ def _prefixes(root: str) -> Iterator[Prefix]:
     if prefix.packages or layout == "merged":
         yield prefix
         return
-    inner = [child for child in (Prefix(f"{root}/{name}") for name in entries) if child.packages]
+    inner = [child for child in (Prefix(tree, join(root, name)) for name in names) if child.packages]
     if inner and (layout == "isolated" or all(os.path.basename(child.root) in child.packages for child in inner)):
         # colcon makes one prefix per package.
         yield from (child.alone() for child in inner)
     elif layout != "isolated":
-        if "install" in entries:
-            yield from _prefixes(f"{root}/install")
-        elif os.path.isdir(f"{root}/share/ament_index"):
-            yield prefix
-        else:
+        if "install" in names:
+            yield from _prefixes(tree, join(root, "install"))
+        elif not prefix.indexed:
             raise UnderlayError(
                 f"underlay {root} is no install prefix: nothing lies in share/<package>/package.xml below it; "
                 "name the folder that has setup.bash, such as /opt/ros/jazzy or install"
             )
+        else:
+            yield prefix
 
 
 def _belongs_to(root: str, base: str) -> bool:
