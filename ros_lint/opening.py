@@ -91,7 +91,7 @@ def _base(paths: Sequence[str]) -> str:
 def _target(settings: Settings, places: Sequence[str]) -> tuple[Target, tuple[str, ...]]:
     distro = settings["distro"]
     if not distro:
-        return Target(newest_lts(places), "newest long-term release known"), ()
+        return Target(newest_lts(places), "newest long-term release known", told=False), ()
     known = [known.name for known in distros(places)]
     if distro in known:
         return Target(distro, settings.origin("distro")), ()
