@@ -18,24 +18,27 @@ does this. In `setup.py` add to `data_files`:
 ## When it keeps silent
 
 - A part of the build script that cannot be followed may install the files.
-- Launch files of tests, examples and templates, those of ROS 1, and modules that only build actions for launch files.
+- Launch files of tests, examples and templates, those of ROS 1, and modules that only build actions for launch files;
+  packages that are called tests.
 - Files that are installed under a condition.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping
 
 from ros_lint.api import Edit, Facet, Finding, Fix, Package, Related, Rule, Severity, Span, Workspace, launchable
 
 _MOST_RELATED = 4
+_TEST_PACKAGE = re.compile(r"(?:^|_)(?:tests?|testing)(?:_|$)")
 
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with not in ("ament_cmake", "ament_python"):
         return
-    if package.hidden(Facet.SHARE):
+    if package.hidden(Facet.SHARE) or _TEST_PACKAGE.search(package.name):
         return
     missing: dict[str, list[str]] = {}
     kept: set[str] = set()
