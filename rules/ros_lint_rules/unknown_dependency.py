@@ -82,9 +82,10 @@ def _unknown(stranger: Stranger, workspace: Workspace) -> Finding:
     else:
         caller = _CALLED_SO_BY.get(meant.by)
         why = f", but what {caller} calls it" if caller else ""
-        message = f"{what}{why}: write {meant.name}"
+        again = stranger.package.declares(meant.name)
+        message = f"{what}{why}: " + (f"remove it, {meant.name} is declared, too" if again else f"write {meant.name}")
         edits = _rename(stranger, meant.name)
-        fix = Fix(f"write {meant.name} for {name}", edits) if edits else None
+        fix = Fix(f"remove {name}" if again else f"write {meant.name} for {name}", edits) if edits else None
     return Finding(
         message,
         stranger.declared.depend.name_span,
