@@ -1,7 +1,7 @@
 """Everything a rule may import."""
 
 from ros_lint import conditions, manifest_edits
-from ros_lint.declare import add_dependency, makes_something, remove_dependency, tag_for, works_unseen
+from ros_lint.declare import add_dependency, builds_something, remove_dependency, tag_for, works_unseen
 from ros_lint.facts import (
     ANYTHING,
     ROLES,
@@ -72,7 +72,7 @@ __all__ = [
     "Workspace",
     "add_dependency",
     "conditions",
-    "makes_something",
+    "builds_something",
     "declared_names",
     "knots",
     "launchable",

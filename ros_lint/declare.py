@@ -70,10 +70,16 @@ _IN_INTERFACES = frozenset({"action_msgs", "service_msgs", "builtin_interfaces",
 def makes_something(package: Package) -> bool:
     """Whether a package builds or installs anything of its own, so that it does more than bring others along."""
     script = package.script
-    if script is None or package.opaque:
+    if script is None or package.opaque or builds_something(package):
         return True
-    installs = any(not provided.path.endswith("/package.xml") for provided in script.provides)
-    return bool(installs or script.targets or script.interfaces or script.python_packages)
+    by_rote = ("share/ament_index/", f"share/{package.name}/package.xml", f"share/{package.name}/cmake/")
+    return any(not provided.path.startswith(by_rote) for provided in script.provides)
+
+
+def builds_something(package: Package) -> bool:
+    """Whether a package has code: a package with launch files and data only may declare what these need in their own way."""
+    script = package.script
+    return bool(script and (script.targets or script.interfaces or script.python_packages or script.components))
 
 
 def _gives_macros(package: Package) -> bool:

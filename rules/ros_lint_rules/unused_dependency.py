@@ -17,7 +17,7 @@ Remove the tag. The fix does this.
 
 Whenever the dependency might be needed in a way that leaves no trace: test, run-time and tool dependencies, rosdep keys
 of the system, tags under a condition, packages whose build scripts cannot be followed everywhere, packages that find
-what they declare (`ament_auto_find_build_dependencies`), metapackages and vendor packages, and dependencies that give
+what they declare (`ament_auto_find_build_dependencies`), metapackages, vendor packages and packages without code, and dependencies that give
 CMake macros, plugins or components.
 """
 
@@ -33,7 +33,7 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
-    makes_something,
+    builds_something,
     remove_dependency,
     works_unseen,
 )
@@ -68,7 +68,7 @@ def _is_seen_whole(package: Package) -> bool:
         return False
     if package.builds_with not in ("ament_cmake", "ament_python") or _FINDS_ALL in script.calls:
         return False
-    return makes_something(package)
+    return builds_something(package)
 
 
 RULE = Rule(
