@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from ros_lint.facts import ColconDepend, ColconMeta, ColconSettings, Manifest
-    from ros_lint.tree import Entry, Tree
+    from ros_lint.tree import Entry, Kind, Tree
 
 _NEVER = frozenset((".git", ".hg", ".svn", "node_modules", "__pycache__"))
 """Folders that no one looks for sources in."""
@@ -39,6 +39,9 @@ _TELLING = frozenset((*SIGNS, "package.xml", "manifest.xml", "CMakeLists.txt", "
 
 _APART = frozenset((*SIGNS, "package.xml"))
 """Without one of these names a folder below a package belongs to it."""
+
+_BUILD_SCRIPTS = frozenset(("CMakeLists.txt", "setup.py", "setup.cfg", "pyproject.toml", "Cargo.toml", "build.gradle"))
+"""Without one of these beside it, a manifest is data."""
 
 _CONTEXT = {"ROS_VERSION": "2", "ROS_PYTHON_VERSION": "3", "DISABLE_GROUPS_WORKAROUND": "1"}
 
@@ -64,7 +67,8 @@ class Found(NamedTuple):
     files: tuple[str, ...]
     """Every file below the folder, relative to it and sorted. Nested packages and skipped folders are left out."""
     nested: tuple[Manifest, ...]
-    """Manifests further down, by path, where nothing marks the folder to be ignored."""
+    """Manifests of packages further down, by path. Folders that are marked to be ignored do not count, nor do those without
+    a build script or which the CMake build of this package takes in."""
     unseen: tuple[Skipped, ...]
     """Folders, relative to the package, that were not looked into: whether a file exists there is unknown."""
 
@@ -246,13 +250,30 @@ class _Files:
             return entries
         names = {name: kind for name, kind, _ in entries}
         reason = ignored_everywhere(names) or ignored_by_ros(names) or product(names)
-        if not reason and names.get("package.xml") == "file":
+        if not reason and self._is_nested(child, names):
             reason = "a package of its own"
             self._add_nested(join(path, "package.xml"))
         if not reason:
             return entries
         self.unseen.append(Skipped(child, reason))
         return None
+
+    def _is_nested(self, child: str, names: Mapping[str, Kind]) -> bool:
+        """Whether a folder is a package that the build of this one takes no notice of, rather than a part of it."""
+        if names.get("package.xml") != "file" or _BUILD_SCRIPTS.isdisjoint(names):
+            return False
+        from ros_lint.collectors import colcon_cmake  # noqa: PLC0415  (few packages have another one inside)
+
+        parts = child.split("/")
+        for depth in range(len(parts)):
+            path = join(self._package, "/".join((*parts[:depth], "CMakeLists.txt")))
+            try:
+                added = colcon_cmake.subdirectories(read(path, self._tree.read(path)))
+            except OSError:
+                continue  # there mostly is none
+            if "/".join(parts[depth:]) in added:
+                return False
+        return True
 
     def _add_nested(self, path: str) -> None:
         try:

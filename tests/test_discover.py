@@ -118,7 +118,9 @@ def test_files_are_those_below_without_nested_packages_and_skipped_folders() -> 
             "w/p/src/__pycache__/a.pyc": "",
             "w/p/web/node_modules/a/package.xml": manifest_text("never"),
             "w/p/test/inner/package.xml": manifest_text("inner"),
+            "w/p/test/inner/setup.py": "",
             "w/p/test/inner/b.cpp": "",
+            "w/p/data/package.xml": manifest_text("data"),
             "w/p/test/c.cpp": "",
             "w/p/old/COLCON_IGNORE": "",
             "w/p/old/package.xml": manifest_text("old"),
@@ -133,10 +135,34 @@ def test_files_are_those_below_without_nested_packages_and_skipped_folders() -> 
     found = discover(tree, [""])
     (package,) = found.packages
     assert package.files == (
-        ".hidden/x.yaml", "insource/CMakeCache.txt", "insource/CMakeLists.txt", "launch/a.launch.py", "package.xml", "test/c.cpp",
-    )  # fmt: skip
+        ".hidden/x.yaml",
+        "data/package.xml",
+        "insource/CMakeCache.txt",
+        "insource/CMakeLists.txt",
+        "launch/a.launch.py",
+        "package.xml",
+        "test/c.cpp",
+    )
     assert [manifest.name for manifest in package.nested] == ["inner"]
     assert [skipped.path for skipped in package.unseen] == ["build", "old", "test/inner", "venv"]
+
+
+@pytest.mark.parametrize(
+    ("scripts", "part"),
+    [
+        ({"p/CMakeLists.txt": "add_subdirectory(lib/inner)"}, True),
+        ({"p/CMakeLists.txt": 'ADD_SUBDIRECTORY( "${CMAKE_CURRENT_SOURCE_DIR}/./lib/inner/" EXCLUDE_FROM_ALL)'}, True),
+        ({"p/CMakeLists.txt": "add_subdirectory(lib)", "p/lib/CMakeLists.txt": "add_subdirectory(inner)"}, True),
+        ({"p/CMakeLists.txt": "# add_subdirectory(lib/inner)"}, False),
+        ({"p/CMakeLists.txt": "add_subdirectory(lib/inner2)"}, False),
+        ({"p/setup.py": ""}, False),
+    ],
+)
+def test_a_package_that_the_outer_build_takes_in_is_a_part_of_it(scripts: dict[str, str], part: bool) -> None:
+    inner = {"p/lib/inner/package.xml": manifest_text("inner"), "p/lib/inner/CMakeLists.txt": "", "p/lib/inner/src/x.cpp": ""}
+    (found,) = discover(MemoryTree({"p/package.xml": manifest_text("p"), **inner, **scripts}), [""]).packages
+    assert ("lib/inner/src/x.cpp" in found.files) == part
+    assert [manifest.name for manifest in found.nested] == ([] if part else ["inner"])
 
 
 @pytest.mark.parametrize(
@@ -223,6 +249,7 @@ def test_what_cannot_be_read_is_said_and_the_rest_goes_on(tmp_path: Path) -> Non
         (tmp_path / folder).mkdir(parents=True)
     for folder in ("p", "p/secret", "secret", "z"):
         (tmp_path / folder / "package.xml").write_text(manifest_text(folder.replace("/", "_")))
+    (tmp_path / "p/secret/setup.py").write_text("")
     found = discover(_Closed(str(tmp_path)), ["", "missing"])
     assert [package.name for package in found.packages] == ["p", "z"]
     assert [(item.what, item.reason) for item in found.not_checked] == [

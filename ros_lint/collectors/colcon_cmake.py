@@ -1,7 +1,7 @@
-"""A ``CMakeLists.txt`` without a usable manifest, read as colcon reads it: by pattern, not by meaning.
+"""A ``CMakeLists.txt`` read as colcon reads it where there is no usable manifest: by pattern, not by meaning.
 
-What CMake makes of the file is another collector's business; here only counts what colcon sees, its oversights
-included, since it decides which packages there are and in which order they are built.
+What CMake makes of the file is another collector's business; here only counts what can be seen while packages are looked
+for. That is what colcon sees, its oversights included, since it decides which packages there are and in which order.
 Source: colcon-cmake, package identification (reference, section A6.10).
 """
 
@@ -24,6 +24,10 @@ _FIND_PACKAGE = re.compile(r"""find_package\s*\(\s*("?)([a-zA-Z0-9_-]+)\1(?:\s+[
 _PKG_CONFIG = re.compile(
     r"""pkg_(?:check_modules|search_module)\s*\(\s*("?)[a-zA-Z0-9_]+\1"""
     r"""(?:\s+(?:(?-i:REQUIRED|QUIET|NO_CMAKE_PATH|NO_CMAKE_ENVIRONMENT_PATH)))*([^)]+)\)""",
+    re.IGNORECASE,
+)
+_SUBDIRECTORY = re.compile(
+    r"""\badd_subdirectory\s*\(\s*"?(?:\$\{(?:CMAKE_CURRENT|PROJECT|CMAKE)_(?:SOURCE|LIST)_DIR\}/)?(?:\./)*([^\s"$)]+?)/*["\s)]""",
     re.IGNORECASE,
 )
 _WORD = re.compile(r"\S+")
@@ -59,6 +63,11 @@ def depends(text: Text) -> tuple[ColconDepend, ...]:
     found = [(match[2], *match.span(2)) for match in _FIND_PACKAGE.finditer(bare.content)]
     found += list(_modules(bare.content))
     return tuple(ColconDepend(name, Role.BUILD | Role.EXEC, bare.span(start, end)) for name, start, end in found)
+
+
+def subdirectories(text: Text) -> frozenset[str]:
+    """Return the folders that a ``CMakeLists.txt`` takes into its build, as literally written, relative to it."""
+    return frozenset(match[1] for match in _SUBDIRECTORY.finditer(_Bare(text).content))
 
 
 def _modules(content: str) -> Iterator[tuple[str, int, int]]:

@@ -1,7 +1,7 @@
 """
 ## What it finds
 
-A valid `package.xml` in a folder below another package.
+A valid `package.xml` with a build script beside it, in a folder below another package.
 
 ## Why it matters
 
@@ -18,7 +18,8 @@ empty `COLCON_IGNORE` beside its manifest.
 ## When it keeps silent
 
 - The folder, or one between the two, has `COLCON_IGNORE`, `AMENT_IGNORE` or `CATKIN_IGNORE`.
-- The nested manifest would be rejected anyway.
+- A `CMakeLists.txt` of the outer package takes the folder in with `add_subdirectory()`: it is a part of that package then.
+- The nested manifest would be rejected anyway, or has no build script beside it.
 - In folders of tests, templates, examples or vendored code the confidence is medium: such manifests are mostly data.
 """
 
