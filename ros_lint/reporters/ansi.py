@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import unicodedata
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -61,6 +60,8 @@ def glyph(character: str, only_ascii: bool) -> tuple[str, int]:
         return character, 1
     if character == "\t":
         return " " * TAB, TAB
+    import unicodedata  # noqa: PLC0415  (a megabyte that most runs do without)
+
     category = unicodedata.category(character)
     # Control and format characters (direction marks among them), surrogates, line and paragraph separators.
     if only_ascii or category in ("Cc", "Cf", "Cs", "Zl", "Zp"):
