@@ -65,16 +65,20 @@ class Loader:
         self._progress = progress
         self._collected: dict[str, Collected] = {}
 
-    def load(self, changed: Mapping[str, bytes] | None = None) -> Workspace:
-        """Return the workspace, with the content of some files replaced."""
+    def load(self, changed: Mapping[str, bytes] | None = None, *, sources: bool = True) -> Workspace:
+        """Return the workspace, with the content of some files replaced.
+
+        Without ``sources`` only manifests are read, which is enough for questions about the graph: scripts, launch files
+        and uses are then missing, and no rule must run.
+        """
         tree = OverlayTree(self.tree, changed) if changed else self.tree
         self._progress("looking for packages", 0, 0)
         discovery = discover(tree, self._roots)
         founds = [self._without_excluded(found) for found in discovery.packages if not self._exclude(found.path)]
-        collected = self._collect(founds, changed or {})
-        reads = self._read(tree, founds, collected)
+        collected = self._collect(founds, changed or {}) if sources else {}
+        reads = self._read(tree, founds, collected) if sources else [_Read(found, None, {}, ()) for found in founds]
         world = World(tuple(self._members(reads, discovery.rejected)), self._underlays, self._knowledge)
-        packages = tuple(self._join(tree, reads, world))
+        packages = tuple(self._join(tree, reads, world, sources))
         unusable = tuple(self._unusable(manifest) for manifest in discovery.rejected if not self._exclude(manifest.path))
         not_checked = (*discovery.not_checked, *_unreadable(collected), *_failed(reads))
         return Workspace(packages, unusable, world, self.target, tuple(not_checked))
@@ -141,7 +145,7 @@ class Loader:
             if manifest.name:
                 yield _member(manifest.name, manifest, self.target.context)
 
-    def _join(self, tree: Tree, reads: Sequence[_Read], world: World) -> Iterator[Package]:
+    def _join(self, tree: Tree, reads: Sequence[_Read], world: World, search: bool) -> Iterator[Package]:
         sources = [
             evidence.Source(
                 r.found.name, r.found.path, r.found.files, r.script, r.facts, r.launch, r.found.type.removeprefix("ros.")
@@ -169,7 +173,7 @@ class Loader:
                 script=done.script,
                 launch=done.launch,
                 uses=uses,
-                traces=self._traces(tree, found, declared, uses),
+                traces=self._traces(tree, found, declared, uses) if search else {},
                 opaque=evidence.opaque_of(source),
             )
 

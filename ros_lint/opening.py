@@ -11,6 +11,7 @@ from ros_lint.config import Settings, settle
 from ros_lint.engine import matches
 from ros_lint.knowledge import Knowledge, distros, newest_lts, user_directory
 from ros_lint.load import Loader, Progress
+from ros_lint.options import BY_NAME
 from ros_lint.tree import DiskTree
 from ros_lint.workspace import Target
 
@@ -70,6 +71,12 @@ def open_workspace(said: Mapping[str, Any], environment: Mapping[str, str], prog
         progress=progress,
     )
     return Opened(loader, settings, knowledge, base, roots, warnings)
+
+
+def no_packages(opened: Opened) -> str:
+    """Return what to say when there is nothing to work on."""
+    places = ", ".join(root or opened.base for root in opened.roots)
+    return f"ros-lint: no package found below {places}; is there a package.xml?"
 
 
 def _base(paths: Sequence[str]) -> str:

@@ -12,7 +12,7 @@ from ros_lint.progress import Progress
 from ros_lint import __version__, engine, registry
 from ros_lint.config import ConfigError, Settings
 from ros_lint.knowledge import KnowledgeError
-from ros_lint.opening import Opened, UsageError, open_workspace
+from ros_lint.opening import Opened, UsageError, no_packages, open_workspace
 from ros_lint.report import Hidden, Report, Unseen
 from ros_lint.rule import Severity
 from ros_lint.workspace import Workspace
@@ -111,8 +111,7 @@ def _print(report: Report, opened: Opened) -> int:
         sys.stdout.buffer.write(text.encode("utf-8", "backslashreplace"))
         sys.stdout.buffer.flush()
     if not report.packages:
-        places = ", ".join(root or "." for root in opened.roots)
-        print(f"ros-lint: no package found below {places}; is there a package.xml?", file=sys.stderr)
+        print(no_packages(opened), file=sys.stderr)
     return exit_code(report, settings["fail-on"])
 
 
