@@ -106,6 +106,8 @@ class Manifest(NamedTuple):
     """The value of the attribute ``format``; None when it has none, which means 1."""
     asides: tuple[Span, ...] = ()
     """Whatever else stands directly in ``<package>``: comments, instructions, stray text."""
+    strays: tuple[Span, ...] = ()
+    """Those of ``asides`` that are text."""
     indent: str = "  "
     """The white space before a child of ``<package>``."""
     newline: str = "\n"

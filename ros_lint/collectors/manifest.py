@@ -67,6 +67,7 @@ def collect(source: Text) -> Manifest:
         begin,
         format_span,
         tuple(found.asides),
+        tuple(found.strays),
         _indent(text.text, document),
         text.newline,
     )
@@ -75,13 +76,14 @@ def collect(source: Text) -> Manifest:
 class _Found:
     """What stands in ``<package>``. ``doubtful``: some element has attributes or children that it may not have."""
 
-    __slots__ = ("asides", "depends", "doubtful", "elements", "exports")
+    __slots__ = ("asides", "depends", "doubtful", "elements", "exports", "strays")
 
     def __init__(self) -> None:
         self.elements: list[Element] = []
         self.depends: list[Depend] = []
         self.exports: list[Element] = []
         self.asides: list[Span] = []
+        self.strays: list[Span] = []
         self.doubtful = False
 
 
@@ -93,7 +95,7 @@ def _read_children(document: Document, root: Node, allowed: Mapping[str, frozens
     while at < last and not isinstance(event := events[at], int):
         tag, attributes, start = event
         if start != done and not (gap := text[done:start]).isspace():
-            found.asides += [place(done + aside.start(), done + aside.end()) for aside in _ASIDE.finditer(gap)]
+            _read_asides(gap, done, found, place)
         if not attributes and at + 1 < last and isinstance(close := events[at + 1], int):
             # Most elements have nothing but text in them. They are read here, at half the cost.
             inner = start + len(tag) + 2
@@ -122,8 +124,16 @@ def _read_children(document: Document, root: Node, allowed: Mapping[str, frozens
         if node.tag == "export":
             found.exports += [_element(text, inside, place, rich=True) for inside in node.children if inside.end >= 0]
     if root.end >= 0 and done < root.close and not (gap := text[done : root.close]).isspace():
-        found.asides += [place(done + aside.start(), done + aside.end()) for aside in _ASIDE.finditer(gap)]
+        _read_asides(gap, done, found, place)
     return found
+
+
+def _read_asides(gap: str, start: int, found: _Found, place: _Place) -> None:
+    for aside in _ASIDE.finditer(gap):
+        span = place(start + aside.start(), start + aside.end())
+        found.asides.append(span)
+        if not aside[0].startswith(("<!--", "<?")):
+            found.strays.append(span)
 
 
 def _depend(text: str, node: Node, place: _Place) -> Depend:
@@ -179,7 +189,7 @@ def _no_package(text: Text, document: Document) -> Manifest:
     root = document.root
     start = root.start + 1 if root else 0
     place = text.span(start, start + len(root.tag) if root else 0)
-    if root is not None:
+    if root is not None and not faults:
         message = f"the root element is <{root.tag}>, but a manifest has <package>"
         faults.append(Fault("no-package", message, start, start + len(root.tag)))
     end = text.span(document.read, document.read)
