@@ -47,6 +47,8 @@ def run(said: Said) -> int:
         return 2
     for warning in opened.warnings:
         print(f"ros-lint: {warning}", file=sys.stderr)
+    if opened.settings["diff"]:  # standard output holds a patch and nothing else
+        return max(code, exit_code(report, opened.settings["fail-on"]))
     return max(code, _print(report, opened))
 
 

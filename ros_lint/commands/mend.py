@@ -43,12 +43,17 @@ def run(opened: Opened, selection: engine.Selection) -> tuple[Report, int]:
     code = 0
     try:
         edits.write_all(opened.base, mended.changed)
-        count, files = len(mended.made), len(mended.changed)
-        print(f"ros-lint: mended {count} finding{'s' * (count != 1)} in {files} file{'s' * (files != 1)}", file=sys.stderr)
+        print(f"ros-lint: {_told(len(mended.made), len(mended.changed))}", file=sys.stderr)
     except edits.EditError as error:
         print(f"ros-lint: {error}", file=sys.stderr)
         return check.check(opened, opened.loader.load(), selection), 2
     return check.check(opened, opened.loader.load(mended.changed), selection), code
+
+
+def _told(count: int, files: int) -> str:
+    if not count:
+        return "nothing to mend"
+    return f"mended {count} finding{'s' * (count != 1)} in {files} file{'s' * (files != 1)}"
 
 
 def mend(opened: Opened, selection: engine.Selection) -> Mended:
