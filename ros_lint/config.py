@@ -8,6 +8,7 @@ from __future__ import annotations
 import difflib
 import os
 import re
+import sys
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
@@ -113,9 +114,9 @@ def _mentions_us(path: str) -> bool:
 
 
 def _load_toml(path: str, data: bytes) -> dict[str, Any]:
-    try:
+    if sys.version_info >= (3, 11):
         import tomllib  # noqa: PLC0415
-    except ModuleNotFoundError:  # Python 3.10
+    else:
         import tomli as tomllib  # noqa: PLC0415
     try:
         return tomllib.loads(data.decode("utf-8"))

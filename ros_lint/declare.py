@@ -18,12 +18,16 @@ def tag_for(package: Package, workspace: Workspace, name: str, role: Role) -> st
     form = package.manifest.format if package.manifest else 3
     if role == Role.TEST:
         return "test_depend"
-    needed = role & ~Role.TEST
+    needed = _without(role, Role.TEST)
     if needed == Role.EXEC:
         return "run_depend" if form == 1 else "exec_depend"
     if needed == Role.TOOL or (needed == Role.BUILD and _is_tool(workspace, name)):
         return "buildtool_depend"
     return "build_depend" if form == 1 else "depend"
+
+
+def _without(role: Role, part: Role) -> Role:
+    return role & ~part
 
 
 def add_dependency(package: Package, tag: str, name: str) -> tuple[Edit, ...]:

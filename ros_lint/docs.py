@@ -45,9 +45,7 @@ def page(rule: Rule) -> str:
 
 def overview(rules: Sequence[Rule]) -> str:
     """Return the page that lists all rules in Markdown, with links to their pages."""
-    parts = [
-        "# Rules\n\nGenerated from the rules themselves by `pytest --bless`. `ros-lint rule NAME` prints a page in the terminal.\n"
-    ]
+    parts = ["# Rules\n\nMade of the rules themselves by `pytest --bless`; `ros-lint rule NAME` prints a page.\n"]
     for digit, heading in GROUPS.items():
         mine = [rule for rule in rules if rule.code[3] == digit]
         if not mine:

@@ -65,7 +65,7 @@ class Liveness:
             return Role.EXEC, True
         if TEST_FOLDERS & folders or (python and _is_test(name)):
             # pytest takes what is called test; beside it at the top lie its helpers, further down lies anything.
-            taken = _is_test(name) or path.partition("/")[0] in TEST_FOLDERS and path.count("/") == 1
+            taken = _is_test(name) or (path.partition("/")[0] in TEST_FOLDERS and path.count("/") == 1)
             return Role.TEST, taken if python else not self._sees_targets
         idle = bool(_IDLE_FOLDERS & folders)
         if path in self._launched:

@@ -11,7 +11,6 @@ from ros_lint.config import Settings, settle
 from ros_lint.engine import matches
 from ros_lint.knowledge import Knowledge, distros, newest_lts, user_directory
 from ros_lint.load import Loader, Progress
-from ros_lint.options import BY_NAME
 from ros_lint.tree import DiskTree
 from ros_lint.workspace import Target
 

@@ -90,7 +90,8 @@ class Rule(NamedTuple):
 
     name: str
     code: str
-    """``ROS`` and three digits: 1xx workspace and manifest, 2xx dependencies, 3xx build scripts, 4xx install, 5xx launch, 9xx the tool."""
+    """``ROS`` and three digits: 1xx workspace and manifest, 2xx dependencies, 3xx build scripts, 4xx install, 5xx launch,
+    9xx the tool itself."""
     summary: str
     """What must be so, lower case, no full stop: "a package that is used must be declared"."""
     severity: Severity

@@ -147,8 +147,12 @@ def bless(case: Case, rule: Rule) -> None:
     body, more, tail = rest.partition("\n## ")
     for kind, text in new.items():
         block = f"```{kind}\n{text}```"
-        body = re.sub(rf"^```{kind}\n.*?^```$", lambda _, block=block: block, body, flags=re.MULTILINE | re.DOTALL)
+        body = _block(kind).sub(block.replace("\\", r"\\"), body)
     case.source.write_text(head + found + body + more + tail, "utf-8")
+
+
+def _block(kind: str) -> re.Pattern[str]:
+    return re.compile(rf"^```{kind}\n.*?^```$", re.MULTILINE | re.DOTALL)
 
 
 def fixed(tree: Tree, issues: tuple[Issue, ...]) -> dict[str, str]:

@@ -7,7 +7,14 @@ from ros_lint.config import ConfigError, settle
 from ros_lint.options import OPTIONS, schema
 
 
-def settings(folder: Path, text: str | None = None, *, name: str = "ros-lint.toml", said: dict[str, Any] | None = None, env: dict[str, str] | None = None) -> Any:
+def settings(
+    folder: Path,
+    text: str | None = None,
+    *,
+    name: str = "ros-lint.toml",
+    said: dict[str, Any] | None = None,
+    env: dict[str, str] | None = None,
+) -> Any:
     if text is not None:
         (folder / name).write_text(text)
     return settle(said or {}, str(folder), env or {}, str(folder))
@@ -44,7 +51,10 @@ def test_paths_in_a_file_are_relative_to_it(tmp_path: Path) -> None:
     [
         ('\ndistor = "humble"', r"ros-lint.toml:2: unknown setting distor, did you mean distro\?"),
         ('fail_on = "error"', r"ros-lint.toml:1: unknown setting fail_on, did you mean fail-on\?"),
-        ('fail-on = "eror"', r"ros-lint.toml:1: fail-on must be one of error, warning, info, never, not 'eror', did you mean error\?"),
+        (
+            'fail-on = "eror"',
+            r"ros-lint.toml:1: fail-on must be one of error, warning, info, never, not 'eror', did you mean error\?",
+        ),
         ("pedantic = 1", "ros-lint.toml:1: pedantic must be true or false"),
         ("jobs = -1", "ros-lint.toml:1: jobs must be a whole number from 0"),
         ('select = "all"', "ros-lint.toml:1: select must be a list of strings"),
@@ -70,7 +80,14 @@ def test_the_schema_takes_what_the_table_takes() -> None:
     validator = jsonschema.Draft7Validator(schema())
     good = {"distro": "humble", "select": ["all"], "severity": {"ROS2": "off"}, "per-path-ignores": {"a": ["all"]}, "jobs": 2}
     assert not list(validator.iter_errors(good))
-    for bad in ({"distor": "x"}, {"fail-on": "eror"}, {"jobs": -1}, {"pedantic": 1}, {"severity": {"a": "fatal"}}, {"format": "json"}):
+    for bad in (
+        {"distor": "x"},
+        {"fail-on": "eror"},
+        {"jobs": -1},
+        {"pedantic": 1},
+        {"severity": {"a": "fatal"}},
+        {"format": "json"},
+    ):
         assert list(validator.iter_errors(bad)), bad
 
 

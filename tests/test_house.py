@@ -14,7 +14,14 @@ FIXTURES = ROOT / "fixtures"
 HEADINGS = ["What it finds", "Why it matters", "How to fix it", "When it keeps silent"]
 RULES = registry.load()
 CHECKED = [rule for rule in RULES if rule.package or rule.workspace]
-GROUPS = {"1": "workspace and manifest", "2": "dependencies", "3": "build scripts", "4": "install", "5": "launch", "9": "the tool"}
+GROUPS = {
+    "1": "workspace and manifest",
+    "2": "dependencies",
+    "3": "build scripts",
+    "4": "install",
+    "5": "launch",
+    "9": "the tool",
+}
 
 
 def by_name(rule: Rule) -> str:

@@ -26,7 +26,9 @@ def test_lines_are_those_that_universal_newlines_gives(text: str) -> None:
 @given(TEXTS, st.lists(st.integers(0, 39), max_size=6))
 def test_many_spans_are_as_one_by_one(text: str, places: list[int]) -> None:
     source = Text("f", text)
-    ranges = [(place, place) for place in sorted(places) if place <= len(text) and not (place and text[place - 1 : place + 1] == "\r\n")]
+    ranges = [
+        (place, place) for place in sorted(places) if place <= len(text) and not (place and text[place - 1 : place + 1] == "\r\n")
+    ]
     assert list(source.spans(ranges)) == [source.span(*each) for each in ranges]
 
 

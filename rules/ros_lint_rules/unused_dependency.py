@@ -17,7 +17,8 @@ Remove the tag. The fix does this.
 
 Whenever the dependency might be needed in a way that leaves no trace: test, run-time and tool dependencies, rosdep keys
 of the system, tags under a condition, packages whose build scripts cannot be followed everywhere, packages that find
-what they declare (`ament_auto_find_build_dependencies`), metapackages, vendor packages and packages without code, and dependencies that give
+what they declare (`ament_auto_find_build_dependencies`), metapackages, vendor
+packages and packages without code, and dependencies that give
 CMake macros, plugins or components.
 """
 
