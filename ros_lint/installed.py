@@ -161,10 +161,10 @@ class Prefix:
         if self.single:
             (package,) = self.packages
             return (package,) if any(self._is_there(f"include/{at}{path}") for at in ("", f"{package}/")) else ()
-        owners = [name for name in self._include_folders.get(first, ()) if self._is_there(f"include/{name}/{path}")]
-        if not owners and first in self.packages and self._is_there(f"include/{path}"):
-            owners = [first]
-        return tuple(owners)
+        # Most packages are called as their headers; the others are looked for in the folders of all.
+        if first in self.packages and any(self._is_there(f"include/{at}{path}") for at in (f"{first}/", "")):
+            return (first,)
+        return tuple(name for name in self._include_folders.get(first, ()) if self._is_there(f"include/{name}/{path}"))
 
     def cmake_names(self) -> Iterator[tuple[str, str]]:
         """Yield the name of every CMake package and the package that installs it."""

@@ -6,12 +6,13 @@ Which packages a prefix has is found out at once; all else is read package by pa
 from __future__ import annotations
 
 import os
+import re
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors import manifest as manifests
 from ros_lint.installed import Prefix
-from ros_lint.knowledge.index import Released
+from ros_lint.knowledge.index import RUNTIME, Released
 from ros_lint.knowledge.manifests import context, describe
 from ros_lint.knowledge.provides import NOTHING_KNOWN, Known
 from ros_lint.text import read as read_text
@@ -22,6 +23,13 @@ if TYPE_CHECKING:
 
     from ros_lint.knowledge.provides import Facet
     from ros_lint.tree import Tree
+
+
+_NOT_PLAIN = re.compile(rb"condition|<!DOCTYPE|<!\[CDATA\[|&|\0")
+_ASIDE = re.compile(rb"<!--.*?-->|<\?.*?\?>|<export\b.*?</export\s*>", re.DOTALL)
+_TAG = re.compile(rb"<(?:build_export_|buildtool_export_|exec_|run_)?depend\b")
+_NAMED = re.compile(_TAG.pattern + rb"(?:\s[^>]*)?>\s*([\w.+-]+)\s*</")
+"""Dependency tags of the kinds in RUNTIME."""
 
 
 class UnderlayError(Exception):
@@ -51,6 +59,20 @@ class Installed:
                 return describe(found, context(self._distro))._replace(name=self.name, repository=self.name)
         recorded = self.prefix.recorded_dependencies(self.name)
         return None if recorded is None else Released(self.name, "", "?", self.name, {"x": recorded})
+
+    @cached_property
+    def runtime(self) -> tuple[str, ...] | None:
+        """Return what comes along with it, sorted, or None when nothing tells.
+
+        As :attr:`released` says, but plain manifests are not taken apart: hundreds of them are asked for this alone.
+        """
+        data = self.prefix.read(f"share/{self.name}/package.xml")
+        if data is not None and not _NOT_PLAIN.search(data):
+            bare = _ASIDE.sub(b"", data)
+            names = _NAMED.findall(bare)
+            if len(names) == len(_TAG.findall(bare)):
+                return tuple(sorted({name.decode() for name in names}))
+        return None if self.released is None else self.released.on(RUNTIME)
 
     @cached_property
     def groups(self) -> tuple[str, ...]:

@@ -277,8 +277,9 @@ class World:
             names = [other for kind in "eux" for other in member.depends.get(kind, ())]
             names += [other for group in member.depends.get("G", ()) for other in self._members_of.get(group, ())]
             return tuple(names)
-        if name in self._installed:
-            return self.depends(name, RUNTIME)
+        installed = self._installed.get(name)
+        if installed is not None:
+            return installed.runtime
         if name in self.knowledge.index:
             return self.knowledge.index.runtime(name)
         return () if self.is_key(name) else None

@@ -325,3 +325,38 @@ def test_damage_in_one_package_leaves_the_others(merged: Path) -> None:
     assert known(layer.packages["arm"]).keys() == {"executables", "launch", "components", "modules"}
     assert known(layer.packages["arm_msgs"]) == {"modules": ("arm_msgs",)}
     assert len(command.scan([str(merged)], "mine")[0].splitlines()) == 5
+
+
+RUNTIME_BODIES = [
+    "<depend>a</depend><exec_depend>b</exec_depend><build_export_depend>c</build_export_depend>",
+    "<buildtool_export_depend>a</buildtool_export_depend><build_depend>no</build_depend><test_depend>no</test_depend>",
+    "<depend version_gte='1.0'>\n  a\n</depend><!-- <depend>no</depend> --><exec_depend><!-- so --> b</exec_depend>",
+    "<depend>a</depend><!-- --><depend\n>b</depend ><doc_depend>no</doc_depend><buildtool_depend>no</buildtool_depend>",
+    "<depend condition='$ROS_DISTRO == jazzy'>a</depend><depend condition='$ROS_DISTRO == humble'>no</depend>",
+    "<depend><![CDATA[a]]></depend>",
+    "<depend>&#97;</depend>",
+    "<url>https://x.example/?a=1&amp;b=2</url><depend>a</depend>",
+]
+
+
+@pytest.mark.parametrize("body", RUNTIME_BODIES)
+def test_what_comes_along_is_read_twice_alike(body: str, tmp_path: Path) -> None:
+    write(tmp_path, {"share/arm/package.xml": manifest("arm", body)})
+    arm = underlay.read([str(tmp_path)], "jazzy")[0].packages["arm"]
+    assert arm.released is not None
+    assert arm.runtime == arm.released.on("eux")
+    assert arm.runtime
+    assert "no" not in arm.runtime
+
+
+@pytest.mark.skipif("ROS_LINT_CORPUS" not in os.environ, reason="ROS_LINT_CORPUS names no folder of repositories")
+def test_what_comes_along_in_real_manifests(tmp_path: Path) -> None:
+    found = [path for path in Path(os.environ["ROS_LINT_CORPUS"]).rglob("package.xml") if path.is_file()]
+    for number, path in enumerate(found):
+        write(tmp_path, {f"share/p{number}/package.xml": ""})
+        shutil.copy(path, tmp_path / f"share/p{number}/package.xml")
+    (layer,) = underlay.read([str(tmp_path)], "jazzy")
+    assert len(layer.packages) == len(found)
+    for installed in layer.packages.values():
+        if installed.released is not None:
+            assert installed.runtime == installed.released.on("eux"), installed.name
