@@ -117,12 +117,20 @@ def variables(condition: Condition) -> frozenset[str]:
     return frozenset(side.text for side in (condition.left, condition.right) if side.variable)
 
 
+def of(element: Element) -> str:
+    """Return the condition of a child of ``<export>``: "" when there is none, " " when it is empty."""
+    for name, text in element.attributes:
+        if name == "condition":
+            return text or " "
+    return ""
+
+
 def build_types(manifest: Manifest, context: Mapping[str, str]) -> tuple[tuple[str, bool | None], ...]:
     """Return the build types that are not switched off, each with its truth: True, or None when that cannot be known.
 
     None at all means "catkin"; with two that are true, colcon takes the folder for no ROS package (reference, section A5.4).
     """
-    found = [(element.text, truth(_condition(element), context)) for element in manifest.exports if element.tag == "build_type"]
+    found = [(element.text, truth(of(element), context)) for element in manifest.exports if element.tag == "build_type"]
     return tuple([(name, active) for name, active in found if active is not False])
 
 
@@ -133,7 +141,7 @@ def problems(manifest: Manifest) -> tuple[Problem, ...]:
 
 def _unparsable(manifest: Manifest) -> Iterator[Problem]:
     conditional = [(depend.condition, depend.tag, depend.span) for depend in manifest.depends if depend.condition]
-    conditional += [(text, element.tag, element.span) for element in manifest.exports if (text := _condition(element))]
+    conditional += [(text, element.tag, element.span) for element in manifest.exports if (text := of(element))]
     for text, tag, span in conditional:
         try:
             parse(text)
@@ -142,13 +150,6 @@ def _unparsable(manifest: Manifest) -> Iterator[Problem]:
             if not text.strip():
                 message = f"condition of <{tag}> is empty: remove the attribute"
             yield Problem("invalid-condition", message, span)
-
-
-def _condition(element: Element) -> str:
-    for name, text in element.attributes:
-        if name == "condition":
-            return text or " "
-    return ""
 
 
 def _value(operand: Operand, context: Mapping[str, str]) -> str | None:

@@ -96,10 +96,9 @@ def set_build_type(manifest: Manifest, build_type: str) -> Edit:
     whole = f"<export>{newline}{indent * 2}{element}{newline}{indent}</export>"
     export = next((child for child in manifest.elements if child.tag == "export"), None)
     if export is None:
-        children = sorted(child.span for child in (*manifest.elements, *manifest.depends))
-        if not children:
+        if not manifest.elements and not manifest.depends:
             return layout.last(whole)
-        last = children[-1]
+        last = max(children[-1].span for children in (manifest.elements, manifest.depends) if children)
         apart = layout.kinds_apart() if manifest.depends else layout.blank_after(last)
         return layout.after(last, whole, apart=apart)
     content = export.text_span

@@ -1,0 +1,72 @@
+"""
+## What it finds
+
+An `ament_python` package whose version in `setup.py` or `setup.cfg` is not that of `package.xml`.
+
+## Why it matters
+
+Debian packages and `ros2 pkg xml` have the one, `pip list` and `importlib.metadata` the other. Releases are made from the
+one that nobody looked at.
+
+## How to fix it
+
+Write the same version into both. The fix, an unsafe one, takes that of `package.xml`, unless that is still the `0.0.0` of
+the template.
+
+## When it keeps silent
+
+When the version in `setup.py` is not written out, and when the two differ by zeros at the end only.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from ros_lint.api import Edit, Finding, Fix, Manifest, Package, Related, Rule, Severity, Span, Workspace
+
+_TEMPLATE = "0.0.0"
+
+
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    manifest, script = package.manifest, package.script
+    if manifest is None or manifest.problems or script is None or package.type != "ros.ament_python":
+        return
+    version, span = script.version, script.version_span
+    if not version or span is None or _short(version) == _short(manifest.version):
+        return
+    place = next(element.text_span for element in manifest.elements if element.tag == "version")
+    file = span.path.rpartition("/")[2]
+    yield Finding(
+        f"{file} has version {version}, package.xml {manifest.version}; write the same into both",
+        span,
+        "version",
+        (Related(f"version {manifest.version}", place),),
+        _fix(manifest, version, span, place),
+    )
+
+
+def _short(version: str) -> str:
+    return re.sub(r"(\.0)+$", "", version)
+
+
+def _fix(manifest: Manifest, version: str, span: Span, place: Span) -> Fix | None:
+    if manifest.version == _TEMPLATE and re.fullmatch(r"\d+\.\d+\.\d+", version):
+        return Fix(f"write {version} into package.xml", (Edit(place, version),), safe=False)
+    quotes = 1 if span.path.endswith(".py") else 0
+    if span.line != span.end_line or span.end_column - span.column != len(version) + 2 * quotes:
+        return None
+    inner = span._replace(column=span.column + quotes, end_column=span.end_column - quotes)
+    return Fix(f"write {manifest.version} into {span.path.rpartition('/')[2]}", (Edit(inner, manifest.version),), safe=False)
+
+
+RULE = Rule(
+    name="version-mismatch",
+    code="ROS110",
+    summary="a package must have one version",
+    severity=Severity.WARNING,
+    since="0.1",
+    doc=__doc__,
+    fixable=True,
+    package=check,
+)
