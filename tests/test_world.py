@@ -9,9 +9,10 @@ from pathlib import Path
 import networkx as nx
 import pytest
 
-from ros_lint import underlay
+from ros_lint import source_lists, underlay
 from ros_lint.knowledge import Knowledge
 from ros_lint.knowledge.reach import Reach
+from ros_lint.tree import MemoryTree
 from ros_lint.world import Member, World
 
 JAZZY = Knowledge("jazzy")
@@ -404,3 +405,12 @@ def test_only_what_resolves_is_suggested() -> None:
             for name in found.suggest(wrong):
                 assert found.is_package(name) or found.knowledge.resolves(name)
     assert world().suggest("ament_cmake_lint_copyright") == ("ament_cmake_copyright",)
+
+
+def test_lists_of_sources_are_found_near_the_top_and_in_packages() -> None:
+    names = ["a.repos", "src/deps.repos", "src/arm/arm.rosinstall", "tools/ci/x.repos", ".gitmodules", "b.txt"]
+    tree = MemoryTree(dict.fromkeys(names, ""))
+    assert source_lists.find(tree, ["src"], ["src/deep/er/z.repos", "src/deep/er/z.cpp"]) == (
+        ".gitmodules", "a.repos", "src/arm/arm.rosinstall", "src/deep/er/z.repos", "src/deps.repos"
+    )  # fmt: skip
+    assert source_lists.find(MemoryTree({}), ["nowhere"], []) == ()

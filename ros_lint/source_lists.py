@@ -1,0 +1,30 @@
+"""Files that name sources which belong to a workspace and need not be there."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from ros_lint.tree import Tree, join
+
+_ENDINGS = (".repos", ".rosinstall", ".gitmodules")
+
+
+def find(tree: Tree, roots: Sequence[str], files: Iterable[str]) -> tuple[str, ...]:
+    """Return the ``*.repos`` (vcstool), ``*.rosinstall`` (wstool) and ``.gitmodules`` of a workspace, sorted.
+
+    Looked for are the base of the tree, the roots and the folders directly in either, and ``files``, which are those of
+    packages. What cannot be read has none.
+    """
+    found = {path for path in files if path.endswith(_ENDINGS)}
+    for top in {"", *roots}:
+        folders = [top]
+        for number, folder in enumerate(folders):
+            try:
+                entries = tree.list(folder)
+            except OSError:
+                continue
+            found.update(join(folder, entry.name) for entry in entries if entry.name.endswith(_ENDINGS))
+            if number == 0:
+                inner = [entry.name for entry in entries if entry.kind == "directory" and not entry.name.startswith(".")]
+                folders += [join(top, name) for name in inner]
+    return tuple(sorted(found))
