@@ -73,6 +73,7 @@ def _unknown(stranger: Stranger, workspace: Workspace) -> Finding:
     meant = world.meant(name, python=stranger.runs_python)
     fix = None
     installing = world.knowledge.rosdep.installing(name)
+    sure = _confidence(stranger, meant.by if meant else "system" if installing else "", workspace)
     if meant is None and installing:
         message = f"{what}, but what {_CALLED_SO_BY['system']} calls it: write {' or '.join(installing[:_MOST_KEYS])}"
     elif meant is None:
@@ -85,13 +86,14 @@ def _unknown(stranger: Stranger, workspace: Workspace) -> Finding:
         again = stranger.package.declares(meant.name)
         message = f"{what}{why}: " + (f"remove it, {meant.name} is declared, too" if again else f"write {meant.name}")
         edits = _rename(stranger, meant.name)
-        fix = Fix(f"remove {name}" if again else f"write {meant.name} for {name}", edits) if edits else None
+        title = f"remove {name}" if again else f"write {meant.name} for {name}"
+        fix = Fix(title, edits, safe=sure == Confidence.HIGH) if edits else None
     return Finding(
         message,
         stranger.declared.depend.name_span,
         name,
         fix=fix,
-        confidence=_confidence(stranger, meant.by if meant else "system" if installing else "", workspace),
+        confidence=sure,
         package=stranger.package.name,
     )
 
