@@ -16,7 +16,7 @@ import ros_lint.reporters
 from ros_lint.options import FORMATS as OPTION_FORMATS
 from ros_lint.report import Report
 from ros_lint.reporters import FORMATS, Style, reporter, sarif
-from ros_lint.reporters.ansi import glyph
+from ros_lint.reporters.ansi import glyph, safe
 from ros_lint.reporters.fingerprint import line_hashes
 from ros_lint.reporters.frames import Mark, frame
 from ros_lint.reporters.github import command
@@ -136,6 +136,47 @@ def test_carets_stand_below_the_words(line: str, words: str, over: str) -> None:
     source = Text("a", f"before\n{line}\nafter")
     start = source.text.index(words or "c\n") + (1 if not words else 0)
     assert flat(source, source.span(start, start + len(words)))[1] == over
+
+
+def test_escapes() -> None:
+    shown = [safe(text, Style()) for text in ("\udce9", "\x9b", "\u202e", "\U000e0041", "ä", "a\tb")]
+    assert shown == ["\\xe9", "\\x9b", "\\u202e", "\\U000e0041", "ä", "a    b"]
+    assert safe("ä\uffff\U00010000", Style(ascii=True)) == "\\xe4\\uffff\\U00010000"
+
+
+def framed(lines: list[str], *places: tuple[int, int, int, int], width: int = 60) -> list[str]:
+    """Return the rows of a frame, without the one that names the file."""
+    marks = [Mark(Span("a", *place), f"label {number}", "error", "^") for number, place in enumerate(places)]
+    return frame(marks, lambda path: Text("a", "\n".join(lines)), Style(width=width))[0][2:]
+
+
+def test_one_line_between_two_places_is_shown_and_more_are_not() -> None:
+    assert framed(["a", "b", "c", "d", "e", "f"], (1, 1, 1, 2), (3, 1, 3, 2), (6, 1, 6, 2)) == [
+        *("1 | a", "  | ^ label 0", "2 | b", "3 | c", "  | ^ label 1", "... |", "6 | f", "  | ^ label 2"),
+    ]
+
+
+def test_places_of_several_lines() -> None:
+    assert framed(["a b", "c", "d", "  e", "f", "g"], (1, 3, 2, 2), (4, 3, 6, 1)) == [
+        *("1 |   a b", "  |  ___^", "2 | | c", "  | |_^ label 0"),
+        *("3 |   d", "4 | /   e", "5 | | f", "  | |_^ label 1"),
+    ]
+
+
+def test_places_that_overlap_are_told_apart() -> None:
+    assert framed(["a b", "c", "d", "e"], (1, 1, 3, 2), (2, 1, 4, 2)) == [
+        *("1 | / a b", "2 | | c", "  | | ^ label 1", "3 | | d", "  | |_^ label 0"),
+    ]
+
+
+def test_a_line_is_cut_only_when_it_has_to_be() -> None:
+    room = 60 - len("1 | ")
+    for length, whole in ((room, True), (room + 1, False)):
+        line = "x" * (length - 1) + "y"
+        row, carets = framed([line], (1, length, 1, length + 1))
+        assert (row == f"1 | {line}") is whole
+        assert row[carets.index("^")] == "y"
+    assert framed(["x" * 200], (1, 1, 1, 2))[0] == f"1 | {'x' * (room - 3)}..."
 
 
 LINES = st.text(st.sampled_from("ab \t日e\u0301\x1b\u202e\udce9😀\u200d-"), max_size=90)
