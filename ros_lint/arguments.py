@@ -37,7 +37,9 @@ def parse(arguments: Sequence[str]) -> tuple[str, dict[str, Any]]:
         command, rest = arguments[0], list(arguments[1:])
     else:
         command, rest = "check", list(arguments)
-    said = vars(parser(command, top=not arguments or arguments[0] != command).parse_intermixed_args(rest))
+    made = parser(command, top=not arguments or arguments[0] != command)
+    # Options may stand between paths, but argparse cannot do that where there are actions below a command.
+    said = vars(made.parse_args(rest) if command == "index" else made.parse_intermixed_args(rest))
     return command, {name.replace("_", "-"): value for name, value in said.items()}
 
 
