@@ -601,3 +601,12 @@ def test_spelling_by_dashes_and_capitals() -> None:
     assert Spelling(["cv_bridge", "turtlebot3_fake_node"]).same("cv-bridge") == ("cv_bridge",)
     assert Spelling(["cv_bridge", "turtlebot3_fake_node"]).same("turtlebot3_fakenode") == ("turtlebot3_fake_node",)
     assert Spelling(["ament_cmake_copyright", "rclcpp"]).near("ament_cmake_lint_copyright") == ("ament_cmake_copyright",)
+
+
+def test_the_command_line_leads_to_the_command(tmp_path: Path) -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "ros_lint", "index", "refresh", "--from", _upstream(tmp_path), "--distro", "jazzy", "--to", tmp_path],
+        capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    assert done.stdout.startswith(f"{tmp_path}/jazzy.idx: 9 lines")
+    assert (tmp_path / "jazzy.idx").read_text().splitlines()[1:] == EXPECTED.splitlines()[1:]
