@@ -604,9 +604,8 @@ def test_spelling_by_dashes_and_capitals() -> None:
 
 
 def test_the_command_line_leads_to_the_command(tmp_path: Path) -> None:
-    done = subprocess.run(
-        [sys.executable, "-m", "ros_lint", "index", "refresh", "--from", _upstream(tmp_path), "--distro", "jazzy", "--to", tmp_path],
-        capture_output=True, text=True, check=True,
-    )  # fmt: skip
-    assert done.stdout.startswith(f"{tmp_path}/jazzy.idx: 9 lines")
+    to = str(tmp_path)
+    words = [sys.executable, "-m", "ros_lint", "index", "refresh", "--from", _upstream(tmp_path), "--distro", "jazzy", "--to", to]
+    done = subprocess.run(words, capture_output=True, text=True, check=True)
+    assert done.stdout.startswith(f"{to}/jazzy.idx: 9 lines")
     assert (tmp_path / "jazzy.idx").read_text().splitlines()[1:] == EXPECTED.splitlines()[1:]
