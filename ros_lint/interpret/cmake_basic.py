@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import posixpath
+import re
 from typing import Final
 
 from ros_lint.collectors.cmake_syntax import PLAIN
 from ros_lint.facts import ANYTHING, Facet
-from ros_lint.interpret.cmake_conditions import version
 from ros_lint.interpret.cmake_flow import run_file
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_state import BREAK, CONTINUE, RETURN, STOP, Frame, Variables
-from ros_lint.interpret.cmake_values import BINARY, FOREIGN, HOLE, SOURCE, is_fixed, is_known, join
+from ros_lint.interpret.cmake_values import BINARY, FOREIGN, HOLE, SOURCE, certainly_set, is_fixed, is_known, join, merge, split
 from ros_lint.tree import join as join_path
 
 
@@ -45,10 +45,13 @@ def _set_cache(run: Run, name: str, value: str, kind: str, force: bool) -> None:
     new = name not in run.cache
     if kind != "INTERNAL" and not force:
         run.settable.add(name)
-    if new or force or kind == "INTERNAL":
+    if not new and not force and kind != "INTERNAL" and not certainly_set(run.cache[name]):
+        run.put(run.cache, name, merge([run.cache[name], value]))
+        run.set(name, HOLE)
+    elif new or force or kind == "INTERNAL":
         run.put(run.cache, name, value)
         if run.versions < (3, 21):  # policy CMP0126
-            run.remove(run.scopes[-1], name)
+            run.set(name, None)
 
 
 def _unset(run: Run, args: list[str]) -> None:
@@ -67,13 +70,18 @@ def _unset(run: Run, args: list[str]) -> None:
 def _option(run: Run, args: list[str]) -> None:
     if not args or HOLE in args[0]:
         return
-    run.settable.add(args[0])
-    if run.get(args[0]) is None or args[0] not in run.cache:
-        if run.scopes[-1].get(args[0]) is not None and run.versions >= (3, 13):  # policy CMP0077
-            return
-        run.put(run.cache, args[0], args[2] if len(args) > 2 else "OFF")
-        if run.versions < (3, 13):
-            run.remove(run.scopes[-1], args[0])
+    name = args[0]
+    usual = args[2] if len(args) > 2 else "OFF"
+    run.settable.add(name)
+    value = run.normal(name)
+    if value is not None and run.versions >= (3, 13):  # policy CMP0077
+        if not certainly_set(value):
+            run.put(run.cache, name, merge([run.cache.get(name), usual]))
+            run.set(name, HOLE)
+        return
+    if name not in run.cache:
+        run.put(run.cache, name, usual)
+        run.set(name, None)
 
 
 def _message(_run: Run, args: list[str]) -> int | None:
@@ -106,9 +114,9 @@ def _policy(run: Run, args: list[str]) -> None:
 
 
 def _policies(run: Run, wanted: str) -> None:
-    found = version(wanted.rpartition("...")[2])
-    if is_known(wanted) and found:
-        run.versions = (found[0], found[1] if len(found) > 1 else 0)
+    match = re.match(r"(\d+)(?:\.(\d+))?", wanted.rpartition("...")[2])
+    if is_known(wanted) and match:
+        run.versions = (int(match[1]), int(match[2] or 0))
 
 
 def _project(run: Run, args: list[str]) -> None:
@@ -273,10 +281,10 @@ def _parse_arguments(run: Run, args: list[str]) -> None:
     """cmake_parse_arguments(prefix options one multi args...) and its PARSE_ARGV form."""
     if args[:1] == ["PARSE_ARGV"]:
         prefix, options, ones, multis = (*args[2:6], "", "", "", "")[:4]
-        given = _rest_of_call(run, args[1])
+        given = [arg.replace(";", "\\;") for arg in _rest_of_call(run, args[1])]
     else:
         prefix, options, ones, multis = (*args[:4], "", "", "", "")[:4]
-        given = args[4:]
+        given = [element for arg in args[4:] for element in split(arg)]
     if not is_known(prefix) or not all(map(is_known, (options, ones, multis))):
         return
     from ros_lint.interpret.cmake_arguments import parse_keywords  # noqa: PLC0415

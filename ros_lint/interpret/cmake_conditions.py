@@ -6,11 +6,11 @@ An answer is true, false, unknown, or *likely* and *unlikely*: true or false unl
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from ros_lint.collectors.cmake_syntax import BRACKET, CLOSE, LITERAL, OPEN, QUOTED, UNQUOTED, Command
-from ros_lint.interpret.cmake_values import HOLE, SOURCE, elements, is_fixed, is_known, split
+from ros_lint.collectors.cmake_syntax import BRACKET, LITERAL, QUOTED, UNQUOTED, Command
+from ros_lint.interpret.cmake_values import HOLE, SOURCE, certainly_set, elements, is_fixed, is_known, split
 
 if TYPE_CHECKING:
     from ros_lint.interpret.cmake_run import Run
@@ -42,8 +42,8 @@ _TEST_VARIABLE = re.compile(
 )
 _REFERENCE = re.compile(r"\$\{([A-Za-z0-9_./+-]+)\}")
 _NUMBER = re.compile(r"\s*[-+]?(?:0[xX][0-9a-fA-F]+|(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)")
-_TRUE_WORDS: Final = frozenset({"ON", "YES", "TRUE", "Y"})
-_FALSE_WORDS: Final = frozenset({"", "OFF", "NO", "FALSE", "N", "IGNORE", "NOTFOUND"})
+_TRUE_WORDS: Final = frozenset({"1", "ON", "YES", "TRUE", "Y"})
+_FALSE_WORDS: Final = frozenset({"", "0", "OFF", "NO", "FALSE", "N", "IGNORE"})
 
 
 def condition(run: Run, command: Command) -> Truth:
@@ -57,8 +57,13 @@ def condition(run: Run, command: Command) -> Truth:
             tokens.append(_Token(run.evaluated(text), True, _is_soft(run, text)))
         else:
             tokens.append(_Token(text, kind in (LITERAL, BRACKET), False))
-    if any(kind in (OPEN, CLOSE) for _, kind, _, _ in command.args) or len(tokens) > 1:
-        return _Parser(run, tokens).whole()
+    if len(tokens) > 1:
+        truth = _Parser(run, tokens).whole()
+        if sum(token.text == "MATCHES" for token in tokens) > 1:
+            from ros_lint.interpret.cmake_regex import forget  # noqa: PLC0415
+
+            forget(run)  # which match came last depends on the parentheses
+        return truth
     return _word(run, tokens[0]) if tokens else Truth(FALSE)
 
 
@@ -86,13 +91,19 @@ class _Parser:
         return self.tokens[at].text
 
     def chain(self) -> Truth:
-        truth = self.negation()
+        truths = [self.negation()]
+        signs: list[str] = []
         while self.keyword() in ("AND", "OR"):
-            both = self.keyword() == "AND"
+            signs.append(self.keyword())
             self.at += 1
-            other = self.negation()
-            truth = _and(truth, other) if both else _or(truth, other)
-        return truth
+            truths.append(self.negation())
+        first = _from_left(truths, signs)
+        if len(set(signs)) > 1:
+            # Older versions bind AND more tightly, and newer ones have taken the operands two by two.
+            others = (_and_first(truths, signs), _in_pairs(truths, signs))
+            if any(other.value != first.value for other in others):
+                return first._replace(value=UNKNOWN)
+        return first
 
     def negation(self) -> Truth:
         if self.keyword() == "NOT" and self.at + 1 < len(self.tokens):
@@ -134,6 +145,35 @@ class _Parser:
         return truth
 
 
+def _from_left(truths: Sequence[Truth], signs: Sequence[str]) -> Truth:
+    truth = truths[0]
+    for sign, other in zip(signs, truths[1:], strict=True):
+        truth = _and(truth, other) if sign == "AND" else _or(truth, other)
+    return truth
+
+
+def _and_first(truths: Sequence[Truth], signs: Sequence[str]) -> Truth:
+    found = [truths[0]]
+    for sign, other in zip(signs, truths[1:], strict=True):
+        if sign == "AND":
+            found[-1] = _and(found[-1], other)
+        else:
+            found.append(other)
+    return _from_left(found, ["OR"] * (len(found) - 1))
+
+
+def _in_pairs(truths: Sequence[Truth], signs: Sequence[str]) -> Truth:
+    while len(truths) > 1:
+        truths, signs = (
+            [
+                _from_left(truths[at : at + 2], signs[at : at + 1]) if at + 1 < len(truths) else truths[at]
+                for at in range(0, len(truths), 2)
+            ],
+            signs[1::2],
+        )
+    return truths[0]
+
+
 def _not(truth: Truth) -> Truth:
     return Truth(TRUE - truth.value, truth.test_if_false, truth.test_if_true)
 
@@ -161,19 +201,19 @@ def _softened(value: int, run: Run, *tokens: _Token) -> Truth:
     return Truth(_soften(value) if soft else value)
 
 
+def is_off(text: str) -> bool:
+    """Return whether a value counts as false."""
+    return text.upper() in _FALSE_WORDS or text == "NOTFOUND" or text.endswith("-NOTFOUND")
+
+
 def constant(text: str) -> bool | None:
-    """Return what a value means as a condition, or None when it is neither a true nor a false constant."""
-    upper = text.upper()
-    if upper in _TRUE_WORDS:
+    """Return what a word means as a condition, or None when it is neither a true nor a false constant nor a number."""
+    if text.upper() in _TRUE_WORDS:
         return True
-    if upper in _FALSE_WORDS or upper.endswith("-NOTFOUND"):
+    if is_off(text):
         return False
-    if text[:1].isdigit() or text[:1] in "+-.":
-        try:
-            return float(text) != 0
-        except ValueError:
-            return None
-    return None
+    number = _NUMBER.fullmatch(text)
+    return _number(text) != 0 if number else None
 
 
 def _word(run: Run, token: _Token) -> Truth:
@@ -196,7 +236,7 @@ def _word(run: Run, token: _Token) -> Truth:
         return Truth(UNLIKELY if soft else FALSE)
     if not is_fixed(value):
         return Truth(UNKNOWN)
-    answer = FALSE if constant(value) is False else TRUE
+    answer = FALSE if is_off(value) else TRUE
     return Truth(_soften(answer) if token.soft or run.is_soft(text) else answer)
 
 
@@ -206,7 +246,7 @@ def _tests_enabled(run: Run, name: str) -> Truth:
     if name == "BUILD_TESTING" or value is None or not is_fixed(value):
         usual = LIKELY if name == "BUILD_TESTING" else UNLIKELY
         return Truth(usual, test_if_true=True)
-    return Truth(LIKELY if constant(value) is not False else UNLIKELY, test_if_true=True)
+    return Truth(UNLIKELY if is_off(value) else LIKELY, test_if_true=True)
 
 
 # --- unary tests ---------------------------------------------------------------------------------------------------
@@ -223,7 +263,7 @@ def _defined(run: Run, token: _Token) -> Truth:
     value = run.get(name)
     if value is None:
         return Truth(UNLIKELY if run.may_be_set(name) else FALSE)
-    return Truth(UNKNOWN if value == HOLE else TRUE)
+    return Truth(TRUE if certainly_set(value) else UNKNOWN)
 
 
 def _target(run: Run, token: _Token) -> Truth:
@@ -333,33 +373,43 @@ def _numbers(compare: Callable[[float, float], bool]) -> Callable[[str, str], bo
 
 def _number(text: str) -> float:
     text = text.strip()
-    return float(int(text, 16)) if "x" in text.lower() else float(text)
+    return float.fromhex(text) if "x" in text.lower() else float(text)
 
 
-def version(text: str) -> tuple[int, ...]:
-    """Return the components that VERSION_LESS and the like compare."""
-    found = []
-    for part in text.split("."):
-        digits = re.match(r"\d+", part)
-        if digits is None:
-            break
-        found.append(int(digits[0]))
-        if digits.end() != len(part):
-            break
-    while found and not found[-1]:
-        found.pop()
-    return tuple(found)
+_COMPONENT = re.compile(r"\s*([-+]?)(\d+)")
 
 
-def _versions(compare: Callable[[tuple[int, ...], tuple[int, ...]], bool]) -> Callable[[str, str], bool]:
-    return lambda left, right: compare(version(left), version(right))
+def compare_versions(left: str, right: str) -> int:
+    """Return -1, 0 or 1 as VERSION_LESS and the like see it: component by component, each read as C's strtoul() does."""
+    at, other = 0, 0
+    while left[at : at + 1].isdigit() or right[other : other + 1].isdigit():
+        first, at = _component(left, at)
+        second, other = _component(right, other)
+        if first != second:
+            return -1 if first < second else 1
+        at += left[at : at + 1] == "."
+        other += right[other : other + 1] == "."
+    return 0
+
+
+def _component(text: str, at: int) -> tuple[int, int]:
+    match = _COMPONENT.match(text, at)
+    if match is None:
+        return 0, at
+    number = int(match[2])
+    return (-number % (1 << 64) if match[1] == "-" else number), match.end()
+
+
+def _versions(compare: Callable[[int, int], bool]) -> Callable[[str, str], bool]:
+    return lambda left, right: compare(compare_versions(left, right), 0)
 
 
 def _matches(run: Run, left: _Token, right: _Token) -> int:
-    from ros_lint.interpret.cmake_regex import find  # noqa: PLC0415  (few scripts match anything)
+    from ros_lint.interpret.cmake_regex import find, forget  # noqa: PLC0415  (few scripts match anything)
 
     text = _operand(run, left)
     if not (is_known(text) and is_known(right.text)):
+        forget(run)
         return UNKNOWN
     found = find(run, right.text, text)
     return UNKNOWN if found is None else (TRUE if found else FALSE)
@@ -370,7 +420,7 @@ def _in_list(run: Run, left: _Token, right: _Token) -> int:
     value = run.get(right.text)
     if value is None:
         return UNLIKELY if run.may_be_set(right.text) else FALSE
-    if not is_known(element):
+    if not is_known(element) or not element + value:
         return UNKNOWN
     if element in elements(value):
         return TRUE

@@ -20,6 +20,7 @@ from ros_lint.interpret.cmake_blocks import (
     rewritten,
 )
 from ros_lint.interpret.cmake_conditions import FALSE, LIKELY, TRUE, UNKNOWN, UNLIKELY, Truth, condition
+from ros_lint.interpret.cmake_regex import forget
 from ros_lint.interpret.cmake_run import DEEPEST, MOST_STEPS, BudgetError, Handler, Run
 from ros_lint.interpret.cmake_state import (
     BREAK,
@@ -34,7 +35,7 @@ from ros_lint.interpret.cmake_state import (
     Procedure,
     Variables,
 )
-from ros_lint.interpret.cmake_values import HOLE, MAYBE, elements, join, sure
+from ros_lint.interpret.cmake_values import HOLE, MAYBE, elements, join, split, sure
 
 HANDLERS: Final[dict[str, Handler]] = {}
 """What carries out each command of CMake. Filled by :mod:`ros_lint.interpret.cmake`."""
@@ -126,6 +127,8 @@ def _run_if(run: Run, node: If) -> Exit:
         else:
             run.frames[-1].command = command
             truth = condition(run, command)
+            if ways and any(text == "MATCHES" for text, *_ in command.args):
+                forget(run)  # nobody knows whether this was asked at all
         if truth.value == FALSE:
             testing = testing or truth.test_if_false
             continue
@@ -182,12 +185,15 @@ def _run_foreach(run: Run, node: Loop) -> Exit:
     args = run.arguments(node.command)
     if not args:
         return NEXT
-    rounds = _rounds(run, args)
+    rounds = _rounds(run, node.command, args)
     names = _loop_names(args)
     kept = [(name, run.scopes[-1].get(name, _ABSENT)) for name in names]
+    seen = {name: run.get(name) or "" for name in names}
     ended = _run_rounds(run, node.body, names, rounds, 0)
     for name, value in kept:
-        if value is _ABSENT:
+        if value is _ABSENT and run.versions < (3, 21):  # policy CMP0124
+            run.set(name, seen[name])
+        elif value is _ABSENT:
             run.remove(run.scopes[-1], name)
         else:
             run.put(run.scopes[-1], name, value)
@@ -205,12 +211,15 @@ def _loop_names(args: list[str]) -> list[str]:
     return [args[0]]
 
 
-def _rounds(run: Run, args: list[str]) -> list[tuple[str, ...]]:
+def _rounds(run: Run, command: Command, args: list[str]) -> list[tuple[str, ...]]:
     """Return what the loop variables hold in each round. A single HOLE stands for any number of rounds."""
+    if any(HOLE in arg for arg in args):
+        # What is quoted is one round even if it is not known; other unknown words may be several.
+        args = [HOLE if HOLE in arg and not quoted else arg for arg, quoted in zip(args, _quoted(run, command), strict=True)]
     rest = args[1:]
     if "IN" in args and "ZIP_LISTS" in args:
         lists = [elements(run.get(name) or "") for name in args[args.index("ZIP_LISTS") + 1 :]]
-        if any(HOLE in items or any(item.startswith(MAYBE) for item in items) for items in lists):
+        if any(HOLE in item or item.startswith(MAYBE) for items in lists for item in items):
             return [(HOLE,)]
         longest = max(map(len, lists), default=0)
         return [tuple(items[index] if index < len(items) else "" for items in lists) for index in range(longest)]
@@ -221,13 +230,26 @@ def _rounds(run: Run, args: list[str]) -> list[tuple[str, ...]]:
             if word in ("LISTS", "ITEMS") and mode != "ITEMS":
                 mode = word
             elif mode == "LISTS":
-                values += elements(run.get(word) or "") if HOLE not in word else [HOLE]
+                values += _unknown_whole(elements(run.get(word) or "")) if HOLE not in word else [HOLE]
             else:
                 values.append(word)
         return [(value,) for value in values]
     if rest[:1] == ["RANGE"]:
         return [(value,) for value in _range(rest[1:])]
     return [(value,) for value in rest]
+
+
+def _unknown_whole(items: list[str]) -> list[str]:
+    """Return list elements; those with an unknown piece may be several."""
+    return [HOLE if HOLE in item else item for item in items]
+
+
+def _quoted(run: Run, command: Command) -> list[bool]:
+    """Return which of the evaluated arguments were quoted."""
+    found: list[bool] = []
+    for text, kind, _, _ in command.args:
+        found += [False] * len(split(run.evaluated(text))) if kind == UNQUOTED else [True]
+    return found
 
 
 def _range(args: list[str]) -> list[str]:
@@ -253,7 +275,7 @@ def _range(args: list[str]) -> list[str]:
 def _run_rounds(run: Run, body: Body, names: list[str], rounds: list[tuple[str, ...]], start: int) -> Exit:
     for index in range(start, len(rounds)):
         items = rounds[index]
-        if HOLE in items:
+        if items[0] == HOLE:
             ended = _run_any_number(run, partial(_run_round, run, body, names, (HOLE,) * len(names)))
         else:
             plain = tuple(sure(item)[0] for item in items)
@@ -369,7 +391,11 @@ def call(run: Run, procedure: Procedure | Choice, args: list[str]) -> Exit:
     if len(run.frames) > DEEPEST:
         raise BudgetError
     frame = Frame(procedure.own, procedure.path, procedure.folder, procedure)
-    values = _call_values(procedure.parameters, args)
+    firm = None
+    command = run.frames[-1].command
+    if command is not None and any(HOLE in arg or arg.startswith(MAYBE) for arg in args):
+        firm = run.firm_arguments(command)
+    values = _call_values(procedure.parameters, args, len(args) if firm is None else firm)
     if procedure.macro:
         frame.replace = tuple((f"${{{name}}}", value) for name, value in values.items())
         run.frames.append(frame)
@@ -387,10 +413,12 @@ def call(run: Run, procedure: Procedure | Choice, args: list[str]) -> Exit:
     return NEXT if ended & (NEXT | RETURN) else ended
 
 
-def _call_values(parameters: Sequence[str], args: list[str]) -> dict[str, str]:
-    """Return what the parameters, ARGC, ARGV, ARGN and ARGV0 and so on hold."""
-    # From the first argument on that may be missing or be several, nobody knows which is the how many-th.
-    firm = next((index for index, arg in enumerate(args) if arg == HOLE or arg.startswith(MAYBE)), len(args))
+def _call_values(parameters: Sequence[str], args: list[str], firm: int) -> dict[str, str]:
+    """Return what the parameters, ARGC, ARGV, ARGN and ARGV0 and so on hold.
+
+    ``firm`` is the index of the first argument that may be missing or be several: of those after it nobody knows which is
+    the how many-th.
+    """
     values = {name: args[index] if index < firm else HOLE for index, name in enumerate(parameters)}
     if firm == len(args):
         values = {name: args[index] if index < len(args) else "" for index, name in enumerate(parameters)}
@@ -399,6 +427,7 @@ def _call_values(parameters: Sequence[str], args: list[str]) -> dict[str, str]:
     else:
         values["ARGC"] = HOLE
         values["ARGN"] = join(args[len(parameters) :]) if firm >= len(parameters) else HOLE
+        values.update({f"ARGV{index}": HOLE for index in range(firm, len(args) + 10)})
     values["ARGV"] = join(args)
     values.update({f"ARGV{index}": arg for index, arg in enumerate(args[:firm])})
     return values

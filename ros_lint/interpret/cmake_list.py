@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Final
 
 from ros_lint.collectors.cmake_syntax import PLAIN
-from ros_lint.interpret.cmake_regex import RegexError, anywhere, translated
+from ros_lint.interpret.cmake_regex import RegexError, anywhere, forget, translated
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_string import ascii_lower, ascii_upper, genex_strip, replace_all, strip
 from ros_lint.interpret.cmake_values import HOLE, MAYBE, elements, flat, is_fixed, is_known, join, sure
@@ -112,6 +112,7 @@ def _filter(run: Run, name: str, args: list[str]) -> None:
     if pattern is None:
         run.set(name, HOLE)
         return
+    forget(run)
     wanted = args[0] == "INCLUDE"
     kept: list[str] = []
     for item in elements(value):
@@ -192,13 +193,13 @@ def _transform(run: Run, name: str, args: list[str]) -> None:
         output = args[at + 1]
         args = args[:at]
     value = run.get(name)
-    if value is None and output == name:
-        return
     if not args:
         return
     count = {"APPEND": 1, "PREPEND": 1, "REPLACE": 2}.get(args[0], 0)
     action = _action(args[0], args[1 : 1 + count])
     items = elements(value or "")
+    if args[0] == "REPLACE" or "REGEX" in args[1 + count :]:
+        forget(run)
     try:
         chosen = _selected(items, args[1 + count :])
         run.set(
@@ -223,7 +224,9 @@ def _action(mode: str, args: list[str]) -> Callable[[str], str]:
 def _transformed(item: str, action: Callable[[str], str]) -> str:
     plain, certain = sure(item)
     changed = HOLE if HOLE in plain else action(plain)
-    return changed if certain else MAYBE + changed
+    if certain:
+        return changed
+    return MAYBE + changed if ";" not in changed else HOLE
 
 
 def _selected(items: list[str], selector: list[str]) -> frozenset[int]:

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from functools import lru_cache
 from typing import TYPE_CHECKING, Final
 
-from ros_lint.interpret.cmake_values import BINARY, HOLE, PREFIX, SOURCE, is_fixed
+from ros_lint.interpret.cmake_values import BINARY, HOLE, PREFIX, SOURCE, is_fixed, is_known
 
 if TYPE_CHECKING:
     from ros_lint.interpret.cmake_run import Run
@@ -136,20 +136,27 @@ def clear(run: Run) -> None:
     last = run.get("CMAKE_MATCH_COUNT")
     if last is None:
         return
-    for index in range(int(last) + 1 if last.isdigit() else 10):
+    for index in range(int(last or 0) + 1 if is_known(last) else 10):
         if run.get(f"CMAKE_MATCH_{index}"):
             run.set(f"CMAKE_MATCH_{index}", "")
-    run.set("CMAKE_MATCH_COUNT", "0")
+    run.set("CMAKE_MATCH_COUNT", "0" if is_known(last) else HOLE)
 
 
 def store(run: Run, groups: tuple[str, ...]) -> None:
     """Set CMAKE_MATCH_0 and so on; the first of the groups is the whole match."""
-    highest = 0
+    highest = ""
     for index, group in enumerate(groups[:10]):
         if group:
             run.set(f"CMAKE_MATCH_{index}", group)
-            highest = index
-    run.set("CMAKE_MATCH_COUNT", str(highest))
+            highest = str(index)
+    run.set("CMAKE_MATCH_COUNT", highest)
+
+
+def forget(run: Run) -> None:
+    """Take what the last match was for unknown."""
+    for index in range(10):
+        run.set(f"CMAKE_MATCH_{index}", HOLE)
+    run.set("CMAKE_MATCH_COUNT", HOLE)
 
 
 def find(run: Run, regex: str, text: str) -> bool | None:

@@ -12,7 +12,7 @@ from ros_lint.collectors.cmake_syntax import OPEN, QUOTED, UNQUOTED, Argument, C
 from ros_lint.facts import BuildScript, Component, Facet, Mention, Opaque, Problem, Via
 from ros_lint.interpret.cmake_expand import ExpansionError, expand, template
 from ros_lint.interpret.cmake_state import MISSING, Frame, Properties, State
-from ros_lint.interpret.cmake_values import BINARY, HOLE, PREFIX, SOURCE, split
+from ros_lint.interpret.cmake_values import ATOM, BINARY, HOLE, MAYBE, PREFIX, SOURCE, split
 from ros_lint.knowledge.cmake_commands import SOFT_VARIABLES, UNKNOWN_VARIABLES, VARIABLES
 from ros_lint.text import Span
 from ros_lint.tree import join as join_path
@@ -159,7 +159,8 @@ class Run(State):
         if self.open_world:
             folded = name.replace("_", "").replace("-", "").lower()
             if any(folded.startswith(prefix) for prefix in self.prefixes):
-                return HOLE
+                # Folders and versions are single texts; the others may be lists, or nothing.
+                return f"{ATOM}{name}" if name.endswith(("_DIR", "_VERSION", "_PREFIX")) else HOLE
         return None
 
     def lookup(self, name: str, where: str) -> str:
@@ -201,6 +202,22 @@ class Run(State):
             else:
                 values.append(text)
         return values
+
+    def firm_arguments(self, command: Command) -> int | None:
+        """Return the index of the first argument whose place is not sure, None if all are.
+
+        An unquoted unknown text may be none or several arguments, and an element that may be missing moves those after it.
+        """
+        count = 0
+        for text, kind, _, _ in command.args:
+            if kind == UNQUOTED:
+                value = self.evaluated(text)
+                if HOLE in value or MAYBE in value:
+                    return count
+                count += len(split(value))
+            else:
+                count += 1
+        return None
 
     def evaluated(self, text: str) -> str:
         """Return the value of an argument before it is split."""

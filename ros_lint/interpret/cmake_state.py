@@ -7,7 +7,7 @@ from typing import Any, Final, NamedTuple
 
 from ros_lint.collectors.cmake_syntax import Command
 from ros_lint.interpret.cmake_blocks import Body
-from ros_lint.interpret.cmake_values import HOLE, merge
+from ros_lint.interpret.cmake_values import HOLE, certainly_set, merge
 
 Exit = int
 """How a piece of script can end: a set of the bits below."""
@@ -104,9 +104,16 @@ class State:
     def set_outer(self, name: str, value: str | None) -> None:
         """Set a variable of the scope around the innermost (PARENT_SCOPE)."""
         if len(self.scopes) > 1:
+            if name not in self.scopes[-1]:  # the inner scope keeps what it saw so far
+                seen = self.found(name)
+                self.put(self.scopes[-1], name, None if seen is MISSING else seen)
             self.put(self.scopes[-2], name, value)
 
     # --- reading
+
+    def normal(self, name: str) -> str | None:
+        """Return a variable as the scopes hold it, without the cache."""
+        return next((scope[name] for scope in reversed(self.scopes) if name in scope), None)
 
     def found(self, name: str, depth: int | None = None) -> Any:
         """Return a variable as scopes and cache hold it, or MISSING. ``depth`` leaves inner scopes out."""
@@ -114,9 +121,11 @@ class State:
         for scope in reversed(scopes):
             if name in scope:
                 value = scope[name]
-                if value is not None:
-                    return value
-                return self.cache.get(name)
+                if value is None:
+                    return self.cache.get(name)
+                if name in self.cache and not certainly_set(value):
+                    return merge([value, self.cache[name]])
+                return value
         return self.cache.get(name, MISSING)
 
     # --- branching
@@ -129,10 +138,11 @@ class State:
         finally:
             log, self.log = self.log, outer
             changes: Changes = {}
-            for mapping, key, old in reversed(log):
+            for mapping, key, _ in log:
                 slot = (id(mapping), key)
                 if slot not in changes:
-                    changes[slot] = Change(mapping, key, mapping.get(key, MISSING))
+                    changes[slot] = Change(mapping, key, self._held(mapping, key))
+            for mapping, key, old in reversed(log):
                 if old is MISSING:
                     mapping.pop(key, None)
                 else:
@@ -153,7 +163,7 @@ class State:
             return
         slots = {slot: change for changes in alternatives for slot, change in changes.items()}
         for slot, (mapping, key, _) in slots.items():
-            before = self._before(mapping, key)
+            before = self._held(mapping, key)
             values = [changes[slot].value if slot in changes else before for changes in alternatives]
             merged = _merged(mapping, values, default)
             if merged is MISSING:
@@ -167,7 +177,8 @@ class State:
             if isinstance(value, str) or value is None or isinstance(mapping, Variables):
                 self.put(mapping, key, HOLE)
 
-    def _before(self, mapping: dict[str, Any], key: str) -> Any:
+    def _held(self, mapping: dict[str, Any], key: str) -> Any:
+        """Return an entry; what a scope does not hold itself is taken from the scopes around it."""
         value = mapping.get(key, MISSING)
         if value is MISSING and isinstance(mapping, Variables):
             for depth, scope in enumerate(self.scopes):

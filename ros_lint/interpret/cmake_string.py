@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 from typing import Final
 
-from ros_lint.interpret.cmake_regex import RegexError, anywhere, clear, every, find, store
+from ros_lint.interpret.cmake_regex import RegexError, anywhere, clear, every, find, forget, store
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_values import ATOM, BINARY, HOLE, LONGEST, PREFIX, SOURCE, is_fixed, is_known, join
 from ros_lint.interpret.cmake_values import flat as flat_value
@@ -20,7 +20,8 @@ def _string(run: Run, args: list[str]) -> None:
         return
     mode, rest = args[0], args[1:]
     if mode in ("APPEND", "PREPEND"):
-        _extend(run, rest[0], "".join(rest[1:]), mode == "APPEND")
+        if len(rest) > 1:
+            _extend(run, rest[0], _concat(*rest[1:]), mode == "APPEND")
         return
     if mode == "REGEX":
         _regex(run, rest)
@@ -49,7 +50,7 @@ def _assign(run: Run, name: str, value: str) -> None:
 
 
 def _extend(run: Run, name: str, text: str, after: bool) -> None:
-    if HOLE in name or not text:
+    if HOLE in name:
         return
     old = run.get(name) or ""
     text = flat_value(text)
@@ -139,7 +140,7 @@ def _repeat(text: str, count: str) -> str:
 
 
 def _join(glue: str, *inputs: str) -> str:
-    return glue.join(map(flat_value, inputs))
+    return flat_value(glue).join(map(flat_value, inputs))
 
 
 def _concat(*inputs: str) -> str:
@@ -262,13 +263,6 @@ def _regex_replace(run: Run, regex: str, new: str, text: str) -> str:
     if not is_known(text):
         forget(run)
     return value
-
-
-def forget(run: Run) -> None:
-    """Take what the last match was for unknown."""
-    for index in range(10):
-        run.set(f"CMAKE_MATCH_{index}", HOLE)
-    run.set("CMAKE_MATCH_COUNT", HOLE)
 
 
 def replace_all(regex: str, template: str, text: str) -> str:

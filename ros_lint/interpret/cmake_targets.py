@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Final, Literal
 
 from ros_lint.facts import Facet, Target
-from ros_lint.interpret.cmake_conditions import constant
+from ros_lint.interpret.cmake_conditions import is_off
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_state import Properties
 from ros_lint.interpret.cmake_values import HOLE, elements, is_fixed, is_known, join, sure
@@ -21,7 +21,7 @@ def _add_library(run: Run, args: list[str]) -> None:
     kind = next((word.lower() for word in args[1:3] if word in _LIBRARY_TYPES), "")
     if not kind:
         shared = run.get("BUILD_SHARED_LIBS")
-        kind = "static" if shared is None or constant(shared) is False else "shared"
+        kind = "static" if shared is None or is_off(shared) else "shared"
     _add(run, args, kind, (*_LIBRARY_TYPES, "EXCLUDE_FROM_ALL"))
 
 

@@ -104,6 +104,14 @@ def maybe(element: str) -> str:
     return element if element.startswith(MAYBE) or element == HOLE else MAYBE + element
 
 
+def certainly_set(value: str) -> bool:
+    """Return whether a variable with this value is set for sure.
+
+    Where one branch sets a variable to nothing and another does not set it, it is held to be empty.
+    """
+    return any(element and element != HOLE and not element.startswith(MAYBE) for element in elements(value))
+
+
 def merge(values: Sequence[str | None], default: int | None = None) -> str | None:
     """Return what a variable holds after one of several branches ran, each of which left it with one of the values.
 
@@ -113,6 +121,8 @@ def merge(values: Sequence[str | None], default: int | None = None) -> str | Non
     first = values[0]
     if all(value == first for value in values):
         return first
+    if any(value and any(letter in value for letter in "\\[]") for value in values):
+        return HOLE if default is None else values[default]  # taking such lists apart would change them
     if default is not None:
         base = values[default]
         have = set(elements(base or ""))
@@ -137,7 +147,7 @@ def _merge_lists(values: Sequence[str | None]) -> str | None:
     lists = [elements(value or "") for value in values]
     first = lists[0]
     if all(one == first for one in lists):
-        return values[0] if values[0] is not None else values[1]
+        return next(value for value in values if value is not None)
     shortest = min(map(len, lists))
     head = 0
     while head < shortest and all(one[head] == first[head] for one in lists):

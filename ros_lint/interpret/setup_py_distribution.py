@@ -165,7 +165,8 @@ class Distribution:
         if path is not None and not context.files.is_file(path):
             self._problem("missing-file", f"{path} does not exist", source)
             return
-        self._provide(posixpath.join(folder, posixpath.basename(str(source))), path or "", maybe, source)
+        # Whether a file outside the package is there is not known.
+        self._provide(posixpath.join(folder, posixpath.basename(str(source))), path or "", maybe or not path, source)
 
     def _scripts(self, value: Value) -> None:
         for source, maybe in self._items(value, Facet.EXECUTABLES):
@@ -189,15 +190,18 @@ class Distribution:
             self._sections(value)
         elif isinstance(value, dict):
             for group, entries in value.items():
-                if isinstance(entries, Unknown):
-                    self._hide(Facet.EXECUTABLES, entries)
-                    continue
-                lines = [entries] if isinstance(entries, str) else entries
-                for entry, maybe in self._items(lines, Facet.EXECUTABLES):
-                    for line in str(entry).splitlines() if isinstance(entries, str) else [entry]:
-                        self._entry_point(str(group), str(line), entry, maybe)
+                self._entry_lines(str(group), entries, maybe=False)
         elif value is not None:
             self._hide(Facet.EXECUTABLES, value)
+
+    def _entry_lines(self, group: str, value: Value, maybe: bool) -> None:
+        """Take in the lines of a text, or of texts in lists however nested, as setuptools does."""
+        if isinstance(value, str):
+            for line in value.splitlines():
+                self._entry_point(group, line, value, maybe)
+        else:
+            for inner, inner_maybe in self._items(value, Facet.EXECUTABLES):
+                self._entry_lines(group, inner, maybe or inner_maybe)
 
     def _sections(self, text: str) -> None:
         group = ""

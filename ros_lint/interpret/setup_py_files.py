@@ -35,6 +35,8 @@ class Files:
 
     def inside(self, path: str) -> str | None:
         """Return a path relative to the folder, "" for the folder itself; None when it is outside."""
+        if path in self._files or path in self._entries:
+            return path
         path = posixpath.normpath(posixpath.join(ROOT, path))
         if path == ROOT:
             return ""
@@ -112,7 +114,10 @@ class Files:
 
     def modules(self, folder: str) -> list[str]:
         """Return the names of the Python modules directly in a folder, without their suffix."""
-        return [name[:-3] for name in self.names(folder) or () if name.endswith(".py") and self.is_file(f"{folder}/{name}")]
+        inside = self.inside(folder)
+        start = f"{inside}/" if inside else ""
+        stems = (name[:-3] for name in self._entries.get(inside or "", ()) if name.endswith(".py"))
+        return sorted(stem for stem in stems if stem.isidentifier() and f"{start}{stem}.py" in self._files)
 
 
 def _any_of(patterns: Sequence[str]) -> re.Pattern[str]:
