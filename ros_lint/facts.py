@@ -357,6 +357,8 @@ class LaunchReference(NamedTuple):
     """Whether ``span`` covers the name and nothing else, so that a fix can put another one there."""
     package_exact: bool = True
     """The same of ``package_span`` and the package."""
+    optional: bool = False
+    """Whether the launch file asks first if the package is there, and does without."""
     by_default: bool = False
     """Whether it holds only as long as nobody gives the arguments of the launch file other values than their defaults."""
 

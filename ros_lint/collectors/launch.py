@@ -17,6 +17,7 @@ Language = Literal["python", "xml", "yaml"]
 
 _PYTHON = re.compile(r"^(?:async[ \t]+)?def[ \t]+generate_(?:launch|test)_description\b", re.MULTILINE)
 _HELPER = re.compile(r"^[ \t]*(?:from|import)[ \t]+launch(?:_ros)?\b", re.MULTILINE)
+_ACTION = re.compile(r"\b(?:\w*Node|\w*LaunchDescription|ComposableNodeContainer)\(")
 _ROOT = re.compile(r"<launch(?=[\s/>])")
 # What only ROS 1 understands, and what only ROS 2 does. A file with both is ROS 2 with leftovers.
 _ROS1 = re.compile(
@@ -27,7 +28,8 @@ _ROS2 = re.compile(
     r"\sexec\s*=|\$\((?:var|find-pkg-share|find-pkg-prefix|exec-in-pkg|command)\s"
     r"|<(?:let|executable|node_container|load_composable_node|push[-_]ros[-_]namespace|set_parameter|set_env)\b"
 )
-_YAML_ROOT = re.compile(r"^(?:launch|'launch'|\"launch\")[ \t]*:", re.MULTILINE)
+_YAML_ACTION = re.compile(r"\b(?:\w*Node|\w*LaunchDescription|ComposableNodeContainer)\(")
+_ROOT = re.compile(r"^(?:launch|'launch'|\"launch\")[ \t]*:", re.MULTILINE)
 _YAML_OTHER = re.compile(r"^(?=[^\n])(?![ \t\r#%-]|launch[ \t]*:|['\"]launch['\"][ \t]*:|\.\.\.)", re.MULTILINE)
 
 
@@ -40,7 +42,7 @@ def is_launch_file(path: str, text: str) -> Language | None:
     if path.endswith(".py"):
         if "launch" not in text and "generate_test" not in text:
             return None
-        return "python" if _PYTHON.search(text) or _HELPER.search(text) else None
+        return "python" if _PYTHON.search(text) or (_HELPER.search(text) and _ACTION.search(text)) else None
     if path.endswith((".yaml", ".yml")):
         return "yaml" if _is_yaml(text) else None
     if "<launch" in text and _is_xml(text):

@@ -126,7 +126,7 @@ class _Reader:
             self._add("package", names[0], "", span, span, conditional)
 
     def _paths(self, attribute: Attribute, pieces: tuple[Piece, ...], conditional: bool, include: bool) -> None:
-        spans = {}
+        spans: dict[str, Span] = {}
         for substitution in _substitutions(pieces):
             if substitution.name in _LOOK_UPS and len(substitution.arguments) == 1:
                 argument = substitution.arguments[0]
@@ -177,12 +177,10 @@ class _Reader:
             span = self._span(attribute, at, at + len("xacro")) if at >= 0 else self._span(attribute)
             self._add("package", "xacro", "", span, span, conditional)
 
-    def _add(self, kind: Kind, package: str, name: str, span: Span, package_span: Span, conditional: bool) -> None:  # noqa: PLR0917
+    def _add(self, kind: Kind, package: str, name: str, span: Span, package_span: Span, conditional: bool) -> None:
         exact = self._source.slice(span) == (name or package)
         package_exact = self._source.slice(package_span) == package
-        self.references.append(
-            LaunchReference(kind, package, name, span, package_span, conditional, exact, package_exact)
-        )
+        self.references.append(LaunchReference(kind, package, name, span, package_span, conditional, exact, package_exact))
 
     def _is_written(self, attribute: Attribute) -> bool:
         """Whether the file has the value as it is, so that offsets in it are offsets in the file."""

@@ -26,16 +26,18 @@ _CONFIGURATION = ("\ue010", "\ue011")
 _EXPRESSION = ("\ue012", "\ue013")
 _COMMAND = ("\ue014", "\ue015")
 _DEFAULT = "\ue016"
+_PRESENT = "\ue017"
 
 MOST = 24
 """How many alternatives of a text are kept apart."""
 
+_DEEPEST = 30
 LONGEST = 20_000
 """How many characters of a text are followed."""
 
-_ANY_MARK = re.compile("[\ue000-\ue016]")
+_ANY_MARK = re.compile("[\ue000-\ue017]")
 # A path ends where a command line or a list of paths goes on; an unknown piece belongs to it.
-_PREFIX = re.compile(rf"/{_ROOT}([^/\s]*)((?:/[^/\s'\":;,]*)*)")
+_PREFIX = re.compile(rf"/{_ROOT}([^/\s]*)((?:/[^/\s'\":;,\ue012-\ue015]*)*)")
 _INNERMOST = re.compile("\ue010([^\ue010\ue011]*)\ue011")
 _INNER_EXPRESSION = re.compile("\ue012([^\ue012\ue013]*)\ue013")
 _TWICE_ROOTED = re.compile(rf".*/(?=/(?:{_ROOT}|\ue002))", re.DOTALL)
@@ -94,6 +96,23 @@ def command(text: str) -> str:
     return f"{_COMMAND[0]}{text}{_COMMAND[1]}"
 
 
+def presence(package: str) -> str:
+    """Return what stands for the answer whether a package is installed."""
+    return f"{_PRESENT}{package}"
+
+
+def asked_for(text: str) -> str:
+    """Return the package whose presence a text stands for, or ""."""
+    return text[1:] if text.startswith(_PRESENT) else ""
+
+
+def certain_part(text: str) -> str:
+    """Return the letters that a text has whatever the rest of it becomes."""
+    while match := _INNERMOST.search(text) or _INNER_EXPRESSION.search(text):
+        text = text[: match.start()] + text[match.end() :]
+    return _ANY_MARK.sub("", text)
+
+
 def is_plain(text: str) -> bool:
     """Return whether a text is known whole."""
     return not _ANY_MARK.search(text)
@@ -139,18 +158,26 @@ def fill(text: str, values: Callable[[str], tuple[str, ...] | None], evaluate: C
     ``values`` returns the alternatives of a configuration, None if nobody set it; ``evaluate`` the value of an
     expression that is known whole, UNKNOWN if it has none.
     """
+    found = _filled(text, values, frozenset())
+    return tuple(dict.fromkeys(_settle(one, evaluate) for one in found))
+
+
+def _filled(text: str, values: Callable[[str], tuple[str, ...] | None], busy: frozenset[str]) -> tuple[str, ...]:
     waiting = [text]
     done: dict[str, None] = {}
     while waiting:
         one = waiting.pop()
         match = _INNERMOST.search(one)
         if match is None:
-            done[_settle(one, evaluate)] = None
+            done[one] = None
             continue
         name, mark, default = match[1].partition(_DEFAULT)
-        found = values(name)
-        if found is None:
-            found = (default,) if mark else (UNKNOWN,)
+        # A default that names its own argument is asked for while that has no value yet.
+        given = None if name in busy or len(busy) > _DEEPEST else values(name)
+        if given is None:
+            found: tuple[str, ...] = (default,) if mark else (UNKNOWN,)
+        else:
+            found = tuple(inner for value in given for inner in _filled(value, values, busy | {name}))
         if len(waiting) + len(done) + len(found) > MOST or len(one) > LONGEST:
             return (UNKNOWN,)
         waiting += [one[: match.start()] + value + one[match.end() :] for value in reversed(found)]

@@ -1,0 +1,147 @@
+"""Python expressions in launch files, ``$(eval ...)`` and PythonExpression: their value, when nothing in them can surprise."""
+
+from __future__ import annotations
+
+import ast
+import operator
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from ros_lint.collectors.launch_text import UNKNOWN
+
+_LONGEST = 2_000
+_MOST = 10_000
+
+
+class _Unknown(Exception):  # noqa: N818
+    """The value is not known."""
+
+
+def evaluate(text: str) -> str:
+    """Return str() of the value of an expression, UNKNOWN if it has none or needs more than constants."""
+    if len(text) > _LONGEST:
+        return UNKNOWN
+    try:
+        return str(_value(ast.parse(text.strip(), mode="eval").body))
+    except (_Unknown, SyntaxError, ValueError, TypeError, ArithmeticError, LookupError, RecursionError, MemoryError):
+        return UNKNOWN
+
+
+def means_true(text: str) -> bool | None:
+    """Return what a condition takes a text for: None when it is neither true nor false (``evaluate_condition_expression``)."""
+    word = text.strip().lower()
+    if word in ("true", "1"):
+        return True
+    return False if word in ("false", "0") else None
+
+
+_BINARY: Mapping[type[ast.operator], Callable[[Any, Any], Any]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+    ast.FloorDiv: operator.floordiv,
+    ast.Mod: operator.mod,
+}
+_COMPARE: Mapping[type[ast.cmpop], Callable[[Any, Any], Any]] = {
+    ast.Eq: operator.eq,
+    ast.NotEq: operator.ne,
+    ast.Lt: operator.lt,
+    ast.LtE: operator.le,
+    ast.Gt: operator.gt,
+    ast.GtE: operator.ge,
+    ast.Is: lambda a, b: a is b or a == b,
+    ast.IsNot: lambda a, b: not (a is b or a == b),
+    ast.In: lambda a, b: a in b,
+    ast.NotIn: lambda a, b: a not in b,
+}
+_METHODS = frozenset(
+    {"lower", "upper", "strip", "lstrip", "rstrip", "startswith", "endswith", "replace", "split", "find", "count"}
+)
+
+
+def _value(node: ast.expr) -> Any:
+    match node:
+        case ast.Constant(value=value):
+            return value
+        case ast.Name(id=name) if name in ("true", "false"):
+            return name == "true"
+        case ast.UnaryOp(op=op, operand=operand):
+            value = _value(operand)
+            return not value if isinstance(op, ast.Not) else -value if isinstance(op, ast.USub) else _refuse()
+        case ast.BoolOp(op=op, values=values):
+            result: Any = None
+            for part in values:
+                result = _value(part)
+                if bool(result) is isinstance(op, ast.Or):
+                    return result
+            return result
+        case ast.BinOp(left=left, op=op, right=right) if type(op) in _BINARY:
+            return _small(_BINARY[type(op)](_small(_value(left)), _small(_value(right))))
+        case ast.Compare(left=left, ops=ops, comparators=comparators):
+            before = _value(left)
+            for comparison, comparator in zip(ops, comparators, strict=True):
+                after = _value(comparator)
+                if not _COMPARE[type(comparison)](before, after):
+                    return False
+                before = after
+            return True
+        case ast.IfExp(test=test, body=body, orelse=orelse):
+            return _value(body) if _value(test) else _value(orelse)
+        case ast.List(elts=elts) | ast.Tuple(elts=elts):
+            return [_value(element) for element in elts]
+        case ast.Dict(keys=keys, values=values):
+            return {_value(key): _value(value) for key, value in zip(keys, values, strict=True) if key is not None}
+        case ast.Subscript(value=owner, slice=key) if not isinstance(key, ast.Slice):
+            return _value(owner)[_value(key)]
+        case ast.Call():
+            return _call(node)
+    return _refuse()
+
+
+def _call(node: ast.Call) -> Any:
+    arguments = [_value(argument) for argument in node.args]
+    if isinstance(node.func, ast.Attribute) and node.func.attr in _METHODS:
+        owner = _value(node.func.value)
+        return getattr(owner, node.func.attr)(*arguments) if isinstance(owner, str) else _refuse()
+    name = node.func.id if isinstance(node.func, ast.Name) else ""
+    if name in _FUNCTIONS:
+        return _FUNCTIONS[name](*arguments)
+    return _refuse()
+
+
+def _truth(text: Any) -> bool:
+    found = means_true(str(text))
+    return _refuse() if found is None else found
+
+
+def _equals(left: Any, right: Any) -> bool:
+    """EqualsSubstitution compares truths and numbers by their value."""
+    one, other = means_true(str(left)), means_true(str(right))
+    return one == other if one is not None and other is not None else str(left) == str(right)
+
+
+_FUNCTIONS: Mapping[str, Callable[..., Any]] = {
+    "str": str,
+    "int": int,
+    "float": float,
+    "bool": bool,
+    "len": len,
+    "_equals": _equals,
+    "_not_equals": lambda left, right: not _equals(left, right),
+    "_not": lambda value: not _truth(value),
+    "_and": lambda *values: all(_truth(value) for value in values),
+    "_or": lambda *values: any(_truth(value) for value in values),
+}
+
+
+def _small(value: Any) -> Any:
+    if isinstance(value, int) and abs(value) > 1 << 64:
+        raise _Unknown
+    if isinstance(value, (str, list)) and len(value) > _MOST:
+        raise _Unknown
+    return value
+
+
+def _refuse() -> Any:
+    raise _Unknown

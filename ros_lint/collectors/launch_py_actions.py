@@ -1,0 +1,559 @@
+"""From what a Python launch file makes to what it does: only what is returned or added counts (reference, section G2)."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from ros_lint.collectors.launch_py_methods import items
+from ros_lint.collectors.launch_py_objects import (
+    PERHAPS,
+    Bound,
+    Conditions,
+    Context,
+    Function,
+    Instance,
+    Made,
+    Raised,
+    Unknown,
+    Value,
+    Written,
+    alternatives,
+    plain,
+)
+from ros_lint.collectors.launch_py_texts import SUBSTITUTIONS, texts
+from ros_lint.facts import LaunchAction, LaunchCondition, LaunchValue
+from ros_lint.text import Span
+
+if TYPE_CHECKING:
+    from ros_lint.collectors.launch_py_objects import Source
+    from ros_lint.collectors.launch_py_run import Machine
+
+NODES = frozenset({"Node", "LifecycleNode", "ComposableNodeContainer"})
+COMPONENTS = frozenset({"ComposableNode", "ComposableLifecycleNode"})
+_DEEPEST = 60
+
+
+def place(node: ast.AST, source: Source) -> tuple[int, int]:
+    """Return the offsets of an expression."""
+    return (
+        _offset(source, node.lineno, node.col_offset),  # type: ignore[attr-defined]
+        _offset(source, node.end_lineno, node.end_col_offset),  # type: ignore[attr-defined]
+    )
+
+
+def _offset(source: Source, line: int, column: int) -> int:
+    start = source.text.offset(line, 1)
+    if source.ascii:
+        return start + column
+    head = source.text.line(line).encode("utf-8", "surrogateescape")[:column]
+    return start + len(head.decode("utf-8", "surrogateescape"))
+
+
+def span_of(node: ast.AST, source: Source) -> Span:
+    """Return the span of an expression."""
+    return source.text.span(*place(node, source))
+
+
+def conditions_of(machine: Machine, value: Value) -> Conditions:
+    """Return what a condition of launch asks for: IfCondition, UnlessCondition and the two that compare a configuration."""
+    found = []
+    for one in alternatives(value):
+        made = one.value
+        if not isinstance(made, Made):
+            found.append(PERHAPS)
+        elif made.name in ("IfCondition", "UnlessCondition"):
+            asked = machine.texts(made.get(0, "predicate_expression"))
+            found.append(LaunchCondition(asked, None, made.name == "IfCondition"))
+        elif made.name in ("LaunchConfigurationEquals", "LaunchConfigurationNotEquals"):
+            from ros_lint.collectors.launch_text import configuration  # noqa: PLC0415
+
+            names = machine.texts(made.get(0, "launch_configuration_name"))
+            wanted = machine.texts(made.get(1, "expected_value"))
+            if len(names) == len(wanted) == 1:
+                found.append(LaunchCondition((configuration(names[0]),), wanted[0], made.name.endswith("ionEquals")))
+            else:
+                found.append(PERHAPS)
+        else:
+            found.append(PERHAPS)
+    return tuple(found) if len(found) == 1 else (PERHAPS,)
+
+
+class Walker:
+    """Turns values into actions."""
+
+    def __init__(self, machine: Machine, source: Source) -> None:
+        self._machine = machine
+        self._source = source
+        self.blind: list[tuple[str, Span]] = []
+        """Where something is launched that is not known."""
+        self._depth = 0
+
+    def actions(self, value: Value, conditions: Conditions = (), at: Span | None = None) -> list[LaunchAction]:
+        """Return what a value does when it is launched."""
+        found: list[LaunchAction] = []
+        if self._depth > _DEEPEST:
+            return found
+        self._depth += 1
+        try:
+            for one in alternatives(value, conditions):
+                found += self._one(one.value, one.conditions, at)
+        finally:
+            self._depth -= 1
+        return found
+
+    def _one(self, value: Value, conditions: Conditions, at: Span | None) -> list[LaunchAction]:
+        if isinstance(value, Instance) and value.made is not None:
+            value = value.made
+        if isinstance(value, Made):
+            if value.seen and value.name != "LaunchDescription":
+                return []
+            value.seen = True
+            return self._made(value, conditions)
+        if isinstance(value, (list, tuple)):
+            return [action for one in value for action in self.actions(one, conditions, at)]
+        if isinstance(value, Unknown) and value.reason:
+            self.blind.append((value.reason, at or Span(self._source.text.path, 1, 1, 1, 1)))
+        return []
+
+    def _made(self, made: Made, conditions: Conditions) -> list[LaunchAction]:
+        conditions = _merged(conditions, made.conditions)
+        condition = made.get(-1, "condition")
+        if condition is not None:
+            conditions = (*conditions, *conditions_of(self._machine, condition))
+        if made.name == "LaunchDescription":
+            return self._description(made, conditions)
+        rule = _RULES.get(made.name)
+        if rule is not None:
+            return rule(self, made, conditions)
+        if "package" in made.keywords and "executable" in made.keywords:
+            return _node(self, made, conditions)
+        return _other(self, made, conditions)
+
+    def _description(self, made: Made, conditions: Conditions) -> list[LaunchAction]:
+        found: list[LaunchAction] = []
+        index = 0
+        # Functions that are called on the way may add to it.
+        while index < len(made.entities) and index < 5_000:
+            found += self.actions(made.entities[index], conditions, span_of(made.node, made.source))
+            index += 1
+        return found
+
+    def value(self, made: Made, position: int, *names: str) -> LaunchValue | None:
+        """Return an argument as a text, None when it is not there."""
+        given = made.get(position, *names)
+        return None if given is None else self.text(given, made.written(position, *names), made.source)
+
+    def text(self, given: Value, node: ast.expr, source: Source) -> LaunchValue:
+        """Return a value as a text with the place where it is written."""
+        found = texts(given)
+        origin = plain(given)
+        while isinstance(origin, Made) and origin.name in ("TextSubstitution", "ParameterFile", "ParameterValue"):
+            origin = plain(origin.get(0, "text", "param_file", "value"))
+        if isinstance(origin, (list, tuple)) and len(origin) == 1:
+            origin = plain(origin[0])
+        if isinstance(origin, Written):
+            node, source = origin.node, origin.source
+        start, end = place(node, source)
+        if isinstance(node, ast.Constant) and len(found) == 1 and found[0]:
+            at = source.text.text.find(found[0], start, end)
+            if at >= 0 and node.value == found[0]:
+                return LaunchValue(found, source.text.span(at, at + len(found[0])), exact=True)
+        return LaunchValue(found, source.text.span(start, end))
+
+    def package_span(self, value: LaunchValue | None) -> Span | None:
+        """Return where the package is written that a path lies in."""
+        from ros_lint.collectors.launch_text import installed  # noqa: PLC0415
+
+        for text in value.texts if value is not None else ():
+            for found in installed(text):
+                named = self._machine.named.get(found.package)
+                if named is not None:
+                    node, source = named
+                    return self.text(found.package, node, source).span if isinstance(node, ast.Constant) else span_of(*named)
+        return None
+
+    def run(self, function: Value, arguments: Sequence[Value], keywords: Mapping[str, Value], made: Made) -> Value:
+        """Return what a function returns that launch calls."""
+        from ros_lint.collectors.launch_py_objects import Frame  # noqa: PLC0415
+
+        frame = Frame(made.source, None, {})
+        try:
+            return self._machine.call(plain(function), list(arguments), dict(keywords), made.node, frame)
+        except Raised:
+            return Unknown("a function that raises")
+
+
+def _merged(left: Conditions, right: Conditions) -> Conditions:
+    return (*left, *(one for one in right if one not in left))
+
+
+# --- rules by class ------------------------------------------------------------------------------------------------
+
+
+def _span(made: Made) -> Span:
+    return span_of(made.node, made.source)
+
+
+def _node(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    children: list[LaunchAction] = []
+    if made.name == "ComposableNodeContainer":
+        children = walker.actions(made.get(-1, "composable_node_descriptions"), (), _span(made))
+    elif made.name not in NODES:
+        children = _nested(walker, made)
+    node = LaunchAction(
+        "node",
+        _span(made),
+        package=walker.value(made, -1, "package"),
+        target=walker.value(made, -1, "executable"),
+        name=walker.value(made, -1, "name"),
+        namespace=walker.value(made, -1, "namespace"),
+        arguments=_given(walker, made, "arguments", "ros_arguments", "prefix", "additional_env", "env", "cwd"),
+        parameters=_parameters(walker, made),
+        remappings=_remappings(walker, made),
+        conditions=conditions,
+        children=tuple(children),
+    )
+    return [node, *_later(walker, made, "on_exit")]
+
+
+def _component(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    return [
+        LaunchAction(
+            "component",
+            _span(made),
+            package=walker.value(made, -1, "package"),
+            target=walker.value(made, -1, "plugin"),
+            name=walker.value(made, -1, "name"),
+            namespace=walker.value(made, -1, "namespace"),
+            parameters=_parameters(walker, made),
+            remappings=_remappings(walker, made),
+            conditions=conditions,
+        )
+    ]
+
+
+def _load(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    children = walker.actions(made.get(0, "composable_node_descriptions"), (), _span(made))
+    target = made.get(1, "target_container")
+    name = walker.value(made, 1, "target_container") if not isinstance(plain(target), Made) or _is_text(target) else None
+    return [LaunchAction("group", _span(made), name=name, conditions=conditions, children=tuple(children))]
+
+
+def _is_text(value: Value) -> bool:
+    made = plain(value)
+    return isinstance(made, Made) and made.name in SUBSTITUTIONS
+
+
+def _include(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    source = plain(made.get(0, "launch_description_source"))
+    node, where = made.written(0, "launch_description_source"), made.source
+    while isinstance(source, Made) and source.name.endswith("LaunchDescriptionSource"):
+        node, where = source.written(0, "launch_file_path", "location", "launch_description"), source.source
+        source = plain(source.get(0, "launch_file_path", "location", "launch_description"))
+    if isinstance(source, Made) and source.name == "LaunchDescription":
+        return walker.actions(source, conditions)
+    target = walker.text(source, node, where)
+    return [
+        LaunchAction(
+            "include",
+            _span(made),
+            target=target,
+            package_span=walker.package_span(target),
+            arguments=tuple(_pairs(walker, made.get(1, "launch_arguments"), made)),
+            conditions=conditions,
+        )
+    ]
+
+
+def _pairs(walker: Walker, value: Value, made: Made) -> Iterator[tuple[str, LaunchValue]]:
+    node = made.written(1, "launch_arguments")
+    given = plain(value)
+    if isinstance(given, dict):
+        given = list(given.items())
+    for pair in items(walker._machine, given) or () if given is not None else ():
+        parts = items(walker._machine, pair)
+        if parts is None or len(parts) != 2:
+            continue
+        for name in texts(parts[0]):
+            yield name, walker.text(parts[1], node, made.source)
+
+
+def _declare(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    choices = items(walker._machine, made.get(-1, "choices")) if made.get(-1, "choices") is not None else None
+    default = walker.value(made, 1, "default_value")
+    return [
+        LaunchAction(
+            "argument",
+            _span(made),
+            target=walker.value(made, 0, "name"),
+            value=default,
+            package_span=walker.package_span(default),
+            choices=tuple(text for choice in choices or () for text in texts(choice)),
+            conditions=conditions,
+        )
+    ]
+
+
+def _assigns(kind: str, *names: tuple[str, ...]) -> Rule:
+    def rule(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+        value = walker.value(made, 1, *names[1])
+        target = walker.value(made, 0, *names[0])
+        span = walker.package_span(value)
+        return [LaunchAction(kind, _span(made), target=target, value=value, package_span=span, conditions=conditions)]
+
+    return rule
+
+
+def _one_value(kind: str, *names: str) -> Rule:
+    def rule(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+        value = walker.value(made, 0, *names)
+        return [LaunchAction(kind, _span(made), value=value, package_span=walker.package_span(value), conditions=conditions)]
+
+    return rule
+
+
+def _group(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    children = walker.actions(made.get(0, "actions"), (), _span(made))
+    scoped = plain(made.get(-1, "scoped")) is not False
+    passed = tuple(_group_configurations(walker, made))
+    name = None if scoped else LaunchValue(("unscoped",), _span(made))
+    return [LaunchAction("group", _span(made), name=name, arguments=passed, conditions=conditions, children=tuple(children))]
+
+
+def _group_configurations(walker: Walker, made: Made) -> Iterator[tuple[str, LaunchValue]]:
+    given = plain(made.get(-1, "launch_configurations"))
+    if isinstance(given, dict):
+        for name, value in given.items():
+            yield str(name), walker.text(value, made.written(-1, "launch_configurations"), made.source)
+
+
+def _timer(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    children = walker.actions(made.get(-1, "actions"), (), _span(made))
+    return [LaunchAction("later", _span(made), conditions=conditions, children=tuple(children))]
+
+
+def _event(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    """What a handler does when its event comes: actions, or what its function returns."""
+    found: list[LaunchAction] = []
+    for one in alternatives(made.get(0, "event_handler")):
+        handler = one.value
+        if isinstance(handler, Instance):
+            handler = handler.made
+        if isinstance(handler, Made):
+            found += _handled(walker, handler)
+    return [LaunchAction("later", _span(made), conditions=conditions, children=tuple(found))] if found else []
+
+
+def _handled(walker: Walker, handler: Made) -> list[LaunchAction]:
+    handler.seen = True
+    found: list[LaunchAction] = []
+    targets = {"target_action", "matcher", "handle_once", "target_lifecycle_node", "start_state", "goal_state", "transition"}
+    for name, given in [*[("", one) for one in handler.arguments[1:]], *handler.keywords.items()]:
+        if name in targets:
+            continue
+        for one in alternatives(given):
+            value = one.value
+            if isinstance(value, (Function, Bound)):
+                value = walker.run(value, [Unknown("an event"), Context()], {}, handler)
+            found += walker.actions(value, one.conditions, _span(handler))
+    return found
+
+
+def _later(walker: Walker, made: Made, *names: str) -> list[LaunchAction]:
+    found: list[LaunchAction] = []
+    for name in names:
+        for one in alternatives(made.get(-1, name)) if name in made.keywords else ():
+            value = one.value
+            if isinstance(value, (Function, Bound)):
+                value = walker.run(value, [Unknown("an event"), Context()], {}, made)
+            if value is not None and not isinstance(value, Unknown):
+                found += walker.actions(value, one.conditions, _span(made))
+    return [LaunchAction("later", _span(made), children=tuple(found))] if found else []
+
+
+def _opaque_function(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    arguments = items(walker._machine, made.get(-1, "args")) if made.get(-1, "args") is not None else []
+    keywords = plain(made.get(-1, "kwargs"))
+    before = walker._machine.conditions
+    walker._machine.conditions = ()
+    try:
+        result = walker.run(
+            made.get(0, "function"),
+            [Context(), *(arguments or [])],
+            {str(k): v for k, v in keywords.items()} if isinstance(keywords, dict) else {},
+            made,
+        )
+    finally:
+        walker._machine.conditions = before
+    return walker.actions(result, conditions, _span(made)) if result is not None else []
+
+
+def _for_each(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    result = walker.run(made.get(1, "function"), [Unknown("a value of ForEach")] * 3, {}, made)
+    return walker.actions(result, (*conditions, PERHAPS), _span(made))
+
+
+def _process(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    command = made.get(0, "cmd")
+    words = items(walker._machine, command) if command is not None else None
+    node = made.written(0, "cmd")
+    arguments = [("", walker.text(word, node, made.source)) for word in words or ()]
+    target = arguments[0][1] if arguments else None
+    process = LaunchAction(
+        "process",
+        _span(made),
+        target=target,
+        arguments=(*arguments, *_given(walker, made, "additional_env", "env", "cwd", "prefix")),
+        package_span=next((span for _, one in arguments if (span := walker.package_span(one))), None),
+        conditions=conditions,
+    )
+    return [process, *_later(walker, made, "on_exit")]
+
+
+def _given(walker: Walker, made: Made, *names: str) -> tuple[tuple[str, LaunchValue], ...]:
+    """Return texts of arguments that are lists or dictionaries of texts."""
+    found: list[tuple[str, LaunchValue]] = []
+    for name in names:
+        if name not in made.keywords:
+            continue
+        given = plain(made.keywords[name])
+        node = made.written(-1, name)
+        values = list(given.values()) if isinstance(given, dict) else items(walker._machine, given) or [given]
+        found += [("", walker.text(plain(value), node, made.source)) for value in values]
+    return tuple(found)
+
+
+def _parameters(walker: Walker, made: Made) -> tuple[tuple[str, LaunchValue], ...]:
+    found: list[tuple[str, LaunchValue]] = []
+    if "parameters" not in made.keywords:
+        return ()
+    node = made.written(-1, "parameters")
+    for given in items(walker._machine, made.keywords["parameters"]) or [made.keywords["parameters"]]:
+        for one in alternatives(given):
+            _parameter(walker, one.value, node, made, found)
+    return tuple(found)
+
+
+def _parameter(walker: Walker, value: Value, node: ast.expr, made: Made, found: list[tuple[str, LaunchValue]]) -> None:
+    waiting = [("", value)]
+    while waiting and len(found) < 2_000:
+        name, one = waiting.pop(0)
+        if isinstance(one, dict):
+            inner = [(f"{name}.{key}" if name else _key(key), plain(inner)) for key, inner in one.items()]
+            waiting = [*inner, *waiting]
+        elif isinstance(one, (list, tuple)) and not name:
+            waiting = [*[("", plain(inner)) for inner in one], *waiting]
+        else:
+            found.append((name, walker.text(one, node, made.source)))
+
+
+def _key(key: Value) -> str:
+    return texts(key)[0] or "?"
+
+
+def _remappings(walker: Walker, made: Made) -> tuple[tuple[LaunchValue, LaunchValue], ...]:
+    found: list[tuple[LaunchValue, LaunchValue]] = []
+    if "remappings" in made.keywords:
+        node = made.written(-1, "remappings")
+        for pair in items(walker._machine, made.keywords["remappings"]) or ():
+            parts = items(walker._machine, pair)
+            if parts is not None and len(parts) == 2:
+                found.append((walker.text(parts[0], node, made.source), walker.text(parts[1], node, made.source)))
+    return tuple(found)
+
+
+def _nested(walker: Walker, made: Made) -> list[LaunchAction]:
+    """Return the actions among the arguments of something that is not known."""
+    found: list[LaunchAction] = []
+    for value in (*made.arguments, *made.keywords.values()):
+        for one in alternatives(value):
+            inner = one.value if isinstance(one.value, (list, tuple)) else [one.value]
+            found += [
+                action
+                for each in inner
+                if isinstance(plain(each), Made) and not _is_text(each)
+                for action in walker.actions(each, (*one.conditions, PERHAPS), _span(made))
+            ]
+    return found
+
+
+def _other(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    if made.name in SUBSTITUTIONS:
+        return []
+    given: list[tuple[str, LaunchValue]] = []
+    for position, value in enumerate(made.arguments):
+        given += [("", walker.text(one, made.written(position), made.source)) for one in _texts_in(value)]
+    for name, value in made.keywords.items():
+        given += [("", walker.text(one, made.written(-1, name), made.source)) for one in _texts_in(value)]
+    return [
+        LaunchAction(
+            "other",
+            _span(made),
+            name=LaunchValue((made.name,), _span(made)),
+            arguments=tuple(given),
+            conditions=conditions,
+            children=tuple(_nested(walker, made)),
+        )
+    ]
+
+
+def _texts_in(value: Value) -> list[Value]:
+    """Return the texts in a value: itself, or those in a list or dictionary."""
+    found: list[Value] = []
+    waiting = [value]
+    while waiting and len(found) < 500:
+        one = plain(waiting.pop(0))
+        if isinstance(one, dict):
+            waiting += one.values()
+        elif isinstance(one, (list, tuple)):
+            waiting += one
+        elif isinstance(one, str) or _is_text(one):
+            found.append(one)
+    return found
+
+
+def _silent(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:  # noqa: ARG001
+    return []
+
+
+Rule = Callable[[Walker, Made, Conditions], list[LaunchAction]]
+
+_RULES: Mapping[str, Rule] = {
+    "Node": _node,
+    "LifecycleNode": _node,
+    "ComposableNodeContainer": _node,
+    "ComposableNode": _component,
+    "ComposableLifecycleNode": _component,
+    "LoadComposableNodes": _load,
+    "IncludeLaunchDescription": _include,
+    "DeclareLaunchArgument": _declare,
+    "SetLaunchConfiguration": _assigns("set", ("name",), ("value",)),
+    "SetEnvironmentVariable": _assigns("environment", ("name",), ("value",)),
+    "AppendEnvironmentVariable": _assigns("environment", ("name",), ("value",)),
+    "SetParameter": _assigns("parameter", ("name",), ("value",)),
+    "SetRemap": _assigns("remap", ("src",), ("dst",)),
+    "SetParametersFromFile": _one_value("parameter", "filename"),
+    "PushRosNamespace": _one_value("namespace", "namespace"),
+    "PushROSNamespace": _one_value("namespace", "namespace"),
+    "GroupAction": _group,
+    "TimerAction": _timer,
+    "ROSTimer": _timer,
+    "RosTimer": _timer,
+    "RegisterEventHandler": _event,
+    "OpaqueFunction": _opaque_function,
+    "ForEach": _for_each,
+    "ExecuteProcess": _process,
+    "ExecuteLocal": _process,
+    "LogInfo": _silent,
+    "Shutdown": _silent,
+    "EmitEvent": _silent,
+    "UnsetEnvironmentVariable": _silent,
+    "UnsetLaunchConfiguration": _silent,
+    "SetUseSimTime": _silent,
+    "ReadyToTest": _silent,
+}
+
+LAUNCHED = frozenset(_RULES) - {"LaunchDescription"}
+"""Classes whose objects do something when they are launched."""

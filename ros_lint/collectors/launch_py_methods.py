@@ -1,0 +1,338 @@
+"""Attributes and methods of values in Python launch files."""
+
+from __future__ import annotations
+
+import posixpath
+from typing import TYPE_CHECKING, Any
+
+from ros_lint.collectors.launch_py_objects import (
+    PERHAPS,
+    Api,
+    Bound,
+    Class,
+    Context,
+    FilePath,
+    Function,
+    Guarded,
+    Instance,
+    Made,
+    Method,
+    Raised,
+    Source,
+    Union,
+    Unknown,
+    Value,
+    alternatives,
+    plain,
+    union,
+    written,
+)
+from ros_lint.collectors.launch_text import LONGEST, UNKNOWN, is_plain, is_settled, joined
+
+if TYPE_CHECKING:
+    import ast
+    from collections.abc import Sequence
+
+    from ros_lint.collectors.launch_py_objects import Frame
+    from ros_lint.collectors.launch_py_run import Machine
+
+_MOST_ITEMS = 5_000
+_CONSTANTS = {"os.sep": "/", "os.path.sep": "/", "os.linesep": "\n", "os.name": "posix", "os.curdir": ".", "os.pardir": ".."}
+
+
+def items(machine: Machine, value: Value) -> list[Value] | None:
+    """Return the elements of a value in a fresh list, guarded where they are conditional; None if they are not known."""
+    value = plain(value)
+    if isinstance(value, Union):
+        found: list[Value] = []
+        for one in alternatives(value):
+            inner = items(machine, one.value)
+            if inner is None:
+                return None
+            found += [Guarded(element, one.conditions or (PERHAPS,)) for element in inner]
+        return found
+    if isinstance(value, (list, tuple, set, frozenset, dict)):
+        return list(value) if len(value) <= _MOST_ITEMS else None
+    if isinstance(value, range):
+        return list(value) if len(value) <= _MOST_ITEMS else None
+    if isinstance(value, str) and is_plain(value):
+        return list(value) if len(value) <= _MOST_ITEMS else None
+    if isinstance(value, Made) and value.name == "LaunchDescription":
+        return list(value.entities)
+    return None
+
+
+def attribute(machine: Machine, owner: Value, node: ast.Attribute, frame: Frame) -> Value:
+    """Return an attribute of a value."""
+    name = node.attr
+    if isinstance(owner, Api):
+        full = f"{owner.name}.{name}"
+        if full in _CONSTANTS:
+            return _CONSTANTS[full]
+        return written(UNKNOWN, node, frame.source) if full == "sys.executable" else Api(full)
+    if isinstance(owner, Instance):
+        return _of_instance(owner, name)
+    if isinstance(owner, Class):
+        found = owner.find(name)
+        return found if found is not None else Unknown(f"attribute {name}")
+    if isinstance(owner, Source):
+        return owner.names.get(name, Unknown(f"{name} of a module"))
+    if isinstance(owner, FilePath):
+        return _of_path(owner, name)
+    if isinstance(owner, Made) and name == "entities" and owner.name == "LaunchDescription":
+        return owner.entities
+    if isinstance(owner, Context):
+        return Api(f"context.{name}")
+    if isinstance(owner, (str, list, dict, tuple, set, Made)):
+        return Method(owner, name)
+    machine.lose(owner)
+    return Unknown(f"attribute {name} of what is not known")
+
+
+def _of_instance(owner: Instance, name: str) -> Value:
+    if name in owner.attributes:
+        return owner.attributes[name]
+    found = owner.cls.find(name)
+    if isinstance(found, Function):
+        return Bound(found, [owner])
+    if isinstance(found, Bound) and isinstance(found.function, Function):  # property, classmethod, staticmethod
+        return found
+    if found is not None:
+        return found
+    if owner.made is not None:
+        return Method(owner.made, name)
+    return Unknown(f"attribute {name} of an object")
+
+
+def _of_path(owner: FilePath, name: str) -> Value:
+    head, tail = posixpath.split(owner.text)
+    stem, dot, suffix = tail.rpartition(".")
+    match name:
+        case "parent":
+            return FilePath(head)
+        case "name":
+            return tail
+        case "stem":
+            return stem if dot else tail
+        case "suffix":
+            return dot + suffix if stem else ""
+        case "parents":
+            found: list[FilePath] = []
+            while head and (not found or head != found[-1].text):
+                found.append(FilePath(head))
+                head = posixpath.dirname(head)
+            # What lies above a folder that is known only by name is not known.
+            return found if is_plain(owner.text) else [*found, *[FilePath(UNKNOWN)] * 12]
+    return Method(owner, name)
+
+
+_TEXT_ANY = frozenset({"strip", "rstrip", "lstrip", "removeprefix", "removesuffix"})
+_TEXT_PARTS = frozenset({"split", "rsplit", "partition", "rpartition", "splitlines", "replace"})
+_TEXT_PLAIN = frozenset(
+    {
+        "lower", "upper", "title", "capitalize", "startswith", "endswith", "find", "rfind", "isdigit", "isalpha", "isnumeric",
+        "isalnum", "count", "index", "zfill", "casefold", "isspace", "swapcase", "islower", "isupper", "encode",
+    }
+)  # fmt: skip
+_TEXT_TRUTHS = frozenset(
+    {"startswith", "endswith", "isdigit", "isalpha", "isnumeric", "isalnum", "isspace", "islower", "isupper"}
+)
+
+
+def call_method(
+    machine: Machine, method: Method, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame
+) -> Value:
+    """Return what a method returns."""
+    owner, name = method.owner, method.name
+    if isinstance(owner, str):
+        return _of_text(machine, owner, name, arguments, keywords, node, frame)
+    if isinstance(owner, list):
+        return _of_list(machine, owner, name, arguments)
+    if isinstance(owner, dict):
+        return _of_dict(machine, owner, name, arguments, keywords)
+    if isinstance(owner, FilePath):
+        return _call_of_path(machine, owner, name, arguments, node, frame)
+    if isinstance(owner, tuple) and name == "index":
+        return Unknown("index in a tuple")
+    machine.lose([owner, arguments, keywords])
+    return Unknown(f"{name}()")
+
+
+def _of_text(
+    machine: Machine, owner: str, name: str, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame
+) -> Value:
+    from ros_lint.collectors.launch_py_eval import text_of, texts_made  # noqa: PLC0415  (they know each other)
+
+    if name == "format":
+        return _formatted(owner, arguments, keywords, node, frame)
+    if name == "join" and arguments:
+        values = items(machine, arguments[0])
+        if values is None:
+            return written(UNKNOWN, node, frame.source)
+        return texts_made(joined([text_of(value) for value in values], owner.join), node, frame)
+    values = [plain(argument) for argument in arguments]
+    known = all(isinstance(value, (str, int, tuple, type(None))) for value in values) and not keywords
+    known = known and all(is_plain(value) for value in values if isinstance(value, str))
+    known = known and (is_settled(owner) or name in _TEXT_ANY or name == "replace")
+    possible = name in _TEXT_ANY or name in _TEXT_PARTS or (name in _TEXT_PLAIN and is_plain(owner))
+    if possible and known and len(owner) <= LONGEST:
+        try:
+            result = getattr(str(owner), name)(*values)
+        except (TypeError, ValueError):
+            raise Raised from None
+        return result if not isinstance(result, str) or len(result) <= LONGEST else UNKNOWN
+    if name in _TEXT_TRUTHS or name in ("count", "find", "index", "rfind"):
+        return Unknown(f"{name}() of a text that is not known")
+    return written(UNKNOWN, node, frame.source) if name not in _TEXT_PARTS or name == "replace" else Unknown(f"{name}()")
+
+
+def _formatted(owner: str, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame) -> Value:
+    import string  # noqa: PLC0415  (few launch files format like this)
+
+    from ros_lint.collectors.launch_py_eval import text_of, texts_made  # noqa: PLC0415
+
+    rows: list[tuple[str, ...]] = []
+    try:
+        fields = list(string.Formatter().parse(owner))
+    except ValueError:
+        raise Raised from None
+    count = 0
+    for literal, field, spec, _ in fields:
+        rows.append((literal,))
+        if field is None:
+            continue
+        key = field or str(count)
+        count += 1
+        value = arguments[int(key)] if key.isdigit() and int(key) < len(arguments) else keywords.get(key)
+        rows.append(text_of(value) if value is not None and not spec else (UNKNOWN,))
+    return texts_made(joined(rows, "".join), node, frame)
+
+
+def _of_list(machine: Machine, owner: list[Value], name: str, arguments: list[Value]) -> Value:
+    first = arguments[0] if arguments else None
+    match name:
+        case "append" | "add":
+            machine.spend(1)
+            owner.append(machine.guard(first))
+            return None
+        case "extend" | "update":
+            found = items(machine, first)
+            if found is None:
+                machine.lose(first)
+                owner.append(machine.guard(Unknown("elements that are not known")))
+            else:
+                machine.spend(len(found))
+                owner += [machine.guard(one) for one in found]
+            return None
+        case "insert":
+            position = plain(first)
+            owner.insert(position if isinstance(position, int) else len(owner), machine.guard(arguments[-1]))
+            return None
+        case "pop":
+            return _popped(owner, first)
+        case "copy":
+            return list(owner)
+        case "reverse":
+            owner.reverse()
+            return None
+        case "clear":
+            owner.clear()
+            return None
+        case "sort":
+            sort(owner)
+            return None
+        case "remove":
+            for index, one in enumerate(owner):
+                if plain(one) is plain(first) or (isinstance(first, str) and plain(one) == first):
+                    del owner[index]
+                    break
+            return None
+        case "union":
+            return [*owner, *(one for argument in arguments for one in items(machine, argument) or [])]
+    return Unknown(f"{name}() of a list")
+
+
+def _popped(owner: list[Value], position: Value) -> Value:
+    index = -1 if position is None else plain(position)
+    if not isinstance(index, int):
+        return Unknown("pop() from a place that is not known")
+    try:
+        return plain(owner.pop(index))
+    except IndexError:
+        raise Raised from None
+
+
+def sort(values: list[Value]) -> None:
+    """Sort a list in place, if it holds what can be sorted."""
+    if all(isinstance(plain(value), str) for value in values) or all(isinstance(plain(value), (int, float)) for value in values):
+        values.sort(key=plain)
+
+
+def _of_dict(machine: Machine, owner: dict[Any, Value], name: str, arguments: list[Value], keywords: dict[str, Value]) -> Value:
+    from ros_lint.collectors.launch_py_eval import hashable  # noqa: PLC0415
+
+    key = hashable(plain(arguments[0])) if arguments else None
+    match name:
+        case "items":
+            return list(owner.items())
+        case "keys":
+            return list(owner)
+        case "values":
+            return list(owner.values())
+        case "copy":
+            return dict(owner)
+        case "get" | "pop" | "setdefault":
+            default = arguments[1] if len(arguments) > 1 else None
+            if isinstance(key, str) and not is_plain(key):
+                return union([*owner.values(), default])
+            if key in owner:
+                return owner.pop(key) if name == "pop" else owner[key]
+            if UNKNOWN in owner:
+                return union([owner[UNKNOWN], default])
+            if name == "setdefault":
+                owner[key] = default
+            return default
+        case "update":
+            return _updated(machine, owner, arguments, keywords)
+    return Unknown(f"{name}() of a dictionary")
+
+
+def _updated(machine: Machine, owner: dict[Any, Value], arguments: list[Value], keywords: dict[str, Value]) -> None:
+    from ros_lint.collectors.launch_py_eval import hashable  # noqa: PLC0415
+
+    owner.update(keywords)
+    for argument in arguments:
+        for one in alternatives(argument):
+            if isinstance(one.value, dict):
+                owner.update(one.value)
+                continue
+            pairs = items(machine, one.value)
+            for pair in pairs or ():
+                parts = items(machine, pair)
+                if parts is not None and len(parts) == 2:
+                    owner[hashable(plain(parts[0]))] = parts[1]
+                else:
+                    owner[UNKNOWN] = Unknown("elements that are not known")
+            if pairs is None:
+                owner[UNKNOWN] = Unknown("elements that are not known")
+                machine.lose(one.value)
+
+
+def _call_of_path(
+    machine: Machine, owner: FilePath, name: str, arguments: Sequence[Value], node: ast.Call, frame: Frame
+) -> Value:
+    match name:
+        case "joinpath":
+            return machine.join_paths(owner, list(arguments), node, frame)
+        case "as_posix" | "__str__" | "__fspath__":
+            return written(owner.text, node, frame.source)
+        case "resolve" | "absolute" | "expanduser":
+            return owner
+        case "with_suffix" | "with_name":
+            given = plain(arguments[0]) if arguments else None
+            if isinstance(given, str):
+                head, tail = posixpath.split(owner.text)
+                return FilePath(posixpath.join(head, given if name == "with_name" else tail.rpartition(".")[0] + given))
+        case "open" | "read_text" | "read_bytes":
+            return machine.open_file(owner.text, node)
+    return Unknown(f"{name}() of a path")

@@ -1,0 +1,296 @@
+"""What a name in a Python launch file can stand for while the file is read.
+
+Texts, numbers, lists and dictionaries are Python's own. What else there is has a class here: things of the launch
+libraries, functions and classes of the file, one of several values, and what is not known.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Iterator
+from typing import Any, Final
+
+from ros_lint.collectors.launch_text import MOST, UNKNOWN, configuration, is_plain
+from ros_lint.facts import LaunchCondition
+from ros_lint.text import Text
+
+Value = Any
+"""A value of the program that is read: a str, int, list ... of Python, or an object of this module."""
+
+Conditions = tuple[LaunchCondition, ...]
+
+PERHAPS: Final = LaunchCondition((UNKNOWN,), None)
+"""A condition of which nothing is known."""
+
+
+class Source:
+    """A module: its text, and the names that it binds when it runs."""
+
+    __slots__ = ("ascii", "names", "text")
+
+    def __init__(self, text: Text) -> None:
+        self.text = text
+        self.ascii = text.text.isascii()
+        self.names: dict[str, Value] = {}
+
+
+class Written(str):
+    """A text that knows the expression which made it."""
+
+    __slots__ = ("node", "source")
+
+    node: ast.expr
+    source: Source
+
+
+def written(text: str, node: ast.expr, source: Source) -> Written:
+    """Return a text with the expression that made it."""
+    made = Written(text)
+    made.node = node
+    made.source = source
+    return made
+
+
+class Unknown:
+    """Any value. ``condition`` is what it means when it is asked for its truth, if that is known."""
+
+    __slots__ = ("condition", "reason")
+
+    def __init__(self, reason: str, condition: LaunchCondition | None = None) -> None:
+        self.reason = reason
+        self.condition = condition
+
+
+class Guarded:
+    """A value that is there only under conditions."""
+
+    __slots__ = ("conditions", "value")
+
+    def __init__(self, value: Value, conditions: Conditions) -> None:
+        self.value = value
+        self.conditions = conditions
+
+
+class Union:
+    """One of several values."""
+
+    __slots__ = ("values",)
+
+    def __init__(self, values: tuple[Guarded, ...]) -> None:
+        self.values = values
+
+
+class FilePath:
+    """A path of pathlib."""
+
+    __slots__ = ("text",)
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+
+
+class Api:
+    """A name of a library: a module, a class, a function."""
+
+    __slots__ = ("name",)
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+    @property
+    def last(self) -> str:
+        return self.name.rpartition(".")[2]
+
+
+class Made:
+    """What calling a class of the launch libraries makes: an action, a substitution, a description."""
+
+    __slots__ = ("arguments", "conditions", "entities", "keywords", "lost", "name", "node", "seen", "source")
+
+    def __init__(self, name: str, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, source: Source) -> None:
+        self.name = name
+        self.arguments = arguments
+        self.keywords = keywords
+        self.node = node
+        self.source = source
+        self.conditions: Conditions = ()
+        self.entities: list[Value] = []
+        """Of a launch description: what it holds. The list lives on while it is visited."""
+        self.seen = False
+        """Whether it is part of what is launched."""
+        self.lost = False
+        """Whether it went where it cannot be followed."""
+
+    def get(self, position: int, *names: str) -> Value:
+        """Return an argument by its name or position, None when it is not there."""
+        for name in names:
+            if name in self.keywords:
+                return self.keywords[name]
+        return self.arguments[position] if 0 <= position < len(self.arguments) else None
+
+    def written(self, position: int, *names: str) -> ast.expr:
+        """Return the expression of an argument, or the whole call."""
+        for keyword in self.node.keywords:
+            if keyword.arg in names:
+                return keyword.value
+        plain = not any(isinstance(argument, ast.Starred) for argument in self.node.args)
+        return self.node.args[position] if plain and 0 <= position < len(self.node.args) else self.node
+
+
+class Function:
+    """A function of the program. ``frame`` is where it was defined."""
+
+    __slots__ = ("defaults", "frame", "keyword_defaults", "node", "owner", "yields")
+
+    def __init__(self, node: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda, frame: Frame) -> None:
+        self.node = node
+        self.frame = frame
+        self.defaults: list[Value] = []
+        self.keyword_defaults: dict[str, Value] = {}
+        self.owner: Class | None = None
+        self.yields = False
+
+
+class Bound:
+    """A function with some of its arguments: a method, or a partial."""
+
+    __slots__ = ("arguments", "function", "keywords")
+
+    def __init__(self, function: Value, arguments: list[Value], keywords: dict[str, Value] | None = None) -> None:
+        self.function = function
+        self.arguments = arguments
+        self.keywords = keywords or {}
+
+
+class Method:
+    """A method of a value of Python, or of what a library made."""
+
+    __slots__ = ("name", "owner")
+
+    def __init__(self, owner: Value, name: str) -> None:
+        self.owner = owner
+        self.name = name
+
+
+class Class:
+    """A class of the program."""
+
+    __slots__ = ("bases", "fields", "name", "names")
+
+    def __init__(self, name: str, bases: list[Value], names: dict[str, Value], fields: list[str]) -> None:
+        self.name = name
+        self.bases = bases
+        self.names = names
+        self.fields = fields
+        """Annotated names, in order: what a dataclass takes."""
+
+    def find(self, name: str) -> Value | None:
+        if name in self.names:
+            return self.names[name]
+        for base in self.bases:
+            if isinstance(base, Class):
+                found = base.find(name)
+                if found is not None:
+                    return found
+        return None
+
+    def library_base(self) -> Api | None:
+        """Return the class of a library that it is made from."""
+        for base in self.bases:
+            found = base if isinstance(base, Api) else base.library_base() if isinstance(base, Class) else None
+            if found is not None:
+                return found
+        return None
+
+
+class Instance:
+    """An object of a class of the program. ``made`` is what it is for the launch libraries, if anything."""
+
+    __slots__ = ("attributes", "cls", "made")
+
+    def __init__(self, cls: Class) -> None:
+        self.cls = cls
+        self.attributes: dict[str, Value] = {}
+        self.made: Made | None = None
+
+
+class Context:
+    """The context that launch hands to functions."""
+
+    __slots__ = ()
+
+
+class Frame:
+    """The names of a function that runs, or of a module."""
+
+    __slots__ = ("declared", "names", "outer", "returned", "source", "yielded")
+
+    def __init__(self, source: Source, outer: Frame | None, names: dict[str, Value]) -> None:
+        self.source = source
+        self.outer = outer
+        self.names = names
+        self.declared: dict[str, Frame] = {}
+        """Names that ``global`` or ``nonlocal`` gives to another frame."""
+        self.returned: list[Guarded] = []
+        self.yielded: list[Value] = []
+
+
+class Raised(Exception):  # noqa: N818  (it stands for any exception of the program)
+    """The program raises."""
+
+
+class OutOfBudget(Exception):  # noqa: N818
+    """The program takes too many steps, or too much memory."""
+
+
+def union(values: Iterable[Value]) -> Value:
+    """Return one of several values: the only one, when they are the same."""
+    found: list[Guarded] = []
+    for value in values:
+        for one in alternatives(value):
+            if not any(_same(one.value, other.value) and one.conditions == other.conditions for other in found):
+                found.append(one)
+        if len(found) > MOST:
+            return Unknown("one of too many values")
+    if not found:
+        return Unknown("no value")
+    if all(_same(one.value, found[0].value) for one in found):
+        return found[0].value
+    return Union(tuple(found))
+
+
+def alternatives(value: Value, conditions: Conditions = ()) -> Iterator[Guarded]:
+    """Yield every value that a value can be, with what must be so for it."""
+    if isinstance(value, Union):
+        for one in value.values:
+            yield from alternatives(one, conditions)
+    elif isinstance(value, Guarded):
+        yield from alternatives(value.value, (*conditions, *value.conditions))
+    else:
+        yield Guarded(value, conditions)
+
+
+def plain(value: Value) -> Value:
+    """Return a value without the conditions around it."""
+    while isinstance(value, Guarded):
+        value = value.value
+    return value
+
+
+def _same(one: Value, other: Value) -> bool:
+    if one is other:
+        return True
+    if isinstance(one, str) and isinstance(other, str):
+        return one == other
+    simple = (int, float, bool, type(None), tuple)
+    return type(one) is type(other) and isinstance(one, simple) and bool(one == other)
+
+
+def is_known_text(value: Value) -> bool:
+    """Return whether a value is a text that is known whole."""
+    return isinstance(value, str) and is_plain(value)
+
+
+def environment(name: str, default: str | None) -> str:
+    """Return the text that stands for an environment variable."""
+    return configuration(f"${name}", default)

@@ -1,0 +1,188 @@
+"""From what a launch file does to the packages and files that it names."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Iterable, Iterator, Sequence
+from posixpath import normpath
+from typing import Literal
+
+from ros_lint.collectors.launch_expression import evaluate
+from ros_lint.collectors.launch_text import UNKNOWN, asked_for, fill, installed, is_plain, is_settled, share
+from ros_lint.facts import Facet, LaunchAction, LaunchCondition, LaunchReference, LaunchValue, Opaque
+from ros_lint.text import Span
+
+Kind = Literal["node", "component", "include", "file", "package"]
+
+
+class References:
+    """What the actions of a launch file refer to, in the order of the file, and what is hidden."""
+
+    def __init__(self, actions: Iterable[LaunchAction]) -> None:
+        self.found: dict[LaunchReference, None] = {}
+        self.opaque: dict[Opaque, None] = {}
+        actions = tuple(actions)
+        self._defaults = dict(_defaults(actions))
+        self._optional: tuple[str, ...] = ()
+        for action in actions:
+            self._action(action, conditional=False)
+
+    def _action(self, action: LaunchAction, conditional: bool) -> None:
+        conditional = conditional or bool(action.conditions)
+        before = self._optional
+        self._optional = (*before, *_presences(action.conditions))
+        match action.kind:
+            case "node" | "component":
+                self._program(action, conditional)
+            case "include":
+                self._include(action, conditional)
+            case "process":
+                self._process(action, conditional)
+        for value in _texts(action):
+            self._paths(value, action.package_span, conditional)
+        for child in action.children:
+            self._action(child, conditional)
+        self._optional = before
+
+    def _program(self, action: LaunchAction, conditional: bool) -> None:
+        kind: Kind = "node" if action.kind == "node" else "component"
+        if action.package is None:
+            if action.target is not None:
+                self._paths(action.target, action.package_span, conditional)
+            return
+        packages, package_default = self._filled(action.package)
+        names, name_default = self._filled(action.target) if action.target is not None else ((UNKNOWN,), False)
+        conditional = conditional or len(packages) * len(names) > 1
+        for package in packages:
+            if not is_plain(package) or not package:
+                self.hide(f"the package of a {kind} is computed", action.package.span)
+                continue
+            for name in names if len(packages) == 1 or len(names) == 1 else (UNKNOWN,):
+                if action.target is not None and is_plain(name) and name:
+                    self._add(kind, package, name, action.target, action.package, conditional, package_default or name_default)
+                else:
+                    self._add("package", package, "", action.package, action.package, conditional, package_default)
+
+    def _include(self, action: LaunchAction, conditional: bool) -> None:
+        target = action.target
+        if target is None:
+            return
+        texts, default = self._filled(target)
+        for text in texts:
+            places = [place for place in installed(text) if place.known]
+            conditional = conditional or len(texts) > 1
+            for place in places:
+                span = action.package_span or target.span
+                package = LaunchValue((place.package,), span)
+                path = place.share
+                if path and normpath(text) == f"{share(place.package)}/{path}":
+                    self._add("include", place.package, path, target, package, conditional, default)
+                else:
+                    self._add("package", place.package, "", package, package, conditional, default)
+            if not places and not is_settled(text):
+                self.hide("which launch file is included is computed", target.span)
+
+    def _process(self, action: LaunchAction, conditional: bool) -> None:
+        """``ros2 run package executable`` and ``ros2 launch package file`` (reference, section E2.19)."""
+        words: list[tuple[str, LaunchValue, bool]] = []
+        for name, value in action.arguments:
+            if not name:
+                texts, default = self._filled(value)
+                words += [(word, value, default) for word in _words(texts[0] if len(texts) == 1 else UNKNOWN)]
+        if [word for word, _, _ in words[:1]] == ["xacro"]:
+            self._add("package", "xacro", "", words[0][1], words[0][1], conditional, by_default=False)
+        if [word for word, _, _ in words[:2]] not in (["ros2", "run"], ["ros2", "launch"]):
+            return
+        rest = [one for one in words[2:] if not one[0].startswith("-")][:2]
+        if not rest or not is_plain(rest[0][0]):
+            self.hide(f"what ros2 {words[1][0]} starts is computed", action.span)
+            return
+        package, value, default = rest[0]
+        if words[1][0] == "run" and len(rest) == 2 and is_plain(rest[1][0]):
+            self._add("node", package, rest[1][0], rest[1][1], value, conditional, default or rest[1][2])
+        elif "/" not in package and not package.endswith((".py", ".xml", ".yaml", ".launch")):
+            self._add("package", package, "", value, value, conditional, default)
+
+    def _paths(self, value: LaunchValue, package_span: Span | None, conditional: bool) -> None:
+        texts, default = self._filled(value)
+        for text in texts:
+            for place in installed(text):
+                if not place.known:
+                    self.hide("the package that is looked up is computed", value.span)
+                    continue
+                package = LaunchValue((place.package,), package_span or value.span)
+                several = conditional or len(texts) > 1
+                if place.share:
+                    self._add("file", place.package, place.share, value, package, several, default)
+                elif place.executable:
+                    self._add("node", place.package, place.executable, value, package, several, default)
+                else:
+                    self._add("package", place.package, "", package, package, several, default)
+            if "\ue014xacro" in text or text.startswith("xacro "):
+                self._add("package", "xacro", "", value, value, conditional, by_default=False)
+
+    def _filled(self, value: LaunchValue) -> tuple[tuple[str, ...], bool]:
+        """Return what a value is with the defaults of the launch arguments, and whether it needed them."""
+        if all(is_settled(text) for text in value.texts):
+            return value.texts, False
+        found = dict.fromkeys(text for one in value.texts for text in fill(one, self._defaults.get, evaluate))
+        return tuple(found), True
+
+    def look_up(self, package: str, value: LaunchValue, conditions: Sequence[LaunchCondition]) -> None:
+        """Note a package that is looked up when the file is read."""
+        if not is_plain(package):
+            self.hide("the package that is looked up is computed", value.span)
+            return
+        if not any(reference.package == package and reference.conditional <= bool(conditions) for reference in self.found):
+            optional = package in set(_presences(conditions))
+            self.found[
+                LaunchReference(
+                    "package", package, "", value.span, value.span, bool(conditions), value.exact, value.exact, optional
+                )
+            ] = None
+
+    def _add(
+        self, kind: Kind, package: str, name: str, at: LaunchValue, owner: LaunchValue, conditional: bool, by_default: bool
+    ) -> None:
+        exact, package_exact = at.exact and at.texts == (name,), owner.exact and owner.texts == (package,)
+        if kind == "package":
+            exact = package_exact
+        self.found[LaunchReference(kind, package, name, at.span, owner.span, conditional, exact, package_exact, by_default)] = (
+            None
+        )
+
+    def hide(self, reason: str, span: Span) -> None:
+        """Note that something hides which packages are used."""
+        self.opaque[Opaque(Facet.USES, reason, span)] = None
+
+
+def _defaults(actions: Iterable[LaunchAction]) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Yield the launch configurations that have a value when the file is launched as it is."""
+    for action in actions:
+        if action.kind in ("argument", "set") and action.target is not None and action.value is not None:
+            for name in action.target.texts:
+                yield name, action.value.texts
+        yield from _defaults(action.children)
+
+
+def _presences(conditions: Iterable[LaunchCondition]) -> Iterator[str]:
+    """Yield the packages that conditions ask for."""
+    for condition in conditions:
+        for text in condition.texts:
+            if condition.wanted and condition.equals is None and (package := asked_for(text)):
+                yield package
+
+
+def _texts(action: LaunchAction) -> Iterator[LaunchValue]:
+    for value in (action.value, action.name, action.namespace):
+        if value is not None:
+            yield value
+    for _, value in (*action.arguments, *action.parameters):
+        yield value
+
+
+def _words(text: str) -> list[str]:
+    try:
+        return shlex.split(text)
+    except ValueError:
+        return text.split()
