@@ -28,8 +28,7 @@ _ROS2 = re.compile(
     r"\sexec\s*=|\$\((?:var|find-pkg-share|find-pkg-prefix|exec-in-pkg|command)\s"
     r"|<(?:let|executable|node_container|load_composable_node|push[-_]ros[-_]namespace|set_parameter|set_env)\b"
 )
-_YAML_ACTION = re.compile(r"\b(?:\w*Node|\w*LaunchDescription|ComposableNodeContainer)\(")
-_ROOT = re.compile(r"^(?:launch|'launch'|\"launch\")[ \t]*:", re.MULTILINE)
+_YAML_ROOT = re.compile(r"^(?:launch|'launch'|\"launch\")[ \t]*:", re.MULTILINE)
 _YAML_OTHER = re.compile(r"^(?=[^\n])(?![ \t\r#%-]|launch[ \t]*:|['\"]launch['\"][ \t]*:|\.\.\.)", re.MULTILINE)
 
 

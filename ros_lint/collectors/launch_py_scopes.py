@@ -164,9 +164,7 @@ class _Scanner:
                     elif isinstance(item, str):  # global, nonlocal
                         where.scope.bind(item, None, where)
 
-    def _function(
-        self, node: ast.FunctionDef | ast.AsyncFunctionDef, scope: Scope, where: Where, conditional: bool
-    ) -> None:
+    def _function(self, node: ast.FunctionDef | ast.AsyncFunctionDef, scope: Scope, where: Where, conditional: bool) -> None:
         scope.bind(node.name, None, where)
         inner = Scope(scope)
         arguments = node.args

@@ -7,8 +7,8 @@ import posixpath
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
-from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, prefix, share
 from ros_lint.collectors.launch_py_scopes import Binding, Step, Where, reaching
+from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, prefix, share
 
 _MOST = 16
 _DEEPEST = 40
@@ -31,9 +31,7 @@ Values = tuple[Value, ...]
 
 ANYTHING: Values = (Value(UNKNOWN),)
 
-_SHARE = frozenset(
-    {"FindPackageShare", "get_package_share_directory", "get_package_share_path", "FindPackageShareDirectory"}
-)
+_SHARE = frozenset({"FindPackageShare", "get_package_share_directory", "get_package_share_path", "FindPackageShareDirectory"})
 _PREFIX = frozenset({"FindPackagePrefix", "FindPackage", "get_package_prefix"})
 LOOK_UPS = _SHARE | _PREFIX
 _JOINS = frozenset({"PathJoinSubstitution", "PathSubstitution"})
@@ -153,9 +151,7 @@ class Evaluator:
         return (Value(str(node.value)),) if isinstance(node.value, (int, float)) else ANYTHING
 
     def _formatted(self, node: ast.JoinedStr, where: Where) -> Values:
-        return self.concatenation(
-            [part.value if isinstance(part, ast.FormattedValue) else part for part in node.values], where
-        )
+        return self.concatenation([part.value if isinstance(part, ast.FormattedValue) else part for part in node.values], where)
 
     def _sequence(self, node: ast.List | ast.Tuple, where: Where) -> Values:
         return self.concatenation(node.elts, where)
@@ -220,11 +216,7 @@ class Evaluator:
             if isinstance(value, ast.Dict) and isinstance(key, ast.Constant):
                 found = [v for k, v in zip(value.keys, value.values, strict=True) if _is(k, key.value)]
                 return self.values(found[-1], place) if found else ANYTHING
-            if (
-                isinstance(value, (ast.List, ast.Tuple))
-                and isinstance(key, ast.Constant)
-                and isinstance(key.value, int)
-            ):
+            if isinstance(value, (ast.List, ast.Tuple)) and isinstance(key, ast.Constant) and isinstance(key.value, int):
                 elements = self.elements(value, place)
                 if elements is not None and -len(elements) <= key.value < len(elements):
                     return self.values(*elements[key.value])
