@@ -8,8 +8,7 @@ import sys
 from collections.abc import Callable, Sequence
 from typing import Any, NoReturn
 
-from ros_lint.cli import COMMANDS
-from ros_lint.options import BY_NAME, OPTIONS, Option
+from ros_lint.options import BY_NAME, COMMANDS, OPTIONS, Option
 
 _COMMON = ("distro", "underlay", "config", "isolated", "jobs", "cache", "exclude", "progress")
 _EPILOG = """\

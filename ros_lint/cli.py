@@ -9,20 +9,6 @@ import os
 import sys
 from collections.abc import Sequence
 
-COMMANDS = {
-    "check": "look for what is wrong (the default)",
-    "order": "print the packages in build order",
-    "why": "say how one package comes to need another",
-    "graph": "print the dependency graph",
-    "overlay": "say which layer each package name resolves to",
-    "rules": "list the rules",
-    "rule": "explain a rule",
-    "index": "rebuild or extend what is known of the released world",
-    "schema": "print the JSON schema of the configuration file",
-    "completion": "print the completion script for a shell",
-}
-
-
 def main(argv: Sequence[str] | None = None) -> int:
     """Run a command. Returns the exit code; raises nothing but what ends the process."""
     arguments = list(sys.argv[1:] if argv is None else argv)

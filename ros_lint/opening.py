@@ -50,13 +50,7 @@ def open_workspace(said: Mapping[str, Any], environment: Mapping[str, str], prog
     places = (user_directory(environment),)
     target, warnings = _target(settings, places)
     knowledge = Knowledge(target.distro, places)
-    prefixes = [prefix for prefix in settings["underlay"] if prefix]
-    try:
-        underlays = underlay.read(prefixes, target.distro, base) if prefixes else ()
-    except underlay.UnderlayError as error:
-        if settings.origin("underlay") != "AMENT_PREFIX_PATH":
-            raise UsageError(str(error)) from error
-        underlays, warnings = (), (*warnings, f"AMENT_PREFIX_PATH is not used: {error}")
+    underlays, unread = _underlays(settings, target.distro, base)
     roots = tuple("" if path == base else os.path.relpath(path, base).replace(os.sep, "/") for path in paths)
     loader = Loader(
         DiskTree(base),
@@ -69,7 +63,25 @@ def open_workspace(said: Mapping[str, Any], environment: Mapping[str, str], prog
         cache=cache.Cache(cache.folder(environment) if settings["cache"] else "", base),
         progress=progress,
     )
-    return Opened(loader, settings, knowledge, base, roots, warnings)
+    return Opened(loader, settings, knowledge, base, roots, (*warnings, *unread))
+
+
+def _underlays(settings: Settings, distro: str, base: str) -> tuple[tuple[underlay.Underlay, ...], tuple[str, ...]]:
+    """Return the underlays and warnings. What was asked for must be one; what merely lies in the environment need not."""
+    prefixes = [prefix for prefix in settings["underlay"] if prefix]
+    if settings.origin("underlay") != "AMENT_PREFIX_PATH":
+        try:
+            return underlay.read(prefixes, distro), ()
+        except underlay.UnderlayError as error:
+            raise UsageError(str(error)) from error
+    found: list[underlay.Underlay] = []
+    warnings: list[str] = []
+    for prefix in prefixes:
+        try:
+            found += underlay.read([prefix], distro, base)
+        except underlay.UnderlayError as error:
+            warnings.append(f"AMENT_PREFIX_PATH: {error}")
+    return tuple(found), tuple(warnings)
 
 
 def no_packages(opened: Opened) -> str:

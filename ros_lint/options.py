@@ -76,6 +76,19 @@ OPTIONS: tuple[Option, ...] = (
     Option("show-settings", "flag", False, "print every setting and where it comes from, and stop", in_file=False),
     Option("progress", "flag", True, "show progress on a terminal", in_file=False),
 )
+COMMANDS = {
+    "check": "look for what is wrong (the default)",
+    "order": "print the packages in build order",
+    "why": "say how one package comes to need another",
+    "graph": "print the dependency graph",
+    "overlay": "say which layer each package name resolves to",
+    "rules": "list the rules",
+    "rule": "explain a rule",
+    "index": "rebuild or extend what is known of the released world",
+    "schema": "print the JSON schema of the configuration file",
+    "completion": "print the completion script for a shell",
+}
+
 BY_NAME = {option.name: option for option in OPTIONS}
 
 
