@@ -7,7 +7,7 @@ that the manifest was read from; of a text that is not well-formed the edits are
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from itertools import pairwise
 from typing import Final, NamedTuple
 
@@ -134,11 +134,11 @@ def sort(manifest: Manifest) -> tuple[Edit, ...]:
     if not moved or not all(layout.alone(child.span) and _is_verbatim(child) for child in moved):
         return ()
     edits: list[Edit] = []
-    for child in moved:
+    for child in sorted(moved, key=lambda child: schema_rank(child.tag)):
         before = [other for other in stay if schema_rank(other.tag) <= schema_rank(child.tag)]
         written = _written(child)
         edits.append(layout.after(before[-1].span, written) if before else layout.before(stay[0].span, written))
-    return (*edits, *(layout.removal(child.span) for child in moved))
+    return (*edits, *layout.removals([child.span for child in moved]))
 
 
 class _Line(NamedTuple):
@@ -211,10 +211,24 @@ class _Layout:
             return Edit(Span(path, before.end_line, before.end_column, span.end_line, span.end_column), "")
         if after is not None:
             return Edit(Span(path, span.line, span.column, after.line, after.column), "")
-        end = span.end_line + 1
-        while self._is_blank(span.line - 1) and self._is_blank(end):
+        return self._lines_out(span.line, span.end_line)
+
+    def removals(self, spans: Iterable[Span]) -> Iterator[Edit]:
+        """Yield the edits that take out items that have their lines for themselves, in the order of the file."""
+        runs: list[list[int]] = []
+        for span in spans:
+            if runs and runs[-1][1] == span.line - 1:
+                runs[-1][1] = span.end_line
+            else:
+                runs.append([span.line, span.end_line])
+        return (self._lines_out(first, last) for first, last in runs)
+
+    def _lines_out(self, first: int, last: int) -> Edit:
+        """Return the edit that removes lines, and blank ones below when there are blank ones above."""
+        end = last + 1
+        while self._is_blank(first - 1) and self._is_blank(end):
             end += 1
-        return Edit(Span(path, span.line, 1, end, 1), "")
+        return Edit(Span(self.path, first, 1, end, 1), "")
 
     def with_heading(self, span: Span) -> Span:
         """Return the first of the comments that stand right above an item, or the item."""

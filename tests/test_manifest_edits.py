@@ -200,6 +200,35 @@ def test_add_finds_the_place(body: str, tag: str, name: str, expected: str) -> N
     assert apply(text, [manifest_edits.add(read(text), tag, name)]) == manifest_of(expected)
 
 
+@pytest.mark.parametrize(
+    ("body", "expected"),
+    [
+        ("  <depend>a</depend>", "  <depend>a</depend>\n  <export>\n    <build_type>cmake</build_type>\n  </export>"),
+        (
+            "\n  <depend>a</depend>\n",
+            "\n  <depend>a</depend>\n\n  <export>\n    <build_type>cmake</build_type>\n  </export>\n",
+        ),
+        ("  <export/>", "  <export>\n    <build_type>cmake</build_type>\n  </export>"),
+        ("  <export><a/></export>", "  <export><build_type>cmake</build_type><a/></export>"),
+        (
+            "  <export>\n    <!-- none -->\n  </export>",
+            "  <export>\n    <build_type>cmake</build_type>\n    <!-- none -->\n  </export>",
+        ),
+    ],
+)
+def test_set_build_type(body: str, expected: str) -> None:
+    text = manifest_of(body)
+    assert apply(text, [manifest_edits.set_build_type(read(text), "cmake")]) == manifest_of(expected)
+
+
+def test_raise_format() -> None:
+    for before, after in [
+        ("<package>\n</package>", '<package format="3">\n</package>'),
+        ("<package\n  format='2'\n></package>", "<package\n  format='3'\n></package>"),
+    ]:
+        assert apply(before, [manifest_edits.raise_format(read(before), 3)]) == after
+
+
 def test_add_to_a_package_without_anything() -> None:
     for text in ("<package></package>", "<package>\n</package>\n"):
         after = apply(text, [manifest_edits.add(read(text), "depend", "a")])
@@ -233,6 +262,10 @@ def test_remove_leaves_no_trace(body: str, expected: str) -> None:
         (
             "  <member_of_group>g</member_of_group>\n  <depend>a</depend>\n  <depend>b</depend>",
             "  <depend>a</depend>\n  <depend>b</depend>\n  <member_of_group>g</member_of_group>",
+        ),
+        (
+            "  <author>a</author>\n\n  <depend>a</depend>\n  <depend>b</depend>\n\n  <url>u</url>\n  <url>v</url>\n\n  <test_depend>c</test_depend>",
+            "  <url>u</url>\n  <url>v</url>\n  <author>a</author>\n\n  <depend>a</depend>\n  <depend>b</depend>\n\n  <test_depend>c</test_depend>",
         ),
         ('  <author>a</author>\n  <url type="website">u</url>', '  <url type="website">u</url>\n  <author>a</author>'),
         ("  <export/>\n  <depend>a</depend> <!-- why -->", None),
