@@ -177,6 +177,7 @@ def test_a_line_is_cut_only_when_it_has_to_be() -> None:
         assert (row == f"1 | {line}") is whole
         assert row[carets.index("^")] == "y"
     assert framed(["x" * 200], (1, 1, 1, 2))[0] == f"1 | {'x' * (room - 3)}..."
+    assert framed(["x" * 200 + "y"], (1, 201, 1, 202))[0] == f"1 | ...{'x' * 20}y"
 
 
 LINES = st.text(st.sampled_from("ab \t日e\u0301\x1b\u202e\udce9😀\u200d-"), max_size=90)

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from ros_lint.reporters import Style, sarif
+from ros_lint.text import Span, Text
 from tests.reports import ISSUES, REPORTS, SOUND, SOURCES, texts
 from tests.sarif_checks import changed, complaints
 
@@ -25,6 +26,16 @@ def test_golden_files(name: str) -> None:
 def test_one_at_a_time(number: int) -> None:
     text = sarif.render(SOUND._replace(issues=ISSUES[number : number + 1]), texts, Style())
     assert complaints(text, SOURCES.get) == []
+
+
+@pytest.mark.parametrize("column", [1, 500, 2990])
+def test_of_a_long_line_a_part_is_quoted(column: int) -> None:
+    source = Text("long", "x" * 3000 + "\n" + "y" * 3000)
+    finding = ISSUES[0].finding._replace(span=Span("long", 1, column, 1, column + 5), related=(), fix=None, steps=False)
+    text = sarif.render(SOUND._replace(issues=(ISSUES[0]._replace(finding=finding),)), lambda path: source, Style())
+    assert complaints(text, lambda path: source.text.encode()) == []
+    physical = json.loads(text)["runs"][0]["results"][0]["locations"][0]["physicalLocation"]
+    assert 100 < len(physical["contextRegion"]["snippet"]["text"]) < 1000
 
 
 DOCUMENT: dict[str, Any] = json.loads((GOLDEN / "sound.sarif").read_text("utf-8"))
