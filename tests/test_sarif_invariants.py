@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
+import shutil
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from ros_lint.cli import main
 from ros_lint.reporters import Style, sarif
 from ros_lint.text import Span, Text
 from tests.reports import ISSUES, REPORTS, SOUND, SOURCES, texts
@@ -36,6 +38,21 @@ def test_of_a_long_line_a_part_is_quoted(column: int) -> None:
     assert complaints(text, lambda path: source.text.encode()) == []
     physical = json.loads(text)["runs"][0]["results"][0]["locations"][0]["physicalLocation"]
     assert 100 < len(physical["contextRegion"]["snippet"]["text"]) < 1000
+
+
+def test_of_a_real_run(tmp_path: Path) -> None:
+    shutil.copytree(Path(__file__).parent.parent / "fixtures" / "workspaces" / "demo", tmp_path / "ws")
+    (tmp_path / "ws" / ".git").mkdir()
+    output = tmp_path / "found.sarif"
+    assert main([str(tmp_path / "ws"), "--distro", "jazzy", "--pedantic", "--format", "sarif", "--output", str(output)]) == 1
+
+    def tree(path: str) -> bytes | None:
+        place = tmp_path / "ws" / path
+        return place.read_bytes() if place.is_file() else None
+
+    assert complaints(output.read_text("utf-8"), tree) == []
+    results = json.loads(output.read_text("utf-8"))["runs"][0]["results"]
+    assert {"ROS103", "ROS201", "ROS502"} <= {result["ruleId"] for result in results}
 
 
 DOCUMENT: dict[str, Any] = json.loads((GOLDEN / "sound.sarif").read_text("utf-8"))
