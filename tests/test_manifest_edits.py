@@ -264,8 +264,10 @@ def test_remove_leaves_no_trace(body: str, expected: str) -> None:
             "  <depend>a</depend>\n  <depend>b</depend>\n  <member_of_group>g</member_of_group>",
         ),
         (
-            "  <author>a</author>\n\n  <depend>a</depend>\n  <depend>b</depend>\n\n  <url>u</url>\n  <url>v</url>\n\n  <test_depend>c</test_depend>",
-            "  <url>u</url>\n  <url>v</url>\n  <author>a</author>\n\n  <depend>a</depend>\n  <depend>b</depend>\n\n  <test_depend>c</test_depend>",
+            "  <author>a</author>\n\n  <depend>a</depend>\n  <depend>b</depend>\n\n"
+            "  <url>u</url>\n  <url>v</url>\n\n  <test_depend>c</test_depend>",
+            "  <url>u</url>\n  <url>v</url>\n"
+            "  <author>a</author>\n\n  <depend>a</depend>\n  <depend>b</depend>\n\n  <test_depend>c</test_depend>",
         ),
         ('  <author>a</author>\n  <url type="website">u</url>', '  <url type="website">u</url>\n  <author>a</author>'),
         ("  <export/>\n  <depend>a</depend> <!-- why -->", None),
