@@ -147,9 +147,10 @@ class References:
         exact, package_exact = at.exact and at.texts == (name,), owner.exact and owner.texts == (package,)
         if kind == "package":
             exact = package_exact
-        self.found[LaunchReference(kind, package, name, at.span, owner.span, conditional, exact, package_exact, by_default)] = (
-            None
+        reference = LaunchReference(
+            kind, package, name, at.span, owner.span, conditional, exact, package_exact, package in self._optional, by_default
         )
+        self.found[reference] = None
 
     def hide(self, reason: str, span: Span) -> None:
         """Note that something hides which packages are used."""

@@ -16,6 +16,7 @@ Add `<exec_depend>` to `package.xml`. The fix does this.
 ## When it keeps silent
 
 - The package comes with a declared dependency.
+- The launch file asks first if the package is there (`get_packages_with_prefixes`, `PackageNotFoundError`).
 - The package exists nowhere: that is `launch-unknown-package`.
 - Launch files of tests and examples, and those that are not installed.
 - What a declared dependency brings along is not known: then the confidence is medium.
@@ -90,7 +91,7 @@ def _named(package: Package, workspace: Workspace) -> Mapping[str, list[LaunchRe
             continue
         for reference in launch.file.references:
             name = reference.package
-            if name != package.name and workspace.world.is_package(name):
+            if name != package.name and not reference.optional and workspace.world.is_package(name):
                 found.setdefault(name, []).append(reference)
     return found
 

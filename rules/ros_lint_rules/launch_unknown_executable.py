@@ -59,7 +59,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         missing = _missing(owner, name, workspace)
         if missing is None:
             continue
-        best, *others = references
+        best, *others = sorted(references, key=lambda reference: (reference.by_default, reference.span))
         yield Finding(
             f"{owner} installs no executable {name}{missing.hint}",
             best.span,
@@ -69,7 +69,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 *(Related("also started here", reference.span) for reference in others[:_MOST_RELATED]),
             ),
             _fix(missing.meant, references),
-            missing.confidence,
+            Confidence.MEDIUM if best.by_default else missing.confidence,
         )
 
 
@@ -97,9 +97,7 @@ def _missing(owner: str, name: str, workspace: Workspace) -> _Missing | None:
         if name in found.elsewhere:
             path = found.elsewhere[name]
             script = one.script
-            where = (
-                tuple(Related("installed here", p.span) for p in script.provides if p.path == path) if script else ()
-            )
+            where = tuple(Related("installed here", p.span) for p in script.provides if p.path == path) if script else ()
             return _Missing(f" in lib/{owner}, but {path}, where launch does not look", "", where)
         names |= found.names
     meant = _meant(name, tuple(sorted(names)))

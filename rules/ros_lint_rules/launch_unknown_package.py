@@ -18,6 +18,8 @@ elsewhere, check with the workspace that holds it as `--underlay`.
 
 - There are no data about the distribution.
 - Nobody said which distribution is meant, and another one has the package.
+- The launch file asks first if the package is there.
+- The name is that of a default which an argument can replace: then the confidence is medium.
 - The name is merely unknown, resembling no other: that may be a driver that its vendor does not release. Then the
   confidence is medium.
 - Launch files of tests and examples.
@@ -52,14 +54,14 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         verdict = _verdict(name, workspace)
         if verdict is None:
             continue
-        best, *others = references
+        best, *others = sorted(references, key=lambda reference: (reference.by_default, reference.span))
         yield Finding(
             f"there is no package {name}{verdict.hint}",
             best.package_span,
             name,
             tuple(Related("also named here", other.package_span) for other in others[:_MOST_RELATED]),
             _fix(name, verdict.meant, references),
-            verdict.confidence,
+            Confidence.MEDIUM if best.by_default else verdict.confidence,
         )
 
 
@@ -80,8 +82,9 @@ def _unknown(package: Package, workspace: Workspace) -> Mapping[str, list[Launch
     found: dict[str, list[LaunchReference]] = {}
     for launch in launchable(package):
         for reference in launch.file.references:
-            if not workspace.world.is_package(reference.package) and reference.package != package.name:
-                found.setdefault(reference.package, []).append(reference)
+            name = reference.package
+            if not workspace.world.is_package(name) and name != package.name and not reference.optional:
+                found.setdefault(name, []).append(reference)
     return found
 
 

@@ -20,17 +20,20 @@ does this. In `setup.py` add to `data_files`:
 - A part of the build script that cannot be followed may install the files.
 - Launch files of tests, examples and templates, those of ROS 1, and modules that only build actions for launch files;
   packages that are called tests.
-- Files that are installed under a condition.
+- Files that are installed under a condition, and those that a rule leaves out which installs others of their kind
+  (`PATTERN x EXCLUDE`).
 """
 
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 
 from ros_lint.api import Edit, Facet, Finding, Fix, Package, Related, Rule, Severity, Span, Workspace, launchable
 
 _MOST_RELATED = 4
+_SUFFIX = re.compile(r"(?:[._-]?launch\.(?:py|xml|ya?ml)|\.launch)$")
 _TEST_PACKAGE = re.compile(r"(?:^|_)(?:tests?|testing)(?:_|$)")
 
 
@@ -49,7 +52,24 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         else:
             missing.setdefault(folder, []).append(launch.path)
     for folder, paths in _together(missing, kept).items():
-        yield _finding(package, folder, paths, whole=folder not in kept and folder != "")
+        whole = folder not in kept and folder != ""
+        forgotten = paths if whole else [path for path in paths if not _is_left_out(package, path)]
+        if forgotten:
+            yield _finding(package, folder, forgotten, whole=whole)
+
+
+def _is_left_out(package: Package, path: str) -> bool:
+    """Whether a file is left out on purpose: its name is not that of a launch file, or a rule that takes its like skips it."""
+    folder, _, name = path.rpartition("/")
+    suffix = _SUFFIX.search(name)
+    if suffix is None:
+        return True
+    provides = package.script.provides if package.script else ()
+    together = Counter(provided.span for provided in provides)
+    return any(
+        together[provided.span] > 1 and provided.source.rpartition("/")[0] == folder and provided.source.endswith(suffix[0])
+        for provided in provides
+    )
 
 
 def _above(folder: str) -> Iterator[str]:
