@@ -104,14 +104,13 @@ def _result(run: Run, path: str) -> BuildScript:
 
 
 def _installed_files(run: Run) -> list[Provided]:
+    files, generated = run.files, run.generated
     found = []
-    for path, source, program, conditional, span in run.installed:
-        if source and source not in run.files:
-            if source not in run.generated:
-                continue
-            found.append(Provided(path, "", program, conditional, span))
-        else:
-            found.append(Provided(path, source, program, conditional, span))
+    for provided in run.installed:
+        if not provided.source or provided.source in files:
+            found.append(provided)
+        elif provided.source in generated:
+            found.append(provided._replace(source=""))
     return found
 
 
@@ -127,7 +126,7 @@ def _mentions(run: Run) -> tuple[Mention, ...]:
 def _missing(run: Run) -> list[Problem]:
     found = []
     for source, span, unsure in run.missing:
-        if not unsure and source not in run.generated:
+        if not unsure and source not in run.generated and not run.is_unseen(source):
             found.append(Problem("missing-file", f"{source} does not exist", span))
     return list(dict.fromkeys(found))
 

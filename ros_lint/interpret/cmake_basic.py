@@ -6,12 +6,13 @@ import posixpath
 import re
 from typing import Final
 
-from ros_lint.collectors.cmake_syntax import PLAIN
+from ros_lint.collectors.cmake_syntax import PLAIN, parse
 from ros_lint.facts import ANYTHING, Facet
-from ros_lint.interpret.cmake_flow import run_file
+from ros_lint.interpret.cmake_flow import run_file, run_named
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_state import BREAK, CONTINUE, RETURN, STOP, Frame, Variables
 from ros_lint.interpret.cmake_values import BINARY, FOREIGN, HOLE, SOURCE, certainly_set, is_fixed, is_known, join, merge, split
+from ros_lint.text import Text
 from ros_lint.tree import join as join_path
 
 
@@ -300,6 +301,39 @@ def _rest_of_call(run: Run, first: str) -> list[str]:
     return [run.get(f"ARGV{index}") or "" for index in range(int(first), int(argc))]
 
 
+def _language(run: Run, args: list[str]) -> int | None:
+    """``cmake_language(CALL command args...)`` and ``(EVAL CODE text...)``."""
+    mode = args[0] if args else ""
+    if mode == "CALL" and len(args) > 1 and is_known(args[1]):
+        return run_named(run, args[1].lower(), args[2:])
+    if mode == "EVAL" and args[1:2] == ["CODE"] and is_fixed(" ".join(args)):
+        frame = run.frames[-1]
+        commands = parse(Text(frame.path, " ".join(args[2:]))).commands
+        return run_file(run, commands, Frame(False, frame.path, frame.file, provider=frame.provider))
+    if mode in ("CALL", "EVAL", "DEFER"):
+        run.open_world = run.wild = True
+        run.hide(ANYTHING, f"what cmake_language({mode}) runs is not known")
+    elif len(args) > 1:
+        run.set(args[-1], HOLE)
+    return None
+
+
+def _folder_sources(run: Run, args: list[str]) -> None:
+    """``aux_source_directory(folder variable)``."""
+    if len(args) < 2 or HOLE in args[1]:
+        return
+    folder = run.source(args[0])
+    if folder is None:
+        run.set(args[1], HOLE)
+        return
+    skip = len(folder) + 1 if folder else 0
+    names = [file[skip:] for file in run.below(folder) if "/" not in file[skip:]]
+    sources = [
+        f"{args[0]}/{name}" for name in names if name.endswith((".c", ".cc", ".cpp", ".cxx", ".C", ".c++", ".cu", ".m", ".mm"))
+    ]
+    run.set(args[1], join([*filter(None, [run.get(args[1])]), *sources]))
+
+
 def _set_unknown(run: Run, args: list[str]) -> None:
     """A command whose first argument names the variable that gets something unknown."""
     if args and HOLE not in args[0]:
@@ -337,6 +371,9 @@ COMMANDS: Final[dict[str, Handler]] = {
     "add_subdirectory": _add_subdirectory,
     "cmake_parse_arguments": _parse_arguments,
     "execute_process": _execute_process,
+    "exec_program": _execute_process,
+    "cmake_language": _language,
+    "aux_source_directory": _folder_sources,
     "find_library": _set_unknown,
     "find_path": _set_unknown,
     "find_program": _set_unknown,

@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from ros_lint.collectors.cmake_syntax import BRACKET, LITERAL, QUOTED, UNQUOTED, Command
-from ros_lint.interpret.cmake_values import HOLE, SOURCE, certainly_set, elements, is_fixed, is_known, split
+from ros_lint.interpret.cmake_values import HOLE, SOURCE, certainly_set, data, elements, is_fixed, is_known, split
 
 if TYPE_CHECKING:
     from ros_lint.interpret.cmake_run import Run
@@ -433,10 +433,10 @@ def _newer(_run: Run, _left: _Token, _right: _Token) -> int:
 
 _BINARY: Final[dict[str, Callable[[Run, _Token, _Token], int]]] = {
     "STREQUAL": _same,
-    "STRLESS": _comparison(lambda left, right: left.encode() < right.encode()),
-    "STRGREATER": _comparison(lambda left, right: left.encode() > right.encode()),
-    "STRLESS_EQUAL": _comparison(lambda left, right: left.encode() <= right.encode()),
-    "STRGREATER_EQUAL": _comparison(lambda left, right: left.encode() >= right.encode()),
+    "STRLESS": _comparison(lambda left, right: data(left) < data(right)),
+    "STRGREATER": _comparison(lambda left, right: data(left) > data(right)),
+    "STRLESS_EQUAL": _comparison(lambda left, right: data(left) <= data(right)),
+    "STRGREATER_EQUAL": _comparison(lambda left, right: data(left) >= data(right)),
     "EQUAL": _comparison(_numbers(lambda left, right: left == right)),
     "LESS": _comparison(_numbers(lambda left, right: left < right)),
     "GREATER": _comparison(_numbers(lambda left, right: left > right)),

@@ -11,12 +11,15 @@ from ros_lint.interpret.cmake_values import HOLE, LONGEST, MAYBE, flat
 Part = str | tuple[str, "Template"]
 """Text, or a reference: where to look ("", "ENV" or "CACHE") and the template of the name."""
 Template = tuple[Part, ...]
+Compiled = str | Template
+"""An argument taken apart; the name of a variable when it is nothing but ``${name}``."""
 Lookup = Callable[[str, str], str]
 """From name and where to look to a value."""
 
 _PIECE = re.compile(r"([^\\$}]+)|\\(?:([tnr])|(\n)|(;)|([^A-Za-z0-9;])|(.?))|\$(ENV|CACHE|)\{|(\})|(\$)", re.DOTALL)
 _LETTERS: Final = {"t": "\t", "n": "\n", "r": "\r"}
 _NAME = re.compile(r"[A-Za-z0-9/_.+\-\0\1\2]*\Z")
+_MARKS = re.compile(f"[{HOLE}{MAYBE}]")
 _MOST_TEMPLATES: Final = 20_000
 
 
@@ -24,16 +27,21 @@ class ExpansionError(Exception):
     """CMake refuses the argument: an unclosed reference, a bad escape or a bad character in a name."""
 
 
-_templates: dict[str, Template] = {}
+_templates: dict[str, Compiled] = {}
 
 
-def template(text: str) -> Template:
+def template(text: str) -> Compiled:
     """Return an argument taken apart. Raises ExpansionError when CMake would refuse it."""
     found = _templates.get(text)
     if found is None:
         if len(_templates) > _MOST_TEMPLATES:
             _templates.clear()
-        found = _templates[text] = _compile(text)
+        found = parts = _compile(text)
+        if len(parts) == 1 and isinstance(parts[0], tuple):
+            where, name = parts[0]
+            if not where and len(name) == 1 and isinstance(name[0], str) and not _MARKS.search(name[0]):
+                found = name[0]
+        _templates[text] = found
     return found
 
 

@@ -10,7 +10,7 @@ from ros_lint.interpret.cmake_basic import nothing
 from ros_lint.interpret.cmake_glob import glob_regex
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_targets import generate
-from ros_lint.interpret.cmake_values import HOLE, SOURCE, is_fixed, is_known, join
+from ros_lint.interpret.cmake_values import HOLE, SOURCE, data, is_fixed, is_known, join
 
 
 def _file(run: Run, args: list[str]) -> None:
@@ -57,7 +57,7 @@ def _glob(run: Run, args: list[str], recurse: bool) -> None:
             run.set(args[0], HOLE)
             return
         found += _matches(run, pattern, recurse, folders)
-    paths = [f"{SOURCE}/{path}" for path in sorted(dict.fromkeys(found), key=str.encode)]
+    paths = [f"{SOURCE}/{path}" for path in sorted(dict.fromkeys(found), key=data)]
     if relative is not None:
         paths = [_relative(path, relative) for path in paths]
     run.set(args[0], join(paths))

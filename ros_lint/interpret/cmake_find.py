@@ -8,8 +8,8 @@ from typing import Final
 from ros_lint.collectors.cmake_syntax import QUOTED, UNQUOTED
 from ros_lint.facts import ANYTHING, Facet
 from ros_lint.interpret.cmake_basic import include_foreign, include_own
-from ros_lint.interpret.cmake_run import Handler, Run
-from ros_lint.interpret.cmake_values import FOREIGN, HOLE, is_known, split, sure
+from ros_lint.interpret.cmake_run import Handler, Run, folded
+from ros_lint.interpret.cmake_values import FOREIGN, HOLE, PREFIX, is_known, split, sure
 
 _FOREIGN_VARIABLE = re.compile(
     r"\$\{([A-Za-z0-9_+.-]+?)_(?:TARGETS|LIBRARIES|LIBRARY|LIBS|INCLUDE_DIRS?|INCLUDES|DEFINITIONS|LDFLAGS|CFLAGS)\}"
@@ -40,11 +40,14 @@ def find_package(run: Run, args: list[str]) -> int | None:
 
 def found(run: Run, name: str, *, required: bool) -> None:
     """Take a package for found: what it sets is unknown from now on, and its CMake code runs if it is in sight."""
-    run.set(f"{name}_FOUND", "1" if required else HOLE)
+    if required:
+        run.put(run.packages, name, "1")
+        if run.normal(f"{name}_FOUND") is not None:
+            run.set(f"{name}_FOUND", "1")
+    else:
+        run.set(f"{name}_FOUND", HOLE)
     run.open_world = True
-    folded = name.replace("_", "").replace("-", "").lower()
-    if folded not in run.prefixes:
-        run.prefixes.append(folded)
+    run.prefixes[name] = None
     if name in ("ament_cmake_ros", "ament_cmake_ros_core") and run.get("BUILD_SHARED_LIBS") is None:
         run.put(run.cache, "BUILD_SHARED_LIBS", "ON")
         run.settable.add("BUILD_SHARED_LIBS")
@@ -72,6 +75,8 @@ def _uses(run: Run, args: list[str]) -> None:
     """``ros_lint_uses(how names...)``: a macro is given the names of packages."""
     for arg in args[1:]:
         name, certain = sure(arg)
+        if name in ("PUBLIC", "INTERFACE", "PRIVATE", "SYSTEM"):
+            continue
         if HOLE in name:
             run.hide(Facet.USES, "the name of a package is not known")
         elif is_known(name):
@@ -83,7 +88,7 @@ def _pkg_config(run: Run, args: list[str]) -> None:
     if not args or HOLE in args[0]:
         return
     run.open_world = True
-    run.prefixes.append(args[0].replace("_", "").lower())
+    run.prefixes[args[0]] = None
     run.set(f"{args[0]}_FOUND", "1" if "REQUIRED" in args else HOLE)
 
 
@@ -115,16 +120,10 @@ def link(run: Run, args: list[str]) -> None:
 
 def _package_of(run: Run, prefix: str) -> str:
     """Return the found package whose variables begin with a prefix, or ""."""
-    if f"{prefix}_FOUND" in run.scopes[-1]:
+    if prefix in run.prefixes:
         return prefix
-    folded = prefix.replace("_", "").replace("-", "").lower()
-    if folded not in run.prefixes:
-        return ""
-    for scope in run.scopes:
-        for name in scope:
-            if name.endswith("_FOUND") and name[:-6].replace("_", "").replace("-", "").lower() == folded:
-                return name[:-6]
-    return ""
+    letters = folded(prefix)
+    return next((name for name in run.prefixes if folded(name) == letters), "")
 
 
 def _hide(run: Run, args: list[str]) -> None:
@@ -135,9 +134,13 @@ def _hide(run: Run, args: list[str]) -> None:
     run.hide(facet, args[1])
 
 
-def _external_project(run: Run, _args: list[str]) -> None:
+def _external_project(run: Run, args: list[str]) -> None:
+    """A project from elsewhere: it knows neither lib/<package> nor share/<package> unless it is told."""
     run.open_world = True
-    run.hide(ANYTHING & ~Facet.INTERFACES, "what a project from elsewhere builds and installs is not in sight")
+    hidden = Facet.USES | Facet.LIBRARIES
+    if any(PREFIX in arg or "lib/" in arg or "share/" in arg for arg in args):
+        hidden |= Facet.EXECUTABLES | Facet.SHARE
+    run.hide(hidden, "what a project from elsewhere builds and installs is not in sight")
 
 
 COMMANDS: Final[dict[str, Handler]] = {

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Final, NamedTuple
 
-from ros_lint.collectors.cmake_syntax import PLAIN, QUOTED, UNQUOTED, Argument, Command
+from ros_lint.collectors.cmake_syntax import QUOTED, UNQUOTED, Argument, Command
 from ros_lint.facts import ANYTHING, Facet
 from ros_lint.interpret.cmake_blocks import (
     Body,
@@ -21,7 +22,7 @@ from ros_lint.interpret.cmake_blocks import (
 )
 from ros_lint.interpret.cmake_conditions import FALSE, LIKELY, TRUE, UNKNOWN, UNLIKELY, Truth, condition
 from ros_lint.interpret.cmake_regex import forget
-from ros_lint.interpret.cmake_run import DEEPEST, MOST_STEPS, BudgetError, Handler, Run
+from ros_lint.interpret.cmake_run import DEEPEST, MOST_STEPS, SIMPLE, BudgetError, Handler, Run
 from ros_lint.interpret.cmake_state import (
     BREAK,
     CONTINUE,
@@ -73,15 +74,19 @@ def run_command(run: Run, command: Command) -> Exit:
     if run.steps > MOST_STEPS:
         raise BudgetError
     run.frames[-1].command = command
-    name = command.name
+    return run_named(run, command.name, run.arguments(command))
+
+
+def run_named(run: Run, name: str, args: list[str]) -> Exit:
+    """Run a command given by its name in lower case and its evaluated arguments."""
     run.calls.add(name)
     procedure = run.procedures.get(name)
-    if procedure is None:
-        handler = HANDLERS.get(name)
-        if handler is not None:
-            return handler(run, run.arguments(command)) or NEXT
-        return run.foreign(run, name, run.arguments(command)) or NEXT
-    return call(run, procedure, run.arguments(command))
+    if procedure is not None:
+        return call(run, procedure, args)
+    handler = HANDLERS.get(name)
+    if handler is not None:
+        return handler(run, args) or NEXT
+    return run.foreign(run, name, args) or NEXT
 
 
 def _run_block(run: Run, node: Node) -> Exit:
@@ -143,6 +148,9 @@ def _run_if(run: Run, node: If) -> Exit:
         ways.append(_Way((), open_end, testing))
     if len(ways) == 1:
         return _run_way(run, ways[0])
+    if len(ways) == 2 and ways[0].usual and not ways[1].body:
+        # What is done by default stays as it is when the other way does nothing.
+        return _run_way(run, ways[0]) | NEXT
     return _run_ways(run, ways)
 
 
@@ -345,7 +353,7 @@ def _define(run: Run, node: Definition) -> Exit:
         return NEXT
     frame = run.frames[-1]
     body = node.body
-    if frame.replace:
+    if frame.replace is not None:
         body = rewritten(body, partial(_substituted, frame.replace))
     file = next(frame for frame in reversed(run.frames) if frame.procedure is None)
     procedure = Procedure(
@@ -357,18 +365,34 @@ def _define(run: Run, node: Definition) -> Exit:
         frame.path,
         file.folder,
         frame.procedure.provider if frame.procedure else frame.provider,
+        counts(body),
     )
     run.put(run.procedures, args[0].lower(), procedure)
     return NEXT
 
 
-def _substituted(replace: tuple[tuple[str, str], ...], args: tuple[Argument, ...]) -> tuple[Argument, ...]:
+def counts(body: Body) -> bool:
+    """Return whether a body may ask for the arguments of its function by number."""
+    for node in body:
+        if type(node) is Command:
+            command = node
+        elif isinstance(node, If):
+            if any(counts(inner) for _, inner in node.branches):
+                return True
+            command = node.command
+        else:
+            command = node.command  # type: ignore[union-attr]
+            if counts(node.body):  # type: ignore[union-attr]
+                return True
+        if command.name == "include" or any("ARGV" in text or "ARGC" in text for text, *_ in command.args):
+            return True
+    return False
+
+
+def _substituted(replace: Callable[[re.Match[str]], str], args: tuple[Argument, ...]) -> tuple[Argument, ...]:
     found = []
     for text, kind, start, end in args:
-        changed = text
-        if kind in (PLAIN, UNQUOTED, QUOTED):
-            for old, new in replace:
-                changed = changed.replace(old, new)
+        changed = SIMPLE.sub(replace, text) if kind in (UNQUOTED, QUOTED) else text
         found.append((changed, kind, start, end))
     return tuple(found)
 
@@ -395,9 +419,11 @@ def call(run: Run, procedure: Procedure | Choice, args: list[str]) -> Exit:
     command = run.frames[-1].command
     if command is not None and any(HOLE in arg or arg.startswith(MAYBE) for arg in args):
         firm = run.firm_arguments(command)
-    values = _call_values(procedure.parameters, args, len(args) if firm is None else firm)
+        if firm is not None:  # cmake_language(CALL) takes two words more than the command itself
+            firm = max(0, firm - (len(run.arguments(command)) - len(args)))
+    values = _call_values(procedure, args, len(args) if firm is None else firm)
     if procedure.macro:
-        frame.replace = tuple((f"${{{name}}}", value) for name, value in values.items())
+        frame.replace = partial(_macro_argument, values)
         run.frames.append(frame)
         try:
             return run_body(run, procedure.body)
@@ -413,18 +439,27 @@ def call(run: Run, procedure: Procedure | Choice, args: list[str]) -> Exit:
     return NEXT if ended & (NEXT | RETURN) else ended
 
 
-def _call_values(parameters: Sequence[str], args: list[str], firm: int) -> dict[str, str]:
+def _macro_argument(values: dict[str, str], reference: re.Match[str]) -> str:
+    return values.get(reference[1], reference[0])
+
+
+def _call_values(procedure: Procedure, args: list[str], firm: int) -> dict[str, str]:
     """Return what the parameters, ARGC, ARGV, ARGN and ARGV0 and so on hold.
 
     ``firm`` is the index of the first argument that may be missing or be several: of those after it nobody knows which is
     the how many-th.
     """
-    values = {name: args[index] if index < firm else HOLE for index, name in enumerate(parameters)}
+    parameters = procedure.parameters
     if firm == len(args):
-        values = {name: args[index] if index < len(args) else "" for index, name in enumerate(parameters)}
+        values = dict(zip(parameters, args, strict=False))
+        for name in parameters[len(args) :]:
+            values[name] = ""
+        values["ARGN"] = ";".join(args[len(parameters) :])
+        if not procedure.counts:
+            return values
         values["ARGC"] = str(len(args))
-        values["ARGN"] = join(args[len(parameters) :])
     else:
+        values = {name: args[index] if index < firm else HOLE for index, name in enumerate(parameters)}
         values["ARGC"] = HOLE
         values["ARGN"] = join(args[len(parameters) :]) if firm >= len(parameters) else HOLE
         values.update({f"ARGV{index}": HOLE for index in range(firm, len(args) + 10)})

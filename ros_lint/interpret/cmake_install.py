@@ -10,13 +10,12 @@ from typing import Final, NamedTuple
 from ros_lint.facts import Facet, Opaque, Provided
 from ros_lint.interpret.cmake_arguments import sections
 from ros_lint.interpret.cmake_glob import glob_regex
-from ros_lint.interpret.cmake_run import Handler, Installed, InstalledTarget, Run
+from ros_lint.interpret.cmake_run import Handler, InstalledTarget, Run
 from ros_lint.interpret.cmake_targets import output_name, real_target
 from ros_lint.interpret.cmake_values import HOLE, is_fixed, is_known, sure
-from ros_lint.text import Span
 from ros_lint.tree import join as join_path
 
-_ANYWHERE = Facet.EXECUTABLES | Facet.SHARE | Facet.LIBRARIES | Facet.PYTHON
+_ANYWHERE: Final = Facet.EXECUTABLES | Facet.SHARE | Facet.LIBRARIES | Facet.PYTHON
 _TYPES: Final = {
     "BIN": "bin", "SBIN": "sbin", "LIB": "lib", "INCLUDE": "include", "SYSCONF": "etc", "SHAREDSTATE": "com",
     "LOCALSTATE": "var", "RUNSTATE": "var/run", "DATA": "share", "INFO": "share/info", "LOCALE": "share/locale",
@@ -43,8 +42,10 @@ _DIRECTORY_WORDS: Final = {
 
 def facet_of(run: Run, destination: str | None) -> Facet:
     """Return which side of the package something installed there belongs to."""
-    if destination is None:
+    if not destination or destination == ".":
         return _ANYWHERE
+    if destination == "lib":
+        return Facet.EXECUTABLES | Facet.LIBRARIES | Facet.PYTHON
     if destination.startswith("share"):
         return Facet.SHARE
     if destination.startswith("lib/python"):
@@ -108,7 +109,8 @@ def installed_targets(run: Run) -> Iterator[Provided]:
         if target is None:
             if not run.open_world or "::" not in name:
                 run.undefined.append((name, span, conditional))
-            run.opaques.setdefault(_no_sight(f"what the target {name} is, is not known", span))
+            reason = f"what the target {name} is, is not known"
+            run.opaques.setdefault(Opaque(Facet.EXECUTABLES | Facet.LIBRARIES, reason, span))
             continue
         kind = target["KIND"]
         if kind in ("interface", "object", "other", "imported"):
@@ -116,7 +118,8 @@ def installed_targets(run: Run) -> Iterator[Provided]:
         where = {"executable": executables, "static": archives}.get(kind, libraries)
         file = output_name(target)
         if where is None or file is None:
-            run.opaques.setdefault(_no_sight(f"where the target {name} is installed is not known", span))
+            facet = Facet.EXECUTABLES if kind == "executable" else Facet.LIBRARIES | Facet.PYTHON
+            run.opaques.setdefault(Opaque(facet, f"where the target {name} is installed is not known", span))
             continue
         unsure = conditional or "CONDITIONAL" in target or "TEST" in target
         yield Provided(join_path(where, file), "", kind == "executable", unsure, span)
@@ -124,10 +127,6 @@ def installed_targets(run: Run) -> Iterator[Provided]:
             for number in {target.get("VERSION", ""), target.get("SOVERSION", "")} - {""}:
                 if is_known(number):
                     yield Provided(join_path(where, f"{file}.{number}"), "", False, unsure, span)
-
-
-def _no_sight(reason: str, span: Span) -> Opaque:
-    return Opaque(Facet.EXECUTABLES | Facet.LIBRARIES, reason, span)
 
 
 # --- files ---------------------------------------------------------------------------------------------------------
@@ -163,10 +162,10 @@ def _install_file(run: Run, value: str, path: str, program: bool, certain: bool,
             return
         run.missing.append((source, span, conditional))
         if source not in run.generated:
-            run.installed.append(Installed(path, source, program, True, span))
+            run.installed.append(Provided(path, source, program, True, span))
             return
         source = ""
-    run.installed.append(Installed(path, source or "", program, conditional, span))
+    run.installed.append(Provided(path, source or "", program, conditional, span))
 
 
 def _destination(run: Run, parts: dict[str, list[str]]) -> str | None:
@@ -228,8 +227,10 @@ def _install_directory(
 ) -> None:
     span = run.where(value)
     if source in run.files:
-        run.installed.append(Installed(target, source, bool(executable), conditional, span))
+        run.installed.append(Provided(target, source, bool(executable), conditional, span))
         return
+    if run.is_unseen(source) or any(folder.startswith(f"{source}/" if source else "") for folder in run.sources.unseen):
+        run.hide(facet_of(run, target), "install(DIRECTORY) of a folder whose files are not listed", span)
     if not run.is_folder(source):
         if not optional:
             run.missing.append((source, span, conditional))
@@ -242,7 +243,7 @@ def _install_directory(
             if not chosen:
                 continue
             program = program if given is None else given
-        run.installed.append(Installed(join_path(target, file[skip:]), file, program, conditional, span))
+        run.installed.append(Provided(join_path(target, file[skip:]), file, program, conditional, span))
 
 
 def _chosen(file: str, top: str, patterns: list[_Pattern], only: bool) -> tuple[bool, bool | None]:

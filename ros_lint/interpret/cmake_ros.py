@@ -7,18 +7,23 @@ import re
 from functools import cache
 from typing import Final
 
-from ros_lint.facts import ANYTHING, Component, Facet
+from ros_lint.facts import ANYTHING, Component, Facet, Provided
+from ros_lint.interpret.cmake_arguments import sections
 from ros_lint.interpret.cmake_blocks import Definition, blocks
-from ros_lint.interpret.cmake_flow import HANDLERS, call
-from ros_lint.interpret.cmake_run import Handler, Installed, Run
+from ros_lint.interpret.cmake_flow import HANDLERS, call, counts
+from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_state import Procedure, Properties
 from ros_lint.interpret.cmake_targets import generate
 from ros_lint.interpret.cmake_values import HOLE, is_known, sure
 from ros_lint.knowledge.cmake_commands import macros
 from ros_lint.tree import join as join_path
 
-_PRODUCER = re.compile(r"install|program|executable|node|script|package|component|launch|resource|share|deploy")
+_PRODUCER = re.compile(r"install|program|executable|node|script|package|component|launch|resource|share|deploy|xacro|module")
 """Names of unknown commands that may well install something."""
+_TESTER = re.compile(
+    r"(?:\A|_)(?:\w*test\w*|lint\w*|gmock|pytest|coverage|benchmark\w*|check\w*|cpplint|cppcheck|flake8)(?:_|\Z)"
+)
+"""Names of unknown commands that test, and install nothing."""
 
 
 def foreign(run: Run, name: str, args: list[str]) -> int | None:
@@ -28,10 +33,14 @@ def foreign(run: Run, name: str, args: list[str]) -> int | None:
         if run.at_home() and macro.package:
             run.mention(macro.package, "macro", run.here(), f"{name}()")
         return call(run, _released(name), args)
+    if name.startswith("_") and name[1:] in HANDLERS and name[1:] in run.procedures:
+        return HANDLERS[name[1:]](run, args)  # the original of an overridden command
     run.open_world = True
     hidden = Facet.USES
-    if _PRODUCER.search(name):
-        hidden = ANYTHING
+    if not _TESTER.search(name):
+        run.wild = True
+        if _PRODUCER.search(name):
+            hidden = ANYTHING
     run.hide(hidden, f"what {name}() does is not known")
     return None
 
@@ -42,7 +51,8 @@ def _released(name: str) -> Procedure:
     (node,) = blocks(macro.definition)
     assert isinstance(node, Definition)
     parameters = tuple(argument[0] for argument in node.command.args)
-    return Procedure(name, node.command.name == "macro", parameters[1:], node.body, False, "", "", macro.package)
+    macro_like = node.command.name == "macro"
+    return Procedure(name, macro_like, parameters[1:], node.body, False, "", "", macro.package, counts(node.body))
 
 
 def _component(run: Run, args: list[str]) -> None:
@@ -80,7 +90,7 @@ def _interfaces(run: Run, args: list[str]) -> None:
             for end in dict.fromkeys((suffix, "idl")):
                 made = written if end == suffix else ""
                 place = f"share/{package}/{kind}/{stem}.{end}"
-                run.installed.append(Installed(place, made or "", False, conditional, span))
+                run.installed.append(Provided(place, made or "", False, conditional, span))
     if not run.muted and len(args) > 1:
         run.python_packages[package] = None
 
@@ -110,12 +120,32 @@ def _python(run: Run, args: list[str]) -> None:
                 run.python_packages[f"{name}.{inner.replace('/', '.')}"] = None
         path = join_path(join_path(base, args[0]), file[skip:])
         if is_known(path) and not file.endswith((".pyc", ".pyo")):
-            run.installed.append(Installed(path, file, False, conditional, span))
+            run.installed.append(Provided(path, file, False, conditional, span))
 
 
 def _scripts(run: Run, args: list[str]) -> None:
     """``ros_lint_console_scripts(destination setup.cfg)``: console_scripts of a setup.cfg become programs."""
-    run.hide(Facet.EXECUTABLES, f"the console_scripts of {args[1] if len(args) > 1 else 'setup.cfg'} are not read here")
+    path = run.source(args[1])
+    text = run.sources.texts.get(path) if path is not None else None
+    destination = run.destination(args[0])
+    if text is None or destination is None:
+        run.hide(Facet.EXECUTABLES, "the console_scripts of a setup.cfg cannot be read")
+        return
+    for name in console_scripts(text):
+        run.installed.append(Provided(join_path(destination, name), "", True, run.conditional or run.testing, run.here()))
+
+
+def console_scripts(text: str) -> list[str]:
+    """Return the names of the console_scripts that a setup.cfg declares, none when it cannot be parsed."""
+    import configparser  # noqa: PLC0415  (few packages have one)
+
+    parser = configparser.ConfigParser(interpolation=None)
+    try:
+        parser.read_string(text)
+        value = parser.get("options.entry_points", "console_scripts", fallback="")
+    except configparser.Error:
+        return []
+    return [line.partition("=")[0].strip() for line in value.splitlines() if "=" in line]
 
 
 def _provide(run: Run, args: list[str]) -> None:
@@ -123,7 +153,7 @@ def _provide(run: Run, args: list[str]) -> None:
     path = run.destination(args[0])
     if path is not None and not run.muted:
         program = "program" in args[1:]
-        run.installed.append(Installed(path, "", program, run.conditional or run.testing, run.here()))
+        run.installed.append(Provided(path, "", program, run.conditional or run.testing, run.here()))
 
 
 def _generate(run: Run, args: list[str]) -> None:
@@ -168,9 +198,15 @@ def _test_executable(run: Run, args: list[str]) -> None:
     """``ros_lint_test_executable(target sources...)``: a program that tests, whether or not it stands in a test scope."""
     testing, run.testing = run.testing, True
     try:
-        run_handler(run, "add_executable", args)
+        run_handler(run, "add_executable", sections(args, _TEST_WORDS)[""])
     finally:
         run.testing = testing
+
+
+_TEST_WORDS: Final = {
+    "SKIP_LINKING_MAIN_LIBRARIES": 0, "SKIP_TEST": 0, "RUNNER": 1, "TIMEOUT": 1, "WORKING_DIRECTORY": 1, "APPEND_ENV": -1,
+    "APPEND_LIBRARY_DIRS": -1, "ENV": -1,
+}  # fmt: skip
 
 
 def _vendor(run: Run, args: list[str]) -> None:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import posixpath
+import re
 from bisect import bisect_left
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from collections.abc import Set as AbstractSet
+from functools import lru_cache
 from typing import Final, NamedTuple
 
 from ros_lint.collectors.cmake_syntax import OPEN, QUOTED, UNQUOTED, Argument, Command, Parsed
-from ros_lint.facts import BuildScript, Component, Facet, Mention, Opaque, Problem, Via
+from ros_lint.facts import BuildScript, Component, Facet, Mention, Opaque, Problem, Provided, Via
 from ros_lint.interpret.cmake_expand import ExpansionError, expand, template
 from ros_lint.interpret.cmake_state import MISSING, Frame, Properties, State
 from ros_lint.interpret.cmake_values import ATOM, BINARY, HOLE, MAYBE, PREFIX, SOURCE, split
@@ -41,6 +43,10 @@ class Sources(NamedTuple):
     build_depends: tuple[str, ...] = ()
     """What ament_auto_find_build_dependencies() finds: declared to build, to build with, or for everything."""
     test_depends: tuple[str, ...] = ()
+    unseen: tuple[str, ...] = ()
+    """Folders below the package, relative to it, that exist and whose files are not listed."""
+    texts: Mapping[str, str] = {}
+    """What files hold that are read while CMake runs, such as setup.cfg, by path relative to the folder."""
 
 
 class Helper(NamedTuple):
@@ -62,14 +68,14 @@ class InstalledTarget(NamedTuple):
     span: Span
 
 
-class Installed(NamedTuple):
-    """A file to install."""
+@lru_cache(maxsize=4096)
+def folded(name: str) -> str:
+    """Return a name as it is compared with others that are spelt a little differently."""
+    return name.replace("_", "").replace("-", "").lower()
 
-    path: str
-    source: str
-    program: bool
-    conditional: bool
-    span: Span
+
+SIMPLE = re.compile(r"\$\{(\w+)\}")
+"""A reference that may be to an argument of a macro."""
 
 
 class BudgetError(Exception):
@@ -95,9 +101,15 @@ class Run(State):
         """How many conditions that may be false lead here."""
         self.testing = False
         self.muted = 0
-        self.prefixes: list[str] = []
-        """Beginnings of the names of variables that found packages may have set, without case and underscores."""
+        self.packages: Properties = Properties()
+        """Packages that were found for sure."""
+        self.prefixes: dict[str, None] = {}
+        """Beginnings of the names of variables that found packages may have set."""
+        self._folded: tuple[str, ...] = ()
         self.open_world = False
+        """Whether code that is not in sight has run."""
+        self.wild = False
+        """Whether that code may have set any variable."""
         self.settable: set[str] = set()
         """Variables that the user may set from outside: options and cache entries."""
         self.tested: set[str] = set()
@@ -120,7 +132,8 @@ class Run(State):
         self.components: list[Component] = []
         self.interfaces: dict[str, None] = {}
         self.python_packages: dict[str, None] = {}
-        self.installed: list[Installed] = []
+        self.installed: list[Provided] = []
+        """Installed files. Those with a source that is not there count if it is generated."""
         self.installed_targets: list[InstalledTarget] = []
         self.built: list[tuple[str, Properties, Span]] = []
         """Targets in the order of their definition."""
@@ -141,11 +154,17 @@ class Run(State):
 
     def get(self, name: str) -> str | None:
         """Return a variable, or None when it is not set."""
-        value = self.found(name)
-        if value is MISSING:
-            return self.default(name)
-        assert value is None or isinstance(value, str)
-        return value
+        for scope in reversed(self.scopes):
+            if name in scope:
+                value = scope[name]
+                if value is not None and name not in self.cache:
+                    return value
+                break
+        else:
+            if name not in self.cache:
+                return self.default(name)
+        found: str | None = self.found(name)
+        return found
 
     def default(self, name: str) -> str | None:
         """Return what a variable holds that no script has set."""
@@ -156,11 +175,17 @@ class Run(State):
             return value
         if name in UNKNOWN_VARIABLES:
             return HOLE
-        if self.open_world:
-            folded = name.replace("_", "").replace("-", "").lower()
-            if any(folded.startswith(prefix) for prefix in self.prefixes):
-                # Folders and versions are single texts; the others may be lists, or nothing.
-                return f"{ATOM}{name}" if name.endswith(("_DIR", "_VERSION", "_PREFIX")) else HOLE
+        if not self.open_world:
+            return None
+        if name.endswith("_FOUND") and self.packages.get(name[:-6]) == "1":
+            return "1"
+        if self.wild and not name.startswith("CMAKE_"):
+            return HOLE
+        if len(self.prefixes) != len(self._folded):
+            self._folded = tuple(map(folded, self.prefixes))
+        if folded(name).startswith(self._folded):
+            # Folders and versions are single texts; the others may be lists, or nothing.
+            return f"{ATOM}{name}" if name.endswith(("_DIR", "_VERSION", "_PREFIX")) else HOLE
         return None
 
     def lookup(self, name: str, where: str) -> str:
@@ -194,11 +219,16 @@ class Run(State):
     def arguments(self, command: Command) -> list[str]:
         """Return the arguments of a command, evaluated and split."""
         values: list[str] = []
+        evaluated = self.evaluated
         for text, kind, _, _ in command.args:
             if kind == UNQUOTED:
-                values += split(self.evaluated(text))
+                value = evaluated(text)
+                if ";" in value:
+                    values += split(value)
+                elif value:
+                    values.append(value)
             elif kind == QUOTED:
-                values.append(self.evaluated(text))
+                values.append(evaluated(text))
             else:
                 values.append(text)
         return values
@@ -221,10 +251,14 @@ class Run(State):
 
     def evaluated(self, text: str) -> str:
         """Return the value of an argument before it is split."""
-        for old, new in self.frames[-1].replace:
-            text = text.replace(old, new)
+        replace = self.frames[-1].replace
+        if replace is not None and "${" in text:
+            text = SIMPLE.sub(replace, text)
         try:
-            return expand(template(text), self.lookup)
+            parts = template(text)
+            if isinstance(parts, str):  # the name of a variable, by far the most frequent case
+                return self.get(parts) or ""
+            return expand(parts, self.lookup)
         except ExpansionError:
             return HOLE
 
@@ -236,20 +270,23 @@ class Run(State):
         That is an argument that reads so, from the innermost call outwards, then a list element that reads so, then an
         argument that gives the value, then the name of the command.
         """
-        own = [frame for frame in reversed(self.frames) if frame.own and frame.command is not None]
-        if value:
-            for frame in own:
-                command = frame.command
-                assert command is not None
-                for text, kind, start, end in command.args:
-                    if text == value and kind < OPEN:
-                        return command.span(frame.path, start, end)
-            if value in self.literals:
-                path, command, (_, _, start, end) = self.literals[value]
-                return command.span(path, start, end)
-        frame = own[0]
-        command = frame.command
+        own: Frame | None = None
+        for frame in reversed(self.frames):
+            command = frame.command
+            if not frame.own or command is None:
+                continue
+            own = own or frame
+            if not value:
+                break
+            for text, kind, start, end in command.args:
+                if text == value and kind < OPEN:
+                    return command.span(frame.path, start, end)
+        assert own is not None
+        frame, command = own, own.command
         assert command is not None
+        if value in self.literals:
+            path, command, (_, _, start, end) = self.literals[value]
+            return command.span(path, start, end)
         if value and frame is self.frames[-1]:
             for text, kind, start, end in command.args:
                 if kind in (UNQUOTED, QUOTED) and value in split(self.evaluated(text)):
@@ -299,7 +336,11 @@ class Run(State):
 
     def is_folder(self, path: str) -> bool:
         """Return whether the package has such a folder, with a file in it."""
-        return not path or self.first_below(path) is not None
+        return not path or self.first_below(path) is not None or self.is_unseen(path)
+
+    def is_unseen(self, path: str) -> bool:
+        """Return whether a path lies in a folder whose files are not listed."""
+        return any(path == folder or path.startswith(f"{folder}/") for folder in self.sources.unseen)
 
     def first_below(self, path: str) -> int | None:
         """Return the index of the first file below a folder, or None when there is none."""

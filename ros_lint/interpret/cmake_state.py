@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Final, NamedTuple
 
@@ -47,6 +48,8 @@ class Procedure(NamedTuple):
     """Of that file, as CMake would name it."""
     provider: str = ""
     """The package that brings it, when it is not the package's own."""
+    counts: bool = True
+    """Whether its body may ask for ARGV, ARGC or ARGV0 and so on."""
 
 
 class Choice(NamedTuple):
@@ -218,5 +221,6 @@ class Frame:
         self.folder = file.rpartition("/")[0]
         self.procedure = procedure
         self.provider = provider
-        self.replace: tuple[tuple[str, str], ...] = ()
+        self.replace: Callable[[re.Match[str]], str] | None = None
+        """What a macro puts in the place of a reference."""
         self.command: Command | None = None

@@ -8,7 +8,7 @@ from typing import Final
 
 from ros_lint.interpret.cmake_regex import RegexError, anywhere, clear, every, find, forget, store
 from ros_lint.interpret.cmake_run import Handler, Run
-from ros_lint.interpret.cmake_values import ATOM, BINARY, HOLE, LONGEST, PREFIX, SOURCE, is_fixed, is_known, join
+from ros_lint.interpret.cmake_values import ATOM, BINARY, HOLE, LONGEST, PREFIX, SOURCE, data, is_fixed, is_known, join
 from ros_lint.interpret.cmake_values import flat as flat_value
 
 _UPPER: Final = {number: number - 32 for number in range(ord("a"), ord("z") + 1)}
@@ -77,8 +77,8 @@ def _known(function: Callable[..., str]) -> Callable[..., str]:
 
 
 def _find(text: str, wanted: str, reverse: str = "") -> str:
-    data, part = text.encode(), wanted.encode()
-    return str(data.rfind(part) if reverse == "REVERSE" else data.find(part))
+    whole, part = data(text), data(wanted)
+    return str(whole.rfind(part) if reverse == "REVERSE" else whole.find(part))
 
 
 def _replace(old: str, new: str, *inputs: str) -> str:
@@ -91,15 +91,18 @@ def _replace(old: str, new: str, *inputs: str) -> str:
 
 
 def _length(text: str) -> str:
-    return str(len(text.encode("utf-8", "surrogateescape")))
+    return str(len(data(text)))
 
 
 def _substring(text: str, begin: str, length: str) -> str:
-    data = text.encode("utf-8", "surrogateescape")
+    whole = data(text)
     start, count = int(begin), int(length)
-    if not 0 <= start <= len(data) or count < -1:
+    if not 0 <= start <= len(whole) or count < -1:
         return HOLE
-    return data[start : len(data) if count < 0 else start + count].decode("utf-8", "surrogateescape")
+    try:
+        return whole[start : len(whole) if count < 0 else start + count].decode()
+    except UnicodeDecodeError:
+        return HOLE  # half a letter
 
 
 def strip(text: str) -> str:
@@ -148,7 +151,7 @@ def _concat(*inputs: str) -> str:
 
 
 def _compare(how: str, left: str, right: str) -> str:
-    first, second = left.encode(), right.encode()
+    first, second = data(left), data(right)
     answers = {
         "EQUAL": first == second,
         "NOTEQUAL": first != second,
@@ -166,11 +169,11 @@ def _ascii(*codes: str) -> str:
 
 
 def _hex(text: str) -> str:
-    return text.encode("utf-8", "surrogateescape").hex()
+    return data(text).hex()
 
 
 def _identifier(text: str) -> str:
-    found = re.sub(rb"[^A-Za-z0-9_]", b"_", text.encode("utf-8", "surrogateescape")).decode()
+    found = re.sub(rb"[^A-Za-z0-9_]", b"_", data(text)).decode()
     return f"_{found}" if found[:1].isdigit() else found
 
 
@@ -178,7 +181,7 @@ def _hash(name: str) -> Callable[..., str]:
     def hashed(text: str) -> str:
         import hashlib  # noqa: PLC0415  (no package needs it but by accident)
 
-        return hashlib.new(name, text.encode("utf-8", "surrogateescape"), usedforsecurity=False).hexdigest()
+        return hashlib.new(name, data(text), usedforsecurity=False).hexdigest()
 
     return _known(hashed)
 

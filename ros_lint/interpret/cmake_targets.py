@@ -13,8 +13,12 @@ from ros_lint.interpret.cmake_values import HOLE, elements, is_fixed, is_known, 
 _LIBRARY_TYPES: Final = ("STATIC", "SHARED", "MODULE", "OBJECT", "INTERFACE", "UNKNOWN")
 
 
+_SUFFIXES: Final = (".c", ".C", ".c++", ".cc", ".cpp", ".cxx", ".cu", ".m", ".mm", ".h", ".hh", ".hpp", ".hxx", ".in", ".txx")
+"""What CMake adds to a source that is not there without it (policy CMP0115)."""
+
+
 def _add_executable(run: Run, args: list[str]) -> None:
-    _add(run, args, "executable", ("WIN32", "MACOSX_BUNDLE", "EXCLUDE_FROM_ALL"))
+    _add(run, args, "executable", ("WIN32", "MACOSX_BUNDLE", "EXCLUDE_FROM_ALL", "IMPORTED", "GLOBAL"))
 
 
 def _add_library(run: Run, args: list[str]) -> None:
@@ -22,7 +26,7 @@ def _add_library(run: Run, args: list[str]) -> None:
     if not kind:
         shared = run.get("BUILD_SHARED_LIBS")
         kind = "static" if shared is None or is_off(shared) else "shared"
-    _add(run, args, kind, (*_LIBRARY_TYPES, "EXCLUDE_FROM_ALL"))
+    _add(run, args, kind, (*_LIBRARY_TYPES, "EXCLUDE_FROM_ALL", "IMPORTED", "GLOBAL"))
 
 
 def _add(run: Run, args: list[str], kind: str, keywords: tuple[str, ...]) -> None:
@@ -53,6 +57,8 @@ def _add_sources(run: Run, target: Properties, sources: list[str]) -> None:
         plain, certain = sure(source)
         path = run.source(plain)
         if path is not None and "$<" not in plain:
+            if path not in run.files:
+                path = next((f"{path}{suffix}" for suffix in _SUFFIXES if f"{path}{suffix}" in run.files), path)
             have.append(path)
             if certain and path not in run.files:
                 run.missing.append((path, run.where(source), bool(run.muted or run.unsure)))

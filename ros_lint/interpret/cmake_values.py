@@ -89,6 +89,11 @@ def _split(value: str) -> list[str]:
     return found
 
 
+def data(text: str) -> bytes:
+    """Return the bytes that CMake compares and counts."""
+    return text.encode("utf-8", "surrogateescape")
+
+
 def join(values: Iterable[str]) -> str:
     """Return a list as CMake stores it."""
     return ";".join(values)
