@@ -7,6 +7,7 @@ module and of :mod:`ros_lint.text`.
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from enum import Flag, auto
 from typing import Literal, NamedTuple
 
@@ -141,6 +142,7 @@ class FileFacts(NamedTuple):
     mentions: tuple[Mention, ...] = ()
     opaque: tuple[Opaque, ...] = ()
     problems: tuple[Problem, ...] = ()
+    registrations: tuple[Registration, ...] = ()
 
 
 class Role(Flag):
@@ -262,6 +264,128 @@ class EntryPoint(NamedTuple):
     span: Span
 
 
+class Call(NamedTuple):
+    """A command of a CMake file as it is written, not evaluated; only those that rules and fixes ask for."""
+
+    name: str
+    """In lower case."""
+    path: str
+    args: tuple[tuple[str, int, int, int], ...]
+    """As :data:`ros_lint.collectors.cmake_syntax.Argument`: text, kind, and offsets of the whole argument."""
+    start: int
+    end: int
+    """Offset after the closing parenthesis."""
+    line: int
+    column: int
+    breaks: tuple[int, ...]
+    """Offsets at which further lines of the command begin."""
+    blocks: tuple[str, ...]
+    """What it stands in, from outside: "if", "foreach", "while", "function", "macro"."""
+    test: bool
+    """Whether one of the conditions asks if tests are wanted."""
+
+    @property
+    def texts(self) -> tuple[str, ...]:
+        """The arguments, without quotes."""
+        return tuple([argument[0] for argument in self.args])
+
+    @property
+    def place(self) -> Span:
+        """The name."""
+        return Span(self.path, self.line, self.column, self.line, self.column + len(self.name))
+
+    @property
+    def whole(self) -> Span:
+        return Span(self.path, self.line, self.column, *self._position(self.end))
+
+    @property
+    def close(self) -> Span:
+        """The empty span before the closing parenthesis."""
+        return Span(self.path, *self._position(self.end - 1), *self._position(self.end - 1))
+
+    def span(self, index: int) -> Span:
+        """Return the place of an argument, quotes included."""
+        _, _, start, end = self.args[index]
+        return Span(self.path, *self._position(start), *self._position(end))
+
+    def _position(self, offset: int) -> tuple[int, int]:
+        passed = bisect_right(self.breaks, offset)
+        if passed:
+            return self.line + passed, offset - self.breaks[passed - 1] + 1
+        return self.line, self.column + offset - self.start
+
+
+class PythonModule(NamedTuple):
+    """A module of the package's own that an entry point names."""
+
+    name: str
+    """Dotted."""
+    path: str
+    """Relative to the package."""
+    names: tuple[str, ...]
+    """What it defines or imports at its top level, sorted."""
+    open: bool
+    """Whether it may have further names."""
+
+
+class PluginClass(NamedTuple):
+    """A class that a plugin description lists (pluginlib; reference, section C5.8)."""
+
+    name: str
+    """By which it is looked up."""
+    type: str
+    base: str
+    span: Span
+    """Of the type."""
+
+
+class PluginLibrary(NamedTuple):
+    """A ``<library>`` of a plugin description."""
+
+    path: str
+    span: Span
+    """Of the path, or of the element that has none."""
+    classes: tuple[PluginClass, ...]
+
+
+class PluginFile(NamedTuple):
+    """A plugin description file."""
+
+    path: str
+    """Relative to the package."""
+    libraries: tuple[PluginLibrary, ...]
+    span: Span
+    """Of its root element."""
+
+
+class Registration(NamedTuple):
+    """A macro in C++ that makes a class loadable: RCLCPP_COMPONENTS_REGISTER_NODE or PLUGINLIB_EXPORT_CLASS."""
+
+    kind: Literal["component", "plugin"]
+    name: str
+    """The class as written, without a leading ``::``."""
+    base: str
+    """The base class of a plugin, "" for a component."""
+    span: Span
+
+
+class Slot(NamedTuple):
+    """A list in ``setup.py`` that a fix can add an element to."""
+
+    option: str
+    """``data_files``, ``packages`` or ``console_scripts``."""
+    end: Span
+    """The empty span after the last element, and after the comma behind it if there is one."""
+    comma: bool
+    """Whether there is one."""
+    indent: str | None
+    """The white space before the last element where it stands on a line of its own, else None."""
+    count: int
+    """How many elements there are."""
+    variable: str = ""
+    """A variable that holds the name of the package, if setup.py has one."""
+
+
 class BuildScript(NamedTuple):
     """What the build of a package does: evaluated from CMakeLists.txt and what it includes, or from setup.py and setup.cfg."""
 
@@ -288,6 +412,13 @@ class BuildScript(NamedTuple):
     """Where an install rule can be added: an empty span before ament_package(), or None."""
     extras: tuple[str, ...] = ()
     """CMake files, relative to the package, whose code runs in every package that finds this one (CONFIG_EXTRAS)."""
+    written: tuple[Call, ...] = ()
+    """Commands of its CMake files as they stand there, file by file: those that rules and fixes ask for."""
+    modules: tuple[PythonModule, ...] = ()
+    """Modules that its entry points name."""
+    plugins: tuple[PluginFile, ...] = ()
+    """Its plugin descriptions."""
+    slots: tuple[Slot, ...] = ()
 
 
 # --- launch files --------------------------------------------------------------------------------------------------

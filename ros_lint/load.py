@@ -176,6 +176,7 @@ class Loader:
                 uses=uses,
                 traces=self._traces(tree, found, declared, uses) if search else {},
                 opaque=evidence.opaque_of(source),
+                registrations=tuple([made for facts in done.facts.values() for made in facts.registrations]),
             )
 
     def _traces(self, tree: Tree, found: Found, declared: Sequence[Declared], uses: Sequence[Use]) -> Mapping[str, Span]:

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence, Set
+from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.collect import FAILED
+from ros_lint.collectors import cmake_calls, plugin_xml, python_names, setup_layout
 from ros_lint.collectors.cmake_syntax import Parsed
 from ros_lint.discover import Found
-from ros_lint.facts import ANYTHING, BuildScript, Opaque
+from ros_lint.facts import ANYTHING, BuildScript, Opaque, PythonModule
 from ros_lint.text import Span, Text, read
 from ros_lint.tree import Tree, join
 
 if TYPE_CHECKING:
     from ros_lint.interpret.cmake import Helper, Sources
 
+_PLUGIN_FILE = re.compile(r"plugin[^/]*\.xml\Z", re.IGNORECASE)
 _PYTHON = ("setup.py", "setup.cfg", "pyproject.toml")
 
 
@@ -37,9 +41,9 @@ def evaluate(tree: Tree, packages: Sequence[Parts], distro: str) -> list[BuildSc
         parts = packages[number]
         try:
             if "CMakeLists.txt" in parts.commands and parts.found.type != "ros.ament_python":
-                result[number] = _cmake(tree, parts, distro, helpers)
-            else:
-                result[number] = _python(tree, parts.found)
+                result[number] = _with_plugins(tree, parts.found, _cmake(tree, parts, distro, helpers))
+            elif script := _python(tree, parts.found):
+                result[number] = _with_plugins(tree, parts.found, script)
         except Exception as error:  # a mistake of ours in one script must not cost the user all the others
             result[number] = _failed(parts, FAILED.format(f"{type(error).__name__}: {error}"))
     return result
@@ -52,7 +56,9 @@ def _cmake(tree: Tree, parts: Parts, distro: str, helpers: dict[str, Helper]) ->
     script = cmake.evaluate(sources, distro, helpers)
     if script.extras:
         helpers[parts.found.name] = cmake.Helper(sources, script)
-    return script
+    folder = parts.found.path
+    written = (cmake_calls.collect(join(folder, file), parsed) for file, parsed in sorted(parts.commands.items()))
+    return script._replace(written=tuple(chain.from_iterable(written)))
 
 
 def _failed(parts: Parts, reason: str) -> BuildScript:
@@ -76,7 +82,30 @@ def _python(tree: Tree, found: Found) -> BuildScript | None:
     from ros_lint.interpret import setup_py  # noqa: PLC0415
 
     setup, config, project = (_text(tree, found, file) for file in _PYTHON)
-    return setup_py.evaluate(found.name, found.path, found.files, setup, config, project)
+    script = setup_py.evaluate(found.name, found.path, found.files, setup, config, project, _Executables(tree, found))
+    slots = setup_layout.collect(setup, found.name) if setup else ()
+    return script._replace(slots=slots, modules=tuple(_modules(tree, found, script)))
+
+
+def _modules(tree: Tree, found: Found, script: BuildScript) -> Iterator[PythonModule]:
+    """Yield the modules of the package that its entry points name."""
+    files = frozenset(found.files)
+    for name in dict.fromkeys(entry.target.partition(":")[0].strip() for entry in script.entry_points):
+        stem = name.replace(".", "/")
+        ends = (f"{stem}.py", f"{stem}/__init__.py")
+        path = next((f"{top}{end}" for end in ends for top in ("", "src/") if f"{top}{end}" in files), None)
+        path = path or next((file for file in found.files if file.endswith(tuple(f"/{end}" for end in ends))), None)
+        text = _text(tree, found, path) if path else None
+        if path and text:
+            yield python_names.collect(name, path, text)
+
+
+def _with_plugins(tree: Tree, found: Found, script: BuildScript) -> BuildScript:
+    named = {call.texts[1] for call in script.written if call.name.startswith("pluginlib_export") and len(call.args) > 1}
+    candidates = [file for file in found.files if file.endswith(".xml") and (file in named or _PLUGIN_FILE.search(file))]
+    described = (plugin_xml.collect(file, text) for file in candidates if (text := _text(tree, found, file)))
+    plugins = tuple(plugin for plugin in described if plugin)
+    return script._replace(plugins=plugins) if plugins else script
 
 
 def _text(tree: Tree, found: Found, file: str) -> Text | None:

@@ -14,6 +14,7 @@ from ros_lint.facts import (
     LaunchFile,
     Manifest,
     Opaque,
+    Registration,
     Role,
     Use,
 )
@@ -84,6 +85,8 @@ class Package(NamedTuple):
     traces: Mapping[str, Span]
     """For declared names that nothing uses: a place where the name stands in some text all the same."""
     opaque: tuple[Opaque, ...]
+    registrations: tuple[Registration, ...] = ()
+    """Classes that its C++ sources make loadable."""
 
     @property
     def place(self) -> Span:

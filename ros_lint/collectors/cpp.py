@@ -6,6 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.cpp_includes import blanked, includes
+from ros_lint.collectors.cpp_registrations import registrations
 from ros_lint.facts import Facet, FileFacts, Mention, Opaque
 
 if TYPE_CHECKING:
@@ -39,7 +40,7 @@ def collect(source: Text) -> FileFacts:
         for item in found
         if not item.quote
     ]
-    return FileFacts(source.path, tuple(mentions), tuple(opaque))
+    return FileFacts(source.path, tuple(mentions), tuple(opaque), registrations=registrations(source))
 
 
 def _look_ups(source: Text) -> list[Mention]:

@@ -1,0 +1,54 @@
+"""Commands of CMake files as they are written, with what they stand in: for rules about the order of commands, and for fixes.
+
+What they do is the evaluator's affair, :mod:`ros_lint.interpret.cmake`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Final
+
+from ros_lint.collectors.cmake_syntax import Command, Parsed
+from ros_lint.facts import Call
+
+WANTED: Final = frozenset({
+    "add_executable", "add_library", "ament_add_gmock", "ament_add_google_benchmark", "ament_add_gtest",
+    "ament_add_pytest_test", "ament_auto_add_executable", "ament_auto_add_library", "ament_auto_package",
+    "ament_environment_hooks", "ament_export_definitions", "ament_export_dependencies", "ament_export_include_directories",
+    "ament_export_interfaces", "ament_export_libraries", "ament_export_link_flags", "ament_export_targets",
+    "ament_package", "ament_python_install_package", "ament_target_dependencies", "ament_vendor", "add_custom_target",
+    "add_launch_test", "add_ros_test", "autoware_ament_auto_package", "catkin_package", "cmake_minimum_required",
+    "cmake_policy", "find_package", "include", "install", "link_directories", "nav2_package",
+    "pluginlib_export_plugin_description_file", "project", "rclcpp_components_register_node",
+    "rclcpp_components_register_nodes", "rosidl_generate_interfaces", "rosidl_target_interfaces", "set",
+    "set_target_properties", "target_compile_definitions", "target_compile_features", "target_compile_options",
+    "target_include_directories", "target_link_libraries", "target_sources",
+})  # fmt: skip
+
+_SET = ("CMAKE_BUILD_TYPE", "CMAKE_CXX_FLAGS", "CMAKE_MODULE_PATH", "CMAKE_PREFIX_PATH", "CMAKE_INSTALL_PREFIX")
+_OPEN = frozenset({"if", "foreach", "while", "function", "macro"})
+
+
+def collect(path: str, parsed: Parsed) -> Iterator[Call]:
+    """Yield the wanted commands of a CMake file, in order. ``path`` is that of the file, relative to the base."""
+    blocks: list[tuple[str, bool]] = []
+    test = False
+    for command in parsed.commands:
+        name = command.name
+        if name in _OPEN:
+            blocks.append((name, name == "if" and _asks_for_tests(command)))
+        elif name[:3] == "end" and blocks and name[3:] in _OPEN:
+            blocks.pop()
+        elif name in ("else", "elseif") and blocks:
+            blocks[-1] = ("if", blocks[-1][1] or (name == "elseif" and _asks_for_tests(command)))
+        elif name == "return" and any(asked for _, asked in blocks):
+            test = True  # if(NOT BUILD_TESTING) return() endif(): the rest is for tests
+        elif name in WANTED and (name != "set" or (command.args and command.args[0][0] in _SET)):
+            _, _, args, start, end, line, column, breaks = command
+            around = tuple([block for block, _ in blocks])
+            asked = test or any([asked for _, asked in blocks])
+            yield Call(name, path, args, start, end, line, column, breaks, around, asked)
+
+
+def _asks_for_tests(command: Command) -> bool:
+    return any("TEST" in text.upper() or "BENCHMARK" in text.upper() for text, *_ in command.args)

@@ -1,0 +1,68 @@
+"""Where a ``setup.py`` has lists that a fix can add to."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from ros_lint.collectors.python_syntax import NotPythonError, parse, span_of, start_of
+from ros_lint.facts import Slot
+
+if TYPE_CHECKING:
+    from ros_lint.text import Text
+
+_OPTIONS = ("data_files", "packages")
+
+
+def collect(source: Text, package: str) -> tuple[Slot, ...]:
+    """Return the lists of ``data_files``, ``packages`` and console scripts, as far as they are written out.
+
+    ``package`` is the name of the package, for the variable that holds it.
+    """
+    try:
+        tree = parse(source)
+    except NotPythonError:
+        return ()
+    variables: dict[str, ast.expr] = {}
+    for node in tree.body:
+        if isinstance(node, ast.Assign) and len(node.targets) == 1 and isinstance(node.targets[0], ast.Name):
+            variables[node.targets[0].id] = node.value
+    name = next((key for key, value in variables.items() if isinstance(value, ast.Constant) and value.value == package), "")
+    calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call) and _is_setup(node.func)]
+    if len(calls) != 1:
+        return ()
+    return tuple(_slot(source, option, found, name) for option, found in _lists(calls[0], variables))
+
+
+def _is_setup(function: ast.expr) -> bool:
+    return (isinstance(function, ast.Name) and function.id == "setup") or (
+        isinstance(function, ast.Attribute) and function.attr == "setup"
+    )
+
+
+def _lists(call: ast.Call, variables: dict[str, ast.expr]) -> Iterator[tuple[str, ast.List]]:
+    for keyword in call.keywords:
+        value = variables.get(keyword.value.id) if isinstance(keyword.value, ast.Name) else keyword.value
+        if keyword.arg in _OPTIONS and isinstance(value, ast.List):
+            yield keyword.arg, value
+        elif keyword.arg == "entry_points" and isinstance(value, ast.Dict):
+            for key, entries in zip(value.keys, value.values, strict=True):
+                if isinstance(key, ast.Constant) and key.value == "console_scripts" and isinstance(entries, ast.List):
+                    yield "console_scripts", entries
+
+
+def _slot(source: Text, option: str, found: ast.List, variable: str) -> Slot:
+    whole = span_of(source, found)
+    close = source.offset(whole.end_line, whole.end_column) - 1
+    if not found.elts:
+        at = start_of(source, found) + 1
+        return Slot(option, source.span(at, at), True, None, 0, variable)
+    last = span_of(source, found.elts[-1])
+    at = source.offset(last.end_line, last.end_column)
+    comma = re.compile(r"(?:\s|#[^\n]*\n)*,").match(source.text, at, close)
+    line = source.line(last.line)
+    before = line[: last.column - 1]
+    end = comma.end() if comma else at
+    return Slot(option, source.span(end, end), comma is not None, None if before.strip() else before, len(found.elts), variable)
