@@ -281,3 +281,12 @@ def test_a_graph_without_a_cycle_waits_for_no_library() -> None:
         "assert 'networkx' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code], check=True, env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)})
+
+
+def test_the_closure_is_all_that_can_be_reached() -> None:
+    for seed in range(100):
+        graph = random_graph(Random(seed), 12)
+        theirs = digraph(graph)
+        for name in graph.names:
+            on_cycle = any(name in cycle for cycle in graph.cycles)
+            assert graph.closure(name) == nx.descendants(theirs, name) | ({name} if on_cycle else set())
