@@ -1,0 +1,284 @@
+"""The command line: exit codes, formats, settings, fixes, hooks."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+
+from ros_lint import __version__
+from ros_lint.options import COMMANDS, FORMATS
+
+ROOT = Path(__file__).parent.parent
+DEMO = ROOT / "fixtures" / "workspaces" / "demo"
+HEADLINES = {
+    "dependency-cycle",
+    "undeclared-dependency",
+    "unused-dependency",
+    "uninstalled-launch",
+    "launch-unknown-executable",
+    "launch-outside-closure",
+}
+
+
+def run(*arguments: str | Path, cwd: Path = ROOT, env: dict[str, str] | None = None) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "ros_lint", *map(str, arguments)]
+    return subprocess.run(
+        command, capture_output=True, text=True, encoding="utf-8", cwd=cwd, env={**os.environ, **(env or {})}, check=False
+    )
+
+
+def findings(*arguments: str | Path) -> list[str]:
+    """Return the lines that are findings, without the summary."""
+    return [line for line in run(*arguments, "--format", "concise").stdout.splitlines() if line.endswith("]")]
+
+
+@pytest.fixture
+def demo(tmp_path: Path) -> Path:
+    return Path(shutil.copytree(DEMO, tmp_path / "ws"))
+
+
+@pytest.fixture
+def clean(demo: Path) -> Path:
+    """The demo with one package in which nothing is wrong."""
+    for name in ("rover_driver", "rover_teleop", "rover_mission", "rover_bringup"):
+        shutil.rmtree(demo / "src" / name)
+    return demo
+
+
+def test_the_demo_shows_every_headline(demo: Path) -> None:
+    done = run(demo, "--format", "json")
+    assert done.returncode == 1
+    assert {finding["rule"] for finding in json.loads(done.stdout)["findings"]} == HEADLINES
+    assert len(json.loads(done.stdout)["findings"]) == len(HEADLINES)
+
+
+@pytest.mark.parametrize("form", FORMATS)
+def test_exit_codes_do_not_depend_on_the_format(demo: Path, clean: Path, tmp_path: Path, form: str) -> None:
+    (tmp_path / "empty").mkdir()
+    assert run(DEMO, "--format", form).returncode == 1
+    assert run(clean, "--format", form).returncode == 0
+    assert run(tmp_path / "empty", "--format", form).returncode == 2
+    assert run(tmp_path / "nowhere", "--format", form).returncode == 2
+
+
+@pytest.mark.parametrize(("arguments", "code"), [(["--fail-on", "error"], 0), (["--fail-on", "never"], 0), ([], 1)])
+def test_fail_on(demo: Path, arguments: Sequence[str], code: int) -> None:
+    assert run(demo, "--select", "unused-dependency", *arguments).returncode == code
+
+
+def test_version_and_help() -> None:
+    assert run("--version").stdout == f"ros-lint {__version__}\n"
+    shown = run("--help")
+    assert shown.returncode == 0
+    for command in COMMANDS:
+        assert f"  {command} " in shown.stdout
+        assert run(command, "--help").returncode == 0
+
+
+HEAVY = {"networkx", "libcst", "lxml", "yaml", "importlib.metadata", "dataclasses", "json", "argparse"}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "allowed"),
+    [(["--version"], set()), (["--help"], {"argparse"}), (["CLEAN", "--format", "concise"], {"argparse"})],
+)
+def test_what_is_heavy_is_imported_when_needed(clean: Path, arguments: list[str], allowed: set[str]) -> None:
+    given = [str(clean) if argument == "CLEAN" else argument for argument in arguments]
+    code = (
+        "import sys\nfrom ros_lint.cli import main\ntry:\n    main(sys.argv[1:])\nexcept SystemExit:\n    pass\n"
+        "print('\\n'.join(sys.modules), file=sys.stderr)"
+    )
+    done = subprocess.run([sys.executable, "-c", code, *given], capture_output=True, text=True, check=True)
+    assert HEAVY & set(done.stderr.split()) <= allowed
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--slect", "all"], "unrecognized arguments: --slect all, did you mean --select?"),
+        (["--select", "undeclared-dependancy"], "there is no rule undeclared-dependancy, did you mean undeclared-dependency?"),
+        (["--distro", "jazy"], "--distro: nothing is known of jazy, did you mean jazzy?"),
+        (["--format", "xml"], "argument --format: invalid choice: 'xml'"),
+        (["--config", "nowhere.toml"], "nowhere.toml: no such configuration file"),
+        (["--underlay", "nowhere"], "nowhere"),
+    ],
+)
+def test_what_cannot_be_done_is_said(arguments: list[str], message: str) -> None:
+    done = run(DEMO, *arguments)
+    assert done.returncode == 2
+    assert message in done.stderr
+    assert done.stdout == ""
+
+
+def test_the_distribution_is_a_choice(demo: Path) -> None:
+    assert " for lyrical (newest long-term release known)" in run(demo).stdout
+    assert " for humble (ROS_DISTRO)" in run(demo, env={"ROS_DISTRO": "humble"}).stdout
+    assert " for kilted (--distro)" in run(demo, "--distro", "kilted", env={"ROS_DISTRO": "humble"}).stdout
+    (demo / "ros-lint.toml").write_text('distro = "jazzy"')
+    assert " for jazzy (ros-lint.toml)" in run(demo, env={"ROS_DISTRO": "humble"}).stdout
+
+
+def test_select_and_ignore(demo: Path) -> None:
+    assert len(findings(demo, "--select", "ROS5")) == 2
+    assert len(findings(demo, "--select", "unused-dependency,ROS103")) == 2
+    assert len(findings(demo, "--ignore", "launch-outside-closure,ROS2")) == 3
+    (demo / "ros-lint.toml").write_text(
+        'ignore = ["ROS1"]\n[severity]\nunused-dependency = "error"\nlaunch-outside-closure = "off"\n'
+        '[per-path-ignores]\n"rover_teleop" = ["all"]\n"*.cpp" = ["undeclared-dependency"]\n'
+    )
+    lines = findings(demo)
+    assert len(lines) == 2
+    assert "error: diagnostic_updater" in lines[1]
+    assert "ignored for their path" in run(demo).stdout
+
+
+def test_pedantic_shows_more(demo: Path) -> None:
+    manifest = demo / "src" / "rover_driver" / "package.xml"
+    manifest.write_text(manifest.read_text().replace("<depend>rclcpp</depend>", "<depend>rclcpp</depend><depend>of_the_house</depend>"))
+    assert len(findings(demo, "--pedantic")) > len(findings(demo))
+
+
+def test_exclude(demo: Path) -> None:
+    assert json.loads(run(demo, "--exclude", "rover_*", "--format", "json").stdout)["packages"] == 0
+    assert json.loads(run(demo, "--exclude", "src/rover_driver", "--format", "json").stdout)["packages"] == 4
+
+
+def test_show_settings(demo: Path) -> None:
+    (demo / "ros-lint.toml").write_text("pedantic = true")
+    shown = run(demo, "--show-settings", "--jobs", "3").stdout
+    assert "pedantic         = true  # ros-lint.toml\n" in shown
+    assert "jobs             = 3  # --jobs\n" in shown
+
+
+def test_output_goes_to_a_file(demo: Path, tmp_path: Path) -> None:
+    target = tmp_path / "out.sarif"
+    done = run(demo, "--format", "sarif", "--output", target)
+    assert (done.returncode, done.stdout) == (1, "")
+    assert json.loads(target.read_text())["version"] == "2.1.0"
+    assert run(demo, "--output", tmp_path / "no" / "such" / "folder").returncode == 2
+
+
+@pytest.mark.parametrize(
+    ("arguments", "env", "colored"),
+    [
+        ([], {}, False),
+        (["--color", "always"], {"NO_COLOR": "1"}, True),
+        ([], {"FORCE_COLOR": "1"}, True),
+        ([], {"FORCE_COLOR": "1", "NO_COLOR": "1"}, False),
+        (["--color", "never"], {"FORCE_COLOR": "1"}, False),
+    ],
+)
+def test_color(demo: Path, arguments: list[str], env: dict[str, str], colored: bool) -> None:
+    assert ("\x1b[" in run(demo, *arguments, env=env).stdout) is colored
+
+
+def test_a_reader_that_goes_away(demo: Path) -> None:
+    command = f"{sys.executable} -m ros_lint {demo} | head -n 1"
+    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, cwd=ROOT, check=False)
+    assert done.stderr == ""
+
+
+def test_fixes_are_made_once(demo: Path) -> None:
+    patch = run(demo, "--diff").stdout
+    before = {path: path.read_bytes() for path in demo.rglob("*") if path.is_file()}
+    done = run(demo, "--fix")
+    assert "mended 3 findings in 2 files" in done.stderr
+    assert done.returncode == 1, "what is left is reported"
+    changed = {path for path, data in before.items() if path.read_bytes() != data}
+    assert {path.name for path in changed} == {"package.xml"}
+    assert "nothing to mend" in run(demo, "--fix").stderr
+    assert {path for path, data in before.items() if path.read_bytes() != data} == changed
+    # The patch says the same as the fix: applied backwards it restores everything.
+    subprocess.run(["patch", "-R", "-p1", "-s"], input=patch, text=True, cwd=demo, check=True)
+    assert {path: path.read_bytes() for path in before} == before
+
+
+def test_a_fix_that_would_close_a_cycle_is_withheld(tmp_path: Path) -> None:
+    manifest = (
+        '<package format="3"><name>{0}</name><version>1.0.0</version><description>d</description>'
+        '<maintainer email="a@robots.example">a</maintainer><license>Apache-2.0</license>'
+        "<buildtool_depend>ament_cmake</buildtool_depend>{1}<export><build_type>ament_cmake</build_type></export></package>\n"
+    )
+    cmake = "cmake_minimum_required(VERSION 3.16)\nproject({0})\nfind_package(ament_cmake REQUIRED)\n{1}\nament_package()\n"
+    for name, depend, find in (("arm", "<depend>hand</depend>", "hand"), ("hand", "", "arm")):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "package.xml").write_text(manifest.format(name, depend))
+        (tmp_path / name / "CMakeLists.txt").write_text(cmake.format(name, f"find_package({find} REQUIRED)"))
+    before = (tmp_path / "hand" / "package.xml").read_text()
+    done = run(tmp_path, "--fix", "--select", "undeclared-dependency")
+    assert "not mended, because then packages need each other" in done.stderr
+    assert (tmp_path / "hand" / "package.xml").read_text() == before
+
+
+def test_graph_commands(demo: Path) -> None:
+    done = run("order", demo)
+    assert done.returncode == 1
+    assert done.stdout.splitlines() == ["rover_interfaces", "rover_mission", "rover_teleop"]
+    assert "cannot be ordered: rover_bringup, rover_driver" in done.stderr
+    assert run("why", "rover_bringup", "rover_interfaces", "-C", demo).returncode == 0
+    assert run("why", "rover_interfaces", "rover_bringup", "-C", demo).returncode == 1
+    assert run("why", "rover_interface", "rover_bringup", "-C", demo).returncode == 2
+    assert run("graph", demo).stdout.startswith("digraph")
+    assert json.loads(run("graph", demo, "--format", "json", "--metrics").stdout)
+    assert run("overlay", demo).returncode == 0
+    assert run("order", demo / "src" / "nowhere").returncode == 2
+
+
+def test_papers() -> None:
+    assert "undeclared-dependency" in run("rules").stdout
+    assert json.loads(run("rules", "--format", "json").stdout)
+    assert "## Why it matters" in run("rule", "ROS201").stdout
+    assert "did you mean undeclared-dependency?" in run("rule", "undeclared").stderr
+    assert run("rule", "undeclared").returncode == 2
+    assert json.loads(run("schema").stdout)["properties"]["distro"]
+
+
+def test_a_plugin_brings_rules(demo: Path, tmp_path: Path) -> None:
+    site = tmp_path / "site"
+    (site / "mine-1.0.dist-info").mkdir(parents=True)
+    (site / "mine-1.0.dist-info" / "METADATA").write_text("Metadata-Version: 2.1\nName: mine\nVersion: 1.0\n")
+    (site / "mine-1.0.dist-info" / "entry_points.txt").write_text("[ros_lint.rules]\nmine = mine_rules\n")
+    (site / "mine_rules.py").write_text(
+        "from ros_lint.api import Finding, Rule, Severity\n"
+        "def check(package, workspace):\n    yield Finding('mine', package.place, package.name)\n"
+        "RULE = Rule('mine', 'MY001', 'all is mine', Severity.ERROR, '1.0', '', package=check)\n"
+    )
+    path = os.pathsep.join([str(site), os.environ.get("PYTHONPATH", "")])
+    assert "[mine]" not in run(demo, "--format", "concise", env={"PYTHONPATH": path}).stdout
+    assert run(demo, "--plugins", "--format", "concise", env={"PYTHONPATH": path}).stdout.count("[mine]") == 5
+    (site / "mine_rules.py").write_text("import nothing_of_that_name")
+    done = run(demo, "--plugins", env={"PYTHONPATH": path})
+    assert done.returncode == 2
+    assert "plugin mine (mine_rules) cannot be loaded" in done.stderr
+
+
+def test_a_rule_that_crashes_hides_no_other(demo: Path, tmp_path: Path) -> None:
+    site = tmp_path / "site"
+    (site / "bad-1.0.dist-info").mkdir(parents=True)
+    (site / "bad-1.0.dist-info" / "METADATA").write_text("Metadata-Version: 2.1\nName: bad\nVersion: 1.0\n")
+    (site / "bad-1.0.dist-info" / "entry_points.txt").write_text("[ros_lint.rules]\nbad = bad_rules\n")
+    (site / "bad_rules.py").write_text(
+        "from ros_lint.api import Rule, Severity\n"
+        "def check(package, workspace):\n    raise ValueError('oh')\n"
+        "RULE = Rule('bad', 'BAD01', 'nothing is bad', Severity.ERROR, '1.0', '', package=check)\n"
+    )
+    path = os.pathsep.join([str(site), os.environ.get("PYTHONPATH", "")])
+    done = run(demo, "--plugins", "--format", "json", env={"PYTHONPATH": path})
+    assert done.returncode == 2
+    report = json.loads(done.stdout)
+    assert {finding["rule"] for finding in report["findings"]} == HEADLINES
+    assert "ValueError: oh" in str(report["crashes"])
+
+
+def test_the_hooks_are_whole_project_hooks() -> None:
+    yaml = pytest.importorskip("yaml")
+    hooks = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text())
+    assert [hook["id"] for hook in hooks] == ["ros-lint", "ros-lint-fix"]
+    for hook in hooks:
+        assert hook["always_run"]
+        assert not hook["pass_filenames"]

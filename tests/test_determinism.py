@@ -1,0 +1,71 @@
+"""The same input gives the same bytes: from any folder, on any machine, with any number of processes, cold or warm."""
+
+import os
+import random
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from ros_lint.options import FORMATS
+
+DEMO = Path(__file__).parent.parent / "fixtures" / "workspaces" / "demo"
+
+
+def lint(workspace: str, cwd: Path, home: Path, *arguments: str, user: str = "ada") -> bytes:
+    environment = {**os.environ, "HOME": str(home), "XDG_CACHE_HOME": str(home / "cache"), "USER": user, "LOGNAME": user}
+    command = [sys.executable, "-m", "ros_lint", workspace, "--distro", "jazzy", *arguments]
+    done = subprocess.run(command, capture_output=True, cwd=cwd, env=environment, check=False)
+    assert done.returncode == 1, done.stderr
+    assert done.stdout
+    return done.stdout
+
+
+def shuffled_copy(source: Path, target: Path, seed: int) -> None:
+    """Copy a tree so that its files come into being in another order: most file systems list them in that order."""
+    files = sorted(path for path in source.rglob("*") if path.is_file())
+    random.Random(seed).shuffle(files)
+    for path in files:
+        place = target / path.relative_to(source)
+        place.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(path, place)
+
+
+@pytest.mark.parametrize("form", FORMATS)
+def test_the_same_bytes(tmp_path: Path, form: str) -> None:
+    first, second = tmp_path / "a" / "ws", tmp_path / "somewhere else" / "w"
+    shuffled_copy(DEMO, first, 1)
+    shuffled_copy(DEMO, second, 2)
+    home, other = tmp_path / "home", tmp_path / "other"
+    want = lint("ws", first.parent, home, "--format", form, "--jobs", "1", "--no-cache")
+    assert lint(".", first, home, "--format", form, "--jobs", "1") == want, "another folder, cold"
+    assert lint(".", first, home, "--format", form, "--jobs", "1") == want, "warm"
+    assert lint(str(second), tmp_path, other, "--format", form, "--jobs", "4", "--no-cache", user="grace") == want, "4 processes"
+    assert lint(str(second), Path("/"), other, "--format", form, "--jobs", "4", user="grace") == want, "4 processes, cold"
+    assert lint(str(second), Path("/"), other, "--format", form, "--jobs", "1", user="grace") == want, "warm from 4 processes"
+
+
+def test_a_changed_file_is_read_again(tmp_path: Path) -> None:
+    shuffled_copy(DEMO, tmp_path / "ws", 1)
+    arguments = ("--format", "concise", "--select", "undeclared-dependency")
+    assert b"sensor_msgs" in lint("ws", tmp_path, tmp_path, *arguments)
+    source = tmp_path / "ws" / "src" / "rover_driver" / "src" / "driver_node.cpp"
+    source.write_text(source.read_text().replace("sensor_msgs/msg/joint_state.hpp", "nav_msgs/msg/odometry.hpp"))
+    again = lint("ws", tmp_path, tmp_path, *arguments)
+    assert b"nav_msgs" in again
+    assert b"sensor_msgs" not in again
+
+
+def test_a_cache_that_somebody_planted_is_not_obeyed(tmp_path: Path) -> None:
+    shuffled_copy(DEMO, tmp_path / "ws", 1)
+    want = lint("ws", tmp_path, tmp_path, "--format", "concise")
+    (cache,) = (tmp_path / "cache" / "ros-lint").iterdir()
+    head = cache.read_bytes().partition(b"\n")[0]
+    marker = tmp_path / "planted"
+    cache.write_bytes(head + b"\ncposix\nsystem\n(S'touch " + str(marker).encode() + b"'\ntR.")
+    assert lint("ws", tmp_path, tmp_path, "--format", "concise") == want
+    assert not marker.exists()
+    cache.write_bytes(head + b"\n\x80\x05garbage")
+    assert lint("ws", tmp_path, tmp_path, "--format", "concise") == want
