@@ -2,7 +2,7 @@
 ## What it finds
 
 What `ros2 pkg create` writes into a new `package.xml` and nobody replaced: `TODO: License declaration`,
-`TODO: Package description`, and maintainers whose address ends in `@todo.todo`.
+`TODO: Package description`, and maintainers whose address ends in `@todo.todo`; also `Your Name` and `you@example.com`.
 
 ## Why it matters
 
@@ -26,7 +26,8 @@ from collections.abc import Iterator
 from ros_lint.api import Element, Finding, Package, Rule, Severity, Workspace
 
 _TODO = re.compile(r"TODO\b.*|@?(?:LICENSE|DESCRIPTION)@?|FIXME\b.*", re.DOTALL)
-_TODO_ADDRESS = re.compile(r".*@(?:todo\.todo|TODO\..*)")
+_NOBODY = re.compile(r"TODO\b.*|your[ _]name", re.DOTALL | re.IGNORECASE)
+_NO_ADDRESS = re.compile(r".*@todo\.todo|you@example\.(?:com|org)|your[._-]?(?:name|e?mail)@.*", re.IGNORECASE)
 _INSTEAD = {"license": "name the licence, such as Apache-2.0", "description": "say what the package is for"}
 
 
@@ -36,10 +37,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if element.tag in _INSTEAD and _TODO.fullmatch(element.text):
             yield Finding(_message(element, element.text, _INSTEAD[element.tag]), element.text_span, element.tag)
         elif element.tag == "maintainer":
-            email = element.get("email")
-            if _TODO_ADDRESS.fullmatch(email) or _TODO.fullmatch(element.text):
-                shown = element.text if _TODO.fullmatch(element.text) else email
-                yield Finding(_message(element, shown, "name who can be asked"), element.span, element.tag)
+            for text, template in ((element.get("email"), _NO_ADDRESS), (element.text, _NOBODY)):
+                if template.fullmatch(text):
+                    yield Finding(_message(element, text, "name who can be asked"), element.span, element.tag)
+                    break
 
 
 def _message(element: Element, text: str, way_out: str) -> str:
