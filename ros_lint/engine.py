@@ -100,17 +100,19 @@ def check(
     workspace: Workspace, rules: Sequence[Rule], suppressions: Iterable[Suppression], known: Sequence[Rule]
 ) -> Checked:
     """Return what the rules say once comments have been heard. ``known`` are all the rules that a comment can name."""
+    heard = tuple(suppressions)
     issues, crashes = run(workspace, rules)
     ran = {rule.name for rule in rules} - {crash.rule for crash in crashes}
-    outcome = suppress.apply(issues, suppressions, known, ran)
+    outcome = suppress.apply(issues, heard, known, ran)
     about_comments = [
         Issue(rule, owner(workspace, finding.span.path), finding)
         for rule in rules
         if rule.suppressions
         for finding in rule.suppressions(outcome)
     ]
-    kept = tuple(sorted((*outcome.kept, *about_comments), key=order))
-    return Checked(kept, tuple(issue for issue, _ in outcome.suppressed), crashes)
+    spared = suppress.apply(about_comments, heard, known, ran)  # a comment can speak for itself
+    kept = tuple(sorted((*outcome.kept, *spared.kept), key=order))
+    return Checked(kept, tuple(issue for issue, _ in (*outcome.suppressed, *spared.suppressed)), crashes)
 
 
 def order(issue: Issue) -> tuple[object, ...]:

@@ -3,9 +3,15 @@
 from __future__ import annotations
 
 import difflib
+import re
 
 
 def unified(path: str, before: str, after: str, context: int = 1) -> str:
     """Return the difference of two texts of a file, with lines of context around each change. Line ends are kept."""
-    lines = difflib.unified_diff(before.splitlines(True), after.splitlines(True), f"a/{path}", f"b/{path}", n=context)
+    lines = difflib.unified_diff(_lines(before), _lines(after), f"a/{path}", f"b/{path}", n=context)
     return "".join(line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n" for line in lines)
+
+
+def _lines(text: str) -> list[str]:
+    """Split at line feeds only: str.splitlines knows more line ends than patch does."""
+    return re.findall(r"[^\n]*\n|[^\n]+", text)

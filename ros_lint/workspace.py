@@ -90,11 +90,13 @@ class Package(NamedTuple):
 
     @property
     def place(self) -> Span:
-        """Where to point when the whole package is meant."""
+        """Where to point when the whole package is meant: always into a file."""
         if self.manifest is not None:
             return self.manifest.name_span
-        path = self.script.path if self.script else self.path
-        return Span(path, 1, 1, 1, 1)
+        if self.script is not None:
+            return Span(self.script.path, 1, 1, 1, 1)
+        first = next((file for file in self.files if file in ("CMakeLists.txt", "setup.py", "setup.cfg")), self.files[0])
+        return Span(f"{self.path}/{first}" if self.path else first, 1, 1, 1, 1)
 
     @property
     def builds_with(self) -> str:

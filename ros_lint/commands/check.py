@@ -143,5 +143,14 @@ def _wants_color(settings: Settings) -> bool:
 def _unseen(workspace: Workspace) -> tuple[Unseen, ...]:
     from ros_lint.facts import Facet  # noqa: PLC0415
 
-    counts = [(facet, sum(bool(package.hidden(facet)) for package in workspace.packages)) for facet in Facet]
-    return tuple(Unseen((facet.name or "").lower(), count) for facet, count in counts if count)
+    words = {
+        Facet.USES: "what they use",
+        Facet.EXECUTABLES: "executables",
+        Facet.SHARE: "share files",
+        Facet.PYTHON: "Python modules",
+        Facet.LIBRARIES: "libraries and headers",
+        Facet.INTERFACES: "interfaces",
+        Facet.COMPONENTS: "components and plugins",
+    }
+    counts = [(word, sum(bool(package.hidden(facet)) for package in workspace.packages)) for facet, word in words.items()]
+    return tuple(Unseen(word, count) for word, count in counts if count)
