@@ -41,7 +41,16 @@ def each(value: Value, function: Callable[[Value], Value]) -> Value:
         value = value.value
     if not isinstance(value, Union):
         return function(value)
-    return union(Guarded(function(one.value), one.conditions) for one in alternatives(value))
+    found: list[Value] = []
+    raised = False
+    for one in alternatives(value):
+        try:
+            found.append(Guarded(function(one.value), one.conditions))
+        except Raised:  # noqa: PERF203  (then this alternative is none)
+            raised = True
+    if raised and not found:
+        raise Raised
+    return union(found)
 
 
 def truth(machine: Machine, value: Value) -> tuple[bool | None, LaunchCondition]:

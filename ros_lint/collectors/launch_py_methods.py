@@ -173,7 +173,7 @@ def _of_text(
     values = [plain(argument) for argument in arguments]
     known = all(isinstance(value, (str, int, tuple, type(None))) for value in values) and not keywords
     known = known and all(is_plain(value) for value in values if isinstance(value, str))
-    known = known and (is_settled(owner) or name in _TEXT_ANY or name == "replace")
+    known = known and (is_settled(owner) or name in _TEXT_ANY)
     possible = name in _TEXT_ANY or name in _TEXT_PARTS or (name in _TEXT_PLAIN and is_plain(owner))
     if possible and known and len(owner) <= LONGEST:
         try:

@@ -39,7 +39,7 @@ from ros_lint.collectors.launch_py_objects import (
     plain,
     union,
 )
-from ros_lint.collectors.launch_py_texts import texts
+from ros_lint.collectors.launch_py_texts import SUBSTITUTIONS, texts
 from ros_lint.collectors.launch_text import UNKNOWN, joined, presence
 from ros_lint.facts import LaunchCondition
 from ros_lint.text import Text
@@ -440,6 +440,9 @@ class Machine:
             if alias.name == "*":
                 frame.names.update(found.names if found is not None else {})
                 continue
+            if alias.name in SUBSTITUTIONS:
+                frame.names[alias.asname or alias.name] = Api(f"{name}.{alias.name}")
+                continue
             inner = found.names.get(alias.name) if found is not None else None
             if inner is None:
                 inner = self.module(
@@ -492,7 +495,14 @@ class Machine:
                 return call_library(self, function, arguments, keywords, node, frame)
             return call_method(self, function, arguments, keywords, node, frame)
         if isinstance(function, Function):
-            return self._run_function(function, arguments, keywords)
+            try:
+                return self._run_function(function, arguments, keywords)
+            except Raised:
+                if function.frame.source is frame.source:
+                    raise
+                # A helper is more likely to be misread than to fail.
+                self.lose([arguments, keywords])
+                return Unknown(f"{getattr(function.node, 'name', 'a function')}() cannot be followed")
         if isinstance(function, Bound):
             return self._run_bound(function, arguments, keywords, node, frame)
         if isinstance(function, Class):
