@@ -129,7 +129,12 @@ class _Walk:
             for name, kind, link in reversed(entries):
                 if kind == "directory" and not name.startswith(".") and name not in _NEVER:
                     child = join(path, name)
-                    todo.append((child, self._tree.identity(child) if link else join(identity, name)))
+                    target = self._tree.identity(child) if link else join(identity, name)
+                    if link and target != self._base and _is_below(self._base, target):
+                        # colcon would go through everything around the workspace, and be it the whole disk.
+                        self._skipped.append(Skipped(child, "a link to a folder that the workspace lies in"))
+                    else:
+                        todo.append((child, target))
 
     def _is_package(self, path: str, identity: str, entries: Sequence[Entry]) -> bool:
         """Take a folder in, and return whether colcon looks no further down."""
@@ -293,7 +298,7 @@ class _Files:
 
 
 def _is_below(path: str, folder: str) -> bool:
-    return path == folder or path.startswith(f"{folder}/" if folder else "")
+    return path == folder or path.startswith(f"{folder.rstrip('/')}/" if folder else "")
 
 
 def _unread(path: str, error: OSError) -> NotChecked:

@@ -200,7 +200,9 @@ def test_links_lead_to_files_but_never_round_in_circles(tmp_path: Path) -> None:
     (package / "alias").symlink_to("config")
     (package / "config" / "up").symlink_to("../..")
     (package / "itself").symlink_to("itself")
-    (package / "outside").symlink_to("/")
+    (package / "outside").symlink_to(tmp_path / "other")
+    (package / "root").symlink_to("/")
+    (tmp_path / "other").mkdir()
     (tmp_path / "ws" / "shared" / "deep").mkdir(parents=True)
     (tmp_path / "ws" / "shared" / "deep" / "b.yaml").write_text("")
     (tmp_path / "ws" / "shared" / "back").symlink_to("../p/shared")
@@ -211,8 +213,22 @@ def test_links_lead_to_files_but_never_round_in_circles(tmp_path: Path) -> None:
         Skipped("alias/up", "a link to a folder that it lies in"),
         Skipped("config/up", "a link to a folder that it lies in"),
         Skipped("outside", "a link that leads out of the workspace"),
+        Skipped("root", "a link to a folder that it lies in"),
         Skipped("shared/back", "a link to a folder that it lies in"),
     )
+
+
+def test_a_link_to_what_is_around_the_workspace_is_not_followed(tmp_path: Path) -> None:
+    for name in ("ws/p", "elsewhere", "around"):
+        (tmp_path / name).mkdir(parents=True)
+        (tmp_path / name / "package.xml").write_text(manifest_text(name.replace("/", "_")))
+    (tmp_path / "ws" / "up").symlink_to("..")
+    (tmp_path / "ws" / "root").symlink_to("/")
+    (tmp_path / "ws" / "beside").symlink_to("../elsewhere")
+    (tmp_path / "ws" / "again").symlink_to(".")
+    found = discover(DiskTree(str(tmp_path / "ws")), [""])
+    assert [(package.path, package.name) for package in found.packages] == [("beside", "elsewhere"), ("p", "ws_p")]
+    assert [skipped.path for skipped in found.skipped] == ["root", "up"]
 
 
 def test_links_across_each_other_do_not_multiply(tmp_path: Path) -> None:
