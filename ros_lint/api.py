@@ -1,11 +1,13 @@
 """Everything a rule may import."""
 
 from ros_lint import conditions, manifest_edits
+from ros_lint.build_scripts import called, evaluated_name, missing_path, relative, top_file
 from ros_lint.declare import add_dependency, builds_something, remove_dependency, tag_for, works_unseen
 from ros_lint.facts import (
     ANYTHING,
     ROLES,
     BuildScript,
+    Call,
     Component,
     Depend,
     Element,
@@ -15,15 +17,22 @@ from ros_lint.facts import (
     LaunchReference,
     Manifest,
     Opaque,
+    PluginClass,
+    PluginFile,
+    PluginLibrary,
     Problem,
     Provided,
+    PythonModule,
+    Registration,
     Role,
+    ScriptFile,
+    Slot,
     Use,
 )
 from ros_lint.facts import Target as BuildTarget
 from ros_lint.graph import Edge, Graph, Reason
 from ros_lint.graph_cut import Knot, knots
-from ros_lint.launch_files import Launchable, Programs, launchable, programs
+from ros_lint.launch_files import Launchable, Programs, is_apart, launchable, programs
 from ros_lint.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
 from ros_lint.strangers import Stranger, declared_names
 from ros_lint.suppress import Outcome
@@ -36,6 +45,7 @@ __all__ = [
     "ROLES",
     "BuildScript",
     "BuildTarget",
+    "Call",
     "Component",
     "Confidence",
     "Declared",
@@ -57,14 +67,21 @@ __all__ = [
     "Opaque",
     "Outcome",
     "Package",
+    "PluginClass",
+    "PluginFile",
+    "PluginLibrary",
     "Problem",
     "Programs",
     "Provided",
+    "PythonModule",
     "Reason",
+    "Registration",
     "Related",
     "Role",
     "Rule",
+    "ScriptFile",
     "Severity",
+    "Slot",
     "Span",
     "Stranger",
     "Target",
@@ -73,12 +90,18 @@ __all__ = [
     "add_dependency",
     "conditions",
     "builds_something",
+    "called",
     "declared_names",
+    "evaluated_name",
+    "is_apart",
     "knots",
     "launchable",
     "manifest_edits",
+    "missing_path",
     "programs",
+    "relative",
     "remove_dependency",
     "tag_for",
+    "top_file",
     "works_unseen",
 ]

@@ -369,6 +369,21 @@ class Registration(NamedTuple):
     span: Span
 
 
+class ScriptFile(NamedTuple):
+    """A script that the package installs where programs are looked for."""
+
+    path: str
+    """Relative to the package."""
+    shebang: str
+    """The interpreter line without ``#!``, "" when there is none."""
+    carriage_return: bool
+    """Whether that line ends with a carriage return, so that nothing can run it."""
+    main: bool
+    """Whether it runs something when it is started: ``if __name__ == "__main__"``, or a language other than Python."""
+    executable: bool
+    """Whether the source has the executable bit."""
+
+
 class Slot(NamedTuple):
     """A list in ``setup.py`` that a fix can add an element to."""
 
@@ -419,6 +434,8 @@ class BuildScript(NamedTuple):
     plugins: tuple[PluginFile, ...] = ()
     """Its plugin descriptions."""
     slots: tuple[Slot, ...] = ()
+    files: tuple[ScriptFile, ...] = ()
+    """Scripts that it installs to lib/<package> or bin."""
 
 
 # --- launch files --------------------------------------------------------------------------------------------------

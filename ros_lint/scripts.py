@@ -11,7 +11,7 @@ from ros_lint.collect import FAILED
 from ros_lint.collectors import cmake_calls, plugin_xml, python_names, setup_layout
 from ros_lint.collectors.cmake_syntax import Parsed
 from ros_lint.discover import Found
-from ros_lint.facts import ANYTHING, BuildScript, Opaque, PythonModule
+from ros_lint.facts import ANYTHING, BuildScript, Opaque, PythonModule, ScriptFile
 from ros_lint.text import Span, Text, read
 from ros_lint.tree import Tree, join
 
@@ -41,9 +41,9 @@ def evaluate(tree: Tree, packages: Sequence[Parts], distro: str) -> list[BuildSc
         parts = packages[number]
         try:
             if "CMakeLists.txt" in parts.commands and parts.found.type != "ros.ament_python":
-                result[number] = _with_plugins(tree, parts.found, _cmake(tree, parts, distro, helpers))
+                result[number] = _with_files(tree, parts.found, _cmake(tree, parts, distro, helpers))
             elif script := _python(tree, parts.found):
-                result[number] = _with_plugins(tree, parts.found, script)
+                result[number] = _with_files(tree, parts.found, script)
         except Exception as error:  # a mistake of ours in one script must not cost the user all the others
             result[number] = _failed(parts, FAILED.format(f"{type(error).__name__}: {error}"))
     return result
@@ -73,7 +73,21 @@ def _sources(tree: Tree, parts: Parts) -> Sources:
     built = tuple(dict.fromkeys(name for kind in "bt" for name in depends.get(kind, ())))
     version = found.manifest.version if found.manifest else ""
     executables = _Executables(tree, found)
-    return Sources(found.name, found.path, found.files, parts.commands, executables, version, built, depends.get("s", ()))
+    unseen = tuple(skipped.path for skipped in found.unseen)
+    config = _text(tree, found, "setup.cfg")
+    texts = {"setup.cfg": config.text} if config else {}
+    return Sources(
+        found.name,
+        found.path,
+        found.files,
+        parts.commands,
+        executables,
+        version,
+        built,
+        depends.get("s", ()),
+        unseen,
+        texts,
+    )
 
 
 def _python(tree: Tree, found: Found) -> BuildScript | None:
@@ -100,12 +114,24 @@ def _modules(tree: Tree, found: Found, script: BuildScript) -> Iterator[PythonMo
             yield python_names.collect(name, path, text)
 
 
-def _with_plugins(tree: Tree, found: Found, script: BuildScript) -> BuildScript:
+def _with_files(tree: Tree, found: Found, script: BuildScript) -> BuildScript:
+    """Return a script with what is known of the other files that it installs: plugin descriptions and scripts."""
     named = {call.texts[1] for call in script.written if call.name.startswith("pluginlib_export") and len(call.args) > 1}
     candidates = [file for file in found.files if file.endswith(".xml") and (file in named or _PLUGIN_FILE.search(file))]
     described = (plugin_xml.collect(file, text) for file in candidates if (text := _text(tree, found, file)))
     plugins = tuple(plugin for plugin in described if plugin)
-    return script._replace(plugins=plugins) if plugins else script
+    started = (f"lib/{found.name}/", "bin/")
+    sources = dict.fromkeys(p.source for p in script.provides if p.source and p.path.startswith(started))
+    executables = _Executables(tree, found)
+    files = [_script_file(file, text, file in executables) for file in sources if (text := _text(tree, found, file))]
+    return script._replace(plugins=plugins, files=tuple(files)) if plugins or files else script
+
+
+def _script_file(path: str, text: Text, executable: bool) -> ScriptFile:
+    first = text.text[: text.text.find("\n") + 1] or text.text
+    shebang = first[2:].strip() if first.startswith("#!") else ""
+    main = not path.endswith(".py") or "__main__" in text.text
+    return ScriptFile(path, shebang, bool(shebang) and first.endswith("\r\n"), main, executable)
 
 
 def _text(tree: Tree, found: Found, file: str) -> Text | None:
