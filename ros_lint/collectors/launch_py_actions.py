@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 NODES = frozenset({"Node", "LifecycleNode", "ComposableNodeContainer"})
 COMPONENTS = frozenset({"ComposableNode", "ComposableLifecycleNode"})
 _DEEPEST = 60
+_MOST = 5_000
 
 
 def place(node: ast.AST, source: Source) -> tuple[int, int]:
@@ -89,6 +90,8 @@ class Walker:
         self.blind: list[tuple[str, Span]] = []
         """Where something is launched that is not known."""
         self._depth = 0
+        self._open: set[int] = set()
+        self._left = _MOST
 
     def actions(self, value: Value, conditions: Conditions = (), at: Span | None = None) -> list[LaunchAction]:
         """Return what a value does when it is launched."""
@@ -107,10 +110,15 @@ class Walker:
         if isinstance(value, Instance) and value.made is not None:
             value = value.made
         if isinstance(value, Made):
-            if value.seen and value.name != "LaunchDescription":
+            if id(value) in self._open or self._left <= 0:
                 return []
             value.seen = True
-            return self._made(value, conditions)
+            self._left -= 1
+            self._open.add(id(value))
+            try:
+                return self._made(value, conditions)
+            finally:
+                self._open.discard(id(value))
         if isinstance(value, (list, tuple)):
             return [action for one in value for action in self.actions(one, conditions, at)]
         if isinstance(value, Unknown) and value.reason:

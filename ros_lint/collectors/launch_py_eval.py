@@ -46,7 +46,7 @@ def each(value: Value, function: Callable[[Value], Value]) -> Value:
     for one in alternatives(value):
         try:
             found.append(Guarded(function(one.value), one.conditions))
-        except Raised:  # noqa: PERF203  (then this alternative is none)
+        except Raised:  # then this alternative is none
             raised = True
     if raised and not found:
         raise Raised
