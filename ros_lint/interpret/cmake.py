@@ -116,6 +116,8 @@ def _installed_files(run: Run) -> list[Provided]:
 
 def _mentions(run: Run) -> tuple[Mention, ...]:
     """Return the mentions; a package that is not required and asked for with X_FOUND is optional (section C2.2)."""
+    if not run.loose:
+        return tuple(run.mentions)
     guarded = {span for name, spans in run.loose.items() if f"{name}_FOUND" in run.tested for span in spans}
     return tuple(
         mention._replace(optional=True) if mention.via == "cmake" and mention.span in guarded else mention

@@ -8,6 +8,7 @@ from typing import Final
 
 from ros_lint.collectors.cmake_syntax import PLAIN, parse
 from ros_lint.facts import ANYTHING, Facet
+from ros_lint.interpret.cmake_arguments import parse_keywords
 from ros_lint.interpret.cmake_flow import run_file, run_named
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_state import BREAK, CONTINUE, RETURN, STOP, Frame, Variables
@@ -83,6 +84,8 @@ def _option(run: Run, args: list[str]) -> None:
     if name not in run.cache:
         run.put(run.cache, name, usual)
         run.set(name, None)
+    elif not certainly_set(run.cache[name]):
+        run.put(run.cache, name, merge([run.cache[name], usual]))
 
 
 def _message(_run: Run, args: list[str]) -> int | None:
@@ -288,8 +291,6 @@ def _parse_arguments(run: Run, args: list[str]) -> None:
         given = [element for arg in args[4:] for element in split(arg)]
     if not is_known(prefix) or not all(map(is_known, (options, ones, multis))):
         return
-    from ros_lint.interpret.cmake_arguments import parse_keywords  # noqa: PLC0415
-
     for name, value in parse_keywords(prefix, options, ones, multis, given).items():
         run.set(name, value)
 

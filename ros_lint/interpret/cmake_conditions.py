@@ -41,7 +41,11 @@ _TEST_VARIABLE = re.compile(
     r"(?:\A|_)(?:BUILD_TESTING|(?:CATKIN|AMENT)_ENABLE_TESTING|(?:BUILD|ENABLE)_(?:\w+_)?TEST(?:S|ING)?|BUILD_TEST)\Z"
 )
 _REFERENCE = re.compile(r"\$\{([A-Za-z0-9_./+-]+)\}")
-_NUMBER = re.compile(r"\s*[-+]?(?:0[xX][0-9a-fA-F]+|(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)")
+_NUMBER = re.compile(
+    r"\s*[-+]?(?:0[xX](?:[0-9a-fA-F]+\.?[0-9a-fA-F]*|\.[0-9a-fA-F]+)(?:[pP][-+]?\d+)?"
+    r"|(?!0[xX])(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)"
+)
+"""As much of a text as C's scanf() takes for a number, infinities left out."""
 _TRUE_WORDS: Final = frozenset({"1", "ON", "YES", "TRUE", "Y"})
 _FALSE_WORDS: Final = frozenset({"", "0", "OFF", "NO", "FALSE", "N", "IGNORE"})
 

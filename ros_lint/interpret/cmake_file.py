@@ -74,7 +74,7 @@ def _matches(run: Run, pattern: str, recurse: bool, folders: bool) -> list[str]:
     regex = glob_regex(head)
     middle = "(?:[^/]+/)*" if recurse else ""
     whole = re.compile(f"{regex}{'/' if head else ''}{middle}{glob_regex(last)}")
-    files = list(run.below(fixed))
+    files = run.below(fixed)
     found = [file for file in files if whole.fullmatch(file)]
     if folders:
         above = {file[:end] for file in files for end in range(len(file)) if file[end] == "/"}

@@ -25,7 +25,7 @@ def find_package(run: Run, args: list[str]) -> int | None:
         run.hide(Facet.USES, "find_package() of a name that is not known")
         return None
     required = "REQUIRED" in args
-    module = next((path for path in run.sources.scripts if path.rpartition("/")[2] == f"Find{name}.cmake"), None)
+    module = run.modules.get(name) if run.modules else None
     if name and module is None and run.at_home():
         span = run.where(args[0])
         optional = not certain or ("QUIET" in args and not required)
@@ -108,7 +108,7 @@ def link(run: Run, args: list[str]) -> None:
     if command is None:
         return
     for text, kind, start, end in command.args:
-        if kind not in (UNQUOTED, QUOTED) or "_" not in text:
+        if (kind != UNQUOTED and kind != QUOTED) or "_" not in text:  # noqa: PLR1714  (this is fast)
             continue
         for match in _FOREIGN_VARIABLE.finditer(text):
             if match[1] in run.sources.name or match[1] == "PROJECT_NAME":

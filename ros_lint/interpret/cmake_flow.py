@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 from typing import Final, NamedTuple
 
@@ -22,7 +21,7 @@ from ros_lint.interpret.cmake_blocks import (
 )
 from ros_lint.interpret.cmake_conditions import FALSE, LIKELY, TRUE, UNKNOWN, UNLIKELY, Truth, condition
 from ros_lint.interpret.cmake_regex import forget
-from ros_lint.interpret.cmake_run import DEEPEST, MOST_STEPS, SIMPLE, BudgetError, Handler, Run
+from ros_lint.interpret.cmake_run import DEEPEST, MOST_STEPS, BudgetError, Handler, Run, substituted
 from ros_lint.interpret.cmake_state import (
     BREAK,
     CONTINUE,
@@ -74,7 +73,12 @@ def run_command(run: Run, command: Command) -> Exit:
     if run.steps > MOST_STEPS:
         raise BudgetError
     run.frames[-1].command = command
-    return run_named(run, command.name, run.arguments(command))
+    name = command.name
+    if name in run.procedures:
+        return run_named(run, name, run.arguments(command))
+    run.calls.add(name)
+    handler = HANDLERS.get(name)
+    return (handler(run, run.arguments(command)) if handler else run.foreign(run, name, run.arguments(command))) or NEXT
 
 
 def run_named(run: Run, name: str, args: list[str]) -> Exit:
@@ -353,8 +357,8 @@ def _define(run: Run, node: Definition) -> Exit:
         return NEXT
     frame = run.frames[-1]
     body = node.body
-    if frame.replace is not None:
-        body = rewritten(body, partial(_substituted, frame.replace))
+    if frame.given is not None:
+        body = rewritten(body, partial(_substituted, frame.given))
     file = next(frame for frame in reversed(run.frames) if frame.procedure is None)
     procedure = Procedure(
         args[0],
@@ -389,10 +393,10 @@ def counts(body: Body) -> bool:
     return False
 
 
-def _substituted(replace: Callable[[re.Match[str]], str], args: tuple[Argument, ...]) -> tuple[Argument, ...]:
+def _substituted(given: dict[str, str], args: tuple[Argument, ...]) -> tuple[Argument, ...]:
     found = []
     for text, kind, start, end in args:
-        changed = SIMPLE.sub(replace, text) if kind in (UNQUOTED, QUOTED) else text
+        changed = substituted(text, given) if kind in (UNQUOTED, QUOTED) else text
         found.append((changed, kind, start, end))
     return tuple(found)
 
@@ -412,6 +416,8 @@ def call(run: Run, procedure: Procedure | Choice, args: list[str]) -> Exit:
             branches.append(changes)
         run.join(branches)
         return ended
+    if not procedure.body:
+        return NEXT
     if len(run.frames) > DEEPEST:
         raise BudgetError
     frame = Frame(procedure.own, procedure.path, procedure.folder, procedure)
@@ -423,7 +429,7 @@ def call(run: Run, procedure: Procedure | Choice, args: list[str]) -> Exit:
             firm = max(0, firm - (len(run.arguments(command)) - len(args)))
     values = _call_values(procedure, args, len(args) if firm is None else firm)
     if procedure.macro:
-        frame.replace = partial(_macro_argument, values)
+        frame.given = values
         run.frames.append(frame)
         try:
             return run_body(run, procedure.body)
@@ -437,10 +443,6 @@ def call(run: Run, procedure: Procedure | Choice, args: list[str]) -> Exit:
         run.frames.pop()
         run.scopes.pop()
     return NEXT if ended & (NEXT | RETURN) else ended
-
-
-def _macro_argument(values: dict[str, str], reference: re.Match[str]) -> str:
-    return values.get(reference[1], reference[0])
 
 
 def _call_values(procedure: Procedure, args: list[str], firm: int) -> dict[str, str]:

@@ -161,18 +161,35 @@ def _generate(run: Run, args: list[str]) -> None:
         generate(run, arg)
 
 
-def _extras(run: Run, args: list[str]) -> None:
-    """``ros_lint_extras(files...)``: CMake code that runs in packages that find this one."""
-    for arg in args:
-        path = run.source(sure(arg)[0])
-        for candidate in (path, f"{path}.in"):
-            if path is not None and candidate in run.files:
-                run.extras.append(str(candidate))
-                break
+def _package(run: Run, args: list[str]) -> None:
+    """``ros_lint_package(...)``: ament_package(), which makes the package findable and hands on its CONFIG_EXTRAS."""
+    if run.muted:
+        return
+    name = run.get("PROJECT_NAME") or ""
+    span = run.here()
+    conditional = run.conditional or run.testing
+    for arg in sections(args, {"CONFIG_EXTRAS": -1, "CONFIG_EXTRAS_POST": -1}).items() if args else ():
+        if arg[0]:
+            _extras(run, name, arg[1], conditional)
+    if is_known(name):
+        found = [(f"share/{name}/package.xml", "package.xml")] if "package.xml" in run.files else []
+        found += [(f"share/ament_index/resource_index/packages/{name}", ""), (f"share/{name}/cmake/{name}Config.cmake", "")]
+        run.installed += [Provided(path, source, False, conditional, span) for path, source in found]
+    _end(run)
 
 
-def _end(run: Run, _args: list[str]) -> None:
-    """``ros_lint_end()``: the package is complete; install rules belong before this."""
+def _extras(run: Run, name: str, files: list[str], conditional: bool) -> None:
+    for file in files:
+        path = run.source(sure(file)[0])
+        source = next((one for one in (path, f"{path}.in") if path is not None and one in run.files), None)
+        if source is not None:
+            run.extras.append(source)
+            installed = f"share/{name}/cmake/{posixpath.basename(source).removesuffix('.in')}"
+            run.installed.append(Provided(installed, source, False, conditional, run.where(file)))
+
+
+def _end(run: Run) -> None:
+    """Note the place before ament_package(): install rules belong there."""
     frame = next(frame for frame in reversed(run.frames) if frame.own)
     top = join_path(run.sources.path, "CMakeLists.txt")
     if run.end is None and not run.unsure and frame.procedure is None and frame.path == top and frame.command:
@@ -227,8 +244,7 @@ COMMANDS: Final[dict[str, Handler]] = {
     "ros_lint_console_scripts": _scripts,
     "ros_lint_provide": _provide,
     "ros_lint_generate": _generate,
-    "ros_lint_extras": _extras,
-    "ros_lint_end": _end,
+    "ros_lint_package": _package,
     "ros_lint_unknown": _unknown,
     "ros_lint_package_xml": _package_xml,
     "ros_lint_test_executable": _test_executable,

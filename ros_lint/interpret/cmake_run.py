@@ -5,7 +5,7 @@ from __future__ import annotations
 import posixpath
 import re
 from bisect import bisect_left
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from functools import lru_cache
 from typing import Final, NamedTuple
@@ -74,8 +74,12 @@ def folded(name: str) -> str:
     return name.replace("_", "").replace("-", "").lower()
 
 
-SIMPLE = re.compile(r"\$\{(\w+)\}")
-"""A reference that may be to an argument of a macro."""
+_SIMPLE = re.compile(r"\$\{(\w+)\}")
+
+
+def substituted(text: str, given: Mapping[str, str]) -> str:
+    """Return the text of an argument as a macro reads it, given what its parameters hold."""
+    return _SIMPLE.sub(lambda reference: given.get(reference[1], reference[0]), text)
 
 
 class BudgetError(Exception):
@@ -101,6 +105,12 @@ class Run(State):
         """How many conditions that may be false lead here."""
         self.testing = False
         self.muted = 0
+        self.modules = {
+            path[path.rindex("Find") + 4 : -6]: path
+            for path in sources.scripts
+            if path.endswith(".cmake") and path.rpartition("/")[2].startswith("Find")
+        }
+        """The package's own find modules, by what they find."""
         self.packages: Properties = Properties()
         """Packages that were found for sure."""
         self.prefixes: dict[str, None] = {}
@@ -251,14 +261,19 @@ class Run(State):
 
     def evaluated(self, text: str) -> str:
         """Return the value of an argument before it is split."""
-        replace = self.frames[-1].replace
-        if replace is not None and "${" in text:
-            text = SIMPLE.sub(replace, text)
+        given = self.frames[-1].given
         try:
             parts = template(text)
             if isinstance(parts, str):  # the name of a variable, by far the most frequent case
-                return self.get(parts) or ""
-            return expand(parts, self.lookup)
+                if given is None or parts not in given:
+                    return self.get(parts) or ""
+                text = given[parts]
+                if "$" not in text and "\\" not in text:
+                    return text
+                parts = template(text)
+            elif given is not None and "${" in text:
+                parts = template(substituted(text, given))
+            return (self.get(parts) or "") if isinstance(parts, str) else expand(parts, self.lookup)
         except ExpansionError:
             return HOLE
 
@@ -336,29 +351,19 @@ class Run(State):
 
     def is_folder(self, path: str) -> bool:
         """Return whether the package has such a folder, with a file in it."""
-        return not path or self.first_below(path) is not None or self.is_unseen(path)
+        return not path or bool(self.below(path)) or self.is_unseen(path)
 
     def is_unseen(self, path: str) -> bool:
         """Return whether a path lies in a folder whose files are not listed."""
         return any(path == folder or path.startswith(f"{folder}/") for folder in self.sources.unseen)
 
-    def first_below(self, path: str) -> int | None:
-        """Return the index of the first file below a folder, or None when there is none."""
-        files = self.sources.files
-        start = f"{path}/" if path else ""
-        index = bisect_left(files, start)
-        return index if index < len(files) and files[index].startswith(start) else None
-
-    def below(self, path: str) -> Iterator[str]:
+    def below(self, path: str) -> Sequence[str]:
         """Return the files below a folder, sorted."""
-        index = self.first_below(path)
-        if index is None:
-            return
         files = self.sources.files
-        start = f"{path}/" if path else ""
-        while index < len(files) and files[index].startswith(start):
-            yield files[index]
-            index += 1
+        if not path:
+            return files
+        start = bisect_left(files, f"{path}/")
+        return files[start : bisect_left(files, f"{path}0", start)]  # the character after the slash is the zero
 
     def enter_directory(self, path: str) -> None:
         """Make a folder of the package the current one."""

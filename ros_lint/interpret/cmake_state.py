@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Final, NamedTuple
 
@@ -212,7 +211,7 @@ def _merged(mapping: Mapping[str, Any], values: Sequence[Any], default: int | No
 class Frame:
     """A file, function or macro that is being run."""
 
-    __slots__ = ("command", "file", "folder", "own", "path", "procedure", "provider", "replace")
+    __slots__ = ("command", "file", "folder", "given", "own", "path", "procedure", "provider")
 
     def __init__(self, own: bool, path: str, file: str, procedure: Procedure | None = None, provider: str = "") -> None:
         self.own = own
@@ -221,6 +220,6 @@ class Frame:
         self.folder = file.rpartition("/")[0]
         self.procedure = procedure
         self.provider = provider
-        self.replace: Callable[[re.Match[str]], str] | None = None
-        """What a macro puts in the place of a reference."""
+        self.given: dict[str, str] | None = None
+        """What a macro puts in the place of references to its parameters."""
         self.command: Command | None = None
