@@ -18,8 +18,8 @@ author, dependencies, group_depend, member_of_group, export.
 
 ## When it keeps silent
 
-This rule is off unless it is asked for. It does not look at XML namespaces and at text in `<export>`. It has no fix when an element would have to move that has a comment, shares its
-line with another one, or is a description or an export.
+This rule is off unless it is asked for. It does not look at XML namespaces and at text in `<export>`. It has no fix when
+an element would have to move that has a comment, shares its line with another one, or is a description or an export.
 """
 
 from __future__ import annotations
