@@ -2,7 +2,14 @@
 
 from ros_lint import conditions, manifest_edits
 from ros_lint.build_scripts import called, evaluated_name, missing_path, relative, top_file
-from ros_lint.declare import add_dependency, builds_something, remove_dependency, tag_for, works_unseen
+from ros_lint.declare import (
+    add_dependency,
+    builds_something,
+    change_dependency,
+    remove_dependency,
+    tag_for,
+    works_unseen,
+)
 from ros_lint.facts import (
     ANYTHING,
     ROLES,
@@ -33,6 +40,7 @@ from ros_lint.facts import Target as BuildTarget
 from ros_lint.graph import Edge, Graph, Reason
 from ros_lint.graph_cut import Knot, knots
 from ros_lint.launch_files import Launchable, Programs, is_apart, launchable, programs
+from ros_lint.needs import Need, covered, needs, undeclared
 from ros_lint.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
 from ros_lint.strangers import Stranger, declared_names
 from ros_lint.suppress import Outcome
@@ -64,6 +72,7 @@ __all__ = [
     "Launchable",
     "Manifest",
     "Meant",
+    "Need",
     "Opaque",
     "Outcome",
     "Package",
@@ -88,9 +97,11 @@ __all__ = [
     "Use",
     "Workspace",
     "add_dependency",
-    "conditions",
     "builds_something",
     "called",
+    "change_dependency",
+    "conditions",
+    "covered",
     "declared_names",
     "evaluated_name",
     "is_apart",
@@ -98,10 +109,12 @@ __all__ = [
     "launchable",
     "manifest_edits",
     "missing_path",
+    "needs",
     "programs",
     "relative",
     "remove_dependency",
     "tag_for",
     "top_file",
+    "undeclared",
     "works_unseen",
 ]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import fnmatch
+from collections.abc import Sequence
 
 from ros_lint import manifest_edits
 from ros_lint.facts import Depend, Role
@@ -38,6 +39,14 @@ def add_dependency(package: Package, tag: str, name: str) -> tuple[Edit, ...]:
     return tuple(manifest_edits.add(manifest, each, name) for each in tags)
 
 
+def change_dependency(package: Package, depends: Sequence[Depend], tag: str) -> tuple[Edit, ...]:
+    """Return the edits that make one tag of all those that a name is declared in. The package has a manifest."""
+    assert package.manifest is not None
+    kept = next((depend for depend in depends if depend.tag == tag), depends[0])
+    edits = () if kept.tag == tag else manifest_edits.change_tag(kept, tag)
+    return (*edits, *(manifest_edits.remove(package.manifest, depend) for depend in depends if depend is not kept))
+
+
 def remove_dependency(package: Package, depend: Depend) -> tuple[Edit, ...]:
     """Return the edits that take a dependency out. The package has a manifest."""
     assert package.manifest is not None
@@ -64,7 +73,7 @@ def works_unseen(package: Package, workspace: Workspace, name: str) -> bool:
     if mine:
         return any(_gives_macros(each) or not makes_something(each) for each in mine)
     released = world.released(name)
-    return released is not None and "m" in released.flags[1:] or _is_run(workspace, name)
+    return (released is not None and "m" in released.flags[1:]) or _is_run(workspace, name)
 
 
 _IN_INTERFACES = frozenset({"action_msgs", "service_msgs", "builtin_interfaces", "unique_identifier_msgs"})

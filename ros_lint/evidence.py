@@ -87,11 +87,11 @@ def _use(
     role: Role,
     sure: bool,
 ) -> Iterator[Use]:
-    providers = _providers(source, own, names, headers, mention)
+    providers, known = _providers(source, own, names, headers, mention)
     if not providers or source.name in providers:
         return
     what = mention.what or _WHAT[mention.via].format(mention.name)
-    yield Use(providers[0], providers, role, what, mention.via, mention.optional, mention.span, sure)
+    yield Use(providers[0], providers, role, what, mention.via, mention.optional, mention.span, sure and known)
 
 
 _WHAT: Mapping[Via, str] = {
@@ -109,31 +109,39 @@ _WHAT: Mapping[Via, str] = {
 
 def _providers(
     source: Source, own: Liveness, names: Names, headers: Mapping[str, tuple[str, ...]], mention: Mention
-) -> tuple[str, ...]:
+) -> tuple[tuple[str, ...], bool]:
+    """Return whose name a mention is, and whether that is sure."""
     name = mention.name
     match mention.via:
         case "include":
             if own.has_header(name, _relative(source, mention.span.path)):
-                return ()
+                return _NOBODY
             if found := headers.get(name):
-                return found
-            return names.by_include(name).names
+                return found, True
+            return _told(names.by_include(name))
         case "import":
             top = name.partition(".")[0]
             if own.has_module(top) or (top in _BUILD_MODULES and mention.span.path.endswith("setup.py")):
-                return ()
-            return names.by_import(name).names
+                return _NOBODY
+            return _told(names.by_import(name))
         case "cmake":
-            return names.by_cmake(name).names
+            return _told(names.by_cmake(name))
         case "target" | "macro":
-            return names.by_cmake(name.partition("::")[0]).names
+            return _told(names.by_cmake(name.partition("::")[0]))
         case "interface":
             package = name.partition("/")[0]
-            return (package,) if names.is_package(package) else ()
+            return ((package,), True) if names.is_package(package) else _NOBODY
         case "package" | "launch":
-            return (name,) if names.is_package(name) else ()
+            return ((name,), True) if names.is_package(name) else _NOBODY
         case "key":
-            return (name,)
+            return (name,), True
+
+
+_NOBODY: tuple[tuple[str, ...], bool] = ((), True)
+
+
+def _told(providers: Providers) -> tuple[tuple[str, ...], bool]:
+    return providers.names, providers.sure
 
 
 def _relative(source: Source, path: str) -> str:

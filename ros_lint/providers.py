@@ -30,6 +30,8 @@ class Providers(NamedTuple):
     """It comes with the language or the build tool."""
     end_of_life: tuple[str, ...] = ()
     """Distributions at their end of life that had a package of the name, when nothing else is known."""
+    sure: bool = True
+    """False where the packages of the distributions that use it mostly declare none of the names, or too few use it."""
 
     @property
     def known(self) -> bool:
@@ -59,7 +61,9 @@ def by_cmake(world: World, name: str) -> Providers:
     if mapped == (NOTHING_NEEDED,) and not owners:
         return _NONE_NEEDED
     found = _of(world, (*owners, name, *mapped), keys=mapped)
-    return found if found.known else _gone(world, name)
+    if not found.known:
+        return _gone(world, name)
+    return found if owners or found.names[0] == name else found._replace(sure=world.knowledge.names.cmake_sure(name))
 
 
 def by_include(world: World, header: str) -> Providers:
@@ -78,7 +82,10 @@ def by_include(world: World, header: str) -> Providers:
         return _NONE_NEEDED
     by_folder = second if shared else first if slash else ""
     found = _of(world, (*owners, *((by_folder,) if world.is_package(by_folder) else ()), *mapped), keys=mapped)
-    return found if found.known or not slash else _gone(world, first)
+    if not found.known:
+        return _gone(world, first) if slash else found
+    by_map = found.names[0] in found.keys or (found.names[0] != by_folder and not owners)
+    return found._replace(sure=names.header_sure(header)) if by_map else found
 
 
 def by_import(world: World, module: str) -> Providers:

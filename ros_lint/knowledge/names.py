@@ -41,6 +41,7 @@ class Names:
 
     def __init__(self, store: Store) -> None:
         self._store = store
+        self._doubts: dict[str, frozenset[str]] = {}
 
     def cmake(self, name: str) -> tuple[str, ...]:
         """Return what provides a name of find_package, where names differ: ROS packages and keys, any of which will do.
@@ -49,6 +50,18 @@ class Names:
         """
         found = (*self._cmake_ros.get(name, ()), *self._cmake_system.get(name, ()))
         return found or ((NOTHING_NEEDED,) if name in CMAKE_MODULES else ())
+
+    def cmake_sure(self, name: str) -> bool:
+        """Return whether those that find a name also declare what :meth:`cmake` gives, as a rule."""
+        return name not in self._doubted("cmake_system.tsv")
+
+    def header_sure(self, path: str) -> bool:
+        """Return whether those that include a header also declare what :meth:`header` gives, as a rule."""
+        ros, doubted = self._include_ros, self._doubted("include_system.tsv")
+        for prefix in _prefixes(path):
+            if prefix in ros or prefix in self._include_system:
+                return prefix in ros or prefix not in doubted
+        return False
 
     def cmake_any_case(self, name: str) -> tuple[str, ...]:
         """Return what provides a name of find_package whose capitals are not known, such as opencv."""
@@ -165,6 +178,14 @@ class Names:
     @cached_property
     def _eol(self) -> Table:
         return self._store.table("eol_names.tsv")[1]
+
+    def _doubted(self, file: str) -> frozenset[str]:
+        """Return the names of a map that only a hand has put there, or that most users do not declare."""
+        found = self._doubts.get(file)
+        if found is None:
+            rows = (line.split("\t") for line in self._store.lines(file)[1])
+            found = self._doubts[file] = frozenset(row[0] for row in rows if row[-1] not in ("high", "medium"))
+        return found
 
     def _map(self, file: str) -> Mapping[str, tuple[str, ...]]:
         return {name: tuple(value.split()) for name, value in self._rows(file)}

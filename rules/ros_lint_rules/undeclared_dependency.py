@@ -20,10 +20,11 @@ needed at run time, `<exec_depend>` for what is needed at run time only, `<test_
 - The package comes with a declared one: see `transitive-dependency` for uses that hang on such a chain.
 - The use is optional: `find_package(QUIET)` behind `if(X_FOUND)`, `try: import`, `__has_include`.
 - The name belongs to no package or rosdep key that is known, or to the system.
-- A declared dependency is itself not known, so that anything might come with it: then the confidence is medium.
+- A declared dependency is itself not known, so that the package might come with it: then the confidence is medium.
+- All evidence is in files that are perhaps not built or installed: then, too, the confidence is medium.
 - The package needs this one itself, so that declaring it would close a cycle: then, too, the confidence is medium.
 - Modules of launch itself that only launch files import come with `ros2 launch`: then the severity is info.
-- What a launch file starts, includes or looks up is the business of `launch-outside-closure`.
+- Only launch files name it, for what they start, include or look up: that is the business of `launch-outside-closure`.
 """
 
 from __future__ import annotations
@@ -36,13 +37,13 @@ from ros_lint.api import (
     Fix,
     Package,
     Related,
-    Role,
     Rule,
     Severity,
     Use,
     Workspace,
     add_dependency,
     tag_for,
+    undeclared,
 )
 
 _MOST_RELATED = 4
@@ -51,25 +52,21 @@ _LAUNCH = frozenset({"launch", "launch_ros", "ament_index_python"})
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    manifest = package.manifest
-    if manifest is None or manifest.problems:
+    if package.manifest is None or package.manifest.problems:
         return
-    declared = tuple(dict.fromkeys(declared.name for declared in package.declared))
-    closure = workspace.world.closure(declared)
-    for name, uses in _missing(package, frozenset(declared) | closure.names).items():
-        best, *others = sorted(uses, key=_rank)
-        role = _union(uses)
-        tag = tag_for(package, workspace, name, role)
-        circular = package.name in workspace.world.closure((name,)).names
-        sure = best.sure and closure.complete and not circular
+    for need, sure in undeclared(package, workspace):
+        best, *others = need.uses
+        name = need.name
+        tag = tag_for(package, workspace, name, need.role)
+        circular = package.name in workspace.world.closure((name,))
         yield Finding(
             _message(name, tag, circular),
             best.span,
             name,
             tuple(Related(f"also used here: {use.what}", use.span) for use in others[:_MOST_RELATED]),
-            Fix(f"declare {name} as <{tag}>", add_dependency(package, tag, name)),
-            Confidence.HIGH if sure else Confidence.MEDIUM,
-            Severity.INFO if _comes_with_launching(package, uses) else None,
+            None if circular else Fix(f"declare {name} as <{tag}>", add_dependency(package, tag, name)),
+            Confidence.HIGH if sure and not circular else Confidence.MEDIUM,
+            Severity.INFO if _comes_with_launching(package, need.uses) else None,
         )
 
 
@@ -83,28 +80,6 @@ def _message(name: str, tag: str, circular: bool) -> str:
     if circular:
         return f"{name} is used here, but cannot be declared: it needs this package itself"
     return f"{name} is used here, but package.xml does not declare it: add <{tag}>{name}</{tag}>"
-
-
-def _missing(package: Package, covered: frozenset[str]) -> dict[str, list[Use]]:
-    found: dict[str, list[Use]] = {}
-    for use in package.uses:
-        if use.optional or use.via == "launch" or not covered.isdisjoint(use.providers):
-            continue
-        found.setdefault(use.package, []).append(use)
-    return found
-
-
-def _rank(use: Use) -> tuple[object, ...]:
-    """The surest and most telling evidence first."""
-    telling = ("include", "import", "cmake", "interface", "target", "macro", "package", "key", "launch")
-    return (not use.sure, use.role == Role.TEST, telling.index(use.via), use.span)
-
-
-def _union(uses: Sequence[Use]) -> Role:
-    role = Role(0)
-    for use in uses:
-        role |= use.role
-    return role
 
 
 RULE = Rule(

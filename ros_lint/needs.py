@@ -1,0 +1,117 @@
+"""What a package needs of others, all evidence for one name together, and how the manifest answers it.
+
+The rules about dependencies share this, so that each need is judged once and named by one of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+from ros_lint.facts import Role, Use, Via
+from ros_lint.workspace import Package, Workspace
+
+
+class Need(NamedTuple):
+    """Something that a package does not do without."""
+
+    name: str
+    """What to declare for it."""
+    uses: tuple[Use, ...]
+    """Where it is needed, the surest and most telling place first; never empty."""
+    declared: tuple[str, ...]
+    """Those names that satisfy it and are declared, in whatever tag."""
+    brought: bool
+    """Whether any name that satisfies it comes along with a declared dependency."""
+
+    @property
+    def sure(self) -> bool:
+        """Return whether the best evidence is in a file that is alive, of a name that is known."""
+        return self.uses[0].sure
+
+    @property
+    def role(self) -> Role:
+        """Return all that it is needed for: by what is alive, if anything is."""
+        alive = [use for use in self.uses if use.sure] or self.uses
+        role = Role(0)
+        for use in alive:
+            role |= use.role
+        return role
+
+
+_TELLING: tuple[Via, ...] = ("include", "import", "cmake", "interface", "target", "macro", "package", "key", "launch")
+
+
+def needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
+    """Return every need of a package, in the order of the best evidence. What it can do without is no need."""
+    found: dict[str, list[Use]] = {}
+    for use in package.uses:
+        if not use.optional:
+            found.setdefault(use.package, []).append(use)
+    declared = frozenset(declared.name for declared in package.declared)
+    closure = workspace.world.closure(declared)
+    result = []
+    for name, uses in found.items():
+        uses.sort(key=_rank)
+        names = [name for use in uses for name in use.providers]
+        direct = tuple(name for name in dict.fromkeys(names) if name in declared)
+        # Each place has to be satisfied: Eigen3 of CMake by its find module, a header of Eigen by the library.
+        brought = all(any(name in closure for name in use.providers) for use in uses)
+        if brought or not direct:
+            result.append(Need(name, tuple(uses), direct, brought))
+        else:
+            left = tuple(use for use in uses if not any(name in closure for name in use.providers))
+            result.append(Need(name, left, (), False))
+    return tuple(sorted(result, key=lambda need: need.uses[0].span))
+
+
+def _rank(use: Use) -> tuple[object, ...]:
+    """The surest and most telling evidence first."""
+    return (not use.sure, use.role == Role.TEST, _TELLING.index(use.via), use.span)
+
+
+def covered(package: Package, workspace: Workspace, names: Iterable[str], role: Role) -> bool:
+    """Whether one of the names comes along, or may come along, with something else that is declared for any part of a role."""
+    names = frozenset(names)
+    starts = {each.name for each in package.declared if each.role & role and each.name not in names}
+    closure = workspace.world.closure(sorted(starts))
+    if any(name in closure for name in names):
+        return True
+    unknown = closure.unknown
+    return bool(unknown) and any(may_bring(unknown, name, workspace) for name in names)
+
+
+def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool], ...]:
+    """Return the needs that nothing declared brings along, and whether that is sure.
+
+    What only launch files name, to start, include or look it up, is left out: it has a rule of its own.
+    """
+    closure = workspace.world.closure(declared.name for declared in package.declared)
+    unknown = closure.unknown
+    found = []
+    for need in needs(package, workspace):
+        if need.declared or need.brought or all(use.via == "launch" for use in need.uses):
+            continue
+        found.append((need, need.sure and not (unknown and may_bring(unknown, need.name, workspace))))
+    return tuple(found)
+
+
+def may_bring(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
+    """Whether one of the declared names of which nothing is known could bring a package along.
+
+    A name with a dash is a rosdep key or a mistake, and brings no package; a package of messages brings messages.
+    """
+    released = workspace.world.released(name)
+    mine = workspace.by_name.get(name, ())
+    messages = bool(released and released.interfaces) or any(_MESSAGES in package.groups for package in mine)
+    plumbing = name.startswith(("rosidl_", "builtin_", "action_msgs", "service_msgs", "unique_identifier_msgs"))
+    for each in unknown:
+        if "-" in each or each == "ament_python":
+            continue
+        if each.endswith(("_msgs", "_interfaces", "_srvs", "_msg")) and not (messages or plumbing):
+            continue
+        return True
+    return False
+
+
+_MESSAGES = "rosidl_interface_packages"

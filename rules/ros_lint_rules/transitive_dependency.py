@@ -1,0 +1,76 @@
+"""
+## What it finds
+
+A package that is used directly and comes along only because something else that is declared needs it. The message
+names the way by which it comes.
+
+## Why it matters
+
+It works until the package in between drops the dependency, which its authors may do at any time, for what they need is
+their business. Then this package breaks, without any change of its own.
+
+## How to fix it
+
+Declare what is used, in the tag that the message names. The fix does this.
+
+## When it keeps silent
+
+- It is off unless asked for: most of ROS relies on what other packages bring along, such as `rclcpp` on `rcl`.
+- The use is optional, or the files that use it are perhaps not built or installed.
+- The package belongs to the core of a declared client library, such as `rcutils` for `rclcpp`, or to the build tool.
+- Nothing declared brings it along: that is `undeclared-dependency` or `launch-outside-closure`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros_lint.api import (
+    Confidence,
+    Finding,
+    Fix,
+    Package,
+    Related,
+    Rule,
+    Severity,
+    Workspace,
+    add_dependency,
+    needs,
+    tag_for,
+)
+
+_MOST_RELATED = 4
+
+
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    if package.manifest is None or package.manifest.problems:
+        return
+    declared = tuple(dict.fromkeys(declared.name for declared in package.declared))
+    for need in needs(package, workspace):
+        if need.declared or not need.brought:
+            continue
+        best, *others = need.uses
+        name = next((name for name in best.providers if workspace.world.path(declared, name)), need.name)
+        way = workspace.world.path(declared, name)
+        tag = tag_for(package, workspace, name, need.role)
+        yield Finding(
+            f"{name} is used here, but comes along only by way of {' > '.join(way[:-1])}: add <{tag}>{name}</{tag}>",
+            best.span,
+            name,
+            tuple(Related(f"also used here: {use.what}", use.span) for use in others[:_MOST_RELATED]),
+            Fix(f"declare {name} as <{tag}>", add_dependency(package, tag, name)),
+            Confidence.HIGH if need.sure else Confidence.MEDIUM,
+        )
+
+
+RULE = Rule(
+    name="transitive-dependency",
+    code="ROS202",
+    summary="what is used directly should be declared, and not merely come along",
+    severity=Severity.WARNING,
+    since="0.1",
+    doc=__doc__,
+    default=False,
+    fixable=True,
+    package=check,
+)

@@ -1,0 +1,135 @@
+"""
+## What it finds
+
+A dependency that is declared, but in a tag that does not reach where it is used: `<test_depend>` for what is built or
+runs outside tests, `<exec_depend>` for what is compiled against, `<build_depend>` for what is imported, launched or
+looked up at run time, or for what public headers include.
+
+## Why it matters
+
+In a workspace it mostly works, for colcon puts every dependency on the path, whatever its tag. It fails elsewhere:
+`exec_depend` is not installed where binary packages are built, `build_depend` is not installed with them, and
+`test_depend` is neither when tests are off (REP 149; reference, section E1).
+
+## How to fix it
+
+Use the tag that the message names. The fix does this.
+
+## When it keeps silent
+
+- The package comes along in the right way with another declared dependency.
+- The use is optional, or in files that are perhaps not built or installed.
+- A tag has a condition, or a declared dependency is itself not known, so that the package might come with it.
+- Only ROS packages count for run time: a rosdep key for building may have another one for running.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from ros_lint.api import (
+    Declared,
+    Finding,
+    Fix,
+    Need,
+    Package,
+    Related,
+    Role,
+    Rule,
+    Severity,
+    Use,
+    Workspace,
+    change_dependency,
+    covered,
+    needs,
+    tag_for,
+)
+
+_MOST_RELATED = 4
+_BUILT = ("include", "cmake", "interface", "macro", "target")
+_RUN = ("import", "package", "launch")
+_SEEN = ("include", "interface")
+_ASKED = (Role.BUILD, Role.EXEC, Role.EXPORT)
+
+
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    manifest = package.manifest
+    if manifest is None or manifest.problems or manifest.format == 1:
+        return
+    for need in needs(package, workspace):
+        tags = [declared for declared in package.declared if declared.name in need.declared]
+        if not tags or any(declared.depend.condition for declared in tags):
+            continue
+        lacking = next(_lacks(package, workspace, need, tags), None)
+        if lacking is None:
+            continue
+        role, why = lacking
+        uses = [use for use in need.uses if use.sure and _is_about(use, role)]
+        name = next((name for name in uses[0].providers if name in need.declared), need.declared[0])
+        mine = [declared.depend for declared in tags if declared.name == name]
+        tag = tag_for(package, workspace, name, need.role | (_given(tags, name) & ~Role.TEST))
+        written = " and ".join(dict.fromkeys(f"<{depend.tag}>" for depend in mine))
+        yield Finding(
+            f"{name} is declared as {written} only, {why}: make it <{tag}>{name}</{tag}>",
+            mine[0].span,
+            name,
+            tuple(Related(f"used here: {use.what}", use.span) for use in uses[:_MOST_RELATED]),
+            Fix(f"declare {name} as <{tag}>", change_dependency(package, mine, tag)),
+        )
+
+
+def _given(tags: Sequence[Declared], name: str = "") -> Role:
+    """Return what tags give together: all, or those of one name."""
+    role = Role(0)
+    for declared in tags:
+        if name in ("", declared.name):
+            role |= declared.role
+    return role
+
+
+def _lacks(package: Package, workspace: Workspace, need: Need, tags: Sequence[Declared]) -> Iterator[tuple[Role, str]]:
+    """Yield what the tags of a need do not give, and no other dependency either."""
+    given = _given(tags)
+    names = tuple(dict.fromkeys(name for use in need.uses for name in use.providers))
+    asked = {role: any(use.sure and _is_about(use, role) for use in need.uses) for role in _ASKED}
+
+    def missing(role: Role, enough: Role) -> bool:
+        return asked[role] and not given & enough and not covered(package, workspace, names, enough)
+
+    if _is_tests_only(given):
+        if not covered(package, workspace, names, ~Role.TEST):
+            for role in _ASKED:
+                if asked[role]:
+                    yield role, "but it is used outside tests"
+        return
+    if not given & Role.TEST and missing(Role.BUILD, Role.BUILD | Role.TOOL):
+        yield Role.BUILD, "but it is needed to build this package"
+    if all(workspace.world.is_package(name) for name in need.declared):
+        if missing(Role.EXEC, Role.EXEC | Role.EXPORT):
+            yield Role.EXEC, "but it is needed at run time"
+        if missing(Role.EXPORT, Role.EXEC | Role.EXPORT):
+            yield Role.EXPORT, "but public headers include it, and whoever includes these needs it"
+
+
+def _is_about(use: Use, role: Role) -> bool:
+    if role is Role.BUILD:
+        return use.via in _BUILT and bool(use.role & (Role.BUILD | Role.TOOL))
+    if role is Role.EXEC:
+        return use.via in _RUN and bool(use.role & Role.EXEC)
+    return use.via in _SEEN and bool(use.role & Role.EXPORT)
+
+
+def _is_tests_only(role: Role) -> bool:
+    return role == Role.TEST
+
+
+RULE = Rule(
+    name="wrong-dependency-kind",
+    code="ROS203",
+    summary="a dependency must be declared in a tag that reaches where it is used",
+    severity=Severity.WARNING,
+    since="0.1",
+    doc=__doc__,
+    fixable=True,
+    package=check,
+)
