@@ -75,6 +75,8 @@ def test_places() -> None:
         ('f(a)\n"b"', "only a command can stand here", '"b"'),
         ("f(a[[b]])", None, ""),
         ('f("a"[[b]])', "an argument is not separated from the one before it", "[[b]]"),
+        ("f([[a]]b)", "an argument is not separated from the one before it", "b"),
+        ("f(\na) g(b)", "a command must start on a new line", "g"),
         ("f(\0)", "'\\x00' cannot stand here", "\0"),
         ("#[[", "a comment is not closed", "#"),
     ],
@@ -84,7 +86,7 @@ def test_syntax_errors(text: str, message: str | None, place: str) -> None:
     parsed = parse(source)
     found = [(problem.message, source.slice(problem.span)) for problem in parsed.problems]
     assert found == ([(message, place)] if message else [])
-    assert [command.name for command in parsed.commands] == (["f"] if text.startswith("f(a)") or not message else [])
+    assert [command.name for command in parsed.commands] == (["f"] if text.startswith(("f(a)", "f(\na)")) or not message else [])
 
 
 def test_templates_may_hold_placeholders() -> None:

@@ -121,6 +121,7 @@ class _Reader:
         args: list[Argument] = []
         name = ""
         begin = end = depth = counted = position = 0
+        last = glued = -1
         line, column = 1, 0
         template = self.source.path.endswith(".in")
         strange = "\r" in text or "\1" in text or "\2" in text
@@ -129,6 +130,10 @@ class _Reader:
                 raise self._wrong(position)
             position = match.end()
             group = match.lastindex
+            if glued >= 0:  # after a bracket
+                if group is not None and group != 2 and text[glued] not in " \t\r\n":
+                    raise _SyntaxError("an argument is not separated from the one before it", glued, position)
+                glued = -1
             if depth:
                 if group == 1:
                     args.append((match[1], PLAIN, match.start(1), position))
@@ -155,6 +160,7 @@ class _Reader:
                         args = [(_cleaned(value), kind, start, stop) for value, kind, start, stop in args]
                     add(Command(name.lower(), name, tuple(args), begin, position, line, column, breaks))
                     name = ""
+                    last = position
                 elif group == 5:
                     value = match[5]
                     if value.startswith("\n"):
@@ -165,11 +171,14 @@ class _Reader:
                     args.append((value, BRACKET, start, position))
                     if text[start - 1] not in " \t\r\n()":
                         raise _SyntaxError("an argument is not separated from the one before it", start, position)
+                    glued = position
+                elif group == 6:
+                    glued = position
             elif group == 1 or group == 7:  # noqa: PLR1714  (a tuple test is slower, and this runs for every command)
                 name = match[group]
                 end, begin = position, match.start(group)
                 passed = text.count("\n", counted, begin)
-                if not passed and self.commands:
+                if last >= 0 and text.find("\n", last, begin) < 0:
                     raise _SyntaxError("a command must start on a new line", begin, end)
                 if not _NAME.match(name):
                     if template and _PLACEHOLDER.match(name):
