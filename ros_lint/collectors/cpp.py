@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from ros_lint.collectors.cpp_includes import blanked, includes
+from ros_lint.collectors.cpp_includes import blanked, in_doubt, includes
 from ros_lint.collectors.cpp_registrations import registrations
 from ros_lint.facts import Facet, FileFacts, Mention, Opaque
 
@@ -45,20 +45,10 @@ def collect(source: Text) -> FileFacts:
 
 def _look_ups(source: Text) -> list[Mention]:
     found = list(_LOOK_UP.finditer(source.text))
-    if any(_in_doubt(source.text, match.start()) for match in found):
+    if any(in_doubt(source.text, match.start()) for match in found):
         found = list(_LOOK_UP.finditer(blanked(source.text)))
     spans = source.spans([match.span(2) for match in found])
     return [
         Mention(match[2], "package", span, f'{match[1]}("{match[2]}")')
         for match, span in zip(found, spans, strict=True)
     ]
-
-
-def _in_doubt(text: str, at: int) -> bool:
-    """Return whether a comment or a raw string may hide an offset."""
-    line = text.rfind("\n", 0, at) + 1
-    return (
-        text.find("//", line, at) >= 0
-        or text.find('R"', 0, at) >= 0
-        or text.rfind("/*", 0, at) > text.rfind("*/", 0, at)
-    )

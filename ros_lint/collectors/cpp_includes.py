@@ -102,6 +102,16 @@ def blanked(text: str) -> str:
     return _HIDING.sub(_blank, text)
 
 
+def in_doubt(text: str, at: int) -> bool:
+    """Return whether a comment or a raw string may hide an offset."""
+    line = text.rfind("\n", 0, at) + 1
+    return (
+        text.find("//", line, at) >= 0
+        or text.find('R"', 0, at) >= 0
+        or text.rfind("/*", 0, at) > text.rfind("*/", 0, at)
+    )
+
+
 def _blank(match: re.Match[str]) -> str:
     token = match[0]
     if match["raw"]:
