@@ -2,6 +2,7 @@
 
 from ros_lint import conditions, manifest_edits
 from ros_lint.build_scripts import called, evaluated_name, missing_path, relative, top_file
+from ros_lint.cmake_finds import come_along, found_names, given_to
 from ros_lint.declare import (
     add_dependency,
     builds_something,
@@ -100,10 +101,13 @@ __all__ = [
     "builds_something",
     "called",
     "change_dependency",
+    "come_along",
     "conditions",
     "covered",
     "declared_names",
     "evaluated_name",
+    "found_names",
+    "given_to",
     "is_apart",
     "knots",
     "launchable",

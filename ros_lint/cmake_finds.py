@@ -1,0 +1,49 @@
+"""Which packages a CMake script has found, names and exports, from the mentions of its evaluation."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from ros_lint.facts import BuildScript, Mention
+from ros_lint.workspace import Package, Workspace
+
+_FIND_DECLARED = frozenset({"ament_auto_find_build_dependencies", "autoware_package"})
+_FIND_TESTS = frozenset({"ament_auto_find_test_dependencies", "ament_lint_auto_find_test_dependencies"})
+_AT_BUILD = ("depend", "build_depend", "buildtool_depend")
+
+
+def found_names(package: Package, script: BuildScript) -> frozenset[str]:
+    """Return the names that find_package() is called with, also by those macros that find what the manifest declares."""
+    names = {mention.name for mention in script.mentions if mention.via == "cmake"}
+    calls = frozenset(script.calls)
+    if calls & _FIND_DECLARED:
+        names.update(each.name for each in package.declared if each.depend.tag in _AT_BUILD)
+    if calls & _FIND_TESTS:
+        names.update(each.name for each in package.declared if each.depend.tag == "test_depend")
+    return frozenset(names)
+
+
+def come_along(workspace: Workspace, names: Iterable[str]) -> frozenset[str] | None:
+    """Return what is found together with names of find_package(), these included: what their packages bring along.
+
+    None when nobody knows of one of them whose it is, or what it brings.
+    """
+    starts: set[str] = set()
+    for name in names:
+        if workspace.world.is_package(name):
+            starts.add(name)
+            continue
+        providers = workspace.world.by_cmake(name)
+        if not providers.known:
+            return None
+        starts.update(providers.packages)
+    closure = workspace.world.closure(sorted(starts))
+    return closure.names.union(names) if closure.complete else None
+
+
+def given_to(script: BuildScript, macro: str) -> Iterator[Mention]:
+    """Yield the packages that a macro is given by name, such as ament_export_dependencies."""
+    start = f"{macro} "
+    for mention in script.mentions:
+        if mention.via == "target" and mention.what.startswith(start):
+            yield mention

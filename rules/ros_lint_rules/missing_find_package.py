@@ -1,0 +1,66 @@
+"""
+## What it finds
+
+A CMake script that uses a ROS package without having found it: a target `package::library`, an argument of
+`ament_target_dependencies()`, or a macro of the package.
+
+## Why it matters
+
+CMake stops: the target, the package or the command is not known. Where it happens under a condition, it stops for
+those for whom the condition holds.
+
+## How to fix it
+
+Add `find_package(package REQUIRED)`, before the first use.
+
+## When it keeps silent
+
+- The package comes along with one that is found, for then it is found, too.
+- The script cannot be followed everywhere, or the use hangs on a condition that cannot be decided.
+- The name belongs to no ROS package that is known.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros_lint.api import Facet, Finding, Package, Related, Rule, Severity, Workspace, come_along, found_names
+
+_MOST_RELATED = 4
+
+
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    script = package.script
+    if script is None or script.problems or package.builds_with != "ament_cmake" or package.hidden(Facet.USES):
+        return
+    have = come_along(workspace, found_names(package, script))
+    if have is None:
+        return
+    missing: dict[str, list[tuple[str, Related]]] = {}
+    for mention in script.mentions:
+        name = mention.name.partition("::")[0]
+        if mention.via not in ("target", "macro") or mention.optional or name in have or name == package.name:
+            continue
+        if mention.what.startswith("interfaces of") or not workspace.world.is_package(name):
+            continue
+        what = mention.what or mention.name
+        missing.setdefault(name, []).append((what, Related(f"also needed here: {what}", mention.span)))
+    for name, places in missing.items():
+        (what, first), *others = places
+        yield Finding(
+            f"{what} needs {name}, which nothing finds: add find_package({name} REQUIRED) before",
+            first.span,
+            name,
+            tuple(place for _, place in others[:_MOST_RELATED]),
+        )
+
+
+RULE = Rule(
+    name="missing-find-package",
+    code="ROS206",
+    summary="a package that a CMake script uses must be found",
+    severity=Severity.ERROR,
+    since="0.1",
+    doc=__doc__,
+    package=check,
+)

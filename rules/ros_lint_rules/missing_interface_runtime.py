@@ -1,0 +1,138 @@
+"""
+## What it finds
+
+A package that generates messages, services or actions and does not say all that this needs: it is no member of the
+group `rosidl_interface_packages`, it does not declare `rosidl_default_runtime`, or an interface has a field of another
+package that `rosidl_generate_interfaces()` does not list under `DEPENDENCIES`.
+
+## Why it matters
+
+Without the group, CMake stops. Without the run-time package the generated code cannot be loaded where nothing else
+brings it. Without the dependency the generated code does not compile.
+
+## How to fix it
+
+Add what the message names. The fix does this for package.xml.
+
+## When it keeps silent
+
+- The interfaces are not installed, so that nobody but the package itself uses them.
+- The script cannot be followed everywhere.
+- The other package comes along with one that is listed.
+- The run-time package comes along with another declared dependency: then the severity is info.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros_lint.api import (
+    Confidence,
+    Edit,
+    Facet,
+    Finding,
+    Fix,
+    Manifest,
+    Package,
+    Role,
+    Rule,
+    Severity,
+    Span,
+    Workspace,
+    add_dependency,
+    come_along,
+    given_to,
+    manifest_edits,
+)
+
+_GROUP = "rosidl_interface_packages"
+_RUNTIME = "rosidl_default_runtime"
+_GENERATE = "rosidl_generate_interfaces"
+_BUILT_IN = frozenset({"builtin_interfaces", "service_msgs", "action_msgs", "unique_identifier_msgs"})
+
+
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    script, manifest = package.script, package.manifest
+    if script is None or manifest is None or manifest.problems or _GENERATE not in script.calls:
+        return
+    place = next((m for m in script.mentions if m.via == "macro" and m.what == f"{_GENERATE}()"), None)
+    if place is None or not script.interfaces or not _is_installed(package):
+        return
+    sure = Confidence.MEDIUM if place.optional or place.test else Confidence.HIGH
+    if _GROUP not in package.groups:
+        yield Finding(
+            f"{_GENERATE}() stops here unless package.xml says <member_of_group>{_GROUP}</member_of_group>",
+            place.span,
+            _GROUP,
+            (),
+            Fix(f"join the group {_GROUP}", _join(manifest)),
+            sure,
+        )
+    yield from _runtime(package, workspace, place.span, sure)
+    if not package.hidden(Facet.USES):
+        yield from _fields(package, workspace, place.span, sure)
+
+
+def _is_installed(package: Package) -> bool:
+    assert package.script is not None
+    kinds = tuple(f"share/{package.name}/{kind}/" for kind in ("msg", "srv", "action"))
+    return any(provided.path.startswith(kinds) for provided in package.script.provides)
+
+
+def _join(manifest: Manifest) -> tuple[Edit, ...]:
+    edits = (manifest_edits.add(manifest, "member_of_group", _GROUP),)
+    return edits if manifest.format >= 3 else (manifest_edits.raise_format(manifest, 3), *edits)
+
+
+def _runtime(package: Package, workspace: Workspace, place: Span, sure: Confidence) -> Iterator[Finding]:
+    starts = [each.name for each in package.declared if each.role & (Role.EXEC | Role.EXPORT)]
+    if _RUNTIME in starts:
+        return
+    closure = workspace.world.closure(starts)
+    along = _RUNTIME in closure or bool(closure.unknown)
+    tag = "run_depend" if package.manifest and package.manifest.format == 1 else "exec_depend"
+    yield Finding(
+        f"what is generated here needs {_RUNTIME} at run time: add <{tag}>{_RUNTIME}</{tag}>",
+        place,
+        _RUNTIME,
+        (),
+        Fix(f"declare {_RUNTIME} as <{tag}>", add_dependency(package, tag, _RUNTIME)),
+        sure,
+        Severity.INFO if along else None,
+    )
+
+
+def _fields(package: Package, workspace: Workspace, place: Span, sure: Confidence) -> Iterator[Finding]:
+    script = package.script
+    assert script is not None
+    listed = frozenset(mention.name for mention in given_to(script, "interfaces of"))
+    along = come_along(workspace, listed)
+    if along is None:
+        return
+    said = set()
+    for use in package.uses:
+        if use.via != "interface" or use.package in along | _BUILT_IN or use.package in said or not use.sure:
+            continue
+        if not use.span.path.endswith((".msg", ".srv", ".action")):
+            continue
+        said.add(use.package)
+        yield Finding(
+            f"{use.package} is used here, but {_GENERATE}() is not told: add it to DEPENDENCIES",
+            use.span,
+            use.package,
+            (),
+            None,
+            sure,
+        )
+
+
+RULE = Rule(
+    name="missing-interface-runtime",
+    code="ROS208",
+    summary="a package that generates interfaces must say all that they need",
+    severity=Severity.ERROR,
+    since="0.1",
+    doc=__doc__,
+    fixable=True,
+    package=check,
+)
