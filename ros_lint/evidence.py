@@ -6,13 +6,12 @@ spaces (reference, sections C2b, D6, E3.8). This module is the only one that goe
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from ros_lint.facts import BuildScript, FileFacts, LaunchFile, Mention, Opaque, Role, Use, Via
 from ros_lint.liveness import HEADERS, Liveness
-from ros_lint.text import Span, Text
+from ros_lint.text import Span
 
 if TYPE_CHECKING:
     from ros_lint.world import Providers
@@ -69,7 +68,11 @@ def resolve(source: Source, names: Names, headers: Mapping[str, tuple[str, ...]]
             uses += _use(source, own, names, headers, mention, needed, sure)
     for launch in source.launch:
         uses += _launch_uses(source, own, names, launch)
-    return tuple(sorted(set(uses), key=lambda use: (use.span, use.package, use.via)))
+    return tuple(sorted({(use.span, use.package, use.via): use for use in uses}.values(), key=_order))
+
+
+def _order(use: Use) -> tuple[object, ...]:
+    return (use.span, use.package, use.via)
 
 
 def _script_role(source: Source, via: Via) -> Role:
@@ -193,19 +196,32 @@ def unused_names(declared: Sequence[str], uses: Sequence[Use]) -> tuple[str, ...
     return tuple(name for name in dict.fromkeys(declared) if name not in used)
 
 
-def traces(names: Sequence[str], texts: Iterable[Text]) -> dict[str, Span]:
-    """Return a place for every name that stands as a word in one of the texts, dashes and underscores taken as equal."""
-    left = {name: re.compile(_word(name)) for name in names}
+def traces(names: Sequence[str], files: Iterable[tuple[str, bytes]]) -> dict[str, Span]:
+    """Return a place for every name that stands as a word in one of the files, dashes and underscores taken as equal.
+
+    ``files`` are paths with contents, which are searched as they are: few of them have a name in question.
+    """
+    spellings = {name: {name, name.replace("-", "_"), name.replace("_", "-")} for name in names}
     found: dict[str, Span] = {}
-    for text in texts:
-        for name, pattern in list(left.items()):
-            if hit := pattern.search(text.text):
-                found[name] = text.span(hit.start(), hit.end())
-                del left[name]
-        if not left:
+    for path, data in files:
+        for name in [name for name in spellings if name not in found]:
+            for spelling in spellings[name]:
+                if (start := _find_word(data, spelling.encode())) >= 0:
+                    line = data.count(b"\n", 0, start) + 1
+                    column = len(data[data.rfind(b"\n", 0, start) + 1 : start].decode("utf-8", "replace")) + 1
+                    found[name] = Span(path, line, column, line, column + len(spelling))
+                    break
+        if len(found) == len(spellings):
             break
     return found
 
 
-def _word(name: str) -> str:
-    return rf"(?<![A-Za-z0-9]){'[-_]'.join(re.escape(part) for part in re.split('[-_]', name))}(?![A-Za-z0-9])"
+def _find_word(data: bytes, word: bytes) -> int:
+    """Return the offset of a word, -1 when there is none. A search for letters is many times faster than for a pattern."""
+    start = data.find(word)
+    while start >= 0:
+        before, after = data[max(start - 1, 0) : start], data[start + len(word) : start + len(word) + 1]
+        if not (before.isalnum() or after.isalnum()):
+            return start
+        start = data.find(word, start + 1)
+    return -1

@@ -82,13 +82,16 @@ class Liveness:
 
     def own_headers(self, header: str, includer: str) -> tuple[str, ...]:
         """Return the files of the package that an include can mean."""
-        beside = posixpath.normpath(posixpath.join(posixpath.dirname(includer), header))
         name = header.rpartition("/")[2]
-        candidates = self._by_name.get(name, ())
+        candidates = self._by_name.get(name)
+        if candidates is None:
+            return ()
+        folder = includer.rpartition("/")[0]
+        beside = posixpath.normpath(f"{folder}/{header}") if "." in header[:2] else f"{folder}/{header}" if folder else header
         if beside in candidates:
             return (beside,)
         end = f"/{header}"
-        return tuple(file for file in candidates if f"/{file}".endswith(end))
+        return tuple([file for file in candidates if file == header or file.endswith(end)])
 
     def has_header(self, header: str, includer: str) -> bool:
         """Whether an include can mean a file of the package, generated ones included."""
@@ -97,7 +100,12 @@ class Liveness:
             return True
         if self.own_headers(header, includer):
             return True
-        return any(self.own_headers(f"{header}{suffix}", includer) for suffix in (".in", ".em"))
+        name = header.rpartition("/")[2]
+        return any(
+            bool(self.own_headers(f"{header}{suffix}", includer))
+            for suffix in (".in", ".em")
+            if f"{name}{suffix}" in self._by_name
+        )
 
     @cached_property
     def _by_name(self) -> Mapping[str, tuple[str, ...]]:

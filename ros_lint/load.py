@@ -12,7 +12,7 @@ from typing import NamedTuple
 from ros_lint import conditions, evidence, scripts, source_lists
 from ros_lint.cache import Cache
 from ros_lint.collect import FAILED, Collected, collect_all, kind_of
-from ros_lint.discover import Found, discover
+from ros_lint.discover import Found, Skipped, discover
 from ros_lint.facts import ROLES, BuildScript, FileFacts, LaunchFile, Manifest, Role, Use
 from ros_lint.knowledge import Knowledge
 from ros_lint.knowledge.index import TAG_KINDS
@@ -26,6 +26,9 @@ from ros_lint.world import Member, World
 Progress = Callable[[str, int, int], None]
 """Hears what is being done, how much of it is done, and how much there is."""
 
+_NO_TEXT = (
+    ".md", ".rst", ".png", ".jpg", ".stl", ".dae", ".obj", ".pgm", ".svg", ".gif", ".pdf", ".zip", ".onnx", ".pcd", ".bag", ".mcap",
+)  # fmt: skip
 _NO_TRACE = ("changelog", "readme", "license", "licence", "contributing", "quality_declaration", "copying", "notice")
 
 
@@ -75,13 +78,14 @@ class Loader:
         self._progress("looking for packages", 0, 0)
         discovery = discover(tree, self._roots)
         founds = [self._without_excluded(found) for found in discovery.packages if not self._exclude(found.path)]
+        lists = source_lists.find(tree, self._roots, (join(found.path, file) for found in founds for file in found.files))
+        founds = _without_submodules(founds, source_lists.submodules(tree, lists))
         collected = self._collect(founds, changed or {}) if sources else {}
         reads = self._read(tree, founds, collected) if sources else [_Read(found, None, {}, ()) for found in founds]
         world = World(tuple(self._members(reads, discovery.rejected)), self._underlays, self._knowledge)
         packages = tuple(self._join(tree, reads, world, sources))
         unusable = tuple(self._unusable(manifest) for manifest in discovery.rejected if not self._exclude(manifest.path))
         not_checked = (*discovery.not_checked, *_unreadable(collected), *_failed(reads))
-        lists = source_lists.find(tree, self._roots, (join(found.path, file) for found in founds for file in found.files))
         return Workspace(packages, unusable, world, self.target, tuple(not_checked), lists)
 
     def text(self, path: str) -> Text | None:
@@ -174,23 +178,21 @@ class Loader:
                 script=done.script,
                 launch=done.launch,
                 uses=uses,
-                traces=self._traces(tree, found, declared, uses) if search else {},
+                traces=self._traces(tree, found, declared, uses, world) if search else {},
                 opaque=evidence.opaque_of(source),
                 registrations=tuple([made for facts in done.facts.values() for made in facts.registrations]),
+                look_ups=tuple([look_up for facts in done.facts.values() for look_up in facts.look_ups]),
             )
 
-    def _traces(self, tree: Tree, found: Found, declared: Sequence[Declared], uses: Sequence[Use]) -> Mapping[str, Span]:
+    def _traces(
+        self, tree: Tree, found: Found, declared: Sequence[Declared], uses: Sequence[Use], world: World
+    ) -> Mapping[str, Span]:
         """Look for the names of what seems unused in every text of the package (reference, section F3, condition 7)."""
-        built = [d.name for d in declared if d.depend.tag in ("depend", "build_depend")]
-        wanted = evidence.unused_names(built, uses)
+        built = [d.name for d in declared if d.depend.tag in ("depend", "build_depend") and not d.depend.condition]
+        wanted = [name for name in evidence.unused_names(built, uses) if world.is_package(name) and not world.is_key(name)]
         if not wanted:
             return {}
-        texts = (self._searched(tree, found, file) for file in found.files if _may_trace(file))
-        return evidence.traces(wanted, (text for text in texts if text is not None))
-
-    def _searched(self, tree: Tree, found: Found, file: str) -> Text | None:
-        text = _text(tree, join(found.path, file))
-        return None if text is None or "\0" in text.text[:1024] else text
+        return evidence.traces(wanted, _contents(tree, found))
 
     def _unusable(self, manifest: Manifest) -> Package:
         folder = manifest.path.rpartition("/")[0]
@@ -212,6 +214,17 @@ class Loader:
             traces={},
             opaque=(),
         )
+
+
+def _without_submodules(founds: Sequence[Found], folders: Sequence[str]) -> list[Found]:
+    """Return the packages with submodules that are not cloned among what was not looked into."""
+    result = []
+    for found in founds:
+        inside = [folder for folder in folders if folder.startswith(f"{found.path}/" if found.path else "")]
+        skip = len(found.path) + 1 if found.path else 0
+        more = tuple(Skipped(folder[skip:], "the submodule is not cloned") for folder in inside)
+        result.append(found._replace(unseen=(*found.unseen, *more)) if more else found)
+    return result
 
 
 def _declared(manifest: Manifest | None, context: Mapping[str, str]) -> tuple[Declared, ...]:
@@ -250,16 +263,16 @@ def _failed(reads: Sequence[_Read]) -> Iterator[NotChecked]:
                 yield NotChecked(opaque.span.path, opaque.reason, opaque.span)
 
 
-def _may_trace(file: str) -> bool:
-    """Whether a name in the file says that the package uses it: not in prose, and not in the manifest itself."""
-    name = file.rpartition("/")[2].lower()
-    if name == "package.xml" or name.startswith(_NO_TRACE):
-        return False
-    return not name.endswith((".md", ".rst", ".png", ".jpg", ".stl", ".dae", ".obj", ".pgm", ".svg", ".gif", ".pdf", ".zip"))
-
-
-def _text(tree: Tree, path: str) -> Text | None:
-    try:
-        return read(path, tree.read(path))
-    except OSError:
-        return None
+def _contents(tree: Tree, found: Found) -> Iterator[tuple[str, bytes]]:
+    """Yield the files of a package that may say that it uses something: no prose, and not the manifest itself."""
+    for file in found.files:
+        name = file.rpartition("/")[2].lower()
+        if name == "package.xml" or name.startswith(_NO_TRACE) or name.endswith(_NO_TEXT):
+            continue
+        path = join(found.path, file)
+        try:
+            data = tree.read(path)
+        except OSError:
+            continue
+        if b"\0" not in data[:1024]:
+            yield path, data
