@@ -1,7 +1,7 @@
 """Everything a rule may import."""
 
 from ros_lint import conditions, manifest_edits
-from ros_lint.build_scripts import called, evaluated_name, missing_path, relative, top_file
+from ros_lint.build_scripts import called, evaluated_name, hidden, missing_path, relative, top_file
 from ros_lint.cmake_finds import come_along, found_names, given_to
 from ros_lint.declare import (
     add_dependency,
@@ -108,6 +108,7 @@ __all__ = [
     "evaluated_name",
     "found_names",
     "given_to",
+    "hidden",
     "is_apart",
     "knots",
     "launchable",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ros_lint.facts import Call, Problem
+from ros_lint.facts import Call, Facet, Opaque, Problem
 from ros_lint.tree import join
 from ros_lint.workspace import Package
 
@@ -23,6 +23,14 @@ def called(package: Package, *names: str, anywhere: bool = False) -> Iterator[Ca
     for call in package.script.written:
         if call.name in names and (anywhere or call.path == top):
             yield call
+
+
+_UNDEFINED = re.compile(r"what the target [^:\s]+ is, is not known")
+
+
+def hidden(package: Package, facet: Facet) -> tuple[Opaque, ...]:
+    """Return what hides a facet, leaving out targets that are installed and that nobody defines: these are mistakes."""
+    return tuple(opaque for opaque in package.hidden(facet) if not _UNDEFINED.fullmatch(opaque.reason))
 
 
 def relative(package: Package, path: str) -> str:

@@ -135,6 +135,15 @@ class Mention(NamedTuple):
     """Known to serve tests only."""
 
 
+class LookUp(NamedTuple):
+    """A file that is looked up in the share directory of a package."""
+
+    package: str
+    path: str
+    """Below share/<package>."""
+    span: Span
+
+
 class FileFacts(NamedTuple):
     """What one source file says about other packages."""
 
@@ -143,6 +152,7 @@ class FileFacts(NamedTuple):
     opaque: tuple[Opaque, ...] = ()
     problems: tuple[Problem, ...] = ()
     registrations: tuple[Registration, ...] = ()
+    look_ups: tuple[LookUp, ...] = ()
 
 
 class Role(Flag):
@@ -244,6 +254,8 @@ class Provided(NamedTuple):
     conditional: bool
     """Whether it depends on something that is not known."""
     span: Span
+    target: str = ""
+    """The CMake target that builds it."""
 
 
 class Component(NamedTuple):
@@ -370,7 +382,7 @@ class Registration(NamedTuple):
 
 
 class ScriptFile(NamedTuple):
-    """A script that the package installs where programs are looked for."""
+    """A script that may be meant to be started."""
 
     path: str
     """Relative to the package."""
@@ -435,7 +447,7 @@ class BuildScript(NamedTuple):
     """Its plugin descriptions."""
     slots: tuple[Slot, ...] = ()
     files: tuple[ScriptFile, ...] = ()
-    """Scripts that it installs to lib/<package> or bin."""
+    """Scripts that it installs to lib/<package> or bin, and those that lie beside them or in folders for scripts."""
 
 
 # --- launch files --------------------------------------------------------------------------------------------------

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence, Set
+from collections.abc import Container, Iterator, Mapping, Sequence, Set
 from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -18,7 +18,8 @@ from ros_lint.tree import Tree, join
 if TYPE_CHECKING:
     from ros_lint.interpret.cmake import Helper, Sources
 
-_PLUGIN_FILE = re.compile(r"plugin[^/]*\.xml\Z", re.IGNORECASE)
+_PLUGIN_FILE = re.compile(r"plugin.*\.xml\Z", re.IGNORECASE)
+_SCRIPTS = re.compile(r"(?:scripts|nodes|bin|script)/[^/]+\Z")
 _PYTHON = ("setup.py", "setup.cfg", "pyproject.toml")
 
 
@@ -122,9 +123,18 @@ def _with_files(tree: Tree, found: Found, script: BuildScript) -> BuildScript:
     plugins = tuple(plugin for plugin in described if plugin)
     started = (f"lib/{found.name}/", "bin/")
     sources = dict.fromkeys(p.source for p in script.provides if p.source and p.path.startswith(started))
+    folders = {file.rpartition("/")[0] for file in sources}
+    sources.update(dict.fromkeys(file for file in found.files if _is_script(file, folders)))
     executables = _Executables(tree, found)
     files = [_script_file(file, text, file in executables) for file in sources if (text := _text(tree, found, file))]
     return script._replace(plugins=plugins, files=tuple(files)) if plugins or files else script
+
+
+def _is_script(file: str, folders: Container[str]) -> bool:
+    """Whether a file may be a program: by its place, beside others or in a folder for them, and by its name."""
+    folder, _, name = file.rpartition("/")
+    named = name.endswith((".py", ".sh")) or "." not in name
+    return named and bool(folder) and (folder in folders or _SCRIPTS.match(file) is not None)
 
 
 def _script_file(path: str, text: Text, executable: bool) -> ScriptFile:

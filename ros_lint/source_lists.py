@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 
-from ros_lint.tree import Tree, join
+from ros_lint.text import read
+from ros_lint.tree import Tree, join, parent
 
 _ENDINGS = (".repos", ".rosinstall", ".gitmodules")
 
@@ -28,3 +30,28 @@ def find(tree: Tree, roots: Sequence[str], files: Iterable[str]) -> tuple[str, .
                 inner = [entry.name for entry in entries if entry.kind == "directory" and not entry.name.startswith(".")]
                 folders += [join(top, name) for name in inner]
     return tuple(sorted(found))
+
+
+_SUBMODULE = re.compile(r"^[ \t]*path[ \t]*=[ \t]*(.+?)[ \t]*$", re.MULTILINE)
+
+
+def submodules(tree: Tree, lists: Iterable[str]) -> tuple[str, ...]:
+    """Return the folders that the ``.gitmodules`` among the lists name and that are empty, or not there: not cloned yet."""
+    found = []
+    for path in lists:
+        if path.rpartition("/")[2] != ".gitmodules":
+            continue
+        try:
+            text = read(path, tree.read(path)).text
+        except OSError:
+            continue
+        folders = (join(parent(path), match[1].strip("/")) for match in _SUBMODULE.finditer(text))
+        found += [folder for folder in folders if not _has_entries(tree, folder)]
+    return tuple(sorted(found))
+
+
+def _has_entries(tree: Tree, folder: str) -> bool:
+    try:
+        return bool(tree.list(folder))
+    except OSError:
+        return False

@@ -12,6 +12,7 @@ from ros_lint.facts import (
     Depend,
     Facet,
     LaunchFile,
+    LookUp,
     Manifest,
     Opaque,
     Registration,
@@ -87,6 +88,8 @@ class Package(NamedTuple):
     opaque: tuple[Opaque, ...]
     registrations: tuple[Registration, ...] = ()
     """Classes that its C++ sources make loadable."""
+    look_ups: tuple[LookUp, ...] = ()
+    """Files that its models, displays and parameters look up in packages."""
 
     @property
     def place(self) -> Span:

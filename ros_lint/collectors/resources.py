@@ -7,9 +7,10 @@ section E2.20 and E2.21).
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from ros_lint.facts import FileFacts, Mention
+from ros_lint.facts import FileFacts, LookUp, Mention
 
 if TYPE_CHECKING:
     from ros_lint.text import Text
@@ -45,6 +46,7 @@ def collect(source: Text) -> FileFacts:
         _search(pattern, text, found)
     if not found:
         return FileFacts(source.path)
+    looked_up = tuple(_files(source)) if sure else ()
     names = sorted(found, key=lambda name: found[name])
     spans = source.spans(found[name] for name in names)
     return FileFacts(
@@ -52,7 +54,23 @@ def collect(source: Text) -> FileFacts:
         tuple(
             Mention(name, "package", span, optional=name not in sure) for name, span in zip(names, spans, strict=True)
         ),
+        look_ups=looked_up,
     )
+
+
+# A path that goes on with a reference or a variable is none.
+_FILE = re.compile(rf"(?:package://{_NAME}|\$\(find(?:-pkg-share)?\s+{_NAME}\s*\))/([\w./+-]*[\w+-]\.\w+)(?![\w./${{(@%-])")
+
+
+def _files(source: Text) -> Iterator[LookUp]:
+    """Yield the files that are looked up in packages, each once."""
+    places: dict[tuple[str, str], tuple[int, int]] = {}
+    for match in _FILE.finditer(source.text):
+        key = (match[1] or match[2], match[3])
+        if key not in places and not _in_comment(source.text, match.start()):
+            places[key] = match.span()
+    spans = source.spans(places.values())
+    yield from (LookUp(package, path, span) for (package, path), span in zip(places, spans, strict=True))
 
 
 def _search(pattern: re.Pattern[str], text: str, found: dict[str, tuple[int, int]]) -> None:

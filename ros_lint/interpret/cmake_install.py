@@ -122,11 +122,11 @@ def installed_targets(run: Run) -> Iterator[Provided]:
             run.opaques.setdefault(Opaque(facet, f"where the target {name} is installed is not known", span))
             continue
         unsure = conditional or "CONDITIONAL" in target or "TEST" in target
-        yield Provided(join_path(where, file), "", kind == "executable", unsure, span)
+        yield Provided(join_path(where, file), "", kind == "executable", unsure, span, name)
         if kind == "shared":
             for number in {target.get("VERSION", ""), target.get("SOVERSION", "")} - {""}:
                 if is_known(number):
-                    yield Provided(join_path(where, f"{file}.{number}"), "", False, unsure, span)
+                    yield Provided(join_path(where, f"{file}.{number}"), "", False, unsure, span, name)
 
 
 # --- files ---------------------------------------------------------------------------------------------------------
