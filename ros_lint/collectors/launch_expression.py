@@ -129,6 +129,7 @@ _FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "len": len,
     "_equals": _equals,
     "_not_equals": lambda left, right: not _equals(left, right),
+    "_if": lambda condition, one, other: one if _truth(condition) else other,
     "_not": lambda value: not _truth(value),
     "_and": lambda *values: all(_truth(value) for value in values),
     "_or": lambda *values: any(_truth(value) for value in values),

@@ -94,7 +94,11 @@ def _command(made: Made, depth: int) -> tuple[str, ...]:
 
 
 def _choice(made: Made, depth: int) -> tuple[str, ...]:
-    return (*texts(made.get(1, "if_value"), depth), *texts(made.get(2, "else_value") or "", depth))
+    parts = (made.get(0, "condition"), made.get(1, "if_value"), made.get(2, "else_value") or "")
+    return joined(
+        [texts(part, depth) for part in parts],
+        lambda row: launch_text.expression(f"_if({', '.join(quoted(one) for one in row)})"),
+    )
 
 
 def _join(made: Made, depth: int) -> tuple[str, ...]:

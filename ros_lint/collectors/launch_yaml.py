@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ros_lint.collectors import launch_markup
-from ros_lint.collectors.launch_markup import Attribute, Entity
+from ros_lint.collectors.launch_entity import CHILDREN, NO_VALUE, Attribute, Entity
 from ros_lint.facts import Facet, LaunchFile, Opaque, Problem
 from ros_lint.text import Text
 
@@ -32,8 +32,11 @@ def collect(source: Text) -> LaunchFile:
         )
     root = _Reader(source).root(node)
     if root is None:
-        return LaunchFile(source.path, "yaml")
-    return LaunchFile(source.path, "yaml", *launch_markup.read(source, root))
+        start = source.span(0, 0)
+        problem = Problem("root", "the file must be a mapping with the one key launch", start)
+        return LaunchFile(source.path, "yaml", problems=(problem,))
+    found = launch_markup.read(source, root)
+    return LaunchFile(source.path, "yaml", found.references, found.opaque, found.problems, actions=found.actions)
 
 
 class _Reader:
@@ -46,43 +49,84 @@ class _Reader:
     def root(self, node: yaml.Node | None) -> Entity | None:
         import yaml  # noqa: PLC0415
 
-        if not isinstance(node, yaml.MappingNode) or len(node.value) != 1:
+        if not isinstance(node, yaml.MappingNode) or len({key.value for key, _ in node.value if _is_scalar(key)}) != 1:
             return None
-        key, value = node.value[0]
+        key, value = node.value[-1]
         return self._entity(key, value, 0)
 
     def _entity(self, key: yaml.Node, value: yaml.Node, depth: int) -> Entity:
-        """Return an entity: a mapping has attributes, and entities under ``children``; a list is its children."""
+        """Return what stands behind a key: a mapping has attributes and lists of entities, a list has children."""
+        tag = str(key.value) if _is_scalar(key) else "?"
+        return self._made(tag, key.start_mark.index, key.end_mark.index, value, depth)
+
+    def _made(self, tag: str, start: int, end: int, value: yaml.Node, depth: int) -> Entity:
         import yaml  # noqa: PLC0415
 
+        self._left -= 1
         attributes: dict[str, Attribute] = {}
         children: list[Entity] = []
-        self._left -= 1
-        if depth < _MAX_DEPTH and self._left > 0:
-            if isinstance(value, yaml.SequenceNode):
-                children = self._children(value, depth)
-            elif isinstance(value, yaml.MappingNode):
-                for name, content in value.value:
-                    if isinstance(content, yaml.ScalarNode):
-                        attributes[str(name.value)] = self._attribute(content)
-                    elif isinstance(content, yaml.SequenceNode) and name.value == "children":
-                        children += self._children(content, depth)
-                    elif isinstance(content, yaml.SequenceNode):
-                        children += [self._entity(name, item, depth + 1) for item in content.value]
-        return Entity(str(key.value), attributes, tuple(children), key.start_mark.index, key.end_mark.index)
+        if depth >= _MAX_DEPTH or self._left <= 0:
+            return Entity(self._source, tag, {}, [], start, end, "other")
+        if isinstance(value, yaml.SequenceNode):
+            children = [self._item(item, depth + 1) for item in value.value]
+            return Entity(self._source, tag, {}, children, start, end, "list")
+        if not isinstance(value, yaml.MappingNode):
+            return Entity(self._source, tag, {}, [], start, end, "other")
+        for name_node, content in value.value:
+            name = str(name_node.value) if _is_scalar(name_node) else "?"
+            attributes.pop(name, None)
+            children = [child for child in children if child.tag not in (name, CHILDREN if name == "children" else name)]
+            inner = content.value if isinstance(content, yaml.SequenceNode) else []
+            if name == "children" and isinstance(content, yaml.SequenceNode):
+                place = (name_node.start_mark.index, name_node.end_mark.index)
+                items = [self._item(item, depth + 1) for item in inner]
+                children.append(Entity(self._source, CHILDREN, {}, items, *place, "list"))
+            elif inner and isinstance(inner[0], yaml.MappingNode):
+                children += [self._entity(name_node, item, depth + 1) for item in inner]
+            else:
+                attributes[name] = self._attribute(content)
+        return Entity(self._source, tag, attributes, children, start, end, "mapping")
 
-    def _children(self, node: yaml.SequenceNode, depth: int) -> list[Entity]:
+    def _item(self, item: yaml.Node, depth: int) -> Entity:
         import yaml  # noqa: PLC0415
 
-        return [
-            self._entity(item.value[0][0], item.value[0][1], depth + 1)
-            for item in node.value
-            if isinstance(item, yaml.MappingNode) and len(item.value) == 1
-        ]
+        if isinstance(item, yaml.MappingNode) and len({str(key.value) for key, _ in item.value}) == 1:
+            key, value = item.value[-1]
+            return self._entity(key, value, depth)
+        start, end = item.start_mark.index, item.end_mark.index
+        return Entity(self._source, CHILDREN, {}, [], start, max(start, min(end, start + 1)), "other")
 
-    def _attribute(self, node: yaml.ScalarNode) -> Attribute:
+    def _attribute(self, node: yaml.Node) -> Attribute:
         start, end = node.start_mark.index, node.end_mark.index
-        value = str(node.value)
-        if node.style in ("'", '"') and self._source.text[start + 1 : end - 1] == value:
+        value = _value(node)
+        quoted = getattr(node, "style", None) in ("'", '"')
+        if quoted and isinstance(value, str) and self._source.text[start + 1 : end - 1] == value:
             return Attribute(value, start + 1, end - 1)
         return Attribute(value, start, end)
+
+
+def _is_scalar(node: yaml.Node) -> bool:
+    return isinstance(node.value, str)
+
+
+def _value(node: yaml.Node) -> Any:
+    """Return the value of a scalar or of a list of scalars, NO_VALUE for anything else."""
+    import yaml  # noqa: PLC0415
+
+    if isinstance(node, yaml.SequenceNode):
+        found = [_value(item) for item in node.value[:1_000]]
+        return NO_VALUE if any(one is NO_VALUE or isinstance(one, list) for one in found) else found
+    if not isinstance(node, yaml.ScalarNode):
+        return NO_VALUE
+    kind = node.tag.rpartition(":")[2]
+    if kind == "str":
+        return str(node.value)
+    if kind not in ("int", "float", "bool", "null"):
+        return NO_VALUE
+    loader = yaml.SafeLoader("")
+    try:
+        return loader.construct_object(node)
+    except (ValueError, yaml.YAMLError):
+        return NO_VALUE
+    finally:
+        loader.dispose()

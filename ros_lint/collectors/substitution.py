@@ -1,7 +1,7 @@
 """The substitutions of XML and YAML launch files: ``$(name argument ...)`` (reference, section G3.5).
 
-``grammar.lark`` of the launch package is the model: arguments are separated by one space and may be quoted; a
-backslash escapes; a dollar sign before anything but a parenthesis is itself.
+``grammar.lark`` of the launch package is the model: arguments are separated by one space and may be quoted, quotes do not
+nest, a backslash escapes, and a dollar sign before anything but a parenthesis is itself.
 """
 
 from __future__ import annotations
@@ -39,8 +39,12 @@ class Substitution(NamedTuple):
 Piece = Union[Literal, Substitution]  # noqa: UP007  (Substitution names it before it is there, on 3.10 too)
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
-_ESCAPE = re.compile(r"\\(.)", re.DOTALL)
+_ESCAPE = re.compile(r"\\(.)")
 _MAX_DEPTH = 50
+
+# What ends a piece of text, by where it stands: bare, between quotes, or an argument inside of those.
+_BARE_STOPS = " '\")("
+_INNER_STOPS = {"'": " ')(", '"': ' ")('}
 
 
 def parse(text: str) -> tuple[Piece, ...]:
@@ -61,31 +65,29 @@ class _Parser:
         self._text = text
 
     def template(self) -> tuple[Piece, ...]:
-        pieces, _ = self._pieces(0, "", 0)
-        return pieces
+        return self._pieces(0, "", "$", 0, "")[0]
 
-    def _pieces(self, at: int, stop: str, depth: int) -> tuple[tuple[Piece, ...], int]:
-        """Read until an unescaped character of ``stop``, or to the end."""
+    def _pieces(self, at: int, stops: str, escaped: str, depth: int, quote: str) -> tuple[tuple[Piece, ...], int]:
+        """Read until a character of ``stops`` or to the end. A backslash takes one of ``escaped`` along."""
         text = self._text
         found: list[Piece] = []
         begin = at
-        while at < len(text) and text[at] not in stop:
+        while at < len(text) and text[at] not in stops:
             if text[at] == "\\":
-                at += 2
+                at += 2 if text[at + 1 : at + 2] and text[at + 1] in escaped else 1
             elif text.startswith("$(", at):
                 if begin < at:
                     found.append(Literal(_unescape(text[begin:at]), begin, at))
-                substitution = self._substitution(at, depth + 1)
+                substitution = self._substitution(at, depth + 1, quote)
                 found.append(substitution)
                 begin = at = substitution.end
             else:
                 at += 1
-        at = min(at, len(text))
         if begin < at:
             found.append(Literal(_unescape(text[begin:at]), begin, at))
         return tuple(found), at
 
-    def _substitution(self, start: int, depth: int) -> Substitution:
+    def _substitution(self, start: int, depth: int, quote: str) -> Substitution:
         text = self._text
         if depth > _MAX_DEPTH:
             raise SubstitutionError("substitutions are nested too deeply", start)
@@ -95,18 +97,22 @@ class _Parser:
         at = name.end()
         arguments: list[tuple[Piece, ...]] = []
         while text.startswith(" ", at):
-            at += 1
-            quote = text[at : at + 1]
-            if quote in ("'", '"'):
-                pieces, at = self._pieces(at + 1, quote, depth)
-                if not text.startswith(quote, at):
-                    raise SubstitutionError(f"the quote {quote} is not closed", start)
-                at += 1
-            else:
-                pieces, at = self._pieces(at, " )", depth)
-                if not pieces:
-                    raise SubstitutionError("arguments are separated by one space", at)
+            pieces, at = self._argument(at + 1, depth, quote)
             arguments.append(pieces)
         if not text.startswith(")", at):
             raise SubstitutionError(f"$({name[0]} is not closed", start)
         return Substitution(name[0], tuple(arguments), start, at + 1)
+
+    def _argument(self, at: int, depth: int, quote: str) -> tuple[tuple[Piece, ...], int]:
+        text = self._text
+        opening = text[at : at + 1]
+        if not quote and opening and opening in "'\"":
+            pieces, end = self._pieces(at + 1, opening, f"{opening}$", depth, opening)
+            if not text.startswith(opening, end):
+                raise SubstitutionError(f"the quote {opening} is not closed", at)
+            return pieces, end + 1
+        stops, escaped = (_INNER_STOPS[quote], f"{quote}$()") if quote else (_BARE_STOPS, "'\"$()")
+        pieces, end = self._pieces(at, stops, escaped, depth, quote)
+        if not pieces:
+            raise SubstitutionError("arguments are separated by one space", at)
+        return pieces, end

@@ -37,6 +37,7 @@ class Element:
             waiting += reversed(found.children)
 
 
+_DEEPEST = 200
 _ATTRIBUTE = re.compile(r"""\s+([^\s=/>"']+)\s*=\s*("[^"]*"|'[^']*')""")
 _NAME = re.compile(r"<[^\s/>]+")
 
@@ -51,6 +52,8 @@ def parse(text: str) -> Element:
     open_elements: list[Element] = []
 
     def start(tag: str, attributes: dict[str, str]) -> None:
+        if len(open_elements) > _DEEPEST:
+            raise XmlError("elements are nested too deeply", offset(parser.CurrentByteIndex))
         element = Element(tag, attributes, offset(parser.CurrentByteIndex))
         (open_elements[-1].children if open_elements else root).append(element)
         open_elements.append(element)

@@ -1,0 +1,272 @@
+"""Entities of launch files in XML and YAML, and what their attributes can hold (``launch.frontend.Entity``).
+
+The two front ends differ in one thing: XML has text and turns it into the type that is asked for, YAML has types and
+checks them (reference, section G3.2).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from ros_lint.text import Span, Text
+
+Type = Literal["str", "int", "float", "bool", "any", "strs", "ints", "floats", "bools"]
+"""What an attribute is asked to be; ``any`` is what YAML's rules make of it."""
+
+_SCALARS: Mapping[str, type] = {"str": str, "int": int, "float": float, "bool": bool}
+_LISTS: Mapping[str, type] = {"strs": str, "ints": int, "floats": float, "bools": bool}
+
+
+class Rejected(Exception):  # noqa: N818
+    """The real front end refuses the file here. ``kind`` is a short stable name."""
+
+    def __init__(self, kind: str, message: str, span: Span) -> None:
+        super().__init__(message)
+        self.kind: Final = kind
+        self.message: Final = message
+        self.span: Final = span
+
+
+class Attribute(NamedTuple):
+    """An attribute as it is written, ``start`` and ``end`` being the offsets of its value."""
+
+    value: Any
+    """A text in XML; in YAML a text, number, truth, None, list of these, or :data:`NO_VALUE` for anything else."""
+    start: int
+    end: int
+
+
+NO_VALUE: Final = object()
+"""A value of YAML that no attribute takes: a mapping, a date, nested lists."""
+
+
+class Entity:
+    """An element with attributes and children. ``start`` and ``end`` are the offsets of its tag."""
+
+    __slots__ = (
+        "_read_attributes",
+        "_read_children",
+        "_source",
+        "attributes",
+        "children",
+        "end",
+        "form",
+        "start",
+        "tag",
+    )
+
+    def __init__(
+        self,
+        source: Text,
+        tag: str,
+        attributes: dict[str, Attribute],
+        children: list[Entity],
+        start: int,
+        end: int,
+        form: Literal["element", "mapping", "list", "other"],
+    ) -> None:
+        self._source = source
+        self.tag = tag
+        self.attributes = attributes
+        self.children = children
+        """In YAML those below ``children`` and those of lists of mappings under other keys, which are their tags."""
+        self.start = start
+        self.end = end
+        self.form = form
+        """``element`` in XML; in YAML what stands behind the key."""
+        self._read_attributes: set[str] = set()
+        self._read_children: set[str] = set()
+
+    @property
+    def span(self) -> Span:
+        """The place of the tag."""
+        return self._source.span(self.start, self.end)
+
+    def place(self, name: str) -> Span:
+        """Return the place of the value of an attribute."""
+        found = self.attributes.get(name)
+        return self.span if found is None else self._source.span(found.start, found.end)
+
+    def get(self, name: str, kind: Type = "str") -> Any:
+        """Return the value of an attribute, None when it is not there. Raises Rejected when it is of another type."""
+        if self.form == "other":
+            raise Rejected("wrong-type", f"<{self.tag}> is neither a mapping nor a list", self.span)
+        found = self.attributes.get(name)
+        if found is None:
+            if self.form == "mapping" and any(child.tag == name for child in self.children):
+                raise Rejected("wrong-type", f"{name} of <{self.tag}> is a list", self.span)
+            return None
+        self._read_attributes.add(name)
+        if self.form != "element":
+            if not _is_instance(found.value, kind):
+                raise Rejected("wrong-type", f"{name} of <{self.tag}> is no {_NAMES[kind]}", self.place(name))
+            return found.value
+        value: str | list[str] = found.value
+        separator = self.attributes.get(f"{name}-sep")
+        if separator is not None:
+            self._read_attributes.add(f"{name}-sep")
+            if not separator.value:
+                raise Rejected("wrong-type", f"{name}-sep of <{self.tag}> is empty", self.place(name))
+            value = found.value.split(separator.value)
+        try:
+            return _coerced(value, kind)
+        except ValueError:
+            raise Rejected("wrong-type", f"{name} of <{self.tag}> is no {_NAMES[kind]}", self.place(name)) from None
+
+    def need(self, name: str, kind: Type = "str") -> Any:
+        """Return the value of an attribute. Raises Rejected when it is not there, or of another type."""
+        value = self.get(name, kind)
+        if value is None:
+            raise Rejected("missing-attribute", f"<{self.tag}> needs the attribute {name}", self.span)
+        return value
+
+    def entities(self, tag: str) -> list[Entity]:
+        """Return the children with a tag. Raises Rejected when in YAML they are no list of mappings."""
+        if self.form == "other":
+            raise Rejected("wrong-type", f"<{self.tag}> is neither a mapping nor a list", self.span)
+        if self.form == "list":
+            return []
+        if self.form == "mapping" and tag in self.attributes:
+            raise Rejected("wrong-type", f"{tag} of <{self.tag}> is no list of mappings", self.place(tag))
+        found = [child for child in self.children if child.tag == tag]
+        self._read_children.add(tag)
+        return found
+
+    def actions(self) -> list[Entity]:
+        """Return the children that are actions. Raises Rejected when in YAML there is no list of them."""
+        if self.form == "element":
+            self._read_children.update(child.tag for child in self.children)
+            return self.children
+        if self.form == "mapping":
+            if "children" in self.attributes:
+                raise Rejected("wrong-type", f"children of <{self.tag}> is no list of mappings", self.place("children"))
+            for child in self.children:
+                if child.tag == CHILDREN:
+                    self._read_children.add(CHILDREN)
+                    return [_only(inner) for inner in child.children]
+            raise Rejected("missing-attribute", f"<{self.tag}> needs children", self.span)
+        if self.form == "list":
+            self._read_children.add(CHILDREN)
+            return [_only(inner) for inner in self.children]
+        raise Rejected("wrong-type", f"<{self.tag}> is neither a mapping nor a list", self.span)
+
+    def finish(self) -> None:
+        """Raise Rejected when there is an attribute or a child that nobody asked for."""
+        if self.form == "list":
+            if CHILDREN not in self._read_children:
+                raise Rejected("unexpected-child", f"<{self.tag}> takes no list", self.span)
+            return
+        for child in self.children:
+            if child.tag not in self._read_children:
+                name = "children" if child.tag == CHILDREN else child.tag
+                raise Rejected("unexpected-child", f"<{self.tag}> has no <{name}> in it", child.span)
+        for name in self.attributes:
+            if name not in self._read_attributes:
+                raise Rejected("unexpected-attribute", f"<{self.tag}> has no attribute {name}", self.place(name))
+
+
+CHILDREN: Final = "\0children"
+"""The tag that stands for the key ``children`` of YAML, and for an item of a list that is no entity by itself."""
+
+
+def _only(item: Entity) -> Entity:
+    """Return the entity of an item of a list, which has one key."""
+    if item.tag != CHILDREN:
+        return item
+    raise Rejected("wrong-type", "each item must have one key, the tag", item.span)
+
+
+_NAMES: Mapping[Type, str] = {
+    "str": "text",
+    "int": "integer",
+    "float": "number with a decimal point",
+    "bool": "truth",
+    "any": "text, number, truth or list of these",
+    "strs": "list of texts",
+    "ints": "list of integers",
+    "floats": "list of numbers",
+    "bools": "list of truths",
+}
+
+
+def _is_valid(value: Any) -> bool:
+    """Whether a value is a scalar, or a list of one type with texts in between (``is_instance_of_valid_type``)."""
+    if not isinstance(value, list):
+        return isinstance(value, (int, float, bool, str))
+    kind = next((type(one) for one in value if type(one) is not str), str)
+    return kind in (int, float, bool, str) and all(isinstance(one, (kind, str)) for one in value)
+
+
+def _is_instance(value: Any, kind: Type) -> bool:
+    """Whether a value of YAML is what is asked for; a text always is, since it may be a substitution (``is_instance_of``)."""
+    if kind == "any":
+        return _is_valid(value)
+    if kind in _SCALARS:
+        return isinstance(value, (str, _SCALARS[kind]))
+    return isinstance(value, list) and all(isinstance(one, (str, _LISTS[kind])) for one in value)
+
+
+def _coerced(value: str | list[str], kind: Type) -> Any:
+    """Return a text of XML as what is asked for; it stays a text where it does not fit. Raises ValueError."""
+    if isinstance(value, list):
+        if kind in _SCALARS:
+            raise ValueError(kind)
+        inner: Type = "any" if kind == "any" else kind[:-1]  # type: ignore[assignment]
+        found = [_coerced(one, inner) for one in value]
+        if not _is_valid(found):
+            raise ValueError(kind)
+        return found
+    if kind == "str":
+        return value
+    if kind in ("int", "float"):
+        try:
+            return _SCALARS[kind](value)
+        except ValueError:
+            return value
+    if kind == "bool":
+        value = {"1": "true", "0": "false"}.get(value, value)
+    output = _as_yaml(value)
+    if kind == "bool":
+        if not isinstance(output, (str, bool)):
+            raise ValueError(kind)
+    elif kind != "any" and not (isinstance(output, list) and all(isinstance(one, (str, _LISTS[kind])) for one in output)):
+        raise ValueError(kind)
+    return output
+
+
+def _as_yaml(value: str) -> Any:
+    """Return what YAML makes of a text, the text itself where that is none. Raises ValueError for what has no place here."""
+    if value in _WORDS:
+        return _WORDS[value]
+    if value in ("null", "Null", "NULL"):
+        raise ValueError(value)
+    if not value or not _is_suspicious(value):
+        return value
+    import yaml  # noqa: PLC0415  (takes 20 ms to import, and most values are plain)
+
+    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    try:
+        output = yaml.load(value, Loader=loader)  # noqa: S506  (one of the two safe loaders)
+    except Exception:  # the front end takes any failure for "not YAML"
+        return value
+    if not _is_valid(output):
+        raise ValueError(value)
+    return output
+
+
+_WORDS: Mapping[str, bool] = {
+    word: truth
+    for truth, words in ((True, ("true", "yes", "on")), (False, ("false", "no", "off")))
+    for plain in words
+    for word in (plain, plain.capitalize(), plain.upper())
+}
+
+
+def _is_suspicious(value: str) -> bool:
+    """Whether YAML could make something else than a text of a value that is not empty."""
+    if not (value[0].isalpha() or value[0] in "$/") or value[-1] in ": \t":
+        return True
+    return ": " in value or " #" in value or "\n" in value
