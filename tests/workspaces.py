@@ -58,7 +58,7 @@ def _content(random: Random) -> Iterator[tuple[str, str | None]]:
         yield "package.xml", None
     if random.random() < 0.3:
         yield "CMakeLists.txt", _cmake(random)
-    if random.random() < 0.1:
+    if random.random() < 0.06:
         yield (
             "setup.py",
             random.choice(
@@ -142,7 +142,7 @@ def _setup_cfg(random: Random) -> str:
     return (
         (f"[metadata]\nname = {name}\n" if name else "[metadata]\nauthor = me\n")
         + f"[options]\ninstall_requires =\n  {needs[0]}>=1.0\n  requests; python_version < '3'\n"
-        + random.choice(("", f"tests_require = {needs[1]}\n", f"[options.extras_require]\ntest =\n  {needs[1]}\n"))
+        + random.choice(("", f"setup_requires = {needs[1]}\n", f"[options.extras_require]\ntest =\n  {needs[1]}\n"))
     )
 
 
