@@ -1,7 +1,5 @@
 """What colcon itself makes of a folder: its packages, what each needs, and whether it can order them."""
 
-# ruff: noqa: PLC0415  (colcon warns while it is imported, which would be an error)
-
 from __future__ import annotations
 
 import contextlib
@@ -34,6 +32,7 @@ def colcon_list(base: Path) -> Listing:
 
 
 def _list() -> Listing:
+    # Not at the top: colcon warns while it is imported, which would be an error.
     from colcon_core.location import set_default_config_path
     from colcon_core.package_augmentation import augment_packages
     from colcon_core.package_discovery import add_package_discovery_arguments, discover_packages
