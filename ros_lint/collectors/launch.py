@@ -15,7 +15,8 @@ from ros_lint.text import Text
 
 Language = Literal["python", "xml", "yaml"]
 
-_PYTHON = re.compile(r"^(?:async[ \t]+)?def[ \t]+generate_(?:launch|test)_description\b", re.MULTILINE)
+_PYTHON = re.compile(r"generate_(launch|test)_description\b")
+_DEFINED = re.compile(r"(?:async[ \t]+)?def[ \t]+\Z")
 _HELPER = re.compile(r"^[ \t]*(?:from|import)[ \t]+launch(?:_ros)?\b", re.MULTILINE)
 _ACTION = re.compile(r"\b(?:\w*Node|\w*LaunchDescription|ComposableNodeContainer)\(")
 _ROOT = re.compile(r"<launch(?=[\s/>])")
@@ -41,7 +42,7 @@ def is_launch_file(path: str, text: str) -> Language | None:
     if path.endswith(".py"):
         if "launch" not in text and "generate_test" not in text:
             return None
-        return "python" if _PYTHON.search(text) or (_HELPER.search(text) and _ACTION.search(text)) else None
+        return "python" if entries(text) or (_HELPER.search(text) and _ACTION.search(text)) else None
     if path.endswith((".yaml", ".yml")):
         return "yaml" if _is_yaml(text) else None
     if "<launch" in text and _is_xml(text):
@@ -49,6 +50,16 @@ def is_launch_file(path: str, text: str) -> Language | None:
     if path.endswith(".launch") and _is_yaml(text):
         return "yaml"
     return None
+
+
+def entries(text: str) -> frozenset[str]:
+    """Return what a Python source defines for launch: ``launch``, ``test`` or both, by generate_*_description()."""
+    found = set()
+    for match in _PYTHON.finditer(text):
+        line = text.rfind("\n", 0, match.start()) + 1
+        if _DEFINED.match(text, line, match.start()):
+            found.add(match[1])
+    return frozenset(found)
 
 
 def collect(source: Text, language: Language) -> LaunchFile:

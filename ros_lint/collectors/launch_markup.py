@@ -126,6 +126,10 @@ class _Reader:
         return None if value is None else self._value(entity, name, value)
 
     def _value(self, entity: Entity, name: str, value: str) -> LaunchValue:
+        if "$" not in value and "\\" not in value:
+            attribute = entity.attributes[name]
+            span = self._source.span(attribute.start, attribute.end)
+            return LaunchValue((value,), span, exact=self._source.text[attribute.start : attribute.end] == value)
         found = texts(self.pieces(entity, name, value))
         span = entity.place(name)
         return LaunchValue(found, span, exact=len(found) == 1 and self._source.slice(span) == found[0])

@@ -7,10 +7,10 @@ added starts nothing.
 from __future__ import annotations
 
 import ast
-import re
 import warnings
 from typing import TYPE_CHECKING
 
+from ros_lint.collectors.launch import entries
 from ros_lint.collectors.launch_py_actions import LAUNCHED, Walker
 from ros_lint.collectors.launch_py_objects import PERHAPS, Frame, Function, OutOfBudget, Raised, Source
 from ros_lint.collectors.launch_py_run import Machine, Modules
@@ -21,9 +21,6 @@ from ros_lint.text import Span, Text
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-_ENTRY = re.compile(r"^(?:async[ \t]+)?def[ \t]+generate_(launch|test)_description\b", re.MULTILINE)
-_STARS = re.compile(r"^[ \t]*from[ \t]+[\w.]+[ \t]+import[ \t]+\*", re.MULTILINE)
-
 
 def collect(
     source: Text, modules: Modules = lambda name, importer: None, files: Callable[[str], str | None] = lambda path: None
@@ -32,8 +29,8 @@ def collect(
 
     ``modules`` finds the modules of the workspace that it imports, ``files`` the text of a file by its installed path.
     """
-    entries = {match[1] for match in _ENTRY.finditer(source.text)}
-    test, helper = "launch" not in entries and "test" in entries, not entries
+    defined = entries(source.text)
+    test, helper = "launch" not in defined and "test" in defined, not defined
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # about escapes in somebody's strings

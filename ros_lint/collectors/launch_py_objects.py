@@ -26,11 +26,12 @@ PERHAPS: Final = LaunchCondition((UNKNOWN,), None)
 class Source:
     """A module: its text, and the names that it binds when it runs."""
 
-    __slots__ = ("ascii", "names", "text")
+    __slots__ = ("ascii", "names", "text", "yields")
 
     def __init__(self, text: Text) -> None:
         self.text = text
         self.ascii = text.text.isascii()
+        self.yields = "yield" in text.text
         self.names: dict[str, Value] = {}
 
 

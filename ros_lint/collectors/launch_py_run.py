@@ -398,9 +398,9 @@ class Machine:
         for argument, default in zip(node.args.kwonlyargs, node.args.kw_defaults, strict=True):
             if default is not None:
                 found.keyword_defaults[argument.arg] = self.evaluate(default, frame)
-        found.yields = not isinstance(node, ast.Lambda) and any(
-            isinstance(inner, (ast.Yield, ast.YieldFrom)) for statement in node.body for inner in ast.walk(statement)
-        )
+        if frame.source.yields and not isinstance(node, ast.Lambda):
+            walked = (inner for statement in node.body for inner in ast.walk(statement))
+            found.yields = any(isinstance(inner, (ast.Yield, ast.YieldFrom)) for inner in walked)
         return found
 
     def _class(self, node: ast.ClassDef, frame: Frame) -> int:

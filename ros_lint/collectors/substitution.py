@@ -45,6 +45,11 @@ _MAX_DEPTH = 50
 # What ends a piece of text, by where it stands: bare, between quotes, or an argument inside of those.
 _BARE_STOPS = " '\")("
 _INNER_STOPS = {"'": " ')(", '"': ' ")('}
+_STOPS = {
+    stops: re.compile(rf"[\\$(){stops}]" if stops not in ("", "'", '"') else rf"[\\${stops}]")
+    for stops in ("", "'", '"', _BARE_STOPS, *_INNER_STOPS.values())
+}
+"""Where reading stops or has to look: a backslash, a dollar sign, and what ends the piece."""
 
 
 def parse(text: str) -> tuple[Piece, ...]:
@@ -72,10 +77,14 @@ class _Parser:
         text = self._text
         found: list[Piece] = []
         begin = at
-        while at < len(text) and text[at] not in stops:
+        stop = _STOPS[stops]
+        while match := stop.search(text, at):
+            at = match.start()
             if text[at] == "\\":
                 at += 2 if text[at + 1 : at + 2] and text[at + 1] in escaped else 1
-            elif text.startswith("$(", at):
+            elif text[at] != "$" or text[at] in stops:
+                break
+            elif text.startswith("(", at + 1):
                 if begin < at:
                     found.append(Literal(_unescape(text[begin:at]), begin, at))
                 substitution = self._substitution(at, depth + 1, quote)
@@ -83,6 +92,8 @@ class _Parser:
                 begin = at = substitution.end
             else:
                 at += 1
+        else:
+            at = len(text)
         if begin < at:
             found.append(Literal(_unescape(text[begin:at]), begin, at))
         return tuple(found), at
