@@ -402,12 +402,12 @@ class Slot(NamedTuple):
     option: str
     """``data_files``, ``packages`` or ``console_scripts``."""
     end: Span
-    """The empty span after the last element, and after the comma behind it if there is one."""
+    """The empty span after the last element, and after the comma behind it and its comment if there is a comma."""
     comma: bool
     """Whether there is one."""
     indent: str | None
     """The white space before the last element where it stands on a line of its own, else None."""
-    count: int
+    size: int
     """How many elements there are."""
     variable: str = ""
     """A variable that holds the name of the package, if setup.py has one."""

@@ -46,7 +46,7 @@ def collect(path: str, parsed: Parsed) -> Iterator[Call]:
         elif name in WANTED and (name != "set" or (command.args and command.args[0][0] in _SET)):
             _, _, args, start, end, line, column, breaks = command
             around = tuple([block for block, _ in blocks])
-            asked = test or any([asked for _, asked in blocks])
+            asked = test or any(asked for _, asked in blocks)
             yield Call(name, path, args, start, end, line, column, breaks, around, asked)
 
 

@@ -65,4 +65,6 @@ def _slot(source: Text, option: str, found: ast.List, variable: str) -> Slot:
     line = source.line(last.line)
     before = line[: last.column - 1]
     end = comma.end() if comma else at
+    if comma and (remark := re.compile(r"[ \t]*#[^\n]*").match(source.text, end)):
+        end = remark.end()
     return Slot(option, source.span(end, end), comma is not None, None if before.strip() else before, len(found.elts), variable)

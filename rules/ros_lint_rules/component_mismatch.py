@@ -1,0 +1,171 @@
+"""
+## What it finds
+
+Components that cannot be loaded: CMake registers a class that no source makes loadable under this name with
+`RCLCPP_COMPONENTS_REGISTER_NODE`; a source does so and CMake does not register the class; the library of a component is not
+installed.
+
+## Why it matters
+
+`ros2 component load` and `ComposableNode` look up the name in the index, then in the library, letter by letter: "Could not
+find requested resource in ament index", or "Failed to find class with the requested plugin name". The executable that
+`rclcpp_components_register_node(... EXECUTABLE x)` builds has the same trouble.
+
+## How to fix it
+
+Write the same name, with its namespaces, into both. Install the library to `lib`.
+
+## When it keeps silent
+
+Where the components or the libraries of the package cannot be seen whole; for tests; where no source of the package has the
+macro.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterator
+
+from ros_lint.api import (
+    Component,
+    Confidence,
+    Edit,
+    Facet,
+    Finding,
+    Fix,
+    Package,
+    Registration,
+    Related,
+    Rule,
+    Severity,
+    Workspace,
+    called,
+    evaluated_name,
+    is_apart,
+    relative,
+)
+
+_REGISTER = ("rclcpp_components_register_node", "rclcpp_components_register_nodes")
+
+
+def check(package: Package, _: Workspace) -> Iterator[Finding]:
+    script = package.script
+    if script is None or package.builds_with != "ament_cmake" or package.hidden(Facet.COMPONENTS):
+        return
+    made = [
+        one for one in package.registrations if one.kind == "component" and not is_apart(relative(package, one.span.path))
+    ]
+    names = {one.name for one in made}
+    registered = {component.name.removeprefix("::") for component in script.components}
+    left = [one for one in made if one.name not in registered]
+    if made:
+        for component in script.components:
+            if component.name.removeprefix("::") not in names:
+                alike = _alike(component, left)
+                left = [one for one in left if one not in alike]
+                yield _unmade(component, alike)
+    for one in left:
+        yield _unregistered(package, one)
+    if not package.hidden(Facet.LIBRARIES):
+        yield from _libraries(package)
+
+
+def _alike(component: Component, left: list[Registration]) -> list[Registration]:
+    """Return the registrations that are meant: of the same name in another namespace, or else of a similar name."""
+    last = component.name.rpartition("::")[2]
+    alike = [one for one in left if one.name.rpartition("::")[2] == last]
+    if alike:
+        return alike
+    plain = {_plain(one.name): one for one in left}
+    near = difflib.get_close_matches(_plain(component.name), plain, 1, 0.8)
+    return [plain[near[0]]] if near else []
+
+
+def _plain(name: str) -> str:
+    return name.lower().replace("_", "")
+
+
+def _unmade(component: Component, alike: list[Registration]) -> Finding:
+    hint = f"; the sources say {alike[0].name}" if alike else ""
+    fix = None
+    span = component.span
+    if len(alike) == 1 and span.line == span.end_line:
+        quotes = (span.end_column - span.column - len(component.name)) // 2
+        if span.end_column - span.column == len(component.name) + 2 * quotes:
+            inner = span._replace(column=span.column + quotes, end_column=span.end_column - quotes)
+            fix = Fix(f"write {alike[0].name}", (Edit(inner, alike[0].name),))
+    related = tuple(Related("made loadable here", one.span) for one in alike[:2])
+    return Finding(f"no source makes the component {component.name} loadable{hint}", span, component.name, related, fix)
+
+
+def _library_of(package: Package, one: Registration) -> str:
+    script = package.script
+    path = relative(package, one.span.path)
+    for target in script.targets if script else ():
+        if path in target.sources and target.kind == "library" and not target.test:
+            return target.name
+    return ""
+
+
+def _unregistered(package: Package, one: Registration) -> Finding:
+    script = package.script
+    assert script is not None
+    library = _library_of(package, one)
+    fix = None
+    if library and script.end is not None and "rclcpp_components" in _found(package):
+        line = f'rclcpp_components_register_nodes({library} "{one.name}")\n'
+        fix = Fix(f"register {one.name}", (Edit(script.end, line),), safe=False)
+    way = f'rclcpp_components_register_nodes({library or "..."} "{one.name}")'
+    return Finding(
+        f"CMake does not register the component {one.name}; add {way}",
+        one.span,
+        one.name,
+        fix=fix,
+        confidence=Confidence.HIGH if library else Confidence.MEDIUM,
+        severity=Severity.WARNING,
+    )
+
+
+def _found(package: Package) -> frozenset[str]:
+    script = package.script
+    return frozenset(mention.name for mention in script.mentions if mention.via == "cmake") if script else frozenset()
+
+
+def _libraries(package: Package) -> Iterator[Finding]:
+    """Speak of libraries with components that are not installed."""
+    script = package.script
+    assert script is not None
+    installed = {p.path.rpartition("/")[2] for p in script.provides}
+    listed = {text for call in called(package, "install", anywhere=True) for text in call.texts}
+    told: set[str] = set()
+    for call in called(package, *_REGISTER):
+        name = evaluated_name(package, call.texts[0]) if call.args else None
+        if name is None or call.blocks or name in told or f"lib{name}.so" in installed or call.texts[0] in listed:
+            continue
+        target = next((target for target in script.targets if target.name == name), None)
+        if target is None or name in listed or any(file.startswith(f"lib{name}.") for file in installed):
+            continue
+        told.add(name)
+        fix = Fix(f"install {name}", (Edit(script.end, _INSTALL.format(name)),)) if script.end else None
+        message = f"the library {name} has components, and is not installed; install it to lib"
+        yield Finding(message, call.span(0), name, (Related("it is built here", target.span),), fix)
+
+
+_INSTALL = """\
+install(TARGETS {}
+  ARCHIVE DESTINATION lib
+  LIBRARY DESTINATION lib
+  RUNTIME DESTINATION bin)
+"""
+
+
+RULE = Rule(
+    name="component-mismatch",
+    code="ROS413",
+    summary="a component must have one name in CMake and in the sources, and its library must be installed",
+    severity=Severity.ERROR,
+    since="0.1",
+    doc=__doc__,
+    fixable=True,
+    package=check,
+)

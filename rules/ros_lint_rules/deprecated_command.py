@@ -1,0 +1,74 @@
+"""
+## What it finds
+
+What the distribution still takes but wants to be rid of: `rosidl_target_interfaces()` (since Humble),
+`ament_export_interfaces()` (since Foxy), `ament_target_dependencies()` (since Kilted), and keys with a dash in `setup.cfg`
+(`script-dir`, `install-scripts`; since setuptools 54).
+
+## Why it matters
+
+A later distribution stops there: `ament_target_dependencies()` is gone in Lyrical, and setuptools 78.0 refused dashed keys
+with an error.
+
+## How to fix it
+
+- `ament_target_dependencies(t p)`: `target_link_libraries(t PUBLIC p::p)`, or `${p_TARGETS}` for interface packages.
+- `rosidl_target_interfaces(t ${PROJECT_NAME} "rosidl_typesupport_cpp")`: `rosidl_get_typesupport_target(support
+  ${PROJECT_NAME} "rosidl_typesupport_cpp")` and `target_link_libraries(t ${support})`.
+- `ament_export_interfaces()`: `ament_export_targets()`.
+- `script-dir`: `script_dir`, `install-scripts`: `install_scripts`. The fix does these two and the one before.
+
+## When it keeps silent
+
+For distributions in which the command is not deprecated, so in Humble and Jazzy for `ament_target_dependencies()`. Where the
+command is gone, `removed-command` speaks instead.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros_lint.api import Edit, Finding, Fix, Package, Related, Rule, Severity, Workspace, called
+
+_ALWAYS = {
+    "rosidl_target_interfaces": "use rosidl_get_typesupport_target() and target_link_libraries()",
+    "ament_export_interfaces": "use ament_export_targets()",
+}
+_SINCE_KILTED = {"ament_target_dependencies": "use target_link_libraries() with p::p, or ${p_TARGETS}"}
+_MOST_RELATED = 4
+
+
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    script = package.script
+    if script is None:
+        return
+    if package.builds_with == "ament_cmake":
+        old = {**_ALWAYS, **(_SINCE_KILTED if workspace.target.distro == "kilted" else {})}
+        for name, instead in old.items():
+            calls = list(called(package, name, anywhere=True))
+            if not calls:
+                continue
+            first, *others = calls
+            fix = None
+            if name == "ament_export_interfaces":
+                fix = Fix("call ament_export_targets()", tuple(Edit(call.place, "ament_export_targets") for call in calls))
+            related = tuple(Related("also here", call.place) for call in others[:_MOST_RELATED])
+            yield Finding(f"{name}() is deprecated; {instead}", first.place, name, related, fix)
+    for problem in script.problems:
+        if problem.kind == "dashed-key":
+            written = problem.message.partition(" ")[0]
+            better = written.replace("-", "_")
+            fix = Fix(f"write {better}", (Edit(problem.span, better),))
+            yield Finding(f"the key {written} is deprecated; write {better}", problem.span, written, fix=fix)
+
+
+RULE = Rule(
+    name="deprecated-command",
+    code="ROS307",
+    summary="what a later distribution removes should be replaced",
+    severity=Severity.WARNING,
+    since="0.1",
+    doc=__doc__,
+    fixable=True,
+    package=check,
+)

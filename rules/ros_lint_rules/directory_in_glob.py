@@ -1,0 +1,49 @@
+"""
+## What it finds
+
+A folder among the files of `data_files`, mostly because `glob('models/*')` matches it.
+
+## Why it matters
+
+setuptools copies files only. The build stops: `error: can't copy 'models/robot': doesn't exist or not a regular file`.
+
+## How to fix it
+
+Match files: `glob('models/*.sdf')`. For a whole tree, walk it and add an entry for each folder:
+
+    for folder, _, files in os.walk('models'):
+        data_files.append((os.path.join('share', package_name, folder), [os.path.join(folder, f) for f in files]))
+
+## When it keeps silent
+
+Where the pattern or the list cannot be evaluated.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros_lint.api import Finding, Package, Rule, Severity, Workspace
+
+
+def check(package: Package, _: Workspace) -> Iterator[Finding]:
+    script = package.script
+    if script is None or package.builds_with != "ament_python":
+        return
+    told: set[tuple[int, int]] = set()
+    for problem in script.problems:
+        at = problem.span[1:3]
+        if problem.kind == "directory-in-data-files" and at not in told:
+            told.add(at)
+            yield Finding(problem.message, problem.span, problem.message.partition(" ")[0])
+
+
+RULE = Rule(
+    name="directory-in-glob",
+    code="ROS411",
+    summary="data_files must list files, not folders",
+    severity=Severity.ERROR,
+    since="0.1",
+    doc=__doc__,
+    package=check,
+)

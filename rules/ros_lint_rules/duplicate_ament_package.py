@@ -1,0 +1,54 @@
+"""
+## What it finds
+
+A second `ament_package()` or `ament_auto_package()` in one CMakeLists.txt; `ament_auto_package()` calls `ament_package()`
+itself.
+
+## Why it matters
+
+CMake stops at the second call, or what was exported between the two is lost.
+
+## How to fix it
+
+Keep the last one. The fix removes the others.
+
+## When it keeps silent
+
+Where a call stands in a condition, a loop or a function.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros_lint.api import Edit, Finding, Fix, Package, Related, Rule, Severity, Workspace, called
+
+
+def check(package: Package, _: Workspace) -> Iterator[Finding]:
+    if package.builds_with != "ament_cmake":
+        return
+    calls = [call for call in called(package, "ament_package", "ament_auto_package") if not call.blocks]
+    for call in calls[1:]:
+        earlier = calls[0]
+        fix = None
+        if earlier.name == call.name and not earlier.args:
+            fix = Fix(f"remove the first {earlier.name}()", (Edit(earlier.whole, ""),), safe=False)
+        yield Finding(
+            f"{call.name}() ends a package that {earlier.name}() has ended before; call it once, at the end",
+            call.place,
+            call.name,
+            (Related("the first time", earlier.place),),
+            fix,
+        )
+
+
+RULE = Rule(
+    name="duplicate-ament-package",
+    code="ROS303",
+    summary="a package must call ament_package() once",
+    severity=Severity.ERROR,
+    since="0.1",
+    doc=__doc__,
+    fixable=True,
+    package=check,
+)

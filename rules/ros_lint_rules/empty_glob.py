@@ -1,0 +1,64 @@
+"""
+## What it finds
+
+A `glob()` in the `data_files` of `setup.py` that matches no file.
+
+## Why it matters
+
+Nothing is installed and nothing is said: `glob('launch/*.launch.py')` passes over `robot_launch.py`.
+
+## How to fix it
+
+Correct the pattern, or remove the entry. `glob(os.path.join('launch', '*launch.[pxy][yma]*'))` takes all launch files, those
+that are called `a.launch.py` as well as `a_launch.py`.
+
+## When it keeps silent
+
+Where the pattern cannot be evaluated, and where several globs are added up.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from ros_lint.api import Confidence, Finding, Package, Rule, Severity, Workspace
+
+_PATTERN = re.compile(r"no file matches (.+), so nothing is installed to")
+
+
+def check(package: Package, _: Workspace) -> Iterator[Finding]:
+    script = package.script
+    if script is None or package.builds_with != "ament_python":
+        return
+    for problem in script.problems:
+        match = _PATTERN.match(problem.message) if problem.kind == "empty-glob" else None
+        if match:
+            folder = _folder(match[1])
+            inside = any(file.startswith(f"{folder}/") for file in package.files) if folder else True
+            # A folder that is not there yet is a template for the future; files that are passed over are a mistake.
+            yield Finding(
+                problem.message,
+                problem.span,
+                match[1],
+                confidence=Confidence.HIGH if inside else Confidence.MEDIUM,
+                severity=None if inside else Severity.INFO,
+            )
+
+
+def _folder(pattern: str) -> str:
+    """Return the folders that a pattern names before its first wildcard."""
+    parts = pattern.split("/")[:-1]
+    fixed = [part for part in parts if not re.search(r"[*?\[]", part)]
+    return "/".join(fixed) if fixed == parts else ""
+
+
+RULE = Rule(
+    name="empty-glob",
+    code="ROS410",
+    summary="a glob in data_files must match something",
+    severity=Severity.WARNING,
+    since="0.1",
+    doc=__doc__,
+    package=check,
+)

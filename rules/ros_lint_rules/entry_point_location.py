@@ -1,0 +1,82 @@
+"""
+## What it finds
+
+Console scripts of nodes that land in `bin/`, because `setup.cfg` is missing or does not say
+`install_scripts=$base/lib/<package>`.
+
+## Why it matters
+
+`ros2 run` and launch look into `lib/<package>` only: "No executable found". Command line tools, in contrast, belong into
+`bin/`, where the shell finds them.
+
+## How to fix it
+
+Write a `setup.cfg`:
+
+    [develop]
+    script_dir=$base/lib/<package>
+    [install]
+    install_scripts=$base/lib/<package>
+
+## When it keeps silent
+
+For entry points whose module does not use rclpy, and that no launch file of the workspace starts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros_lint.api import Facet, Finding, Package, Related, Rule, Severity, Span, Workspace, relative
+
+
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    script = package.script
+    if script is None or package.builds_with != "ament_python" or package.hidden(Facet.EXECUTABLES):
+        return
+    inside = {p.path.rpartition("/")[2] for p in script.provides if p.path.startswith(f"lib/{package.name}/")}
+    outside = {p.path.rpartition("/")[2] for p in script.provides if p.path.startswith("bin/")} - inside
+    using = {relative(package, use.span.path) for use in package.uses if use.package == "rclpy"}
+    modules = {module.name: module.path for module in script.modules}
+    started = _started(package, workspace)
+    nodes = [
+        entry
+        for entry in script.entry_points
+        if entry.group == "console_scripts"
+        and entry.name in outside
+        and (modules.get(entry.target.partition(":")[0].strip()) in using or entry.name in started)
+    ]
+    if not nodes:
+        return
+    config = f"{package.path}/setup.cfg" if package.path else "setup.cfg"
+    there = "setup.cfg" in package.files
+    names = [entry.name for entry in nodes]
+    named = ", ".join(names[:3]) + (" ..." if len(names) > 3 else "")
+    yield Finding(
+        f"{named} {'land' if len(names) > 1 else 'lands'} in bin/, where ros2 run does not look; "
+        f"{'say' if there else 'add a setup.cfg with'} install_scripts=$base/lib/{package.name}",
+        Span(config, 1, 1, 1, 1) if there else nodes[0].span,
+        "setup.cfg",
+        tuple(Related("this entry point", entry.span) for entry in nodes[0 if there else 1 :][:4]),
+    )
+
+
+def _started(package: Package, workspace: Workspace) -> frozenset[str]:
+    return frozenset(
+        reference.name
+        for other in workspace.packages
+        for launch in other.launch
+        for reference in launch.references
+        if reference.kind == "node" and reference.package == package.name
+    )
+
+
+RULE = Rule(
+    name="entry-point-location",
+    code="ROS407",
+    summary="nodes written in Python must be installed to lib/<package>",
+    severity=Severity.ERROR,
+    since="0.1",
+    doc=__doc__,
+    package=check,
+)

@@ -1,0 +1,130 @@
+"""
+## What it finds
+
+Entry points that cannot work: the module does not exist in the package, it has no such function, the target ends with `()`,
+it has no `:function`, or two entries are glued to one because a comma is missing between them.
+
+## Why it matters
+
+The build succeeds. The program is installed and stops when it is started, with ModuleNotFoundError or ImportError; of two
+glued entries neither is there.
+
+## How to fix it
+
+Write `name = package.module:function` with names that exist. Where one module or function has nearly the same name, the
+message says so. The fix takes away the `()`.
+
+## When it keeps silent
+
+- For modules of other packages.
+- For modules that import `*`, define `__getattr__`, or cannot be read: they may have any name.
+- For modules that are made during the build.
+"""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Iterator
+
+from ros_lint.api import Edit, EntryPoint, Facet, Finding, Fix, Package, Related, Rule, Severity, Span, Workspace
+
+_GLUED = re.compile(r"[:=].*=")
+_TARGET = re.compile(r"\s*([\w.]+)\s*(?::\s*([\w.]+)\s*)?(?:\[.*\])?\s*\Z")
+
+
+def check(package: Package, _: Workspace) -> Iterator[Finding]:
+    script = package.script
+    if script is None:
+        return
+    for entry in script.entry_points:
+        yield from _entry(package, entry)
+    for problem in script.problems:
+        if problem.kind == "entry-point-form":
+            yield Finding(problem.message, problem.span, problem.message.partition(" ")[0])
+
+
+def _entry(package: Package, entry: EntryPoint) -> Iterator[Finding]:
+    script = package.script
+    assert script is not None
+    runs = entry.group in ("console_scripts", "gui_scripts")
+    if _GLUED.search(entry.target):
+        message = f"two entries are glued to one: {entry.name} = {entry.target}; is a comma missing between them?"
+        yield Finding(message, entry.span, entry.name)
+        return
+    if entry.target.rstrip().endswith("()"):
+        yield Finding(f"the target of {entry.name} ends with (); write {entry.target.rstrip()[:-2]}", entry.span, entry.name)
+        return
+    match = _TARGET.match(entry.target)
+    if match is None:
+        yield Finding(f"{entry.name} = {entry.target} is not of the form name = module:function", entry.span, entry.name)
+        return
+    name, attribute = match[1], match[2]
+    if attribute is None:
+        if runs:
+            yield Finding(f"{entry.name} names a module and no function; write {name}:main", entry.span, entry.name)
+        return
+    module = next((module for module in script.modules if module.name == name), None)
+    if module is None:
+        yield from _no_module(package, entry, name)
+        return
+    first = attribute.partition(".")[0]
+    if not module.open and first not in module.names and not _is_submodule(package, name, first):
+        path = f"{package.path}/{module.path}" if package.path else module.path
+        near = difflib.get_close_matches(first, module.names, 1, 0.7)
+        hint = f"; is {near[0]} meant?" if near else ""
+        yield Finding(
+            f"{entry.name}: {module.path} has no {first}{hint}",
+            entry.span,
+            entry.name,
+            (Related("this module", Span(path, 1, 1, 1, 1)),),
+        )
+
+
+def _is_submodule(package: Package, module: str, name: str) -> bool:
+    script = package.script
+    return script is not None and f"{module}.{name}" in script.python_packages
+
+
+def _no_module(package: Package, entry: EntryPoint, name: str) -> Iterator[Finding]:
+    """Speak of a module that is not in the sources, if it must be one of the package's own."""
+    script = package.script
+    if script is None or name in script.python_packages or package.hidden(Facet.PYTHON):
+        return
+    tops = {module.partition(".")[0] for module in script.python_packages}
+    own = name.partition(".")[0]
+    hint = ""
+    if own not in tops:
+        near = difflib.get_close_matches(own, [*tops, package.name], 1, 0.85)
+        if own != package.name and not near:
+            return
+    modules = [module for module in script.python_packages if "." in module]
+    near = difflib.get_close_matches(name, modules, 1, 0.9)
+    if near:
+        hint = f"; is {near[0]} meant?"
+    yield Finding(
+        f"{entry.name}: there is no module {name}{hint}", entry.span, entry.name, fix=_fix(entry, name, near[0] if near else "")
+    )
+
+
+def _fix(entry: EntryPoint, wrong: str, right: str) -> Fix | None:
+    """Write another module name, where the entry is written out on one line."""
+    span = entry.span
+    plain = f"{entry.name} = {entry.target}"
+    if not right or span.line != span.end_line or span.end_column - span.column != len(plain) + 2:
+        return None
+    start = span.column + 1 + len(entry.name) + 3
+    place = Span(span.path, span.line, start, span.line, start + len(wrong))
+    return Fix(f"write {right}", (Edit(place, right),), safe=False)
+
+
+RULE = Rule(
+    name="entry-point-target",
+    code="ROS406",
+    summary="an entry point must name a function that exists",
+    severity=Severity.ERROR,
+    since="0.1",
+    doc=__doc__,
+    fixable=True,
+    package=check,
+)

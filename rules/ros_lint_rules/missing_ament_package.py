@@ -1,0 +1,63 @@
+"""
+## What it finds
+
+A package of type `ament_cmake` whose CMakeLists.txt never calls `ament_package()` or `ament_auto_package()`.
+
+## Why it matters
+
+The package builds, and then nobody finds it: it is not entered into the ament index, its `package.xml` is not installed,
+no CMake configuration is written. `ros2 run` says "Package not found", and packages that depend on it fail to configure.
+
+## How to fix it
+
+Call `ament_package()` once, as the last command of the top-level CMakeLists.txt. The fix appends it.
+
+## When it keeps silent
+
+A command or an included file that cannot be followed may call it, and so may another CMakeLists.txt of the package.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros_lint.api import ANYTHING, Edit, Finding, Fix, Package, Rule, Severity, Span, Workspace, called, top_file
+
+_ENDS = ("ament_package", "ament_auto_package")
+
+
+def check(package: Package, _: Workspace) -> Iterator[Finding]:
+    script = package.script
+    if package.builds_with != "ament_cmake" or script is None or script.problems or "project" not in script.calls:
+        return
+    if any(name in script.calls for name in _ENDS) or any(call.name in _ENDS for call in script.written):
+        return
+    if any(opaque.span.path.endswith((".txt", ".cmake")) for opaque in package.hidden(ANYTHING)):
+        return
+    yield Finding(
+        "ament_package() is never called, so the package will not be found once it is installed; call it last",
+        next((call.place for call in called(package, "project")), Span(script.path, 1, 1, 1, 1)),
+        "ament_package()",
+        fix=_fix(package),
+    )
+
+
+def _fix(package: Package) -> Fix | None:
+    script = package.script
+    calls = [call for call in script.written if call.path == top_file(package)] if script else []
+    last = calls[-1] if calls else None
+    if last is None or last.blocks:
+        return None
+    return Fix("call ament_package() at the end", (Edit(last.whole.end(), "\n\nament_package()"),), safe=False)
+
+
+RULE = Rule(
+    name="missing-ament-package",
+    code="ROS301",
+    summary="an ament_cmake package must call ament_package()",
+    severity=Severity.ERROR,
+    since="0.1",
+    doc=__doc__,
+    fixable=True,
+    package=check,
+)

@@ -1,0 +1,117 @@
+"""
+## What it finds
+
+Files and folders that a build script names and that are not there: sources of a target, interface files, subfolders,
+included CMake code, what `install()` is to install, `data_files`, `scripts` and `packages` of `setup.py`, the package that
+`ament_python_install_package()` installs. Also folders where `install(FILES)` wants a file.
+
+## Why it matters
+
+The build stops: CMake when it configures or when it installs (`file INSTALL cannot find`), setuptools with
+`error: can't copy 'x': doesn't exist or not a regular file`. On the machine of the author the file is often there: empty
+folders and ignored files are not part of a repository.
+
+## How to fix it
+
+Correct the path, add the file to the repository, or remove the line. A folder that may be empty needs a file in it, or
+`OPTIONAL` in the install rule.
+
+## When it keeps silent
+
+- Paths that cannot be evaluated, files in the build folder, and files that the build generates.
+- Under a condition that may not hold, and with `OPTIONAL`.
+- The confidence is medium where the script runs other programs or downloads files, and for what may be a submodule.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterator
+
+from ros_lint.api import (
+    Call,
+    Confidence,
+    Finding,
+    Package,
+    Problem,
+    Rule,
+    Severity,
+    Workspace,
+    called,
+    evaluated_name,
+    missing_path,
+)
+
+_KINDS = ("missing-file", "file-is-directory")
+_MAKES_FILES = frozenset({"execute_process", "exec_program", "externaldata_add_target", "externaldata_expand_arguments"})
+
+
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    script = package.script
+    if script is None or not package.type.startswith("ros."):
+        return
+    seen: set[str] = set()
+    for problem in script.problems:
+        path = missing_path(problem)
+        if problem.kind in _KINDS and path not in seen and not _is_unseen(package, path):
+            seen.add(path)
+            hint = _hint(package, path) if problem.kind == "missing-file" else ""
+            yield Finding(f"{problem.message}{hint}", problem.span, path, confidence=_confidence(package, workspace, problem))
+    if package.builds_with == "ament_cmake":
+        yield from _python_packages(package)
+
+
+def _is_unseen(package: Package, path: str) -> bool:
+    return any(path == folder or path.startswith(f"{folder}/") for folder in package.unseen)
+
+
+def _confidence(package: Package, workspace: Workspace, problem: Problem) -> Confidence:
+    script = package.script
+    assert script is not None
+    if _MAKES_FILES.intersection(script.calls):
+        return Confidence.MEDIUM
+    if "add_subdirectory()" in problem.message and any(path.endswith(".gitmodules") for path in workspace.source_lists):
+        return Confidence.MEDIUM
+    return Confidence.HIGH
+
+
+def _hint(package: Package, path: str) -> str:
+    """Say which file is meant: one of that name elsewhere, or one with a similar name beside it."""
+    folder, _, name = path.rpartition("/")
+    same = [file for file in package.files if file.rpartition("/")[2] == name]
+    if len(same) == 1:
+        return f"; is {same[0]} meant?"
+    beside = [file.rpartition("/")[2] for file in package.files if file.rpartition("/")[0] == folder]
+    near = difflib.get_close_matches(name, beside, 1, 0.8)
+    return f"; is {folder + '/' if folder else ''}{near[0]} meant?" if near else ""
+
+
+def _python_packages(package: Package) -> Iterator[Finding]:
+    for call in called(package, "ament_python_install_package"):
+        name = evaluated_name(package, call.texts[0]) if call.args else None
+        if call.blocks or name is None or _has_option(call):
+            continue
+        folder = name.replace(".", "/")
+        if f"{folder}/__init__.py" in package.files or _is_unseen(package, folder):
+            continue
+        what = "has no __init__.py" if any(file.startswith(f"{folder}/") for file in package.files) else "does not exist"
+        yield Finding(
+            f"ament_python_install_package() of {folder}, which {what}",
+            call.span(0),
+            folder if what.startswith("does") else f"{folder}/__init__.py",
+        )
+
+
+def _has_option(call: Call) -> bool:
+    return any(text == "PACKAGE_DIR" or "$" in text for text in call.texts[1:])
+
+
+RULE = Rule(
+    name="missing-file",
+    code="ROS304",
+    summary="a file that a build script names must exist",
+    severity=Severity.ERROR,
+    since="0.1",
+    doc=__doc__,
+    package=check,
+)

@@ -1,0 +1,81 @@
+"""
+## What it finds
+
+An `ament_python` package whose `data_files` do not install its marker in the ament index
+(`share/ament_index/resource_index/packages/<package>`), or its `package.xml`.
+
+## Why it matters
+
+Without marker ROS does not know the package. colcon adds both for the time being, with a warning; Debian packages, pip and
+other builders do not, and then `ros2 run` says "Package not found".
+
+## How to fix it
+
+    data_files=[
+        ('share/ament_index/resource_index/packages', ['resource/' + package_name]),
+        ('share/' + package_name, ['package.xml']),
+    ],
+
+with an empty file `resource/<package>`. The fix adds what is missing, where that file is there.
+
+## When it keeps silent
+
+Where `data_files` cannot be evaluated. Where marker or manifest are installed under another name, `name-mismatch` speaks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros_lint.api import Edit, Facet, Finding, Fix, Package, Rule, Severity, Slot, Span, Workspace
+
+_MARKERS = "share/ament_index/resource_index/packages"
+
+
+def check(package: Package, _: Workspace) -> Iterator[Finding]:
+    script = package.script
+    if script is None or package.type != "ros.ament_python" or package.hidden(Facet.SHARE):
+        return
+    if "setup.py" not in package.files:
+        return
+    slot = next((slot for slot in script.slots if slot.option == "data_files"), None)
+    paths = {provided.path for provided in script.provides}
+    place = slot.end if slot else script.name_span or Span(script.path, 1, 1, 1, 1)
+    unfound = any(problem.kind == "missing-file" and "resource/" in problem.message for problem in script.problems)
+    if not unfound and not any(path.startswith(f"{_MARKERS}/") for path in paths):
+        marker = f"resource/{package.name}"
+        fix = _fix(slot, f"('{_MARKERS}', ['resource/' + NAME])", package.name) if marker in package.files else None
+        yield Finding(
+            f"the marker of the package is not installed, so ROS does not find it; add {marker} to data_files",
+            place,
+            marker,
+            fix=fix,
+        )
+    if not any(path.startswith("share/") and path.endswith("/package.xml") and path.count("/") == 2 for path in paths):
+        yield Finding(
+            f"package.xml is not installed; add ('share/{package.name}', ['package.xml']) to data_files",
+            place,
+            "package.xml",
+            fix=_fix(slot, "('share/' + NAME, ['package.xml'])", package.name),
+        )
+
+
+def _fix(slot: Slot | None, element: str, name: str) -> Fix | None:
+    if slot is None or slot.size == 0:
+        return None
+    element = element.replace("NAME", slot.variable) if slot.variable else element.replace("' + NAME", f"{name}'")
+    gap = " " if slot.indent is None else f"\n{slot.indent}"
+    text = f"{gap}{element}," if slot.comma else f",{gap}{element}"
+    return Fix(f"add {element} to data_files", (Edit(slot.end, text),))
+
+
+RULE = Rule(
+    name="missing-marker",
+    code="ROS408",
+    summary="a Python package must install its marker and its manifest",
+    severity=Severity.WARNING,
+    since="0.1",
+    doc=__doc__,
+    fixable=True,
+    package=check,
+)

@@ -1,0 +1,93 @@
+"""
+## What it finds
+
+Python packages in the sources of an `ament_python` package that are not installed: a sub-package that a written list
+`packages=[package_name]` leaves out, a folder that `find_packages()` skips because it has no `__init__.py` although modules
+of the package import it, and the module of an entry point that no package listed has.
+
+## Why it matters
+
+The import works in the source folder and with `colcon build --symlink-install`, and fails everywhere else with
+ModuleNotFoundError.
+
+## How to fix it
+
+`packages=find_packages(exclude=['test'])`, or name the sub-package: `packages=[package_name, package_name + '.sub']`. The
+fix adds it to the list.
+
+## When it keeps silent
+
+For tests, for folders without modules, and where `packages` cannot be evaluated.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros_lint.api import Edit, Facet, Finding, Fix, Package, Rule, Severity, Slot, Span, Workspace
+
+_APART = frozenset({"test", "tests", "testing", "launch", "doc", "docs", "example", "examples", "scripts", "resource", "build"})
+
+
+def check(package: Package, _: Workspace) -> Iterator[Finding]:
+    script = package.script
+    if script is None or package.builds_with != "ament_python" or package.hidden(Facet.PYTHON):
+        return
+    installed = set(script.python_packages)
+    slot = next((slot for slot in script.slots if slot.option == "packages"), None)
+    place = slot.end if slot else (script.name_span or Span(script.path, 1, 1, 1, 1))
+    told: set[str] = set()
+    for name, folder in _packages(package):
+        parent = name.rpartition(".")[0]
+        if name in installed or parent not in installed or f"{folder}/__init__.py" not in package.files:
+            continue
+        told.add(name)
+        yield Finding(
+            f"the Python package {name} is not installed; add it to packages",
+            place,
+            name,
+            fix=_fix(slot, name, package.name),
+        )
+    for module in script.modules:
+        inside = module.name.rpartition(".")[0]
+        if module.name in installed or inside in installed or not inside or inside in told:
+            continue
+        told.add(inside)
+        entry = next(entry for entry in script.entry_points if entry.target.partition(":")[0].strip() == module.name)
+        yield Finding(
+            f"{entry.name} needs {module.path}, and {inside} is not among the packages that are installed",
+            entry.span,
+            inside,
+            fix=_fix(slot, inside, package.name),
+        )
+
+
+def _packages(package: Package) -> Iterator[tuple[str, str]]:
+    """Yield the folders with modules that may be Python packages, by dotted name."""
+    folders = {file.rpartition("/")[0] for file in package.files if file.endswith(".py") and "/" in file}
+    for folder in sorted(folders):
+        parts = folder.removeprefix("src/").split("/")
+        if all(part.isidentifier() for part in parts) and _APART.isdisjoint(parts):
+            yield ".".join(parts), folder
+
+
+def _fix(slot: Slot | None, name: str, package: str) -> Fix | None:
+    if slot is None or slot.size == 0:
+        return None
+    rest = name.removeprefix(package)
+    element = f"{slot.variable} + '{rest}'" if slot.variable and rest.startswith(".") else f"'{name}'"
+    gap = " " if slot.indent is None else f"\n{slot.indent}"
+    text = f"{gap}{element}," if slot.comma else f",{gap}{element}"
+    return Fix(f"add {name} to packages", (Edit(slot.end, text),))
+
+
+RULE = Rule(
+    name="missing-python-module",
+    code="ROS409",
+    summary="every Python package of the sources must be installed",
+    severity=Severity.ERROR,
+    since="0.1",
+    doc=__doc__,
+    fixable=True,
+    package=check,
+)

@@ -1,0 +1,190 @@
+"""
+## What it finds
+
+Plugins of pluginlib that cannot be loaded:
+
+- a class made loadable with `PLUGINLIB_EXPORT_CLASS`, in a package that exports no plugin description;
+- a plugin description that is not exported, so not installed either;
+- a class in the description that no source makes loadable under this very name;
+- a library that the package does not build or install, or a `<library>` without `path`.
+
+## Why it matters
+
+The loader looks up names: "According to the loaded plugin descriptions the class x with base class type y does not exist", or
+"Could not find library". A `<library>` without `path` makes pluginlib loop for ever.
+
+## How to fix it
+
+`pluginlib_export_plugin_description_file(<package of the base class> plugins.xml)`; write type and path as they are in the
+sources and in `add_library()`. The fix exports a description whose base classes are all of one package.
+
+## When it keeps silent
+
+Where the libraries cannot be seen whole, for tests, and for classes in packages that register some with macros of their own.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterator
+
+from ros_lint.api import (
+    Confidence,
+    Edit,
+    Facet,
+    Finding,
+    Fix,
+    Package,
+    PluginClass,
+    PluginFile,
+    PluginLibrary,
+    Registration,
+    Related,
+    Rule,
+    Severity,
+    Workspace,
+    called,
+    hidden,
+    is_apart,
+    relative,
+)
+
+_EXPORT = "pluginlib_export_plugin_description_file"
+
+
+def check(package: Package, _: Workspace) -> Iterator[Finding]:
+    script = package.script
+    if script is None or package.builds_with != "ament_cmake" or hidden(package, Facet.LIBRARIES | Facet.SHARE):
+        return
+    registered = [
+        made for made in package.registrations if made.kind == "plugin" and not is_apart(relative(package, made.span.path))
+    ]
+    names = {made.name for made in registered}
+    installed = {provided.source for provided in script.provides}
+    exported = list(called(package, _EXPORT, anywhere=True))
+    if _EXPORT not in script.calls and not exported:
+        yield from _unexported(package, registered)
+    found = {
+        one.type
+        for plugin in script.plugins
+        if plugin.path in installed
+        for library in plugin.libraries
+        for one in library.classes
+    }
+    for plugin in script.plugins:
+        if is_apart(plugin.path):
+            continue
+        if plugin.path in installed:
+            yield from _libraries(package, plugin, registered)
+        elif exported and any(one.type in names - found for library in plugin.libraries for one in library.classes):
+            yield Finding(
+                f"{plugin.path} is not exported, so its plugins are not found; add {_EXPORT}(... {plugin.path})",
+                plugin.span,
+                plugin.path,
+                fix=_export(package, plugin),
+            )
+
+
+def _is_built(package: Package, made: Registration) -> bool:
+    """Whether a registration is in a source of a library that is no test."""
+    script = package.script
+    path = relative(package, made.span.path)
+    return script is not None and any(
+        target.kind == "library" and not target.test and path in target.sources for target in script.targets
+    )
+
+
+def _unexported(package: Package, registered: list[Registration]) -> Iterator[Finding]:
+    script = package.script
+    assert script is not None
+    if not registered:
+        return
+    first, *others = registered
+    names = {made.name for made in registered}
+    plugin = next((p for p in script.plugins if any(c.type in names for lib in p.libraries for c in lib.classes)), None)
+    # rqt finds the plugins that the manifest exports, if they are written in Python.
+    by_manifest = any(element.get("plugin") for element in package.manifest.exports) if package.manifest else False
+    way = f"{_EXPORT}(... {plugin.path})" if plugin else f"a plugin description and {_EXPORT}()"
+    yield Finding(
+        f"{first.name} is made loadable, but no plugin description is exported, so nobody finds it; add {way}",
+        first.span,
+        plugin.path if plugin else "pluginlib",
+        tuple(Related("also this class", made.span) for made in others[:4])
+        + ((Related("it is described here", plugin.span),) if plugin else ()),
+        _export(package, plugin) if plugin else None,
+        confidence=Confidence.HIGH if plugin and _is_built(package, first) and not by_manifest else Confidence.MEDIUM,
+    )
+
+
+def _export(package: Package, plugin: PluginFile) -> Fix | None:
+    script = package.script
+    bases = {one.base.partition("::")[0] for library in plugin.libraries for one in library.classes}
+    if script is None or script.end is None or len(bases) != 1 or "" in bases:
+        return None
+    base = bases.pop()
+    if not package.declares(base) and base != package.name:
+        return None
+    return Fix(f"export {plugin.path}", (Edit(script.end, f"{_EXPORT}({base} {plugin.path})\n"),), safe=False)
+
+
+def _libraries(package: Package, plugin: PluginFile, registered: list[Registration]) -> Iterator[Finding]:
+    for library in plugin.libraries:
+        if not library.path:
+            yield Finding("<library> without path makes pluginlib loop for ever; write one", library.span, plugin.path)
+        else:
+            yield from _library(package, plugin, library)
+        for one in library.classes:
+            yield from _class(plugin, one, registered)
+
+
+def _library(package: Package, plugin: PluginFile, library: PluginLibrary) -> Iterator[Finding]:
+    script = package.script
+    assert script is not None
+    installed = {_plain(p.path) for p in script.provides if not p.source and p.path.endswith((".so", ".a"))}
+    built = {target.name for target in script.targets if target.kind == "library"}
+    name = _plain(library.path)
+    if name in installed or "$" in library.path or not built:
+        return
+    if name in built:
+        message = f"the library {name} is built, but not installed to lib/"
+        sure = Confidence.MEDIUM  # it may be static, or its file may have another name
+    else:
+        near = difflib.get_close_matches(name, sorted(installed | built), 1, 0.6)
+        message = f"the package builds no library {name}" + (f"; is {near[0]} meant?" if near else "")
+        sure = Confidence.HIGH
+    yield Finding(message, library.span, f"{plugin.path}#{library.path.rpartition('/')[2]}", confidence=sure)
+
+
+def _plain(path: str) -> str:
+    """Return the name of a library by its path: lib/libfoo.so and libfoo are foo."""
+    name = path.rpartition("/")[2]
+    return name.removesuffix(".so").removesuffix(".a").removesuffix(".dll").removeprefix("lib")
+
+
+def _class(plugin: PluginFile, one: PluginClass, registered: list[Registration]) -> Iterator[Finding]:
+    wanted = one.type.replace(" ", "").removeprefix("::")
+    if not wanted or not registered or any(made.name == wanted for made in registered):
+        return
+    last = wanted.rpartition("::")[2]
+    alike = [made for made in registered if made.name.rpartition("::")[2] == last]
+    hint = f"; the sources say {alike[0].name}" if alike else ""
+    related = tuple(Related("made loadable here", made.span) for made in alike[:2])
+    yield Finding(
+        f"no source makes {one.type} loadable{hint}",
+        one.span,
+        f"{plugin.path}#{one.type}",
+        related,
+        confidence=Confidence.HIGH if alike else Confidence.MEDIUM,
+    )
+
+
+RULE = Rule(
+    name="plugin-mismatch",
+    code="ROS412",
+    summary="a plugin must be described, exported and built under one name",
+    severity=Severity.ERROR,
+    since="0.1",
+    doc=__doc__,
+    fixable=True,
+    package=check,
+)

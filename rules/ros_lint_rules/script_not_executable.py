@@ -1,0 +1,164 @@
+"""
+## What it finds
+
+Scripts that are installed to `lib/<package>` and cannot be run:
+
+- installed without the executable bit: by `install(DIRECTORY scripts/ ...)` without `USE_SOURCE_PERMISSIONS`, by
+  `install(FILES ...)`, or by `data_files` from a file that does not have it;
+- without an interpreter line such as `#!/usr/bin/env python3`;
+- with one that ends with a carriage return, so that no system finds the interpreter;
+- installed by `install(PROGRAMS ...)` from a file without the bit: with `colcon build --symlink-install` that file is what
+  is started (confidence medium).
+
+## Why it matters
+
+`ros2 run` and launch see executable files only: "No executable found". Many tutorials have the first of these mistakes, and
+it shows only in builds without `--symlink-install`.
+
+## How to fix it
+
+`install(PROGRAMS scripts/a.py DESTINATION lib/${PROJECT_NAME})`, or `USE_SOURCE_PERMISSIONS` and `chmod +x`. The fix writes
+`PROGRAMS` for `FILES`, or adds `USE_SOURCE_PERMISSIONS` where the files have the bit.
+
+## When it keeps silent
+
+For modules that scripts import from beside them: files without an interpreter line that run nothing when they are
+started, unless a launch file of the workspace starts them. Under conditions that may not hold.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros_lint.api import (
+    Call,
+    Confidence,
+    Edit,
+    Finding,
+    Fix,
+    Package,
+    Provided,
+    Related,
+    Rule,
+    ScriptFile,
+    Severity,
+    Span,
+    Workspace,
+    called,
+    relative,
+)
+
+_ENDINGS = (".py", ".sh", ".bash", ".rb", ".pl")
+
+
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    script = package.script
+    if script is None or package.builds_with not in ("ament_cmake", "ament_python"):
+        return
+    files = {file.path: file for file in script.files}
+    started = _started(package, workspace)
+    runs = {provided.path for provided in script.provides if provided.program}
+    told: dict[Span, list[Provided]] = {}
+    for provided in script.provides:
+        file = files.get(provided.source)
+        folder, _, name = provided.path.rpartition("/")
+        if file is None or provided.conditional or folder != f"lib/{package.name}":
+            continue
+        wanted = name in started or (file.main and bool(file.shebang))
+        if provided.path not in runs:
+            if wanted and (file.shebang or name.endswith(_ENDINGS)):
+                told.setdefault(provided.span, []).append(provided)
+        elif provided.program and (file.main or name in started):
+            yield from _line(package, file, name, name in started)
+    for span, provided_here in told.items():
+        yield _no_bit(package, span, provided_here, files)
+
+
+def _started(package: Package, workspace: Workspace) -> frozenset[str]:
+    """Return the executables of the package that launch files of the workspace start."""
+    return frozenset(
+        reference.name
+        for other in workspace.packages
+        for launch in other.launch
+        for reference in launch.references
+        if reference.kind == "node" and reference.package == package.name
+    )
+
+
+def _line(package: Package, file: ScriptFile, name: str, started: bool) -> Iterator[Finding]:
+    """Yield what is wrong with the interpreter line, or else with the permissions of the source."""
+    path = f"{package.path}/{file.path}" if package.path else file.path
+    place = Span(path, 1, 1, 1, 1)
+    if file.carriage_return:
+        message = f"the first line of {file.path} ends with a carriage return, so no interpreter is found; save it with LF"
+        yield Finding(message, place, file.path)
+    elif not file.shebang:
+        if name.endswith(_ENDINGS):
+            interpreter = "#!/usr/bin/env python3" if name.endswith(".py") else "#!/bin/bash"
+            message = f"{file.path} has no interpreter line, so it cannot be started; begin it with {interpreter}"
+            sure = name.endswith(".py") and (file.main or started)
+            fix = Fix(f"begin with {interpreter}", (Edit(place, f"{interpreter}\n"),)) if sure else None
+            yield Finding(message, place, file.path, fix=fix, confidence=Confidence.HIGH if sure else Confidence.MEDIUM)
+    elif not file.executable:
+        message = f"{file.path} is not executable, so it does not start after colcon build --symlink-install; chmod +x"
+        yield Finding(message, place, file.path, confidence=Confidence.MEDIUM, severity=Severity.WARNING)
+
+
+def _no_bit(package: Package, span: Span, provided: list[Provided], files: dict[str, ScriptFile]) -> Finding:
+    names = sorted(dict.fromkeys(one.path.rpartition("/")[2] for one in provided))
+    named = ", ".join(names[:3]) + (" ..." if len(names) > 3 else "")
+    call = next((call for call in called(package, "install", anywhere=True) if _covers(call, span)), None)
+    way, fix = "install(PROGRAMS)", None
+    if call is not None and call.texts[0] == "DIRECTORY":
+        way = "USE_SOURCE_PERMISSIONS, or install(PROGRAMS)"
+        if all(files[one.source].executable for one in provided):
+            fix = Fix("add USE_SOURCE_PERMISSIONS", (Edit(_last(call), " USE_SOURCE_PERMISSIONS"),))
+    elif call is not None and call.texts[0] == "FILES":
+        fix = Fix("install as PROGRAMS", (Edit(call.span(0), "PROGRAMS"),), safe=False)
+    elif not span.path.endswith((".txt", ".cmake")):
+        way = "chmod +x, or entry_points"
+    it = "them" if len(names) > 1 else "it"
+    return Finding(
+        f"{named} {'are' if len(names) > 1 else 'is'} installed without the executable bit, so ros2 run does not find {it}; "
+        f"use {way}",
+        span,
+        relative(package, provided[0].source),
+        tuple(Related("this script", _source(package, one)) for one in provided[:4]),
+        fix,
+        _confidence(package, call),
+    )
+
+
+def _confidence(package: Package, call: Call | None) -> Confidence:
+    """A script that CMake code of the package starts for others needs no permission to be run."""
+    script = package.script
+    generator = script is not None and script.extras and call is not None and call.texts[0] == "FILES"
+    return Confidence.MEDIUM if generator else Confidence.HIGH
+
+
+def _source(package: Package, provided: Provided) -> Span:
+    path = f"{package.path}/{provided.source}" if package.path else provided.source
+    return Span(path, 1, 1, 1, 1)
+
+
+def _covers(call: Call, span: Span) -> bool:
+    whole = call.whole
+    return bool(call.args) and whole.path == span.path and whole[1:3] <= span[1:3] and span[3:5] <= whole[3:5]
+
+
+def _last(call: Call) -> Span:
+    """Return the place after the value of DESTINATION, which comes before any PATTERN."""
+    at = call.texts.index("DESTINATION") + 1 if "DESTINATION" in call.texts[:-1] else 0
+    return call.span(at).end()
+
+
+RULE = Rule(
+    name="script-not-executable",
+    code="ROS405",
+    summary="a script that is installed to be run must be executable",
+    severity=Severity.ERROR,
+    since="0.1",
+    doc=__doc__,
+    fixable=True,
+    package=check,
+)

@@ -1,0 +1,53 @@
+"""
+## What it finds
+
+A package that generates interfaces and also installs a Python package of its own name.
+
+## Why it matters
+
+`rosidl_generate_interfaces()` installs a Python package with the name of the package, for the generated messages. CMake
+stops: "a Python module file or package with the same name 'x' has been installed before"; or one hides the other, and
+`from x.msg import ...` or `from x import ...` fails.
+
+## How to fix it
+
+Give the Python package another name, or put the interfaces into a package of their own, called `x_interfaces` or `x_msgs`.
+
+## When it keeps silent
+
+Where either command is in a condition, or the name cannot be evaluated.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros_lint.api import Finding, Package, Related, Rule, Severity, Workspace, called, evaluated_name
+
+
+def check(package: Package, _: Workspace) -> Iterator[Finding]:
+    if package.builds_with != "ament_cmake":
+        return
+    generating = [
+        call for call in called(package, "rosidl_generate_interfaces") if not call.blocks and "SKIP_INSTALL" not in call.texts
+    ]
+    for call in called(package, "ament_python_install_package"):
+        name = evaluated_name(package, call.texts[0]) if call.args else None
+        if generating and not call.blocks and name == package.name:
+            yield Finding(
+                f"a Python package {name} is installed beside the generated one of that name; give it another name",
+                call.span(0),
+                name,
+                (Related("this generates the Python package for the interfaces", generating[0].place),),
+            )
+
+
+RULE = Rule(
+    name="shadowed-python-package",
+    code="ROS311",
+    summary="generated interfaces and a Python package must not have one name",
+    severity=Severity.ERROR,
+    since="0.1",
+    doc=__doc__,
+    package=check,
+)

@@ -1,0 +1,155 @@
+"""
+## What it finds
+
+Programs that are built and land where nobody looks for them:
+
+- an executable that a launch file of the workspace starts and that is not installed at all;
+- an executable that is installed to `bin/` instead of `lib/<package>`, if it is a node (its sources include rclcpp) or a
+  launch file starts it. Where only a header of the package includes rclcpp, the confidence is medium.
+
+## Why it matters
+
+`ros2 run` and launch look into `lib/<package>` only: "No executable found". In `install(TARGETS ... RUNTIME DESTINATION bin)`
+the destination is right for other programs, and wrong for nodes.
+
+## How to fix it
+
+`install(TARGETS talker DESTINATION lib/${PROJECT_NAME})`. The fix adds this rule, or corrects the destination.
+
+## When it keeps silent
+
+For tests; for targets that are also installed to `lib/<package>`; with `ament_auto_package(INSTALL_TO_PATH)`. Where something
+that cannot be followed may install the target, the confidence is medium, or nothing is said.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros_lint.api import (
+    BuildTarget,
+    Call,
+    Confidence,
+    Edit,
+    Facet,
+    Finding,
+    Fix,
+    LaunchReference,
+    Package,
+    Related,
+    Rule,
+    Severity,
+    Span,
+    Workspace,
+    called,
+    hidden,
+    relative,
+)
+
+_CLIENTS = frozenset({"rclcpp", "rclcpp_lifecycle", "rclcpp_action", "rclcpp_components"})
+
+
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    script = package.script
+    if script is None or package.builds_with != "ament_cmake":
+        return
+    dim = bool(hidden(package, Facet.EXECUTABLES))
+    if any("INSTALL_TO_PATH" in call.texts for call in called(package, "ament_auto_package", anywhere=True)):
+        return
+    places: dict[str, list[tuple[str, str, Span]]] = {}
+    for provided in script.provides:
+        if provided.target:
+            folder, _, name = provided.path.rpartition("/")
+            places.setdefault(provided.target, []).append((folder, name, provided.span))
+    nodes = _nodes(package)
+    started = _started(package, workspace)
+    for target in script.targets:
+        if target.kind != "executable" or target.test or "test" in target.name:
+            continue
+        found = places.get(target.name, [])
+        if any(folder != "bin" for folder, _, _ in found):
+            continue
+        launched = started.get(found[0][1] if found else target.name, [])
+        related = tuple(Related("a launch file starts it here", reference.span) for reference in launched[:3])
+        sure = bool(launched or nodes.intersection(target.sources))
+        if found and (sure or any(source.startswith("include/") for source in nodes)):
+            span = found[0][2]
+            yield Finding(
+                f"{target.name} is installed to bin/, where ros2 run and launch do not look; install it to lib/{package.name}",
+                span,
+                target.name,
+                (*related, Related("it is built here", target.span)),
+                _move(package, span, script.targets),
+                Confidence.HIGH if sure and not dim else Confidence.MEDIUM,
+            )
+        elif not found and launched and not dim:
+            yield Finding(
+                f"{target.name} is built, but not installed, so launch does not find it; install it to lib/{package.name}",
+                target.span,
+                target.name,
+                related,
+                _install(script.end, target.name),
+            )
+
+
+def _nodes(package: Package) -> frozenset[str]:
+    """Return the sources that use a client library, relative to the package."""
+    return frozenset(
+        relative(package, use.span.path) for use in package.uses if use.via == "include" and use.package in _CLIENTS
+    )
+
+
+def _started(package: Package, workspace: Workspace) -> dict[str, list[LaunchReference]]:
+    found: dict[str, list[LaunchReference]] = {}
+    for other in workspace.packages:
+        for launch in other.launch:
+            for reference in launch.references:
+                if reference.kind == "node" and reference.package == package.name and not launch.test:
+                    found.setdefault(reference.name, []).append(reference)
+    return found
+
+
+def _move(package: Package, span: Span, targets: tuple[BuildTarget, ...]) -> Fix | None:
+    """Correct the destination of the executables, where the rule says it by itself and installs no other program."""
+    kinds = {target.name: target.kind for target in targets}
+    for call in called(package, "install"):
+        if call.texts[:1] != ("TARGETS",) or not _covers(call, span):
+            continue
+        texts = call.texts
+        at = texts.index("RUNTIME") + 2 if "RUNTIME" in texts[:-2] else 0
+        if not at and all(kinds.get(text) == "executable" for text in _targets(texts)) and "DESTINATION" in texts[:-1]:
+            at = texts.index("DESTINATION") + 1
+        if at and texts[at - 1] == "DESTINATION" and texts[at] in ("bin", "${CMAKE_INSTALL_BINDIR}"):
+            return Fix("install it to lib/${PROJECT_NAME}", (Edit(call.span(at), "lib/${PROJECT_NAME}"),), safe=False)
+    return None
+
+
+def _targets(texts: tuple[str, ...]) -> Iterator[str]:
+    for text in texts[1:]:
+        if text.isupper():
+            return
+        yield text
+
+
+def _covers(call: Call, span: Span) -> bool:
+    whole = call.whole
+    return whole.path == span.path and whole[1:3] <= span[1:3] and span[3:5] <= whole[3:5]
+
+
+def _install(end: Span | None, name: str) -> Fix | None:
+    if end is None:
+        return None
+    line = f"install(TARGETS {name} DESTINATION lib/${{PROJECT_NAME}})\n"
+    return Fix(f"install {name}", (Edit(end, line),))
+
+
+RULE = Rule(
+    name="uninstalled-executable",
+    code="ROS403",
+    summary="a node must be installed to lib/<package>",
+    severity=Severity.ERROR,
+    since="0.1",
+    doc=__doc__,
+    fixable=True,
+    package=check,
+)

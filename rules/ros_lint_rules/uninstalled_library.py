@@ -1,0 +1,121 @@
+"""
+## What it finds
+
+A library that is built and not installed, although an installed program or library links it, or it is exported with
+`ament_export_libraries()`. Other libraries that are not installed are told with low confidence.
+
+## Why it matters
+
+After the build in its own folder everything runs; from the install space nothing starts: "error while loading shared
+libraries: libx.so: cannot open shared object file". Packages that link an exported library that is not there stop at the
+linker.
+
+## How to fix it
+
+`install(TARGETS x ARCHIVE DESTINATION lib LIBRARY DESTINATION lib RUNTIME DESTINATION bin)`. The fix adds this rule.
+
+## When it keeps silent
+
+For libraries of tests, for static libraries that are not exported (they become part of what links them), and where something
+that cannot be followed may install the library.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros_lint.api import (
+    Confidence,
+    Edit,
+    Facet,
+    Finding,
+    Fix,
+    Package,
+    Related,
+    Rule,
+    Severity,
+    Span,
+    Workspace,
+    called,
+    evaluated_name,
+    hidden,
+)
+
+_INSTALL = """\
+install(TARGETS {}
+  ARCHIVE DESTINATION lib
+  LIBRARY DESTINATION lib
+  RUNTIME DESTINATION bin)
+"""
+
+
+def check(package: Package, _: Workspace) -> Iterator[Finding]:
+    script = package.script
+    if script is None or package.builds_with != "ament_cmake" or hidden(package, Facet.LIBRARIES):
+        return
+    installed = {provided.target for provided in script.provides}
+    listed = {text for call in called(package, "install", anywhere=True) for text in _names(package, call.texts)}
+    components = {
+        name
+        for call in called(package, "rclcpp_components_register_node", "rclcpp_components_register_nodes", anywhere=True)
+        for name in _names(package, call.texts[:1])
+    }
+    for target in script.targets:
+        if target.kind != "library" or target.test or not target.sources or target.name in installed | listed | components:
+            continue
+        shared = _is_shared(package, target.name)
+        users = [(name, span) for name, span in _linked_by(package, target.name) if name in installed] if shared else []
+        exported = _exported(package, target.name)
+        related = tuple(Related(f"{name} links it here", span) for name, span in users[:3])
+        if exported is not None:
+            related += (Related("it is exported here", exported),)
+        reason = f", and {users[0][0]} needs it at run time" if users else ", and is exported" if exported else ""
+        yield Finding(
+            f"the library {target.name} is built, but not installed{reason}",
+            target.span,
+            target.name,
+            related,
+            Fix(f"install {target.name}", (Edit(script.end, _INSTALL.format(target.name)),)) if script.end else None,
+            Confidence.HIGH if reason else Confidence.MEDIUM if shared else Confidence.LOW,
+            None if reason else Severity.WARNING,
+        )
+
+
+def _names(package: Package, texts: tuple[str, ...]) -> Iterator[str]:
+    yield from (name for text in texts if (name := evaluated_name(package, text)))
+
+
+def _is_shared(package: Package, name: str) -> bool:
+    """Whether the library is a shared one for sure."""
+    found = {mention.name for mention in package.script.mentions if mention.via == "cmake"} if package.script else set()
+    for call in called(package, "add_library", "ament_auto_add_library", anywhere=True):
+        if name in _names(package, call.texts[:1]):
+            kinds = {"STATIC", "OBJECT", "INTERFACE"}.intersection(call.texts)
+            return "SHARED" in call.texts or (not kinds and "ament_cmake_ros" in found)
+    return False
+
+
+def _linked_by(package: Package, library: str) -> Iterator[tuple[str, Span]]:
+    for call in called(package, "target_link_libraries", anywhere=True):
+        names = [evaluated_name(package, text) for text in call.texts]
+        if names and names[0] and library in names[1:] and not call.test:
+            yield names[0], call.place
+
+
+def _exported(package: Package, library: str) -> Span | None:
+    for call in called(package, "ament_export_libraries", anywhere=True):
+        if library in _names(package, call.texts) and not call.blocks:
+            return call.place
+    return None
+
+
+RULE = Rule(
+    name="uninstalled-library",
+    code="ROS415",
+    summary="a library that is needed after the installation must be installed",
+    severity=Severity.ERROR,
+    since="0.1",
+    doc=__doc__,
+    fixable=True,
+    package=check,
+)

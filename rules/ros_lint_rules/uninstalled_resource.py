@@ -1,0 +1,238 @@
+"""
+## What it finds
+
+Files that are looked up in the share directory of a package of the workspace, exist in its sources, and are not installed
+there: parameters, models, maps, displays and included files that launch files name. Also whole folders of such files
+(`config/`, `urdf/`, `worlds/` ...) of which nothing is installed.
+
+## Why it matters
+
+At run time only the install space counts: "No such file or directory: .../install/robot/share/robot/config/robot.yaml".
+
+## How to fix it
+
+In `CMakeLists.txt` add the folder to `install(DIRECTORY ... DESTINATION share/${PROJECT_NAME})`; the fix does this. In
+`setup.py` add an entry to `data_files`: `('share/' + package_name + '/config', glob('config/*'))`.
+
+## When it keeps silent
+
+- A part of the build script that cannot be followed may install the file.
+- Where the file does not exist at all: that is a matter of `launch-missing-include`.
+- Launch files themselves: see `uninstalled-launch`.
+- A folder that nothing in the package names has medium confidence: it may serve the build, or documentation.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from ros_lint.api import (
+    Call,
+    Confidence,
+    Edit,
+    Facet,
+    Finding,
+    Fix,
+    Package,
+    Related,
+    Rule,
+    Severity,
+    Slot,
+    Span,
+    Workspace,
+    called,
+    is_apart,
+    launchable,
+    relative,
+)
+
+_FOLDERS = frozenset(
+    {
+        "behavior_trees", "behaviors", "calibration", "cfg", "config", "configs", "controllers", "data", "description",
+        "maps", "map", "media", "meshes", "mesh", "model", "models", "param", "params", "protos", "rviz", "rviz2", "robots",
+        "textures", "trees", "urdf", "sdf", "world", "worlds", "xacro", "images", "proto", "srdf",
+    }
+)  # fmt: skip
+_FILES = re.compile(
+    r"\.(?:ya?ml|rviz|urdf|xacro|sdf|world|worlds|wbt|stl|dae|obj|pgm|png|jpe?g|xml|json|lua|srdf|config|proto|csv|onnx|sh|py|txt)\Z",
+    re.IGNORECASE,
+)
+_PLAIN = frozenset({"py", "sh", "txt", "md"})
+_DOCUMENTS = frozenset({"images", "media", "data"})
+
+
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    script = package.script
+    if script is None or package.builds_with not in ("ament_cmake", "ament_python") or package.hidden(Facet.SHARE):
+        return
+    installed = {provided.path for provided in script.provides}
+    kept = {provided.source for provided in script.provides if provided.source}
+    missing: dict[str, list[tuple[str, Span]]] = {}
+    for name, span in _look_ups(package, workspace):
+        path = name.rstrip("/")
+        if f"share/{package.name}/{path}" in installed or path not in package.files or _is_launch(path):
+            continue
+        if any(place.startswith(f"share/{package.name}/{path}/") for place in installed):
+            continue
+        missing.setdefault(_unit(path, kept), []).append((path, span))
+    for unit, found in missing.items():
+        yield _named(package, unit, found)
+    told = {unit.partition("/")[0] for unit in missing}
+    yield from _folders(package, kept, told)
+
+
+def _look_ups(package: Package, workspace: Workspace) -> Iterator[tuple[str, Span]]:
+    """Yield what is looked up in the package, and where."""
+    for other in workspace.packages:
+        for launch in launchable(other):
+            for reference in launch.file.references:
+                if reference.kind in ("file", "include") and reference.package == package.name and not reference.optional:
+                    yield reference.name, reference.span
+        for look_up in other.look_ups:
+            if look_up.package == package.name and not is_apart(relative(other, look_up.span.path)):
+                yield look_up.path, look_up.span
+
+
+def _is_launch(path: str) -> bool:
+    return path.endswith((".launch.py", ".launch.xml", ".launch.yaml", ".launch", "_launch.py"))
+
+
+def _unit(path: str, kept: set[str]) -> str:
+    """Return what to install: the topmost folder of the file, if nothing of it is installed so far, else the file."""
+    top = path.partition("/")[0]
+    return f"{top}/" if "/" in path and not any(source.startswith(f"{top}/") for source in kept) else path
+
+
+def _named(package: Package, unit: str, found: list[tuple[str, Span]]) -> Finding:
+    script = package.script
+    assert script is not None
+    paths = sorted({path for path, _ in found})
+    named = ", ".join(path.rpartition("/")[2] for path in paths[:3]) + (" ..." if len(paths) > 3 else "")
+    what = f"{unit} is not installed, and {named} is looked up in it" if unit.endswith("/") else f"{unit} is not installed"
+    if not unit.endswith("/"):
+        what += ", and is looked up at run time"
+    return Finding(
+        what,
+        _place(package),
+        unit,
+        tuple(Related("looked up here", span) for _, span in found[:4]),
+        _fix(package, unit),
+    )
+
+
+def _place(package: Package) -> Span:
+    script = package.script
+    assert script is not None
+    slot = next((slot for slot in script.slots if slot.option == "data_files"), None)
+    return script.end or (slot.end if slot else script.name_span) or Span(script.path, 1, 1, 1, 1)
+
+
+def _folders(package: Package, kept: set[str], told: set[str]) -> Iterator[Finding]:
+    """Speak of folders of resources of which nothing is installed."""
+    for folder, files in _unkept(package, kept).items():
+        if folder.partition("/")[0] in told or all(file.rpartition(".")[2] in _PLAIN for file in files):
+            continue
+        named = ", ".join(file.rpartition("/")[2] for file in files[:3]) + (" ..." if len(files) > 3 else "")
+        yield Finding(
+            f"{folder}/ ({named}) is not installed, so nothing finds it at run time",
+            _place(package),
+            f"{folder}/",
+            fix=_fix(package, f"{folder}/") if "/" not in folder else None,
+            confidence=Confidence.LOW if folder.partition("/")[0] in _DOCUMENTS else Confidence.MEDIUM,
+            severity=Severity.WARNING,
+        )
+
+
+def _unkept(package: Package, kept: set[str]) -> dict[str, list[str]]:
+    """Return the topmost folders of which nothing is installed, with their resources."""
+    occupied = {folder for source in kept for folder in _above(source)}
+    launches = {launch.path for launch in launchable(package)}
+    found: dict[str, list[str]] = {}
+    for file in package.files:
+        top = file.partition("/")[0].lower()
+        if "/" not in file or is_apart(file) or not (top in _FOLDERS or (top == "launch" and file.endswith(".launch"))):
+            continue
+        if not (_FILES.search(file) or file.endswith(".launch")) or file in launches:
+            continue
+        free = [folder for folder in _above(file) if folder not in occupied]
+        if free:
+            found.setdefault(free[-1], []).append(file)
+    return found
+
+
+def _above(path: str) -> Iterator[str]:
+    """Yield the folders that a file is in, the innermost first."""
+    folder = path.rpartition("/")[0]
+    while folder:
+        yield folder
+        folder = folder.rpartition("/")[0]
+
+
+def _fix(package: Package, unit: str) -> Fix | None:
+    script = package.script
+    assert script is not None
+    folder, _, name = unit.rpartition("/")
+    if not script.path.endswith("CMakeLists.txt"):
+        return _data_files(next((slot for slot in script.slots if slot.option == "data_files"), None), package.name, unit)
+    if not name:
+        if call := _beside(package):
+            last = _last_folder(call)
+            gap = _gap(call, last)
+            return Fix(f"install {folder}/", (Edit(call.span(last).end(), f"{gap}{folder}"),))
+        line = f"install(DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}})\n"
+    else:
+        line = f"install(FILES {unit} DESTINATION share/${{PROJECT_NAME}}{'/' + folder if folder else ''})\n"
+    return Fix(f"install {folder or name}", (Edit(script.end, line),)) if script.end else None
+
+
+def _beside(package: Package) -> Call | None:
+    """Return a rule that installs folders to share/<package> as they are, to which another can be added."""
+    for call in called(package, "install"):
+        texts = call.texts
+        if texts[:1] != ("DIRECTORY",) or call.blocks or "DESTINATION" not in texts[:-1]:
+            continue
+        to = texts[texts.index("DESTINATION") + 1].rstrip("/")
+        plain = {"DIRECTORY", "DESTINATION"}
+        folders = texts[1 : texts.index("DESTINATION")]
+        if to not in ("share/${PROJECT_NAME}", f"share/{package.name}") or not folders:
+            continue
+        if len(texts) == len(folders) + 3 and not plain.intersection(folders) and not any("$" in one for one in folders):
+            return call
+    return None
+
+
+def _last_folder(call: Call) -> int:
+    return call.texts.index("DESTINATION") - 1
+
+
+def _gap(call: Call, last: int) -> str:
+    """Return what stands between the folders of a rule: a line each, or a space."""
+    span = call.span(last)
+    if span.line == call.span(last - 1).line:
+        return " "
+    return "\n" + " " * (span.column - 1)
+
+
+def _data_files(slot: Slot | None, name: str, unit: str) -> Fix | None:
+    if slot is None or slot.size == 0 or unit.endswith("/"):
+        return None
+    folder = unit.rpartition("/")[0]
+    inner = f"/{folder}" if folder else ""
+    head = f"'share/' + {slot.variable} + '{inner}'" if slot.variable and inner else f"'share/{name}{inner}'"
+    element = f"({head}, ['{unit}'])"
+    gap = " " if slot.indent is None else f"\n{slot.indent}"
+    text = f"{gap}{element}," if slot.comma else f",{gap}{element}"
+    return Fix(f"install {unit}", (Edit(slot.end, text),))
+
+
+RULE = Rule(
+    name="uninstalled-resource",
+    code="ROS402",
+    summary="a file that is looked up at run time must be installed",
+    severity=Severity.ERROR,
+    since="0.1",
+    doc=__doc__,
+    fixable=True,
+    package=check,
+)

@@ -1,0 +1,60 @@
+"""
+## What it finds
+
+A script with an interpreter line, in `scripts/` or beside scripts that are installed, that an `ament_cmake` package does not
+install. The confidence is medium: it may be a tool for the sources only.
+
+## Why it matters
+
+`ros2 run` and launch do not find it.
+
+## How to fix it
+
+`install(PROGRAMS scripts/a.py DESTINATION lib/${PROJECT_NAME})`. The fix adds this rule.
+
+## When it keeps silent
+
+For files without interpreter line or executable bit, for tests, and where something that cannot be followed may install
+them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros_lint.api import Confidence, Edit, Facet, Finding, Fix, Package, Rule, Severity, Span, Workspace, hidden, is_apart
+
+
+def check(package: Package, _: Workspace) -> Iterator[Finding]:
+    script = package.script
+    if script is None or package.builds_with != "ament_cmake" or hidden(package, Facet.EXECUTABLES | Facet.SHARE):
+        return
+    installed = {provided.source for provided in script.provides}
+    for file in script.files:
+        if file.path in installed or not (file.shebang and file.main) or is_apart(file.path):
+            continue
+        path = f"{package.path}/{file.path}" if package.path else file.path
+        fix = None
+        if script.end is not None:
+            line = f"install(PROGRAMS {file.path} DESTINATION lib/${{PROJECT_NAME}})\n"
+            fix = Fix(f"install {file.path}", (Edit(script.end, line),))
+        yield Finding(
+            f"{file.path} is a script, and is not installed, so ros2 run does not find it",
+            Span(path, 1, 1, 1, 1),
+            file.path,
+            fix=fix,
+            confidence=Confidence.MEDIUM if file.executable else Confidence.LOW,
+        )
+
+
+RULE = Rule(
+    name="uninstalled-script",
+    code="ROS417",
+    summary="a script that is meant to be run must be installed",
+    severity=Severity.WARNING,
+    since="0.1",
+    doc=__doc__,
+    default=False,
+    fixable=True,
+    package=check,
+)

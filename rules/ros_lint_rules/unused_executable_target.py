@@ -1,0 +1,65 @@
+"""
+## What it finds
+
+An executable that is built and neither installed nor a test.
+
+## Why it matters
+
+It costs time in every build, and nobody can run it after the installation. Often its install rule was forgotten.
+
+## How to fix it
+
+Install it to `lib/${PROJECT_NAME}`, or build it only when tests or examples are wanted. The fix installs it.
+
+## When it keeps silent
+
+Where something that cannot be followed may install it; where a custom command runs it during the build; where
+`uninstalled-executable` speaks: a launch file starts it. It is off unless it is asked for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros_lint.api import Edit, Facet, Finding, Fix, Package, Rule, Severity, Workspace, called, hidden
+
+
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    script = package.script
+    if script is None or package.builds_with != "ament_cmake" or hidden(package, Facet.EXECUTABLES):
+        return
+    installed = {provided.target for provided in script.provides}
+    listed = {text for call in called(package, "install", anywhere=True) for text in call.texts}
+    custom = "add_custom_command" in script.calls or "add_custom_target" in script.calls
+    for target in script.targets:
+        if target.kind != "executable" or target.test or target.name in installed or target.name in listed or custom:
+            continue
+        if _is_started(package.name, target.name, workspace):
+            continue
+        fix = None
+        if script.end is not None:
+            line = f"install(TARGETS {target.name} DESTINATION lib/${{PROJECT_NAME}})\n"
+            fix = Fix(f"install {target.name}", (Edit(script.end, line),), safe=False)
+        yield Finding(f"{target.name} is built, but neither installed nor a test", target.span, target.name, fix=fix)
+
+
+def _is_started(package: str, name: str, workspace: Workspace) -> bool:
+    return any(
+        reference.kind == "node" and reference.package == package and reference.name == name
+        for other in workspace.packages
+        for launch in other.launch
+        for reference in launch.references
+    )
+
+
+RULE = Rule(
+    name="unused-executable-target",
+    code="ROS404",
+    summary="an executable should be installed or be a test",
+    severity=Severity.WARNING,
+    since="0.1",
+    doc=__doc__,
+    default=False,
+    fixable=True,
+    package=check,
+)
