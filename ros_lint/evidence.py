@@ -59,6 +59,7 @@ def resolve(source: Source, names: Names, headers: Mapping[str, tuple[str, ...]]
         for mention in source.script.mentions:
             role = Role.TEST if mention.test else _script_role(source, mention.via)
             uses += _use(source, own, names, headers, mention, role, sure=True)
+        uses += _unspoken(source, names)
     for path, facts in source.facts.items():
         role, sure = own.place(path)
         for mention in facts.mentions:
@@ -73,6 +74,21 @@ def resolve(source: Source, names: Names, headers: Mapping[str, tuple[str, ...]]
 
 def _order(use: Use) -> tuple[object, ...]:
     return (use.span, use.package, use.via)
+
+
+def _unspoken(source: Source, names: Names) -> Iterator[Use]:
+    """Yield what generated code needs without being told: actions are made of it (reference, section C4.4)."""
+    script = source.script
+    assert script is not None
+    if source.name == _ACTIONS or not any(each.startswith("action/") for each in script.interfaces):
+        return
+    for mention in script.mentions:
+        if mention.via == "macro" and mention.what == "rosidl_generate_interfaces()" and names.is_package(_ACTIONS):
+            role = Role.TEST if mention.test else Role.BUILD | Role.EXPORT | Role.EXEC
+            yield Use(_ACTIONS, (_ACTIONS,), role, "an action", "interface", mention.optional, mention.span)
+
+
+_ACTIONS = "action_msgs"
 
 
 def _script_role(source: Source, via: Via) -> Role:
@@ -120,7 +136,8 @@ def _providers(
             if own.has_header(name, _relative(source, mention.span.path)):
                 return _NOBODY
             if found := headers.get(name):
-                return found, True
+                first = name.partition("/")[0]
+                return tuple(sorted(found, key=lambda package: package != first)), True
             return _told(names.by_include(name))
         case "import":
             top = name.partition(".")[0]

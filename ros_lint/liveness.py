@@ -19,6 +19,7 @@ _IDLE_FOLDERS = frozenset({"doc", "docs", "example", "examples", "tutorial", "tu
 
 HEADERS = (".h", ".hh", ".hpp", ".hxx", ".inl", ".ipp", ".tpp", ".cuh")
 _INTERFACES = (".msg", ".srv", ".action", ".idl")
+_RESOURCES = (".urdf", ".xacro", ".sdf", ".world", ".rviz", ".yaml", ".yml", ".xml")
 _PROGRAMS = ("lib/", "bin/")
 
 PRODUCTION = Role.BUILD | Role.EXEC
@@ -61,17 +62,19 @@ class Liveness:
             return PUBLIC, True
         python = name.endswith((".py", ".py.in")) or "." not in name
         folders = set(path.split("/")[:-1])
-        if path in self._launched and path in self._installed:
+        if path in self._launched and (path in self._installed or path in self._installed_python):
             return Role.EXEC, True
         if TEST_FOLDERS & folders or (python and _is_test(name)):
             # pytest takes what is called test; beside it at the top lie its helpers, further down lies anything.
             taken = _is_test(name) or (path.partition("/")[0] in TEST_FOLDERS and path.count("/") == 1)
-            return Role.TEST, taken if python else not self._sees_targets
+            return Role.TEST, (taken or path in self._launched) if python else not self._sees_targets
         idle = bool(_IDLE_FOLDERS & folders)
         if path in self._launched:
             return Role.EXEC, not (self._sees_share or idle)
         if path == "setup.py":
             return Role.TOOL, True
+        if name.endswith(_RESOURCES):
+            return Role.EXEC, path in self._installed or not (self._sees_share or idle)
         if python:
             return Role.EXEC, path in self._installed_python or not (self._sees_python or idle)
         return PRODUCTION, not (self._sees_targets or idle)

@@ -99,19 +99,18 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
 def may_bring(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
     """Whether one of the declared names of which nothing is known could bring a package along.
 
-    A name with a dash is a rosdep key or a mistake, and brings no package; a package of messages brings messages.
+    What comes from elsewhere needs none of this workspace: repositories do not need each other in a circle. A name with a
+    dash or a capital is no package, but a rosdep key or a mistake; a package of messages brings messages.
     """
+    if name in workspace.by_name:
+        return False
     released = workspace.world.released(name)
-    mine = workspace.by_name.get(name, ())
-    messages = bool(released and released.interfaces) or any(_MESSAGES in package.groups for package in mine)
+    messages = bool(released and released.interfaces)
     plumbing = name.startswith(("rosidl_", "builtin_", "action_msgs", "service_msgs", "unique_identifier_msgs"))
     for each in unknown:
-        if "-" in each or each == "ament_python":
+        if "-" in each or each != each.lower() or each == "ament_python":
             continue
         if each.endswith(("_msgs", "_interfaces", "_srvs", "_msg")) and not (messages or plumbing):
             continue
         return True
     return False
-
-
-_MESSAGES = "rosidl_interface_packages"

@@ -144,7 +144,7 @@ class World:
         """Return everything that comes along with declared names, these included (reference, section E3.3).
 
         Followed are build_export, buildtool_export and exec dependencies, and from packages of the workspace those
-        members of groups that are in the workspace, too. Keys bring nothing.
+        members of groups that are in the workspace, too. A key brings the keys that its system package depends on.
         """
         return self._reach.closure(names)
 
@@ -282,7 +282,7 @@ class World:
             return installed.runtime
         if name in self.knowledge.index:
             return self.knowledge.index.runtime(name)
-        return () if self.is_key(name) else None
+        return self.knowledge.names.brought(name) if self.is_key(name) else None
 
     @cached_property
     def _members_of(self) -> Mapping[str, tuple[str, ...]]:

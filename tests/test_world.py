@@ -9,6 +9,7 @@ from pathlib import Path
 import networkx as nx
 import pytest
 
+import ros_lint
 from ros_lint import source_lists, underlay
 from ros_lint.knowledge import Knowledge
 from ros_lint.knowledge.reach import Reach
@@ -114,15 +115,29 @@ def test_who_below_depends_on_a_package(prefix: str) -> None:
 # --- closures --------------------------------------------------------------------------------------------------------
 
 
+def _keys() -> nx.DiGraph[str]:
+    graph: nx.DiGraph[str] = nx.DiGraph()
+    for line in (Path(ros_lint.__file__).parent / "knowledge/data/key_brings.tsv").read_text("utf-8").splitlines()[1:]:
+        key, _, brought = line.partition("\t")
+        graph.add_edges_from((key, other) for other in brought.split())
+    return graph
+
+
+_KEYS = _keys()
+
+
 def _expected(known: Knowledge, starts: list[str]) -> set[str]:
     """Return the closure over the index alone, as networkx finds it."""
-    graph = nx.DiGraph()
+    graph: nx.DiGraph[str] = nx.DiGraph()
     for name in known.index.names():
         package = known.index.get(name)
         assert package is not None
         graph.add_node(name)
         if package.described:
             graph.add_edges_from((name, other) for kind in "eux" for other in package.depends.get(kind, ()))
+    known_packages = set(known.index.names())
+    for name in [name for name in graph if name in _KEYS and name not in known_packages]:
+        graph.add_edges_from((name, other) for other in nx.descendants(_KEYS, name))
     return set().union(*({start} | nx.descendants(graph, start) for start in starts))
 
 

@@ -117,6 +117,10 @@ class Names:
         row = self._eol.row(name)
         return tuple(END_OF_LIFE[letter] for letter in "igfedcNMK" if letter in row[1]) if row and len(row) > 1 else ()
 
+    def brought(self, key: str) -> tuple[str, ...]:
+        """Return the rosdep keys that come along with a key, for its package depends on theirs; not what these bring."""
+        return self._brings.get(key, ())
+
     @cached_property
     def unseen(self) -> tuple[str, ...]:
         """Return patterns of the names of packages that do their work without being named by those that need them."""
@@ -154,6 +158,10 @@ class Names:
             for prefix, packages in self._include_ros.items()
             if prefix.count("/") > prefix.endswith("/") and prefix.partition("/")[0] not in packages
         )
+
+    @cached_property
+    def _brings(self) -> Mapping[str, tuple[str, ...]]:
+        return self._map("key_brings.tsv")
 
     @cached_property
     def _py_import(self) -> Mapping[str, tuple[str, ...]]:

@@ -17,7 +17,7 @@ Declare what is used, in the tag that the message names. The fix does this.
 
 - It is off unless asked for: most of ROS relies on what other packages bring along, such as `rclcpp` on `rcl`.
 - The use is optional, or the files that use it are perhaps not built or installed.
-- The package belongs to the core of a declared client library, such as `rcutils` for `rclcpp`, or to the build tool.
+- The package merely gives CMake commands, and comes along with the build tool.
 - Nothing declared brings it along: that is `undeclared-dependency` or `launch-outside-closure`.
 """
 
@@ -31,6 +31,7 @@ from ros_lint.api import (
     Fix,
     Package,
     Related,
+    Role,
     Rule,
     Severity,
     Workspace,
@@ -47,7 +48,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     declared = tuple(dict.fromkeys(declared.name for declared in package.declared))
     for need in needs(package, workspace):
-        if need.declared or not need.brought:
+        if need.declared or not need.brought or all(use.via == "macro" and not use.role & Role.TEST for use in need.uses):
             continue
         best, *others = need.uses
         name = next((name for name in best.providers if workspace.world.path(declared, name)), need.name)
