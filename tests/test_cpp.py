@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from ros_lint.collectors import cpp
 from ros_lint.collectors.cpp_includes import STANDARD, includes
+from ros_lint.collectors.cpp_symbols import symbols
 from ros_lint.text import Text
 
 
@@ -57,11 +58,7 @@ def _logical_lines(text: str) -> list[str]:
             end = text.find("*/", at + 2)
             at = len(text) if end < 0 else end + 2
             lines[-1] += " "
-        elif (
-            two == 'R"'
-            and (raw := re.compile(r'R"([^()\\\s]{0,16})\(').match(text, at))
-            and not lines[-1][-1:].isalnum()
-        ):
+        elif two == 'R"' and (raw := re.compile(r'R"([^()\\\s]{0,16})\(').match(text, at)) and not lines[-1][-1:].isalnum():
             end = text.find(f'){raw[1]}"', raw.end())
             if end < 0:
                 lines[-1] += char
@@ -75,9 +72,7 @@ def _logical_lines(text: str) -> list[str]:
                 end += 1
             lines[-1] += text[at : end + 1] if text[end : end + 1] == ">" else text[at:end]
             at = end + (text[end : end + 1] == ">")
-        elif char in "\"'" and (
-            closed := re.compile(rf"{char}(?:[^{char}\\\n]|\\.)*{char}", re.DOTALL).match(text, at)
-        ):
+        elif char in "\"'" and (closed := re.compile(rf"{char}(?:[^{char}\\\n]|\\.)*{char}", re.DOTALL).match(text, at)):
             lines[-1] += closed[0].replace("\n", " ")
             at = closed.end()
         elif char == "\n":
@@ -228,3 +223,25 @@ def test_computed_include_is_opaque() -> None:
     assert [(o.reason, str(o.span)) for o in facts.opaque] == [
         ("only the preprocessor knows which header #include CONFIG_H names", "a.h:1:10")
     ]
+
+
+# --- names without an include
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("std_msgs::msg::String s;", [("std_msgs/msg", "std_msgs::msg::")]),
+        ("x(const tf2_ros::Buffer & b); tf2_ros::Buffer c;", [("tf2_ros", "tf2_ros::")]),
+        ("a_b::srv::C::Request r;\nd_e::f();", [("a_b/srv", "a_b::srv::"), ("d_e", "d_e::")]),
+        ("::a_b::c(); outer::g_h::i();", [("a_b", "a_b::")]),
+        ("std::chrono::seconds s; Eigen::Vector3d v; filters::x y; rclcpp::Node n;", [("rclcpp", "rclcpp::")]),
+        ('// a_b::c\n/* d_e::f */ /*\ng_h::i */ x = "j_k::l"; m_n::o();', [("m_n", "m_n::")]),
+        ("namespace a_b::c {\n}\nxa_b::d();", [("xa_b", "xa_b::")]),
+    ],
+)
+def test_symbols(text: str, expected: list[tuple[str, str]]) -> None:
+    source = Text("a.cpp", text)
+    mentions = symbols(source)
+    assert [(mention.name, mention.what) for mention in mentions] == expected
+    assert all(source.slice(mention.span) == mention.what[:-2] for mention in mentions)

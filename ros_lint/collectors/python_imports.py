@@ -83,15 +83,18 @@ def scan(text: str) -> list[Import] | None:
                 return None
             places += [block.head for block in around]
             guard = next((block for block in around if block.guards), None)
-            end = _statement_end(text, guard) if guard else 0
-            if guard and _DECIDES.search(text, guard.start, end):
-                done = end
-                guarded = _fragment(text[guard.start : done], guard.start)
-                if guarded is None:
+            if guard:
+                end = _statement_end(text, guard)
+                statement = text[guard.start : end]
+                if not _is_whole(statement):
                     return None
-                while found and found[-1].start > guard.start:
-                    found.pop()
-                names = guarded
+                if _DECIDES.search(statement):
+                    done = end
+                    names = _fragment(statement, guard.start)
+                    if names is None:
+                        return None
+                    while found and found[-1].start > guard.start:
+                        found.pop()
         found += names
     if not places or (outside_strings(text, places) and not _CONTINUED.search(text)):
         return found
@@ -169,6 +172,18 @@ def _statement_end(text: str, block: _Block) -> int:
     return match.start() if match else len(text)
 
 
+def _is_whole(statement: str) -> bool:
+    """Return whether no bracket or string goes on behind the text of a statement, as far as counting tells."""
+    count = statement.count
+    return (
+        count("(") == count(")")
+        and count("[") == count("]")
+        and count("{") == count("}")
+        and count('"""') % 2 == count("'''") % 2 == 0
+        and statement.rstrip()[-1] != "\\"
+    )
+
+
 def _fragment(text: str, start: int) -> list[Import] | None:
     """Return the imports of a statement, which may be indented, or None when it does not parse by itself."""
     head = "if 1:\n" if text[0] in " \t\f" else ""
@@ -244,8 +259,7 @@ def _imports(body: Iterable[ast.stmt]) -> Iterator[_Found]:
 def _conditional(statement: ast.If) -> Iterator[_Found]:
     test = statement.test
     words = {
-        str(getattr(node, "id", None) or getattr(node, "attr", None) or getattr(node, "value", ""))
-        for node in ast.walk(test)
+        str(getattr(node, "id", None) or getattr(node, "attr", None) or getattr(node, "value", "")) for node in ast.walk(test)
     }
     if not _GUARD.search(" ".join(words)):
         yield from _imports(statement.body)

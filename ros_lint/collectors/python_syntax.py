@@ -15,8 +15,7 @@ if TYPE_CHECKING:
 # What only Python 2 reads. One is enough: such a file is not meant for the interpreter that looks at it.
 _PYTHON_2 = re.compile(
     r"""^\#!.*\bpython2
-    |^[ \t]*print[ \t]+(?:["'%\w]|>>)
-    |^[ \t]*print[ \t]*$
+    |(?:^|[;:])[ \t]*print(?:[ \t]+(?:["'%\w]|>>)|[ \t]*$)
     |^[ \t]*except[ \t]+[\w.]+[ \t]*,[ \t]*\w+[ \t]*:
     |^[ \t]*except[ \t]*\([^)\n]*\)[ \t]*,[ \t]*\w+[ \t]*:
     |^[ \t]*raise[ \t]+[\w.]+[ \t]*,

@@ -1,0 +1,318 @@
+"""Imports of Python sources: the scan without a parser against the syntax tree, on generated and on real sources."""
+
+from __future__ import annotations
+
+import ast
+import random
+import sysconfig
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ros_lint.collectors import python
+from ros_lint.collectors.python_imports import scan, walk
+from ros_lint.collectors.python_look_ups import literals, look_ups
+from ros_lint.collectors.python_syntax import NotPythonError, parse
+from ros_lint.facts import Facet
+from ros_lint.text import Text, read
+
+
+def imports(text: str) -> list[tuple[str, bool]]:
+    mentions = python.collect(Text("a.py", text)).mentions
+    return [(mention.name, mention.optional) for mention in mentions if mention.via == "import"]
+
+
+# --- real sources
+
+
+def library() -> list[Path]:
+    """Return some hundred files of Python's own library, the same on every run."""
+    files = sorted(Path(sysconfig.get_paths()["stdlib"]).rglob("*.py"))
+    files = [path for path in files if "site-packages" not in path.parts]
+    return random.Random(4).sample(files, min(250, len(files)))
+
+
+def test_the_library_of_python() -> None:
+    compared = 0
+    for path in [*library(), *Path(__file__).parent.parent.glob("ros_lint/**/*.py")]:
+        source = read(path.as_posix(), path.read_bytes())
+        try:
+            tree = parse(source)
+        except NotPythonError:
+            continue
+        found = scan(source.text)
+        if found is not None:
+            compared += 1
+            assert found == walk(source, tree), path
+    assert compared > 180, "most files are read without a parser"
+
+
+def test_the_tree_is_walked_whole() -> None:
+    """The other reader, against nothing but the definition of the nodes."""
+    for path in library()[:80]:
+        source = read(path.as_posix(), path.read_bytes())
+        try:
+            tree = parse(source)
+        except NotPythonError:
+            continue
+        plain = sorted(
+            name
+            for node in ast.walk(tree)
+            for name in (
+                [alias.name for alias in node.names]
+                if isinstance(node, ast.Import)
+                else [node.module]
+                if isinstance(node, ast.ImportFrom) and node.module and not node.level
+                else []
+            )
+        )
+        found = walk(source, tree)
+        assert sorted(item.module for item in found) == plain
+        assert all(source.text.startswith(item.module, item.start) for item in found)
+
+
+# --- generated sources
+
+SIMPLE = [
+    "import a",
+    "import a.b as c, d  # why",
+    "from g.h import i",
+    "from .k import l",
+    "from m import (\nn, o)",
+    "pass",
+    "from . import j",
+    "import e;x = 1",
+    "x = 1; import f",
+    "from m import (  # import n\n    o)",
+    "import \\\n  q",
+    "from r \\\nimport s",
+    "x = '''\nimport t\n'''",
+    'x = """ # \nif x:\n  import t\n"""',
+    "'''one line'''",
+    '"""import t"""',
+    "# import t",
+    "# ''' import t",
+    "x = 'import u'",
+    "print('''import v''')",
+    "text = 'from w import x'",
+    "text = 'a \\\nimport w'",
+    "if x: import y",
+    "raise",
+    "sys.exit()",
+    "reimport = important",
+    "",
+]
+HEADS = [
+    "if TYPE_CHECKING:",
+    "if not typing.TYPE_CHECKING:",
+    "if x:",
+    "if sys.version_info > (3,):",
+    "def f():",
+    "async def g(\n    x, y):",
+    "class A:",
+    "for x in y:",
+    "while True:",
+    "with suppress(ImportError):",
+    "with suppress(\nImportError):",
+    "with x(\n    a), b:",
+    "match x:\n case 1:",
+]
+HANDLERS = ["except ImportError:", "except (\n  KeyError, ImportError) as error:", "except KeyError:", "except Exception:"]
+ODD = ["'''", '"""', "'", "(", ")", "try:", "else:", "import", "from x", "\\"]
+
+
+@st.composite
+def blocks(draw: st.DrawFn, depth: int = 0) -> list[str]:
+    lines: list[str] = []
+    for _ in range(draw(st.integers(1, 3))):
+        kind = draw(st.sampled_from(["simple", "simple", "head", "try"] if depth < 3 else ["simple"]))
+        if kind == "simple":
+            lines.append(draw(st.sampled_from(SIMPLE[: len(SIMPLE) if draw(st.integers(0, 4)) == 0 else 6])))
+            continue
+        heads = ["try:", *draw(st.lists(st.sampled_from(HANDLERS), min_size=1, max_size=2)), "else:", "finally:"]
+        if kind == "head":
+            head = draw(st.sampled_from(HEADS))
+            heads = [head, *(["else:"] if head.startswith(("if", "for", "while")) else [])]
+        for head in heads:
+            if head not in ("else:", "finally:") or draw(st.booleans()):
+                indent = draw(st.sampled_from([" ", "    ", "\t"])) + ("  " if "case" in head else "")
+                # Only the first line of a piece is indented: the others lie in brackets or strings.
+                lines += [
+                    head.replace("\n case", "\n  case"),
+                    *(indent + line for line in draw(blocks(depth + 1))),
+                    indent + "pass",
+                ]
+    return lines
+
+
+@st.composite
+def sources(draw: st.DrawFn) -> str:
+    """Return lines that mostly are a program."""
+    lines = draw(blocks())
+    if draw(st.integers(0, 5)) == 0:
+        lines.insert(draw(st.integers(0, len(lines))), draw(st.sampled_from(ODD)))
+    return draw(st.sampled_from(["\n", "\n", "\r\n"])).join(lines) + "\n"
+
+
+@given(sources())
+@settings(max_examples=1000, deadline=None)
+def test_scan_and_tree_agree(text: str) -> None:
+    source = Text("a.py", text)
+    try:
+        tree = parse(source)
+    except NotPythonError:
+        return
+    found = scan(text)
+    assert found is None or found == walk(source, tree)
+
+
+@given(st.text(alphabet="import from as.x,\n\t \"'#\\();:", max_size=60))
+@settings(max_examples=500, deadline=None)
+def test_any_text_is_read(text: str) -> None:
+    source = Text("a.py.in", text)
+    for mention in python.collect(source).mentions:
+        assert source.slice(mention.span) == mention.name
+
+
+# --- what is optional
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("import a\ndef f():\n    import b\n", [("a", False), ("b", False)]),
+        ("if TYPE_CHECKING:\n    import a\nelse:\n    import b\n", [("a", True), ("b", False)]),
+        ("if typing.TYPE_CHECKING:\n    from a.b import c\n", [("a.b", True)]),
+        ("try:\n    import a\nexcept ImportError:\n    a = None\n", [("a", True)]),
+        ("try:\n    import a\nexcept ModuleNotFoundError:\n    import b\n", [("a", True), ("b", True)]),
+        ("try:\n    import a\nexcept (ImportError, OSError) as e:\n    pass\n", [("a", True)]),
+        ("try:\n    import a\nexcept:\n    pass\n", [("a", True)]),
+        ("try:\n    import a\nexcept Exception:\n    print(1)\n", [("a", True)]),
+        ("try:\n    import a\nexcept ImportError:\n    raise RuntimeError('install a')\n", [("a", False)]),
+        ("try:\n    import a\nexcept ImportError:\n    print('install a')\n    sys.exit(1)\n", [("a", False)]),
+        ("try:\n    import a\nexcept KeyError:\n    pass\n", [("a", False)]),
+        ("try:\n    import a\nfinally:\n    import b\n", [("a", False), ("b", False)]),
+        ("try:\n    from a.b import c\nexcept ImportError:\n    from a.d import c\n", [("a.b", False), ("a.d", False)]),
+        ("try:\n    import a\nexcept ImportError:\n    a = None\nelse:\n    import b\n", [("a", True), ("b", True)]),
+        ("def f():\n    try:\n        x()\n        import a\n    except ImportError:\n        pass\n", [("a", True)]),
+        ("with suppress(ImportError):\n    import a\n", [("a", True)]),
+        ("if sys.version_info >= (3, 8):\n    import a\nelse:\n    import b\n", [("a", True), ("b", True)]),
+        ("if sys.platform == 'win32':\n    import a.b\nelse:\n    import a\n", [("a.b", False), ("a", False)]),
+        ("if os.environ['ROS_DISTRO'] == 'humble':\n    import a\n", [("a", True)]),
+        ("if x:\n    import a\n", [("a", False)]),
+        ("class A:\n    match x:\n        case 1:\n            import a\n", [("a", False)]),
+    ],
+)
+def test_optional(text: str, expected: list[tuple[str, bool]]) -> None:
+    assert imports(text) == expected
+    source = Text("a.py", text)
+    assert [(item.module, item.optional) for item in walk(source, parse(source))] == expected
+
+
+def test_places() -> None:
+    source = Text("ü.py", 'x = "ü"; import a.b as c, d\nfrom  e.f import (\n    g)\nfrom \\\n  h import i\n')
+    mentions = python.collect(source).mentions
+    assert [(mention.name, source.slice(mention.span), str(mention.span)) for mention in mentions] == [
+        ("a.b", "a.b", "ü.py:1:17"),
+        ("d", "d", "ü.py:1:27"),
+        ("e.f", "e.f", "ü.py:2:7"),
+        ("h", "h", "ü.py:5:3"),
+    ]
+
+
+# --- what is no Python for this interpreter
+
+
+@pytest.mark.parametrize(
+    ("path", "text", "problems"),
+    [
+        ("a.py", "import a;\ndef f(:\n    import b\n", 1),
+        ("a.py", "<<<<<<< HEAD\nimport a\n=======\nimport b;\n", 1),
+        ("a.py", "import a; print 'hello'\n", 0),
+        ("a.py", "import a;\ntry:\n    pass\nexcept OSError, e:\n    pass\n", 0),
+        ("a.py.in", "import a;\nx = @VALUE\n", 0),
+        ("a.py", "import a;\nx = {{ cookiecutter.name }\n", 0),
+        ("a.py", "import a;\nX = '@NAME@' + @NAME@\n", 0),
+    ],
+)
+def test_unreadable_sources(path: str, text: str, problems: int) -> None:
+    facts = python.collect(Text(path, text))
+    assert len(facts.problems) == problems
+    assert [opaque.hides for opaque in facts.opaque] == [Facet.USES]
+    assert facts.mentions[0][:2] == ("a", "import")
+    assert all(mention.optional for mention in facts.mentions)
+
+
+def test_newer_python_is_no_problem() -> None:
+    facts = python.collect(Text("a.py", "import a; x = 1\ntype X = int\n"))
+    assert not facts.problems
+
+
+# --- look-ups
+
+
+def packages(text: str) -> list[tuple[str, str, bool]]:
+    facts = python.collect(source := Text("a.py", text))
+    found = [mention for mention in facts.mentions if mention.via == "package"]
+    assert {source.slice(mention.span) for mention in found} <= {"NAME", *(f"'{mention.name}'" for mention in found)}
+    return [(mention.name, mention.what, mention.optional) for mention in found]
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("x = get_package_share_directory('p')\n", [("p", 'get_package_share_directory("p")', False)]),
+        (
+            "x = f(a.get_package_share_path(\n    package_name='p'), FindPackageShare('q'))\n",
+            [("p", 'get_package_share_path("p")', False), ("q", 'FindPackageShare("q")', False)],
+        ),
+        ("NAME = 'p'\ndef f():\n    return get_package_prefix(NAME)\n", [("p", 'get_package_prefix("p")', False)]),
+        ("# get_package_prefix('p')\nx = 'get_package_prefix(\"q\")'\n", []),
+        ('"""\nget_package_prefix("p")\n"""\n', []),
+        (
+            "try:\n    x = get_package_prefix('p')\nexcept PackageNotFoundError:\n    x = get_package_prefix('q')\n",
+            [("p", 'get_package_prefix("p")', True), ("q", 'get_package_prefix("q")', False)],
+        ),
+        ("from ament_index_python import get_package_prefix\n", []),
+    ],
+)
+def test_look_ups(text: str, expected: list[tuple[str, str, bool]]) -> None:
+    assert packages(text) == expected
+
+
+def test_a_computed_look_up_is_opaque() -> None:
+    facts = python.collect(Text("a.py", "def f(name):\n    return get_package_share_directory(name)\n"))
+    assert [(opaque.hides, opaque.reason, str(opaque.span)) for opaque in facts.opaque] == [
+        (Facet.USES, "the package that get_package_share_directory() looks up is computed", "a.py:2:40")
+    ]
+
+
+CALLS = st.sampled_from(
+    [
+        "get_package_prefix('a')",
+        'x(FindPackageShare( package = "b" ))',
+        "get_package_share_directory(c)",
+        "c = 'd'",
+        "# get_package_prefix('e')",
+        "'get_package_prefix(\"f\")'",
+        '"""',
+        "'''",
+        "from x import get_package_prefix",
+        "get_package_prefix(\n'g')",
+        "get_package_prefix('h' 'i')",
+    ]
+)
+
+
+@given(st.lists(CALLS, max_size=6))
+@settings(max_examples=500, deadline=None)
+def test_look_ups_with_and_without_a_parser_agree(lines: list[str]) -> None:
+    source = Text("a.py", "\n".join(lines) + "\n")
+    try:
+        tree = parse(source)
+    except NotPythonError:
+        return
+    found = literals(source)
+    assert found is None or found == look_ups(source, tree)
