@@ -44,7 +44,7 @@ def parse(arguments: Sequence[str]) -> tuple[str, dict[str, Any]]:
 
 def parser(command: str, *, top: bool = False) -> argparse.ArgumentParser:
     """Return the parser of a command. With ``top``, the one that also tells of the other commands."""
-    listed = "\n".join(f"  {name:12}{summary}" for name, summary in COMMANDS.items())
+    listed = "\n".join(f"  {name:17}{summary}" for name, summary in COMMANDS.items())
     made = _Parser(
         "ros-lint" if top else f"ros-lint {command}",
         description="Check ROS 2 workspaces without building them." if top else f"{COMMANDS[command].capitalize()}.",
@@ -89,6 +89,12 @@ def _why(made: argparse.ArgumentParser) -> None:
     _graph_like(made)
 
 
+def _explain_package(made: argparse.ArgumentParser) -> None:
+    made.add_argument("package", help="the package to explain")
+    made.add_argument("--format", choices=("text", "json"), default="text", help="how to write it")
+    _graph_like(made)
+
+
 def _index(made: argparse.ArgumentParser) -> None:
     actions = made.add_subparsers(dest="action", required=True, metavar="ACTION")
     refresh = actions.add_parser("refresh", help="rebuild the data of distributions from rosdistro's index", allow_abbrev=False)
@@ -123,6 +129,7 @@ _SHAPES: dict[str, Callable[[argparse.ArgumentParser], None]] = {
     "overlay": _order,
     "graph": _graph,
     "why": _why,
+    "explain-package": _explain_package,
     "index": _index,
     "rules": _rules,
     "rule": _rule,

@@ -81,6 +81,7 @@ COMMANDS = {
     "order": "print the packages in build order",
     "why": "say how one package comes to need another",
     "graph": "print the dependency graph",
+    "explain-package": "say what a package declares, uses, provides and installs",
     "overlay": "say which layer each package name resolves to",
     "rules": "list the rules",
     "rule": "explain a rule",

@@ -1,4 +1,4 @@
-"""``order``, ``why``, ``graph`` and ``overlay``: questions to the model, which need no source files."""
+"""``order``, ``why``, ``graph``, ``overlay`` and ``explain-package``: questions to the model."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import sys
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from ros_lint.commands import graph, order, overlay, why
+from ros_lint.commands import explain_package, graph, order, overlay, why
 from ros_lint.config import ConfigError
 from ros_lint.knowledge import KnowledgeError
 from ros_lint.opening import UsageError, no_packages, open_workspace
@@ -20,6 +20,7 @@ _COMMANDS: Mapping[str, Callable[[Workspace, Said], tuple[str, str, int]]] = {
     "order": lambda workspace, said: order.run(workspace),
     "overlay": lambda workspace, said: overlay.run(workspace),
     "graph": lambda workspace, said: graph.run(workspace, said["format"], metrics=said.get("metrics", False)),
+    "explain-package": lambda workspace, said: explain_package.run(workspace, said["package"], said["format"]),
     "why": lambda workspace, said: why.run(workspace, said["package"], said["dependency"]),
 }
 
@@ -30,7 +31,7 @@ def run(command: str, said: Said) -> int:
     try:
         with progress:
             opened = open_workspace(said, os.environ, progress.tell)
-            workspace = opened.loader.load(sources=False)
+            workspace = opened.loader.load(sources=command == "explain-package")
             out, err, code = _COMMANDS[command](workspace, said)
     except (UsageError, ConfigError, KnowledgeError) as error:
         print(f"ros-lint: {error}", file=sys.stderr)

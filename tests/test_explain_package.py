@@ -1,0 +1,59 @@
+"""``ros-lint explain-package``."""
+
+import json
+
+from ros_lint.commands import explain_package
+from ros_lint.load import Loader
+from ros_lint.tree import MemoryTree
+from ros_lint.workspace import Target, Workspace
+
+FILES = {
+    "robot/package.xml": """\
+<package format="3">
+  <name>robot</name><version>0.1.0</version><description>d</description>
+  <maintainer email="a@b.org">A</maintainer><license>Apache-2.0</license>
+  <depend>rclcpp</depend>
+  <export><build_type>ament_cmake</build_type></export>
+</package>
+""",
+    "robot/CMakeLists.txt": """\
+project(robot)
+find_package(ament_cmake REQUIRED)
+find_package(rclcpp REQUIRED)
+add_executable(talker talker.cpp)
+install(TARGETS talker DESTINATION lib/${PROJECT_NAME})
+include(${SOMEWHERE}/more.cmake)
+ament_package()
+""",
+    "robot/talker.cpp": "#include <rclcpp/rclcpp.hpp>\n#include <rclcpp/node.hpp>\n#include <rclcpp/time.hpp>\n",
+}
+
+
+def workspace() -> Workspace:
+    return Loader(MemoryTree(FILES), ("",), Target("jazzy", "--distro")).load()
+
+
+def test_every_part_has_its_line() -> None:
+    out, err, code = explain_package.run(workspace(), "robot")
+    assert (err, code) == ("", 0)
+    lines = [line.split() for line in out.splitlines()]
+    assert ["rclcpp", "<depend>", "robot/package.xml:4:3"] in lines
+    assert ["talker", "executable", "target", "robot/CMakeLists.txt:4:16"] in lines
+    assert ["lib/robot/talker", "built", "as", "talker,", "executable", "robot/CMakeLists.txt:5:17"] in lines
+    assert any(line[-1] == "robot/talker.cpp:1:11" for line in lines if line)
+    assert any("hides" in line for line in lines)
+
+
+def test_text_tells_the_first_places_and_json_all() -> None:
+    found = workspace()
+    assert "more, such as" in explain_package.run(found, "robot")[0]
+    (package,) = json.loads(explain_package.run(found, "robot", "json")[0])["packages"]
+    places = {(row["path"], row["line"]) for row in package["uses"] if row["name"] == "rclcpp"}
+    assert places >= {("robot/talker.cpp", 1), ("robot/talker.cpp", 2), ("robot/talker.cpp", 3)}
+    assert [row["name"] for row in package["installs"]] == sorted(row["name"] for row in package["installs"])
+
+
+def test_a_name_that_is_mistyped() -> None:
+    out, err, code = explain_package.run(workspace(), "robots")
+    assert (out, code) == ("", 2)
+    assert "did you mean robot?" in err
