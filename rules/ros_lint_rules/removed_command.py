@@ -14,14 +14,14 @@ Link to targets: `target_link_libraries(t PUBLIC rclcpp::rclcpp ${std_msgs_TARGE
 
 ## When it keeps silent
 
-In other distributions; where that package is found, or the command is defined in the package itself; under conditions.
+In other distributions, and with medium confidence where nobody said which distribution is meant; where that package is found, or the command is defined in the package itself; under conditions.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Finding, Package, Related, Rule, Severity, Workspace, called
+from ros_lint.api import Confidence, Finding, Package, Related, Rule, Severity, Workspace, called
 
 _GONE = {"ament_target_dependencies": ("ament_cmake_target_dependencies", frozenset({"lyrical", "rolling"}))}
 _MOST_RELATED = 4
@@ -43,6 +43,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             first.place,
             name,
             related,
+            confidence=Confidence.HIGH if workspace.target.told else Confidence.MEDIUM,
         )
 
 
