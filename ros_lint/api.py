@@ -41,7 +41,7 @@ from ros_lint.facts import Target as BuildTarget
 from ros_lint.graph import Edge, Graph, Reason
 from ros_lint.graph_cut import Knot, knots
 from ros_lint.launch_files import Launchable, Programs, is_apart, launchable, programs
-from ros_lint.needs import Need, covered, needs, undeclared
+from ros_lint.needs import Need, covered, declared_closure, may_bring, needs, undeclared
 from ros_lint.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
 from ros_lint.strangers import Stranger, declared_names
 from ros_lint.suppress import Outcome
@@ -104,6 +104,7 @@ __all__ = [
     "come_along",
     "conditions",
     "covered",
+    "declared_closure",
     "declared_names",
     "evaluated_name",
     "found_names",
@@ -113,6 +114,7 @@ __all__ = [
     "knots",
     "launchable",
     "manifest_edits",
+    "may_bring",
     "missing_path",
     "needs",
     "programs",

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 from ros_lint.facts import Role, Use, Via
 from ros_lint.workspace import Package, Workspace
+from ros_lint.world import Closure
 
 
 class Need(NamedTuple):
@@ -49,7 +50,7 @@ def needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
         if not use.optional:
             found.setdefault(use.package, []).append(use)
     declared = frozenset(declared.name for declared in package.declared)
-    closure = workspace.world.closure(declared)
+    closure = declared_closure(package, workspace)
     result = []
     for name, uses in found.items():
         uses.sort(key=_rank)
@@ -70,6 +71,17 @@ def _rank(use: Use) -> tuple[object, ...]:
     return (not use.sure, use.role == Role.TEST, _TELLING.index(use.via), use.span)
 
 
+_ANY = ~Role(0)
+
+
+def declared_closure(package: Package, workspace: Workspace, role: Role = _ANY) -> Closure:
+    """Return all that comes along with what is declared for any part of a role, members of groups included."""
+    starts = [each.name for each in package.declared if each.role & role]
+    for group in package.group_depends:
+        starts += workspace.world.group_members(group.name)
+    return workspace.world.closure(starts)
+
+
 def covered(package: Package, workspace: Workspace, names: Iterable[str], role: Role) -> bool:
     """Whether one of the names comes along, or may come along, with something else that is declared for any part of a role."""
     names = frozenset(names)
@@ -86,8 +98,7 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
 
     What only launch files name, to start, include or look it up, is left out: it has a rule of its own.
     """
-    closure = workspace.world.closure(declared.name for declared in package.declared)
-    unknown = closure.unknown
+    unknown = declared_closure(package, workspace).unknown
     found = []
     for need in needs(package, workspace):
         if need.declared or need.brought or all(use.via == "launch" for use in need.uses):

@@ -16,6 +16,7 @@ Add `<exec_depend>` to `package.xml`. The fix does this.
 ## When it keeps silent
 
 - The package comes with a declared dependency.
+- The package is used in other ways, too, and reported by `undeclared-dependency`.
 - The launch file asks first if the package is there (`get_packages_with_prefixes`, `PackageNotFoundError`).
 - The package exists nowhere: that is `launch-unknown-package`.
 - Launch files of tests and examples, and those that are not installed.
@@ -39,8 +40,11 @@ from ros_lint.api import (
     Severity,
     Workspace,
     add_dependency,
+    declared_closure,
     launchable,
+    may_bring,
     tag_for,
+    undeclared,
 )
 
 _MOST_RELATED = 4
@@ -61,13 +65,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     named = _named(package, workspace)
     if not named:
         return
-    starts = [declared.name for declared in package.declared if declared.role & (Role.EXEC | Role.EXPORT)]
-    for group in package.group_depends:
-        starts += workspace.world.group_members(group.name)
-    closure = workspace.world.closure(starts)
-    confidence = Confidence.HIGH if closure.complete else Confidence.MEDIUM
+    closure = declared_closure(package, workspace, Role.EXEC | Role.EXPORT)
+    reported = {need.name for need, sure in undeclared(package, workspace) if sure}
     for name, references in named.items():
-        if name in closure:
+        if name in closure or name in reported:
             continue
         best, *others = sorted(references, key=lambda r: (r.conditional, _ORDER.index(r.kind), r.span))
         says = _SAYS[best.kind].format(name=best.name, package=name)
@@ -79,7 +80,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             name,
             tuple(Related("also needed here", other.package_span) for other in others[:_MOST_RELATED]),
             Fix(f"declare {name} as <{tag}>", add_dependency(package, tag, name)),
-            confidence,
+            Confidence.MEDIUM if may_bring(closure.unknown, name, workspace) else Confidence.HIGH,
         )
 
 
