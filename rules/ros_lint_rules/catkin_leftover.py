@@ -44,8 +44,10 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             yield Finding(message, call.span(0), "catkin")
     for element in package.manifest.exports:
         if element.tag in _EXPORTS and not element.get("condition"):
+            done = package.script is not None and "pluginlib_export_plugin_description_file" in package.script.calls
+            way = "remove it" if done else _EXPORTS[element.tag]
             yield Finding(
-                f"<{element.tag}> in the exports does nothing in ROS 2; {_EXPORTS[element.tag]}",
+                f"<{element.tag}> in the exports does nothing in ROS 2; {way}",
                 element.span,
                 element.tag,
                 severity=Severity.INFO,

@@ -17,7 +17,7 @@ Move `ament_package()` to the end of the file. Plain `install()` rules may follo
 ## When it keeps silent
 
 Where either command stands in a condition, a loop or a function: then the order in the file is not the order in which
-they run.
+they run. For `find_package(ament_lint_auto)` where a macro of another package may have found it before.
 """
 
 from __future__ import annotations
@@ -50,8 +50,13 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     if package.builds_with != "ament_cmake":
         return
     end: Call | None = None
+    # Elsewhere a macro may have found ament_lint_auto before, and a second search does nothing.
+    plain = any(call.texts[:1] in (("ament_cmake",), ("ament_cmake_auto",)) for call in called(package, "find_package"))
     for call in called(package, *_ENDS, *_STOP, *_LOST, "find_package"):
         if call.blocks and (set(call.blocks) != {"if"} or not call.test):
+            continue
+        if call.name == "find_package" and (end is None or not plain):
+            plain = plain and call.texts[:1] != ("ament_lint_auto",)
             continue
         if call.name in _ENDS:
             if not call.blocks:

@@ -149,7 +149,7 @@ def _library(package: Package, plugin: PluginFile, library: PluginLibrary) -> It
         message = f"the library {name} is built, but not installed to lib/"
         sure = Confidence.MEDIUM  # it may be static, or its file may have another name
     else:
-        near = difflib.get_close_matches(name, sorted(installed | built), 1, 0.6)
+        near = difflib.get_close_matches(name, sorted(installed | built), 1, 0.8)
         message = f"the package builds no library {name}" + (f"; is {near[0]} meant?" if near else "")
         sure = Confidence.HIGH
     yield Finding(message, library.span, f"{plugin.path}#{library.path.rpartition('/')[2]}", confidence=sure)
