@@ -1,4 +1,4 @@
-"""What XML and YAML launch files have in common: from entities to what the file does, and where the front end refuses it.
+"""What XML and YAML launch files do, tag by tag.
 
 This follows the ``parse`` methods of ``launch`` and ``launch_ros`` one by one (reference, section G3.4), so that a file is
 refused here exactly when the real front end refuses it.
@@ -6,17 +6,15 @@ refused here exactly when the real front end refuses it.
 
 from __future__ import annotations
 
-import shlex
-from collections.abc import Callable, Iterable, Mapping
-from typing import Any, NamedTuple
+import re
+from collections.abc import Mapping
+from typing import NamedTuple
 
 from ros_lint.collectors.launch_entity import Entity, Rejected, Type
-from ros_lint.collectors.launch_markup_texts import Pieces, package_of, texts
+from ros_lint.collectors.launch_markup_read import Reader, Rule
 from ros_lint.collectors.launch_references import References
-from ros_lint.collectors.launch_tags import EXTENSIONS, SUBSTITUTIONS
-from ros_lint.collectors.substitution import Literal, Substitution, SubstitutionError, parse
-from ros_lint.facts import LaunchAction, LaunchCondition, LaunchReference, LaunchValue, Opaque, Problem
-from ros_lint.text import Span, Text
+from ros_lint.facts import LaunchAction, LaunchReference, LaunchValue, Opaque, Problem
+from ros_lint.text import Text
 
 
 class Found(NamedTuple):
@@ -30,7 +28,7 @@ class Found(NamedTuple):
 
 def read(source: Text, root: Entity) -> Found:
     """Return what the entities of a launch file say."""
-    reader = _Reader(source)
+    reader = Reader(source, _RULES)
     actions: list[LaunchAction] = []
     try:
         if root.tag != "launch":
@@ -50,167 +48,10 @@ def read(source: Text, root: Entity) -> Found:
     )
 
 
-class _Reader:
-    def __init__(self, source: Text) -> None:
-        self._source = source
-        self._depth = 0
-        self.problems: list[Problem] = []
-
-    def refuse(self, error: Rejected) -> None:
-        self.problems.append(Problem(error.kind, error.message, error.span))
-
-    def actions(self, entities: Iterable[Entity]) -> list[LaunchAction]:
-        """Return what entities do. One that is refused is noted, and does nothing."""
-        found: list[LaunchAction] = []
-        for entity in entities:
-            try:
-                found += self._action(entity)
-            except Rejected as error:
-                self.refuse(error)
-        return found
-
-    def _action(self, entity: Entity) -> list[LaunchAction]:
-        rule = _RULES.get(entity.tag)
-        if rule is None:
-            if entity.tag in EXTENSIONS:
-                return []  # its package says what it takes
-            raise Rejected("unknown-tag", f"there is no tag <{entity.tag}>", entity.span)
-        self._depth += 1
-        try:
-            action = rule(self, entity)
-        finally:
-            self._depth -= 1
-        entity.finish()
-        return [action]
-
-    # --- attributes -----------------------------------------------------------------------------------------------
-
-    def pieces(self, entity: Entity, name: str, value: str) -> Pieces:
-        """Return a value as text and substitutions. Raises Rejected."""
-        attribute = entity.attributes[name]
-        exact = self._source.text[attribute.start : attribute.end] == value
-        try:
-            found = parse(value) if value else (Literal("", 0, 0),)
-        except SubstitutionError as error:
-            raise Rejected("substitution", error.message, self._inner(entity, name, exact, error.offset, len(value))) from None
-        for piece in _substitutions(found):
-            span = self._inner(entity, name, exact, piece.start, piece.end)
-            limits = SUBSTITUTIONS.get(piece.name)
-            if limits is None:
-                raise Rejected("unknown-substitution", f"there is no substitution $({piece.name})", span)
-            least, most = limits
-            if not least <= len(piece.arguments) <= most:
-                wanted = str(least) if least == most else f"{least} to {most}"
-                given = len(piece.arguments)
-                message = f"$({piece.name}) takes {wanted} argument{'' if wanted == '1' else 's'}, not {given}"
-                raise Rejected("substitution-arguments", message, span)
-            if piece.name == "eval" and len(piece.arguments) == 2 and isinstance(piece.arguments[1][:1], tuple):
-                first = piece.arguments[1][0] if piece.arguments[1] else None
-                if isinstance(first, Substitution):
-                    raise Rejected("substitution-arguments", "the modules of $(eval) must be written out", span)
-        return found
-
-    def _inner(self, entity: Entity, name: str, exact: bool, start: int, end: int) -> Span:
-        attribute = entity.attributes[name]
-        if not exact:
-            return self._source.span(attribute.start, attribute.end)
-        return self._source.span(attribute.start + start, attribute.start + end)
-
-    def text(self, entity: Entity, name: str) -> LaunchValue:
-        """Return an attribute that must be there as a text. Raises Rejected."""
-        return self._value(entity, name, entity.need(name))
-
-    def optional(self, entity: Entity, name: str) -> LaunchValue | None:
-        """Return an attribute as a text, None when it is not there. Raises Rejected."""
-        value = entity.get(name)
-        return None if value is None else self._value(entity, name, value)
-
-    def _value(self, entity: Entity, name: str, value: str) -> LaunchValue:
-        if "$" not in value and "\\" not in value:
-            attribute = entity.attributes[name]
-            span = self._source.span(attribute.start, attribute.end)
-            return LaunchValue((value,), span, exact=self._source.text[attribute.start : attribute.end] == value)
-        found = texts(self.pieces(entity, name, value))
-        span = entity.place(name)
-        return LaunchValue(found, span, exact=len(found) == 1 and self._source.slice(span) == found[0])
-
-    def typed(self, entity: Entity, name: str, kind: Type) -> Any:
-        """Return an attribute that may be a substitution instead of what is asked for, None when it is not there."""
-        value = entity.get(name, kind)
-        if isinstance(value, list):
-            kinds = {self._kind(entity, name, one) for one in value} - {None}
-            if len(kinds) > 1:
-                raise Rejected("wrong-type", f"{name} of <{entity.tag}> mixes types in a list", entity.place(name))
-            return value
-        if isinstance(value, str) and self._kind(entity, name, value) is None:
-            return self._value(entity, name, value)
-        return value
-
-    def _kind(self, entity: Entity, name: str, value: Any) -> type | None:
-        """Return the type of a value, None for a text with substitutions."""
-        if not isinstance(value, str):
-            return type(value)
-        pieces = self.pieces(entity, name, value)
-        return str if len(pieces) == 1 and isinstance(pieces[0], Literal) else None
-
-    def package_span(self, entity: Entity, *names: str) -> Span | None:
-        """Return where the package is written that the path in an attribute lies in."""
-        for name in names:
-            attribute = entity.attributes.get(name)
-            if attribute is None or not isinstance(attribute.value, str) or "$(" not in attribute.value:
-                continue
-            argument = package_of(parse(attribute.value))
-            if argument:
-                exact = self._source.text[attribute.start : attribute.end] == attribute.value
-                return self._inner(entity, name, exact, argument[0].start, argument[-1].end)
-        return None
-
-    def words(self, entity: Entity, name: str, value: str) -> tuple[tuple[str, LaunchValue], ...]:
-        """Return the words of a command line, as the front end splits it: texts in it by the rules of a shell."""
-        row: list[list[Literal | Substitution]] = [[]]
-        for piece in self.pieces(entity, name, value):
-            if isinstance(piece, Substitution):
-                row[-1].append(piece)
-                continue
-            try:
-                tokens = shlex.split(piece.text)
-            except ValueError:
-                raise Rejected("quotes", f"{name} of <{entity.tag}> has an open quote", entity.place(name)) from None
-            if piece.text[:1].isspace() and row[-1]:
-                row.append([])
-            for number, token in enumerate(tokens):
-                if number:
-                    row.append([])
-                row[-1].append(Literal(token, piece.start, piece.end))
-            if piece.text[-1:].isspace() and row[-1]:
-                row.append([])
-        span = entity.place(name)
-        return tuple(("", LaunchValue(texts(tuple(word)), span)) for word in row if word)
-
-    def conditions(self, entity: Entity) -> tuple[LaunchCondition, ...]:
-        """Return what ``if`` and ``unless`` ask for. Raises Rejected."""
-        wanted, unwanted = entity.get("if"), entity.get("unless")
-        if wanted is not None and unwanted is not None:
-            raise Rejected("conditions", f"<{entity.tag}> has both if and unless", entity.place("unless"))
-        if wanted is not None:
-            return (LaunchCondition(texts(self.pieces(entity, "if", wanted)), None),)
-        if unwanted is not None:
-            return (LaunchCondition(texts(self.pieces(entity, "unless", unwanted)), None, wanted=False),)
-        return ()
-
-
-def _substitutions(pieces: Pieces) -> Iterable[Substitution]:
-    for piece in pieces:
-        if isinstance(piece, Substitution):
-            yield piece
-            for argument in piece.arguments:
-                yield from _substitutions(argument)
-
-
 # --- actions of launch ---------------------------------------------------------------------------------------------
 
 
-def _argument(reader: _Reader, entity: Entity) -> LaunchAction:
+def _argument(reader: Reader, entity: Entity) -> LaunchAction:
     conditions = reader.conditions(entity)
     entity.need("name")
     default = reader.optional(entity, "default")
@@ -234,13 +75,11 @@ def _plain(entity: Entity, name: str) -> LaunchValue:
 
 
 def _unescaped(value: str) -> str:
-    import re  # noqa: PLC0415  (hardly ever needed)
-
     return re.sub(r"\\(.)", r"\1", value) if "\\" in value else value
 
 
 def _assignment(kind: str, name: str = "name", value: str = "value") -> Rule:
-    def rule(reader: _Reader, entity: Entity) -> LaunchAction:
+    def rule(reader: Reader, entity: Entity) -> LaunchAction:
         conditions = reader.conditions(entity)
         target, given = reader.text(entity, name), reader.text(entity, value)
         span = reader.package_span(entity, value)
@@ -250,7 +89,7 @@ def _assignment(kind: str, name: str = "name", value: str = "value") -> Rule:
 
 
 def _single(kind: str, name: str) -> Rule:
-    def rule(reader: _Reader, entity: Entity) -> LaunchAction:
+    def rule(reader: Reader, entity: Entity) -> LaunchAction:
         conditions = reader.conditions(entity)
         value = reader.text(entity, name)
         span = reader.package_span(entity, name)
@@ -259,51 +98,51 @@ def _single(kind: str, name: str) -> Rule:
     return rule
 
 
-def _append_environment(reader: _Reader, entity: Entity) -> LaunchAction:
+def _append_environment(reader: Reader, entity: Entity) -> LaunchAction:
     action = _assignment("environment")(reader, entity)
     _needs_truth(reader, entity, "prepend")
     reader.optional(entity, "separator")
     return action
 
 
-def _needs_truth(reader: _Reader, entity: Entity, name: str) -> None:
+def _needs_truth(reader: Reader, entity: Entity, name: str) -> None:
     value = reader.typed(entity, name, "bool")
     if isinstance(value, str):
         raise Rejected("wrong-type", f"{name} of <{entity.tag}> is neither true nor false", entity.place(name))
 
 
-def _unset_environment(reader: _Reader, entity: Entity) -> LaunchAction:
+def _unset_environment(reader: Reader, entity: Entity) -> LaunchAction:
     conditions = reader.conditions(entity)
     reader.text(entity, "name")
     return LaunchAction("other", entity.span, conditions=conditions)
 
 
-def _bare(reader: _Reader, entity: Entity) -> LaunchAction:
+def _bare(reader: Reader, entity: Entity) -> LaunchAction:
     return LaunchAction("other", entity.span, conditions=reader.conditions(entity))
 
 
-def _kept(reader: _Reader, entity: Entity) -> tuple[tuple[str, LaunchValue], ...]:
+def _kept(reader: Reader, entity: Entity) -> tuple[tuple[str, LaunchValue], ...]:
     return tuple((name, value) for name, value in _named(reader, entity, "keep"))
 
 
-def _reset(reader: _Reader, entity: Entity) -> LaunchAction:
+def _reset(reader: Reader, entity: Entity) -> LaunchAction:
     conditions = reader.conditions(entity)
     return LaunchAction("other", entity.span, arguments=_kept(reader, entity), conditions=conditions)
 
 
-def _log(reader: _Reader, entity: Entity) -> LaunchAction:
+def _log(reader: Reader, entity: Entity) -> LaunchAction:
     conditions = reader.conditions(entity)
     message = reader.text(entity, "message")
     return LaunchAction("other", entity.span, arguments=(("", message),), conditions=conditions)
 
 
-def _shutdown(reader: _Reader, entity: Entity) -> LaunchAction:
+def _shutdown(reader: Reader, entity: Entity) -> LaunchAction:
     conditions = reader.conditions(entity)
     reader.optional(entity, "reason")
     return LaunchAction("other", entity.span, conditions=conditions)
 
 
-def _group(reader: _Reader, entity: Entity) -> LaunchAction:
+def _group(reader: Reader, entity: Entity) -> LaunchAction:
     conditions = reader.conditions(entity)
     scoped = entity.get("scoped", "bool")
     entity.get("forwarding", "bool")
@@ -313,7 +152,7 @@ def _group(reader: _Reader, entity: Entity) -> LaunchAction:
     return LaunchAction("group", entity.span, name=name, arguments=kept, conditions=conditions, children=tuple(children))
 
 
-def _timer(reader: _Reader, entity: Entity) -> LaunchAction:
+def _timer(reader: Reader, entity: Entity) -> LaunchAction:
     conditions = reader.conditions(entity)
     entity.need("period", "float")
     period = reader.typed(entity, "period", "float")
@@ -328,7 +167,7 @@ def _timer(reader: _Reader, entity: Entity) -> LaunchAction:
     return LaunchAction("later", entity.span, conditions=conditions, children=tuple(children))
 
 
-def _include(reader: _Reader, entity: Entity) -> LaunchAction:
+def _include(reader: Reader, entity: Entity) -> LaunchAction:
     conditions = reader.conditions(entity)
     target = reader.text(entity, "file")
     arguments = _named(reader, entity, "arg")
@@ -343,7 +182,7 @@ def _include(reader: _Reader, entity: Entity) -> LaunchAction:
 
 
 def _named(
-    reader: _Reader, entity: Entity, tag: str, name: str = "name", value: str = "value"
+    reader: Reader, entity: Entity, tag: str, name: str = "name", value: str = "value"
 ) -> tuple[tuple[str, LaunchValue], ...]:
     """Return children that give a value to a name."""
     found: list[tuple[str, LaunchValue]] = []
@@ -357,7 +196,7 @@ def _named(
     return tuple(found)
 
 
-def _process(reader: _Reader, entity: Entity, kind: str) -> LaunchAction:
+def _process(reader: Reader, entity: Entity, kind: str) -> LaunchAction:
     """What nodes and executables share (``ExecuteProcess.parse``)."""
     conditions = reader.conditions(entity)
     given: list[tuple[str, LaunchValue]] = []
@@ -389,14 +228,14 @@ def _process(reader: _Reader, entity: Entity, kind: str) -> LaunchAction:
     )
 
 
-def _executable(reader: _Reader, entity: Entity) -> LaunchAction:
+def _executable(reader: Reader, entity: Entity) -> LaunchAction:
     return _process(reader, entity, "process")
 
 
 # --- actions of launch_ros -----------------------------------------------------------------------------------------
 
 
-def _node(reader: _Reader, entity: Entity) -> LaunchAction:
+def _node(reader: Reader, entity: Entity) -> LaunchAction:
     action = _process(reader, entity, "node")
     given = list(action.arguments)
     for name in ("args", "ros_args"):
@@ -417,14 +256,14 @@ def _node(reader: _Reader, entity: Entity) -> LaunchAction:
     )
 
 
-def _lifecycle_node(reader: _Reader, entity: Entity) -> LaunchAction:
+def _lifecycle_node(reader: Reader, entity: Entity) -> LaunchAction:
     _needs_truth(reader, entity, "autostart")
     for name in ("name", "namespace"):
         entity.need(name)
     return _node(reader, entity)
 
 
-def _container(reader: _Reader, entity: Entity) -> LaunchAction:
+def _container(reader: Reader, entity: Entity) -> LaunchAction:
     action = _node(reader, entity)
     components = [_component(reader, child) for child in entity.entities("composable_node")]
     for name in ("name", "namespace"):
@@ -432,7 +271,7 @@ def _container(reader: _Reader, entity: Entity) -> LaunchAction:
     return action._replace(children=tuple(components))
 
 
-def _load(reader: _Reader, entity: Entity) -> LaunchAction:
+def _load(reader: Reader, entity: Entity) -> LaunchAction:
     conditions = reader.conditions(entity)
     target = reader.text(entity, "target")
     children = entity.entities("composable_node")
@@ -442,7 +281,7 @@ def _load(reader: _Reader, entity: Entity) -> LaunchAction:
     return LaunchAction("group", entity.span, name=target, conditions=conditions, children=components)
 
 
-def _component(reader: _Reader, entity: Entity) -> LaunchAction:
+def _component(reader: Reader, entity: Entity) -> LaunchAction:
     action = LaunchAction(
         "component",
         entity.span,
@@ -459,7 +298,7 @@ def _component(reader: _Reader, entity: Entity) -> LaunchAction:
     return action
 
 
-def _remappings(reader: _Reader, entity: Entity) -> tuple[tuple[LaunchValue, LaunchValue], ...]:
+def _remappings(reader: Reader, entity: Entity) -> tuple[tuple[LaunchValue, LaunchValue], ...]:
     children = entity.entities("remap")
     found = tuple((reader.text(child, "from"), reader.text(child, "to")) for child in children)
     for child in children:
@@ -481,7 +320,7 @@ _TYPES: Mapping[str, Type] = {
 _SCALARS: Mapping[str, tuple[type, ...]] = {"str": (str,), "bool": (bool,), "float": (float,), "int": (int,)}
 
 
-def _parameters(reader: _Reader, entity: Entity) -> tuple[tuple[str, LaunchValue], ...]:
+def _parameters(reader: Reader, entity: Entity) -> tuple[tuple[str, LaunchValue], ...]:
     found: list[tuple[str, LaunchValue]] = []
     for param in entity.entities("param"):
         file, name = param.get("from"), param.get("name")
@@ -502,7 +341,7 @@ def _parameters(reader: _Reader, entity: Entity) -> tuple[tuple[str, LaunchValue
     return tuple(found)
 
 
-def _nested(reader: _Reader, param: Entity, above: str) -> list[tuple[str, LaunchValue]]:
+def _nested(reader: Reader, param: Entity, above: str) -> list[tuple[str, LaunchValue]]:
     names = [f"{above}{one}" for one in reader.text(param, "name").texts]
     wanted = param.get("type", "any")
     if wanted is not None and wanted not in _TYPES:
@@ -526,8 +365,6 @@ def _nested(reader: _Reader, param: Entity, above: str) -> list[tuple[str, Launc
         raise Rejected("wrong-type", f"the value of <param> is no {wanted}", param.place("value"))
     return [(name, LaunchValue((str(typed),), param.place("value"))) for name in names]
 
-
-Rule = Callable[[_Reader, Entity], LaunchAction]
 
 _RULES: Mapping[str, Rule] = {
     "arg": _argument,

@@ -11,7 +11,7 @@ import warnings
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.launch import entries
-from ros_lint.collectors.launch_py_actions import LAUNCHED, Walker
+from ros_lint.collectors.launch_py_actions import LAUNCHED, walker
 from ros_lint.collectors.launch_py_objects import PERHAPS, Frame, Function, OutOfBudget, Raised, Source
 from ros_lint.collectors.launch_py_run import Machine, Modules
 from ros_lint.collectors.launch_references import References
@@ -75,7 +75,7 @@ class _Reading:
     def __init__(self, text: Text, machine: Machine) -> None:
         self._machine = machine
         self._source = Source(text)
-        self._walker = Walker(machine, self._source)
+        self._walker = walker(machine, self._source)
         self.actions: list[LaunchAction] = []
         self._blind: list[Opaque] = []
 

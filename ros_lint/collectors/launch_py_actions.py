@@ -1,10 +1,9 @@
-"""From what a Python launch file makes to what it does: only what is returned or added counts (reference, section G2)."""
+"""What objects of the launch libraries do when they are launched, class by class (reference, section G2)."""
 
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Mapping
 
 from ros_lint.collectors.launch_py_methods import items
 from ros_lint.collectors.launch_py_objects import (
@@ -15,189 +14,24 @@ from ros_lint.collectors.launch_py_objects import (
     Function,
     Instance,
     Made,
-    Raised,
+    Source,
     Unknown,
     Value,
-    Written,
     alternatives,
     plain,
 )
+from ros_lint.collectors.launch_py_run import Machine
 from ros_lint.collectors.launch_py_texts import SUBSTITUTIONS, texts
-from ros_lint.facts import LaunchAction, LaunchCondition, LaunchValue
+from ros_lint.collectors.launch_py_walk import Rule, Walker, span_of
+from ros_lint.facts import LaunchAction, LaunchValue
 from ros_lint.text import Span
 
-if TYPE_CHECKING:
-    from ros_lint.collectors.launch_py_objects import Source
-    from ros_lint.collectors.launch_py_run import Machine
-
-NODES = frozenset({"Node", "LifecycleNode", "ComposableNodeContainer"})
-COMPONENTS = frozenset({"ComposableNode", "ComposableLifecycleNode"})
-_DEEPEST = 60
-_MOST = 5_000
+_NODES = frozenset({"Node", "LifecycleNode", "ComposableNodeContainer"})
 
 
-def place(node: ast.AST, source: Source) -> tuple[int, int]:
-    """Return the offsets of an expression."""
-    return (
-        _offset(source, node.lineno, node.col_offset),  # type: ignore[attr-defined]
-        _offset(source, node.end_lineno, node.end_col_offset),  # type: ignore[attr-defined]
-    )
-
-
-def _offset(source: Source, line: int, column: int) -> int:
-    start = source.text.offset(line, 1)
-    if source.ascii:
-        return start + column
-    head = source.text.line(line).encode("utf-8", "surrogateescape")[:column]
-    return start + len(head.decode("utf-8", "surrogateescape"))
-
-
-def span_of(node: ast.AST, source: Source) -> Span:
-    """Return the span of an expression."""
-    return source.text.span(*place(node, source))
-
-
-def conditions_of(machine: Machine, value: Value) -> Conditions:
-    """Return what a condition of launch asks for: IfCondition, UnlessCondition and the two that compare a configuration."""
-    found = []
-    for one in alternatives(value):
-        made = one.value
-        if not isinstance(made, Made):
-            found.append(PERHAPS)
-        elif made.name in ("IfCondition", "UnlessCondition"):
-            asked = machine.texts(made.get(0, "predicate_expression"))
-            found.append(LaunchCondition(asked, None, made.name == "IfCondition"))
-        elif made.name in ("LaunchConfigurationEquals", "LaunchConfigurationNotEquals"):
-            from ros_lint.collectors.launch_text import configuration  # noqa: PLC0415
-
-            names = machine.texts(made.get(0, "launch_configuration_name"))
-            wanted = machine.texts(made.get(1, "expected_value"))
-            if len(names) == len(wanted) == 1:
-                found.append(LaunchCondition((configuration(names[0]),), wanted[0], made.name.endswith("ionEquals")))
-            else:
-                found.append(PERHAPS)
-        else:
-            found.append(PERHAPS)
-    return tuple(found) if len(found) == 1 else (PERHAPS,)
-
-
-class Walker:
-    """Turns values into actions."""
-
-    def __init__(self, machine: Machine, source: Source) -> None:
-        self._machine = machine
-        self._source = source
-        self.blind: list[tuple[str, Span]] = []
-        """Where something is launched that is not known."""
-        self._depth = 0
-        self._open: set[int] = set()
-        self._left = _MOST
-
-    def actions(self, value: Value, conditions: Conditions = (), at: Span | None = None) -> list[LaunchAction]:
-        """Return what a value does when it is launched."""
-        found: list[LaunchAction] = []
-        if self._depth > _DEEPEST:
-            return found
-        self._depth += 1
-        try:
-            for one in alternatives(value, conditions):
-                found += self._one(one.value, one.conditions, at)
-        finally:
-            self._depth -= 1
-        return found
-
-    def _one(self, value: Value, conditions: Conditions, at: Span | None) -> list[LaunchAction]:
-        if isinstance(value, Instance) and value.made is not None:
-            value = value.made
-        if isinstance(value, Made):
-            if id(value) in self._open or self._left <= 0:
-                return []
-            value.seen = True
-            self._left -= 1
-            self._open.add(id(value))
-            try:
-                return self._made(value, conditions)
-            finally:
-                self._open.discard(id(value))
-        if isinstance(value, (list, tuple)):
-            return [action for one in value for action in self.actions(one, conditions, at)]
-        if isinstance(value, Unknown) and value.reason:
-            self.blind.append((value.reason, at or Span(self._source.text.path, 1, 1, 1, 1)))
-        return []
-
-    def _made(self, made: Made, conditions: Conditions) -> list[LaunchAction]:
-        conditions = _merged(conditions, made.conditions)
-        condition = made.get(-1, "condition")
-        if condition is not None:
-            conditions = (*conditions, *conditions_of(self._machine, condition))
-        if made.name == "LaunchDescription":
-            return self._description(made, conditions)
-        rule = _RULES.get(made.name)
-        if rule is not None:
-            return rule(self, made, conditions)
-        if "package" in made.keywords and "executable" in made.keywords:
-            return _node(self, made, conditions)
-        return _other(self, made, conditions)
-
-    def _description(self, made: Made, conditions: Conditions) -> list[LaunchAction]:
-        found: list[LaunchAction] = []
-        index = 0
-        # Functions that are called on the way may add to it.
-        while index < len(made.entities) and index < 5_000:
-            found += self.actions(made.entities[index], conditions, span_of(made.node, made.source))
-            index += 1
-        return found
-
-    def value(self, made: Made, position: int, *names: str) -> LaunchValue | None:
-        """Return an argument as a text, None when it is not there."""
-        given = made.get(position, *names)
-        return None if given is None else self.text(given, made.written(position, *names), made.source)
-
-    def text(self, given: Value, node: ast.expr, source: Source) -> LaunchValue:
-        """Return a value as a text with the place where it is written."""
-        found = texts(given)
-        origin = plain(given)
-        while isinstance(origin, Made) and origin.name in ("TextSubstitution", "ParameterFile", "ParameterValue"):
-            origin = plain(origin.get(0, "text", "param_file", "value"))
-        if isinstance(origin, (list, tuple)) and len(origin) == 1:
-            origin = plain(origin[0])
-        if isinstance(origin, Written):
-            node, source = origin.node, origin.source
-        start, end = place(node, source)
-        if isinstance(node, ast.Constant) and len(found) == 1 and found[0]:
-            at = source.text.text.find(found[0], start, end)
-            if at >= 0 and node.value == found[0]:
-                return LaunchValue(found, source.text.span(at, at + len(found[0])), exact=True)
-        return LaunchValue(found, source.text.span(start, end))
-
-    def package_span(self, value: LaunchValue | None) -> Span | None:
-        """Return where the package is written that a path lies in."""
-        from ros_lint.collectors.launch_text import installed  # noqa: PLC0415
-
-        for text in value.texts if value is not None else ():
-            for found in installed(text):
-                named = self._machine.named.get(found.package)
-                if named is not None:
-                    node, source = named
-                    return self.text(found.package, node, source).span if isinstance(node, ast.Constant) else span_of(*named)
-        return None
-
-    def run(self, function: Value, arguments: Sequence[Value], keywords: Mapping[str, Value], made: Made) -> Value:
-        """Return what a function returns that launch calls."""
-        from ros_lint.collectors.launch_py_objects import Frame  # noqa: PLC0415
-
-        frame = Frame(made.source, None, {})
-        try:
-            return self._machine.call(plain(function), list(arguments), dict(keywords), made.node, frame)
-        except Raised:
-            return Unknown("a function that raises")
-
-
-def _merged(left: Conditions, right: Conditions) -> Conditions:
-    return (*left, *(one for one in right if one not in left))
-
-
-# --- rules by class ------------------------------------------------------------------------------------------------
+def walker(machine: Machine, source: Source) -> Walker:
+    """Return what turns the objects of a launch file into actions."""
+    return Walker(machine, source, _RULES, _other)
 
 
 def _span(made: Made) -> Span:
@@ -208,7 +42,7 @@ def _node(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchActi
     children: list[LaunchAction] = []
     if made.name == "ComposableNodeContainer":
         children = walker.actions(made.get(-1, "composable_node_descriptions"), (), _span(made))
-    elif made.name not in NODES:
+    elif made.name not in _NODES:
         children = _nested(walker, made)
     node = LaunchAction(
         "node",
@@ -280,8 +114,8 @@ def _pairs(walker: Walker, value: Value, made: Made) -> Iterator[tuple[str, Laun
     given = plain(value)
     if isinstance(given, dict):
         given = list(given.items())
-    for pair in items(walker._machine, given) or () if given is not None else ():
-        parts = items(walker._machine, pair)
+    for pair in items(walker.machine, given) or () if given is not None else ():
+        parts = items(walker.machine, pair)
         if parts is None or len(parts) != 2:
             continue
         for name in texts(parts[0]):
@@ -289,7 +123,7 @@ def _pairs(walker: Walker, value: Value, made: Made) -> Iterator[tuple[str, Laun
 
 
 def _declare(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
-    choices = items(walker._machine, made.get(-1, "choices")) if made.get(-1, "choices") is not None else None
+    choices = items(walker.machine, made.get(-1, "choices")) if made.get(-1, "choices") is not None else None
     default = walker.value(made, 1, "default_value")
     return [
         LaunchAction(
@@ -382,10 +216,10 @@ def _later(walker: Walker, made: Made, *names: str) -> list[LaunchAction]:
 
 
 def _opaque_function(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
-    arguments = items(walker._machine, made.get(-1, "args")) if made.get(-1, "args") is not None else []
+    arguments = items(walker.machine, made.get(-1, "args")) if made.get(-1, "args") is not None else []
     keywords = plain(made.get(-1, "kwargs"))
-    before = walker._machine.conditions
-    walker._machine.conditions = ()
+    before = walker.machine.conditions
+    walker.machine.conditions = ()
     try:
         result = walker.run(
             made.get(0, "function"),
@@ -394,7 +228,7 @@ def _opaque_function(walker: Walker, made: Made, conditions: Conditions) -> list
             made,
         )
     finally:
-        walker._machine.conditions = before
+        walker.machine.conditions = before
     return walker.actions(result, conditions, _span(made)) if result is not None else []
 
 
@@ -405,7 +239,7 @@ def _for_each(walker: Walker, made: Made, conditions: Conditions) -> list[Launch
 
 def _process(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
     command = made.get(0, "cmd")
-    words = items(walker._machine, command) if command is not None else None
+    words = items(walker.machine, command) if command is not None else None
     node = made.written(0, "cmd")
     arguments = [("", walker.text(word, node, made.source)) for word in words or ()]
     target = arguments[0][1] if arguments else None
@@ -428,7 +262,7 @@ def _given(walker: Walker, made: Made, *names: str) -> tuple[tuple[str, LaunchVa
             continue
         given = plain(made.keywords[name])
         node = made.written(-1, name)
-        values = list(given.values()) if isinstance(given, dict) else items(walker._machine, given) or [given]
+        values = list(given.values()) if isinstance(given, dict) else items(walker.machine, given) or [given]
         found += [("", walker.text(plain(value), node, made.source)) for value in values]
     return tuple(found)
 
@@ -438,7 +272,7 @@ def _parameters(walker: Walker, made: Made) -> tuple[tuple[str, LaunchValue], ..
     if "parameters" not in made.keywords:
         return ()
     node = made.written(-1, "parameters")
-    for given in items(walker._machine, made.keywords["parameters"]) or [made.keywords["parameters"]]:
+    for given in items(walker.machine, made.keywords["parameters"]) or [made.keywords["parameters"]]:
         for one in alternatives(given):
             _parameter(walker, one.value, node, made, found)
     return tuple(found)
@@ -465,8 +299,8 @@ def _remappings(walker: Walker, made: Made) -> tuple[tuple[LaunchValue, LaunchVa
     found: list[tuple[LaunchValue, LaunchValue]] = []
     if "remappings" in made.keywords:
         node = made.written(-1, "remappings")
-        for pair in items(walker._machine, made.keywords["remappings"]) or ():
-            parts = items(walker._machine, pair)
+        for pair in items(walker.machine, made.keywords["remappings"]) or ():
+            parts = items(walker.machine, pair)
             if parts is not None and len(parts) == 2:
                 found.append((walker.text(parts[0], node, made.source), walker.text(parts[1], node, made.source)))
     return tuple(found)
@@ -488,6 +322,8 @@ def _nested(walker: Walker, made: Made) -> list[LaunchAction]:
 
 
 def _other(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    if "package" in made.keywords and "executable" in made.keywords:
+        return _node(walker, made, conditions)
     if made.name in SUBSTITUTIONS:
         return []
     given: list[tuple[str, LaunchValue]] = []
@@ -525,8 +361,6 @@ def _texts_in(value: Value) -> list[Value]:
 def _silent(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:  # noqa: ARG001
     return []
 
-
-Rule = Callable[[Walker, Made, Conditions], list[LaunchAction]]
 
 _RULES: Mapping[str, Rule] = {
     "Node": _node,

@@ -27,6 +27,7 @@ from ros_lint.collectors.launch_py_objects import (
     union,
     written,
 )
+from ros_lint.collectors.launch_py_operations import hashable, text_of, texts_made
 from ros_lint.collectors.launch_text import LONGEST, UNKNOWN, is_plain, is_settled, joined
 
 if TYPE_CHECKING:
@@ -161,8 +162,6 @@ def call_method(
 def _of_text(
     machine: Machine, owner: str, name: str, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame
 ) -> Value:
-    from ros_lint.collectors.launch_py_eval import text_of, texts_made  # noqa: PLC0415  (they know each other)
-
     if name == "format":
         return _formatted(owner, arguments, keywords, node, frame)
     if name == "join" and arguments:
@@ -188,8 +187,6 @@ def _of_text(
 
 def _formatted(owner: str, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame) -> Value:
     import string  # noqa: PLC0415  (few launch files format like this)
-
-    from ros_lint.collectors.launch_py_eval import text_of, texts_made  # noqa: PLC0415
 
     rows: list[tuple[str, ...]] = []
     try:
@@ -269,8 +266,6 @@ def sort(values: list[Value]) -> None:
 
 
 def _of_dict(machine: Machine, owner: dict[Any, Value], name: str, arguments: list[Value], keywords: dict[str, Value]) -> Value:
-    from ros_lint.collectors.launch_py_eval import hashable  # noqa: PLC0415
-
     key = hashable(plain(arguments[0])) if arguments else None
     match name:
         case "items":
@@ -298,8 +293,6 @@ def _of_dict(machine: Machine, owner: dict[Any, Value], name: str, arguments: li
 
 
 def _updated(machine: Machine, owner: dict[Any, Value], arguments: list[Value], keywords: dict[str, Value]) -> None:
-    from ros_lint.collectors.launch_py_eval import hashable  # noqa: PLC0415
-
     owner.update(keywords)
     for argument in arguments:
         for one in alternatives(argument):

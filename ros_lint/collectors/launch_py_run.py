@@ -11,11 +11,11 @@ import ast
 import posixpath
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
-from typing import Any
 
-from ros_lint.collectors.launch_py_eval import EVALUATE, hashable, negated, operation, opposite_of, text_of, truth
-from ros_lint.collectors.launch_py_library import BUILTINS, call_library, subscript_library
-from ros_lint.collectors.launch_py_methods import call_method, items
+from ros_lint.collectors.launch_py_builtins import BUILTINS
+from ros_lint.collectors.launch_py_eval import EVALUATE
+from ros_lint.collectors.launch_py_library import call_library, subscript_library
+from ros_lint.collectors.launch_py_methods import call_method
 from ros_lint.collectors.launch_py_objects import (
     PERHAPS,
     Api,
@@ -35,12 +35,13 @@ from ros_lint.collectors.launch_py_objects import (
     Union,
     Unknown,
     Value,
-    alternatives,
     plain,
     union,
 )
-from ros_lint.collectors.launch_py_texts import SUBSTITUTIONS, texts
-from ros_lint.collectors.launch_text import UNKNOWN, joined, presence
+from ros_lint.collectors.launch_py_operations import negated, text_of
+from ros_lint.collectors.launch_py_statements import LEAVE, bind, execute
+from ros_lint.collectors.launch_py_texts import texts
+from ros_lint.collectors.launch_text import UNKNOWN, joined
 from ros_lint.facts import LaunchCondition
 from ros_lint.text import Text
 
@@ -49,7 +50,6 @@ _STEPS_A_CALL = 60_000
 _DEEPEST_CALL = 40
 _MOST_TURNS = 2_000
 
-_NEXT, _BREAK, _CONTINUE, _LEAVE = range(4)
 Modules = Callable[[str, Text], "Text | None"]
 """Finds the text of a module by its dotted name (dots in front for a relative one), for a module that imports it."""
 
@@ -123,7 +123,7 @@ class Machine:
         frame = Frame(source, None, source.names)
         source.names.setdefault("__name__", "launch_file")
         with suppress(Raised):
-            self._block(tree.body, frame)
+            execute(self, tree.body, frame)
         source.names = frame.names
         return frame
 
@@ -154,242 +154,9 @@ class Machine:
             raise OutOfBudget
         return EVALUATE[type(node)](self, node, frame)
 
-    def _block(self, body: Sequence[ast.stmt], frame: Frame) -> int:
-        for statement in body:
-            handler = _STATEMENTS.get(type(statement))
-            if handler is not None:
-                signal = handler(self, statement, frame)
-                if signal:
-                    return signal
-        return _NEXT
-
-    def _expression(self, node: ast.Expr, frame: Frame) -> int:
-        self.evaluate(node.value, frame)
-        return _NEXT
-
-    def _assign(self, node: ast.Assign, frame: Frame) -> int:
-        value = self.evaluate(node.value, frame)
-        for target in node.targets:
-            self.bind(target, value, frame)
-        return _NEXT
-
-    def _annotated(self, node: ast.AnnAssign, frame: Frame) -> int:
-        if node.value is not None:
-            self.bind(node.target, self.evaluate(node.value, frame), frame)
-        return _NEXT
-
-    def _augmented(self, node: ast.AugAssign, frame: Frame) -> int:
-        value = self.evaluate(node.value, frame)
-        load: ast.expr = node.target
-        before = self.evaluate(load, frame)
-        one = plain(before)
-        if isinstance(one, list) and isinstance(node.op, ast.Add):
-            found = items(self, value)
-            if found is None:
-                self.lose(value)
-                found = [Unknown("elements that are not known")]
-            self.spend(len(found))
-            one += [self.guard(element) for element in found]
-            return _NEXT
-        self.bind(node.target, operation(self, node.op, before, value, node.value, frame), frame)
-        return _NEXT
-
     def bind(self, target: ast.expr, value: Value, frame: Frame) -> None:
         """Give a value to a target of an assignment."""
-        if isinstance(target, ast.Name):
-            frame.declared.get(target.id, frame).names[target.id] = value
-        elif isinstance(target, (ast.Tuple, ast.List)):
-            self._unpack(target.elts, value, frame)
-        elif isinstance(target, ast.Attribute):
-            for one in alternatives(self.evaluate(target.value, frame)):
-                if isinstance(one.value, Instance):
-                    one.value.attributes[target.attr] = value
-                elif isinstance(one.value, Made):
-                    one.value.keywords[target.attr] = value
-                else:
-                    self.lose(value)
-        elif isinstance(target, ast.Subscript):
-            self._store(target, value, frame)
-        elif isinstance(target, ast.Starred):
-            self.bind(target.value, value, frame)
-
-    def _unpack(self, targets: Sequence[ast.expr], value: Value, frame: Frame) -> None:
-        values = items(self, value)
-        star = next((index for index, target in enumerate(targets) if isinstance(target, ast.Starred)), -1)
-        if values is None or (star < 0 and len(values) != len(targets)) or len(values) < len(targets) - 1:
-            self.lose(value)
-            for target in targets:
-                self.bind(target, Unknown("part of what is not known"), frame)
-            return
-        if star >= 0:
-            after = len(targets) - star - 1
-            values = [*values[:star], values[star : len(values) - after], *values[len(values) - after :]]
-        for target, one in zip(targets, values, strict=True):
-            self.bind(target, plain(one), frame)
-
-    def _store(self, target: ast.Subscript, value: Value, frame: Frame) -> None:
-        key = plain(self.evaluate(target.slice, frame)) if not isinstance(target.slice, ast.Slice) else Unknown("a slice")
-        for one in alternatives(self.evaluate(target.value, frame)):
-            owner = one.value
-            if isinstance(owner, dict):
-                name = hashable(key)
-                if self.conditions and name in owner:
-                    owner[name] = union([owner[name], self.guard(value)])
-                else:
-                    owner[name] = value
-            elif isinstance(owner, list) and isinstance(key, int) and -len(owner) <= key < len(owner):
-                owner[key] = value
-            else:
-                self.lose(value)
-
-    def _if(self, node: ast.If, frame: Frame) -> int:
-        answer, condition = truth(self, self.evaluate(node.test, frame))
-        if answer is not None:
-            return self._block(node.body if answer else node.orelse, frame)
-        return self._either(node.body, node.orelse, condition, frame)
-
-    def _either(self, body: Sequence[ast.stmt], other: Sequence[ast.stmt], condition: LaunchCondition, frame: Frame) -> int:
-        """Follow both sides of a branch, and join what they leave behind."""
-        before, opposite = self.conditions, opposite_of(condition)
-        start = dict(frame.names)
-        first = self._side(body, (*before, condition), frame)
-        first_names = frame.names
-        frame.names = start
-        second = self._side(other, (*before, opposite), frame)
-        second_names = frame.names
-        self.conditions = before
-        if first == _LEAVE and second == _LEAVE:
-            return _LEAVE
-        if _LEAVE in (first, second):
-            # The rest of the function runs only if the other side was taken.
-            frame.names = _kept(first_names, second_names) if first == _LEAVE else _kept(second_names, first_names)
-            self.conditions = (*before, opposite if first == _LEAVE else condition)
-            return _NEXT
-        frame.names = first_names
-        for name, value in second_names.items():
-            if name not in first_names:
-                first_names[name] = value
-            elif first_names[name] is not value:
-                first_names[name] = union([Guarded(first_names[name], (condition,)), Guarded(value, (opposite,))])
-        return first if first == second else _NEXT
-
-    def _side(self, body: Sequence[ast.stmt], conditions: Conditions, frame: Frame) -> int:
-        self.conditions = conditions
-        try:
-            return self._block(body, frame)
-        except Raised:
-            return _LEAVE
-
-    def _for(self, node: ast.For | ast.AsyncFor, frame: Frame) -> int:
-        values = items(self, self.evaluate(node.iter, frame))
-        before = self.conditions
-        if values is None:
-            self.bind(node.target, Unknown("element of what is not known"), frame)
-            return self._perhaps(node.body, frame)
-        for turn, value in enumerate(values):
-            if turn > _MOST_TURNS:
-                raise OutOfBudget
-            self.spend(1)
-            guards = next(alternatives(value)).conditions if isinstance(value, Guarded) else ()
-            self.bind(node.target, plain(value), frame)
-            self.conditions = (*before, *guards)
-            signal = self._block(node.body, frame)
-            if signal == _LEAVE:
-                return signal
-            if signal == _BREAK:
-                self.conditions = before
-                return _NEXT
-            if len(self.conditions) == len(before) + len(guards):
-                self.conditions = before
-        return self._block(node.orelse, frame)
-
-    def _perhaps(self, body: Sequence[ast.stmt], frame: Frame) -> int:
-        """Follow a block that may run any number of times."""
-        signal = self._either(body, (), PERHAPS, frame)
-        return signal if signal == _LEAVE else _NEXT
-
-    def _while(self, node: ast.While, frame: Frame) -> int:
-        for _ in range(_MOST_TURNS):
-            self.spend(1)
-            answer, _condition = truth(self, self.evaluate(node.test, frame))
-            if answer is None:
-                return self._perhaps(node.body, frame)
-            if not answer:
-                return self._block(node.orelse, frame)
-            signal = self._block(node.body, frame)
-            if signal == _LEAVE:
-                return signal
-            if signal == _BREAK:
-                return _NEXT
-        raise OutOfBudget
-
-    def _with(self, node: ast.With | ast.AsyncWith, frame: Frame) -> int:
-        for item in node.items:
-            value = self.evaluate(item.context_expr, frame)
-            if item.optional_vars is not None:
-                self.bind(item.optional_vars, value, frame)
-        return self._block(node.body, frame)
-
-    def _try(self, node: ast.Try, frame: Frame) -> int:
-        looked_up = len(self.looked_up)
-        try:
-            signal = self._block(node.body, frame)
-        except Raised:
-            signal = _NEXT
-            for handler in node.handlers[:1]:
-                if handler.name:
-                    frame.names[handler.name] = Unknown("an exception")
-                signal = self._block(handler.body, frame)
-        else:
-            if node.handlers and len(self.looked_up) > looked_up:
-                self._without(node, looked_up, frame)
-            if signal == _NEXT:
-                signal = self._block(node.orelse, frame)
-        final = self._block(node.finalbody, frame)
-        return final or signal
-
-    def _without(self, node: ast.Try, first: int, frame: Frame) -> None:
-        """A package that is looked up may be missing, and the file does without."""
-        there = LaunchCondition((presence(self.looked_up[first][0]),), None)
-        self.looked_up[first:] = [
-            (name, at, source, (*conditions, LaunchCondition((presence(name),), None)))
-            for name, at, source, conditions in self.looked_up[first:]
-        ]
-        for handler in node.handlers:
-            self._either(handler.body, (), opposite_of(there), frame)
-
-    def _return(self, node: ast.Return, frame: Frame) -> int:
-        value = self.evaluate(node.value, frame) if node.value is not None else None
-        frame.returned.append(Guarded(value, self.conditions))
-        return _LEAVE
-
-    def _raise(self, node: ast.Raise, frame: Frame) -> int:  # noqa: ARG002
-        raise Raised
-
-    def _break(self, node: ast.Break, frame: Frame) -> int:  # noqa: ARG002
-        return _BREAK
-
-    def _continue(self, node: ast.Continue, frame: Frame) -> int:  # noqa: ARG002
-        return _CONTINUE
-
-    def _match(self, node: ast.Match, frame: Frame) -> int:
-        subject = self.evaluate(node.subject, frame)
-        for case in node.cases:
-            for inner in ast.walk(case.pattern):
-                if isinstance(inner, (ast.MatchAs, ast.MatchStar)) and inner.name:
-                    frame.names[inner.name] = subject
-            if self._perhaps(case.body, frame) == _LEAVE:
-                return _LEAVE
-        return _NEXT
-
-    def _function(self, node: ast.FunctionDef | ast.AsyncFunctionDef, frame: Frame) -> int:
-        found: Value = self.function(node, frame)
-        for decorator in node.decorator_list:
-            name = decorator.id if isinstance(decorator, ast.Name) else ""
-            if name in ("classmethod", "staticmethod", "property"):
-                found = Bound(found, [], {"": name})
-        frame.names[node.name] = found
-        return _NEXT
+        bind(self, target, value, frame)
 
     def function(self, node: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda, frame: Frame) -> Function:
         """Return a function of the program."""
@@ -402,76 +169,6 @@ class Machine:
             walked = (inner for statement in node.body for inner in ast.walk(statement))
             found.yields = any(isinstance(inner, (ast.Yield, ast.YieldFrom)) for inner in walked)
         return found
-
-    def _class(self, node: ast.ClassDef, frame: Frame) -> int:
-        bases = [plain(self.evaluate(base, frame)) for base in node.bases]
-        inner = Frame(frame.source, frame, {})
-        self._block(node.body, inner)
-        fields = [
-            statement.target.id
-            for statement in node.body
-            if isinstance(statement, ast.AnnAssign) and isinstance(statement.target, ast.Name)
-        ]
-        found = Class(node.name, bases, inner.names, fields)
-        for value in inner.names.values():
-            if isinstance(value, Function):
-                value.owner = found
-                value.frame = frame  # methods do not see the names of their class
-            elif isinstance(value, Bound) and isinstance(value.function, Function):
-                value.function.owner = found
-                value.function.frame = frame
-        frame.names[node.name] = found
-        return _NEXT
-
-    def _import(self, node: ast.Import, frame: Frame) -> int:
-        for alias in node.names:
-            found = self.module(alias.name, frame.source)
-            top = alias.name.partition(".")[0]
-            if alias.asname:
-                frame.names[alias.asname] = found or Api(alias.name)
-            elif found is None or "." not in alias.name:
-                frame.names[top] = found or Api(top)
-        return _NEXT
-
-    def _import_from(self, node: ast.ImportFrom, frame: Frame) -> int:
-        name = "." * node.level + (node.module or "")
-        found = self.module(name, frame.source)
-        for alias in node.names:
-            if alias.name == "*":
-                frame.names.update(found.names if found is not None else {})
-                continue
-            if alias.name in SUBSTITUTIONS:
-                frame.names[alias.asname or alias.name] = Api(f"{name}.{alias.name}")
-                continue
-            inner = found.names.get(alias.name) if found is not None else None
-            if inner is None:
-                inner = self.module(
-                    f"{name}.{alias.name}".replace("..", ".") if node.level else f"{name}.{alias.name}", frame.source
-                )
-            frame.names[alias.asname or alias.name] = inner if inner is not None else Api(f"{name}.{alias.name}")
-        return _NEXT
-
-    def _global(self, node: ast.Global, frame: Frame) -> int:
-        outermost = frame
-        while outermost.outer is not None:
-            outermost = outermost.outer
-        frame.declared.update(dict.fromkeys(node.names, outermost))
-        return _NEXT
-
-    def _nonlocal(self, node: ast.Nonlocal, frame: Frame) -> int:
-        for name in node.names:
-            around = frame.outer
-            while around is not None and name not in around.names:
-                around = around.outer
-            if around is not None:
-                frame.declared[name] = around
-        return _NEXT
-
-    def _delete(self, node: ast.Delete, frame: Frame) -> int:
-        for target in node.targets:
-            if isinstance(target, ast.Name):
-                frame.names.pop(target.id, None)
-        return _NEXT
 
     # --- calls ----------------------------------------------------------------------------------------------------
 
@@ -546,7 +243,7 @@ class Machine:
         allowed = self._left
         self._depth += 1
         try:
-            signal = self._block(node.body, frame)
+            signal = execute(self, node.body, frame)
         except OutOfBudget:
             if left <= allowed:
                 raise
@@ -555,14 +252,14 @@ class Machine:
         except Raised:
             if not frame.returned:
                 raise
-            signal = _LEAVE  # this way out of several ends here
+            signal = LEAVE  # this way out of several ends here
         finally:
             self._depth -= 1
             self._left = left - (allowed - self._left)
             self.conditions = before
         if function.yields:
             return frame.yielded
-        if signal != _LEAVE and frame.returned:
+        if signal != LEAVE and frame.returned:
             frame.returned.append(Guarded(None, (PERHAPS,)))
         if not frame.returned:
             return None
@@ -622,38 +319,3 @@ class Machine:
 
     def negated(self, value: Value) -> Value:
         return negated(self, value)
-
-
-def _kept(left: dict[str, Value], rest: dict[str, Value]) -> dict[str, Value]:
-    """Return the names after a branch of which one side left the function."""
-    return {**{name: value for name, value in left.items() if name not in rest}, **rest}
-
-
-_STATEMENTS: dict[type[ast.stmt], Callable[[Machine, Any, Frame], int]] = {
-    ast.Expr: Machine._expression,
-    ast.Assign: Machine._assign,
-    ast.AnnAssign: Machine._annotated,
-    ast.AugAssign: Machine._augmented,
-    ast.If: Machine._if,
-    ast.For: Machine._for,
-    ast.AsyncFor: Machine._for,
-    ast.While: Machine._while,
-    ast.With: Machine._with,
-    ast.AsyncWith: Machine._with,
-    ast.Try: Machine._try,
-    ast.Return: Machine._return,
-    ast.Raise: Machine._raise,
-    ast.Break: Machine._break,
-    ast.Continue: Machine._continue,
-    ast.Match: Machine._match,
-    ast.FunctionDef: Machine._function,
-    ast.AsyncFunctionDef: Machine._function,
-    ast.ClassDef: Machine._class,
-    ast.Import: Machine._import,
-    ast.ImportFrom: Machine._import_from,
-    ast.Global: Machine._global,
-    ast.Nonlocal: Machine._nonlocal,
-    ast.Delete: Machine._delete,
-}
-if hasattr(ast, "TryStar"):
-    _STATEMENTS[ast.TryStar] = Machine._try

@@ -7,8 +7,19 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from ros_lint.collectors import launch_text
-from ros_lint.collectors.launch_py_objects import FilePath, Instance, Made, Value, alternatives, environment, plain
+from ros_lint.collectors.launch_py_objects import (
+    PERHAPS,
+    Conditions,
+    FilePath,
+    Instance,
+    Made,
+    Value,
+    alternatives,
+    environment,
+    plain,
+)
 from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, joined
+from ros_lint.facts import LaunchCondition
 
 _DEEPEST = 60
 
@@ -161,3 +172,23 @@ _RULES: Mapping[str, Callable[[Made, int], tuple[str, ...]]] = {
 
 SUBSTITUTIONS = frozenset(_RULES) | {"AnonName", "Parameter", "FileContent", "LocalSubstitution", "LaunchLogDir"}
 """Classes whose objects stand for a text."""
+
+
+def conditions_of(value: Value) -> Conditions:
+    """Return what a condition of launch asks for: IfCondition, UnlessCondition and the two that compare a configuration."""
+    found: list[LaunchCondition] = []
+    for one in alternatives(value):
+        made = one.value
+        if isinstance(made, Made) and made.name in ("IfCondition", "UnlessCondition"):
+            asked = texts(made.get(0, "predicate_expression"))
+            found.append(LaunchCondition(asked, None, made.name == "IfCondition"))
+        elif isinstance(made, Made) and made.name in ("LaunchConfigurationEquals", "LaunchConfigurationNotEquals"):
+            names = texts(made.get(0, "launch_configuration_name"))
+            wanted = texts(made.get(1, "expected_value"))
+            if len(names) != 1 or len(wanted) != 1:
+                return (PERHAPS,)
+            equal = made.name == "LaunchConfigurationEquals"
+            found.append(LaunchCondition((launch_text.configuration(names[0]),), wanted[0], equal))
+        else:
+            return (PERHAPS,)
+    return tuple(found) if len(found) == 1 else (PERHAPS,)

@@ -1,0 +1,304 @@
+"""What the functions of Python and its libraries return, as far as launch files need it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import Any
+
+from ros_lint.collectors import launch_text
+from ros_lint.collectors.launch_py_call import Call, Rule, nothing, unknown, unknown_text
+from ros_lint.collectors.launch_py_methods import call_method, items, sort
+from ros_lint.collectors.launch_py_objects import (
+    Api,
+    Bound,
+    Class,
+    Guarded,
+    Instance,
+    Made,
+    Method,
+    Raised,
+    Unknown,
+    Value,
+    plain,
+)
+from ros_lint.collectors.launch_py_operations import truth
+from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN
+
+
+def _str(call: Call) -> Value:
+    value = call.get(0)
+    if isinstance(value, Made):
+        return unknown_text(call)
+    return call.result(call.texts(0)) if value is not None or call.arguments else ""
+
+
+def _number(kind: type) -> Rule:
+    def rule(call: Call) -> Value:
+        value = plain(call.get(0))
+        if value is None and not call.arguments:
+            return kind()
+        try:
+            if isinstance(value, (int, float, bool)) or (
+                isinstance(value, str) and launch_text.is_plain(value) and len(value) < 50
+            ):
+                return kind(value)
+        except (ValueError, OverflowError):
+            raise Raised from None
+        return Unknown("a number")
+
+    return rule
+
+
+def _bool(call: Call) -> Value:
+    answer, condition = truth(call.machine, call.get(0))
+    return answer if answer is not None else Unknown("a truth", condition)
+
+
+def _list(call: Call) -> Value:
+    if not call.arguments:
+        return []
+    found = call.items(0)
+    return found if found is not None else unknown(call)
+
+
+def _tuple(call: Call) -> Value:
+    found = _list(call)
+    return tuple(found) if isinstance(found, list) else found
+
+
+def _dict(call: Call) -> Value:
+    found: dict[Any, Value] = {}
+    call_method(call.machine, Method(found, "update"), call.arguments, call.keywords, call.node, call.frame)
+    return found
+
+
+def _length(call: Call) -> Value:
+    value = plain(call.get(0))
+    if isinstance(value, (list, tuple, dict, set, range)) or (isinstance(value, str) and launch_text.is_plain(value)):
+        return len(value)
+    return Unknown("a length")
+
+
+def _range(call: Call) -> Value:
+    values = [plain(argument) for argument in call.arguments]
+    if values and all(isinstance(value, int) for value in values):
+        try:
+            return range(*values)
+        except (TypeError, ValueError):
+            raise Raised from None
+    return Unknown("a range")
+
+
+def _enumerate(call: Call) -> Value:
+    found = call.items(0)
+    start = plain(call.get(1, "start")) or 0
+    if found is None or not isinstance(start, int):
+        return unknown(call)
+    return [_keep(one, partial(_pair, index)) for index, one in enumerate(found, start)]
+
+
+def _pair(index: int, value: Value) -> Value:
+    return (index, value)
+
+
+def _keep(value: Value, function: Callable[[Value], Value]) -> Value:
+    """Apply a function to a value inside of the conditions around it."""
+    if isinstance(value, Guarded):
+        return Guarded(_keep(value.value, function), value.conditions)
+    return function(value)
+
+
+def _zip(call: Call) -> Value:
+    rows = [items(call.machine, argument) for argument in call.arguments]
+    if any(row is None for row in rows):
+        return unknown(call)
+    return [tuple(plain(one) for one in row) for row in zip(*(row or [] for row in rows), strict=False)]
+
+
+def _sorted(call: Call) -> Value:
+    found = call.items(0)
+    if found is None:
+        return unknown(call)
+    sort(found)
+    return found
+
+
+def _reversed(call: Call) -> Value:
+    found = call.items(0)
+    return found[::-1] if found is not None else unknown(call)
+
+
+def _map(call: Call) -> Value:
+    rows = [items(call.machine, argument) for argument in call.arguments[1:]]
+    if not rows or any(row is None for row in rows):
+        return unknown(call)
+    return [
+        call.machine.call(call.arguments[0], [plain(one) for one in row], {}, call.node, call.frame)
+        for row in zip(*(row or [] for row in rows), strict=False)
+    ]
+
+
+def _filter(call: Call) -> Value:
+    found = call.items(1)
+    if found is None:
+        return unknown(call)
+    kept = []
+    for one in found:
+        asked = call.machine.call(call.arguments[0], [plain(one)], {}, call.node, call.frame) if call.arguments[0] else one
+        answer, condition = truth(call.machine, asked)
+        if answer is not False:
+            kept.append(one if answer else Guarded(one, (condition,)))
+    return kept
+
+
+def _any_all(wanted: bool) -> Rule:
+    def rule(call: Call) -> Value:
+        found = call.items(0)
+        answers = [truth(call.machine, one)[0] for one in found] if found is not None else [None]
+        if wanted in answers:
+            return wanted
+        return Unknown("any or all") if None in answers else not wanted
+
+    return rule
+
+
+def _extreme(function: Callable[[Any], Any]) -> Rule:
+    def rule(call: Call) -> Value:
+        found = call.items(0) if len(call.arguments) == 1 else call.arguments
+        values = [plain(one) for one in found or ()]
+        if values and all(isinstance(value, (int, float)) for value in values):
+            return function(values)
+        return Unknown("a number")
+
+    return rule
+
+
+def _isinstance(call: Call) -> Value:
+    value, kind = plain(call.get(0)), plain(call.get(1))
+    kinds = kind if isinstance(kind, tuple) else (kind,)
+    names = {one.last for one in kinds if isinstance(one, Api)}
+    if isinstance(value, (str, int, float, list, dict, tuple, type(None))) and len(names) == len(kinds):
+        own = {"Written": "str", "NoneType": "NoneType"}.get(type(value).__name__, type(value).__name__)
+        return own in names or (own == "bool" and "int" in names)
+    if isinstance(value, Made) and len(names) == len(kinds):
+        return value.name in names or (Unknown("a kind") if names & {"Action", "Substitution", "Entity"} else False)
+    if isinstance(value, Instance):
+        return any(isinstance(one, Class) and value.cls is one for one in kinds) or Unknown("a kind")
+    return Unknown("a kind")
+
+
+def _getattr(call: Call) -> Value:
+    owner, name = plain(call.get(0)), plain(call.get(1))
+    if isinstance(owner, Instance) and isinstance(name, str):
+        if name in owner.attributes:
+            return owner.attributes[name]
+        found = owner.cls.find(name)
+        if found is None and len(call.arguments) > 2:
+            return call.arguments[2]
+    return Unknown("an attribute")
+
+
+def _open(call: Call) -> Value:
+    found = call.texts(0, "file")
+    return call.machine.open_file(found[0], call.node) if len(found) == 1 else Unknown("a file")
+
+
+def _parsed(call: Call) -> Value:
+    content = plain(call.get(0, "stream", "s"))
+    if not isinstance(content, str) or not launch_text.is_plain(content):
+        call.machine.lose(content)
+        return Unknown("the content of a file")
+    import yaml  # noqa: PLC0415  (takes 20 ms to import)
+
+    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    try:
+        return yaml.load(content, Loader=loader)  # noqa: S506  (one of the two safe loaders)
+    except (yaml.YAMLError, ValueError, RecursionError):
+        raise Raised from None
+
+
+def _partial(call: Call) -> Value:
+    return Bound(call.arguments[0], call.arguments[1:], call.keywords) if call.arguments else unknown(call)
+
+
+def _chain(call: Call) -> Value:
+    found: list[Value] = []
+    for argument in call.arguments:
+        inner = items(call.machine, argument)
+        if inner is None:
+            return unknown(call)
+        found += inner
+    return found
+
+
+def _copied(call: Call) -> Value:
+    value = plain(call.get(0))
+    if isinstance(value, list):
+        return list(value)
+    return dict(value) if isinstance(value, dict) else value
+
+
+BUILTINS: Mapping[str, Value] = {
+    "__file__": f"{OWN_FOLDER}/{UNKNOWN}",
+    **dict.fromkeys(
+        (
+            "str", "int", "float", "bool", "list", "dict", "tuple", "set", "frozenset", "len", "range", "enumerate", "zip",
+            "sorted", "reversed", "map", "filter", "any", "all", "min", "max", "sum", "isinstance", "hasattr", "getattr",
+            "setattr", "print", "open", "super", "next", "iter", "repr", "type", "locals", "globals", "vars", "input", "abs",
+            "round", "format", "callable", "id", "hash", "object", "property", "staticmethod", "classmethod", "bytes",
+            "exec", "eval", "dir", "chr", "ord", "divmod", "pow", "slice", "issubclass", "NotImplemented", "Ellipsis",
+            "exit", "quit", "__name__", "__import__", "bytearray", "complex", "memoryview", "__doc__", "__debug__",
+            "delattr", "hex", "oct", "bin", "ascii", "breakpoint", "help", "compile", "copyright", "credits", "license",
+            "BaseException", "Exception", "ArithmeticError", "AssertionError", "AttributeError", "EnvironmentError",
+            "EOFError", "FileExistsError", "FileNotFoundError", "ImportError", "IndexError", "IOError", "KeyError",
+            "KeyboardInterrupt", "LookupError", "ModuleNotFoundError", "NameError", "NotADirectoryError",
+            "NotImplementedError", "OSError", "OverflowError", "PermissionError", "RecursionError", "RuntimeError",
+            "StopIteration", "SyntaxError", "SystemError", "SystemExit", "TimeoutError", "TypeError", "UnicodeError",
+            "UnicodeDecodeError", "ValueError", "Warning", "UserWarning", "DeprecationWarning", "ZeroDivisionError",
+        )
+    ),
+}  # fmt: skip
+"""Names that Python binds."""
+
+FUNCTIONS: Mapping[str, Rule] = {
+    "yaml.safe_load": _parsed,
+    "yaml.load": _parsed,
+    "json.load": _parsed,
+    "json.loads": _parsed,
+    "functools.partial": _partial,
+    "itertools.chain": _chain,
+    "copy.copy": _copied,
+    "copy.deepcopy": _copied,
+    "collections.OrderedDict": _dict,
+    "builtins.str": _str,
+    "builtins.int": _number(int),
+    "builtins.float": _number(float),
+    "builtins.bool": _bool,
+    "builtins.list": _list,
+    "builtins.set": _list,
+    "builtins.frozenset": _list,
+    "builtins.tuple": _tuple,
+    "builtins.dict": _dict,
+    "builtins.len": _length,
+    "builtins.range": _range,
+    "builtins.enumerate": _enumerate,
+    "builtins.zip": _zip,
+    "builtins.sorted": _sorted,
+    "builtins.reversed": _reversed,
+    "builtins.map": _map,
+    "builtins.filter": _filter,
+    "builtins.any": _any_all(True),
+    "builtins.all": _any_all(False),
+    "builtins.min": _extreme(min),
+    "builtins.max": _extreme(max),
+    "builtins.sum": _extreme(sum),
+    "builtins.isinstance": _isinstance,
+    "builtins.getattr": _getattr,
+    "builtins.print": nothing,
+    "builtins.open": _open,
+    "builtins.repr": unknown_text,
+    "builtins.input": unknown_text,
+    "builtins.type": unknown,
+}
+"""What functions return, by their full names."""

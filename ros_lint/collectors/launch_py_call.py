@@ -1,0 +1,69 @@
+"""A call of a library's function in a Python launch file."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from ros_lint.collectors.launch_py_methods import items
+from ros_lint.collectors.launch_py_objects import Unknown, Value, union, written
+from ros_lint.collectors.launch_py_operations import text_of
+from ros_lint.collectors.launch_text import UNKNOWN
+
+if TYPE_CHECKING:
+    from ros_lint.collectors.launch_py_objects import Frame
+    from ros_lint.collectors.launch_py_run import Machine
+
+
+class Call:
+    """A call of a library: whose it is, what it gets, where it stands."""
+
+    __slots__ = ("arguments", "frame", "keywords", "machine", "name", "node")
+
+    def __init__(
+        self, machine: Machine, name: str, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame
+    ) -> None:
+        self.machine = machine
+        self.name = name
+        self.arguments = arguments
+        self.keywords = keywords
+        self.node = node
+        self.frame = frame
+
+    def get(self, position: int, *names: str) -> Value:
+        for name in names:
+            if name in self.keywords:
+                return self.keywords[name]
+        return self.arguments[position] if position < len(self.arguments) else None
+
+    def texts(self, position: int, *names: str) -> tuple[str, ...]:
+        value = self.get(position, *names)
+        return (UNKNOWN,) if value is None else text_of(value)
+
+    def result(self, found: tuple[str, ...]) -> Value:
+        if len(found) == 1:
+            return written(found[0], self.node, self.frame.source)
+        return union(written(one, self.node, self.frame.source) for one in found)
+
+    def items(self, position: int) -> list[Value] | None:
+        return items(self.machine, self.get(position))
+
+
+Rule = Callable[[Call], Value]
+
+
+def unknown(call: Call) -> Value:
+    """Return what a function returns of which nothing is known: what it got may go anywhere."""
+    call.machine.lose([call.arguments, call.keywords])
+    return Unknown(f"{call.name.rpartition('.')[2]}()")
+
+
+def unknown_text(call: Call) -> Value:
+    """Return a text of which nothing is known."""
+    return written(UNKNOWN, call.node, call.frame.source)
+
+
+def nothing(_: Call) -> Value:
+    """Return None."""
+    return None

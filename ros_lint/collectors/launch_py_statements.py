@@ -1,0 +1,418 @@
+"""Statements of Python launch files.
+
+Where a branch depends on what is not known, both sides are followed on the same objects, under a condition each, and
+names that differ afterwards stand for one of several values.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
+
+from ros_lint.collectors.launch_py_methods import items
+from ros_lint.collectors.launch_py_objects import (
+    PERHAPS,
+    Api,
+    Bound,
+    Class,
+    Conditions,
+    Frame,
+    Function,
+    Guarded,
+    Instance,
+    Made,
+    OutOfBudget,
+    Raised,
+    Unknown,
+    Value,
+    alternatives,
+    plain,
+    union,
+)
+from ros_lint.collectors.launch_py_operations import hashable, operation, opposite_of, truth
+from ros_lint.collectors.launch_py_texts import SUBSTITUTIONS
+from ros_lint.collectors.launch_text import presence
+from ros_lint.facts import LaunchCondition
+
+if TYPE_CHECKING:
+    from ros_lint.collectors.launch_py_run import Machine
+
+_MOST_TURNS = 2_000
+
+NEXT, BREAK, CONTINUE, LEAVE = range(4)
+"""How a statement ends: with the next one, or by leaving a turn, a loop or the function."""
+
+
+def execute(machine: Machine, body: Sequence[ast.stmt], frame: Frame) -> int:
+    """Follow statements. Raises Raised and OutOfBudget."""
+    for statement in body:
+        handler = _STATEMENTS.get(type(statement))
+        if handler is not None:
+            signal = handler(machine, statement, frame)
+            if signal:
+                return signal
+    return NEXT
+
+
+def _expression(machine: Machine, node: ast.Expr, frame: Frame) -> int:
+    machine.evaluate(node.value, frame)
+    return NEXT
+
+
+def _assign(machine: Machine, node: ast.Assign, frame: Frame) -> int:
+    value = machine.evaluate(node.value, frame)
+    for target in node.targets:
+        bind(machine, target, value, frame)
+    return NEXT
+
+
+def _annotated(machine: Machine, node: ast.AnnAssign, frame: Frame) -> int:
+    if node.value is not None:
+        bind(machine, node.target, machine.evaluate(node.value, frame), frame)
+    return NEXT
+
+
+def _augmented(machine: Machine, node: ast.AugAssign, frame: Frame) -> int:
+    value = machine.evaluate(node.value, frame)
+    load: ast.expr = node.target
+    before = machine.evaluate(load, frame)
+    one = plain(before)
+    if isinstance(one, list) and isinstance(node.op, ast.Add):
+        found = items(machine, value)
+        if found is None:
+            machine.lose(value)
+            found = [Unknown("elements that are not known")]
+        machine.spend(len(found))
+        one += [machine.guard(element) for element in found]
+        return NEXT
+    bind(machine, node.target, operation(machine, node.op, before, value, node.value, frame), frame)
+    return NEXT
+
+
+def bind(machine: Machine, target: ast.expr, value: Value, frame: Frame) -> None:
+    """Give a value to a target of an assignment."""
+    if isinstance(target, ast.Name):
+        frame.declared.get(target.id, frame).names[target.id] = value
+    elif isinstance(target, (ast.Tuple, ast.List)):
+        _unpack(machine, target.elts, value, frame)
+    elif isinstance(target, ast.Attribute):
+        for one in alternatives(machine.evaluate(target.value, frame)):
+            if isinstance(one.value, Instance):
+                one.value.attributes[target.attr] = value
+            elif isinstance(one.value, Made):
+                one.value.keywords[target.attr] = value
+            else:
+                machine.lose(value)
+    elif isinstance(target, ast.Subscript):
+        _store(machine, target, value, frame)
+    elif isinstance(target, ast.Starred):
+        bind(machine, target.value, value, frame)
+
+
+def _unpack(machine: Machine, targets: Sequence[ast.expr], value: Value, frame: Frame) -> None:
+    values = items(machine, value)
+    star = next((index for index, target in enumerate(targets) if isinstance(target, ast.Starred)), -1)
+    if values is None or (star < 0 and len(values) != len(targets)) or len(values) < len(targets) - 1:
+        machine.lose(value)
+        for target in targets:
+            bind(machine, target, Unknown("part of what is not known"), frame)
+        return
+    if star >= 0:
+        after = len(targets) - star - 1
+        values = [*values[:star], values[star : len(values) - after], *values[len(values) - after :]]
+    for target, one in zip(targets, values, strict=True):
+        bind(machine, target, plain(one), frame)
+
+
+def _store(machine: Machine, target: ast.Subscript, value: Value, frame: Frame) -> None:
+    key = plain(machine.evaluate(target.slice, frame)) if not isinstance(target.slice, ast.Slice) else Unknown("a slice")
+    for one in alternatives(machine.evaluate(target.value, frame)):
+        owner = one.value
+        if isinstance(owner, dict):
+            name = hashable(key)
+            if machine.conditions and name in owner:
+                owner[name] = union([owner[name], machine.guard(value)])
+            else:
+                owner[name] = value
+        elif isinstance(owner, list) and isinstance(key, int) and -len(owner) <= key < len(owner):
+            owner[key] = value
+        else:
+            machine.lose(value)
+
+
+def _if(machine: Machine, node: ast.If, frame: Frame) -> int:
+    answer, condition = truth(machine, machine.evaluate(node.test, frame))
+    if answer is not None:
+        return execute(machine, node.body if answer else node.orelse, frame)
+    return _either(machine, node.body, node.orelse, condition, frame)
+
+
+def _either(
+    machine: Machine, body: Sequence[ast.stmt], other: Sequence[ast.stmt], condition: LaunchCondition, frame: Frame
+) -> int:
+    """Follow both sides of a branch, and join what they leave behind."""
+    before, opposite = machine.conditions, opposite_of(condition)
+    start = dict(frame.names)
+    first = _side(machine, body, (*before, condition), frame)
+    first_names = frame.names
+    frame.names = start
+    second = _side(machine, other, (*before, opposite), frame)
+    second_names = frame.names
+    machine.conditions = before
+    if first == LEAVE and second == LEAVE:
+        return LEAVE
+    if LEAVE in (first, second):
+        # The rest of the function runs only if the other side was taken.
+        frame.names = _kept(first_names, second_names) if first == LEAVE else _kept(second_names, first_names)
+        machine.conditions = (*before, opposite if first == LEAVE else condition)
+        return NEXT
+    frame.names = first_names
+    for name, value in second_names.items():
+        if name not in first_names:
+            first_names[name] = value
+        elif first_names[name] is not value:
+            first_names[name] = union([Guarded(first_names[name], (condition,)), Guarded(value, (opposite,))])
+    return first if first == second else NEXT
+
+
+def _side(machine: Machine, body: Sequence[ast.stmt], conditions: Conditions, frame: Frame) -> int:
+    machine.conditions = conditions
+    try:
+        return execute(machine, body, frame)
+    except Raised:
+        return LEAVE
+
+
+def _for(machine: Machine, node: ast.For | ast.AsyncFor, frame: Frame) -> int:
+    values = items(machine, machine.evaluate(node.iter, frame))
+    before = machine.conditions
+    if values is None:
+        bind(machine, node.target, Unknown("element of what is not known"), frame)
+        return _perhaps(machine, node.body, frame)
+    for turn, value in enumerate(values):
+        if turn > _MOST_TURNS:
+            raise OutOfBudget
+        machine.spend(1)
+        guards = next(alternatives(value)).conditions if isinstance(value, Guarded) else ()
+        bind(machine, node.target, plain(value), frame)
+        machine.conditions = (*before, *guards)
+        signal = execute(machine, node.body, frame)
+        if signal == LEAVE:
+            return signal
+        if signal == BREAK:
+            machine.conditions = before
+            return NEXT
+        if len(machine.conditions) == len(before) + len(guards):
+            machine.conditions = before
+    return execute(machine, node.orelse, frame)
+
+
+def _perhaps(machine: Machine, body: Sequence[ast.stmt], frame: Frame) -> int:
+    """Follow a block that may run any number of times."""
+    signal = _either(machine, body, (), PERHAPS, frame)
+    return signal if signal == LEAVE else NEXT
+
+
+def _while(machine: Machine, node: ast.While, frame: Frame) -> int:
+    for _ in range(_MOST_TURNS):
+        machine.spend(1)
+        answer, _condition = truth(machine, machine.evaluate(node.test, frame))
+        if answer is None:
+            return _perhaps(machine, node.body, frame)
+        if not answer:
+            return execute(machine, node.orelse, frame)
+        signal = execute(machine, node.body, frame)
+        if signal == LEAVE:
+            return signal
+        if signal == BREAK:
+            return NEXT
+    raise OutOfBudget
+
+
+def _with(machine: Machine, node: ast.With | ast.AsyncWith, frame: Frame) -> int:
+    for item in node.items:
+        value = machine.evaluate(item.context_expr, frame)
+        if item.optional_vars is not None:
+            bind(machine, item.optional_vars, value, frame)
+    return execute(machine, node.body, frame)
+
+
+def _try(machine: Machine, node: ast.Try, frame: Frame) -> int:
+    looked_up = len(machine.looked_up)
+    try:
+        signal = execute(machine, node.body, frame)
+    except Raised:
+        signal = NEXT
+        for handler in node.handlers[:1]:
+            if handler.name:
+                frame.names[handler.name] = Unknown("an exception")
+            signal = execute(machine, handler.body, frame)
+    else:
+        if node.handlers and len(machine.looked_up) > looked_up:
+            _without(machine, node, looked_up, frame)
+        if signal == NEXT:
+            signal = execute(machine, node.orelse, frame)
+    final = execute(machine, node.finalbody, frame)
+    return final or signal
+
+
+def _without(machine: Machine, node: ast.Try, first: int, frame: Frame) -> None:
+    """A package that is looked up may be missing, and the file does without."""
+    there = LaunchCondition((presence(machine.looked_up[first][0]),), None)
+    machine.looked_up[first:] = [
+        (name, at, source, (*conditions, LaunchCondition((presence(name),), None)))
+        for name, at, source, conditions in machine.looked_up[first:]
+    ]
+    for handler in node.handlers:
+        _either(machine, handler.body, (), opposite_of(there), frame)
+
+
+def _return(machine: Machine, node: ast.Return, frame: Frame) -> int:
+    value = machine.evaluate(node.value, frame) if node.value is not None else None
+    frame.returned.append(Guarded(value, machine.conditions))
+    return LEAVE
+
+
+def _raise(_machine: Machine, _node: ast.Raise, _frame: Frame) -> int:
+    raise Raised
+
+
+def _break(_machine: Machine, _node: ast.Break, _frame: Frame) -> int:
+    return BREAK
+
+
+def _continue(_machine: Machine, _node: ast.Continue, _frame: Frame) -> int:
+    return CONTINUE
+
+
+def _match(machine: Machine, node: ast.Match, frame: Frame) -> int:
+    subject = machine.evaluate(node.subject, frame)
+    for case in node.cases:
+        for inner in ast.walk(case.pattern):
+            if isinstance(inner, (ast.MatchAs, ast.MatchStar)) and inner.name:
+                frame.names[inner.name] = subject
+        if _perhaps(machine, case.body, frame) == LEAVE:
+            return LEAVE
+    return NEXT
+
+
+def _function(machine: Machine, node: ast.FunctionDef | ast.AsyncFunctionDef, frame: Frame) -> int:
+    found: Value = machine.function(node, frame)
+    for decorator in node.decorator_list:
+        name = decorator.id if isinstance(decorator, ast.Name) else ""
+        if name in ("classmethod", "staticmethod", "property"):
+            found = Bound(found, [], {"": name})
+    frame.names[node.name] = found
+    return NEXT
+
+
+def _class(machine: Machine, node: ast.ClassDef, frame: Frame) -> int:
+    bases = [plain(machine.evaluate(base, frame)) for base in node.bases]
+    inner = Frame(frame.source, frame, {})
+    execute(machine, node.body, inner)
+    fields = [
+        statement.target.id
+        for statement in node.body
+        if isinstance(statement, ast.AnnAssign) and isinstance(statement.target, ast.Name)
+    ]
+    found = Class(node.name, bases, inner.names, fields)
+    for value in inner.names.values():
+        if isinstance(value, Function):
+            value.owner = found
+            value.frame = frame  # methods do not see the names of their class
+        elif isinstance(value, Bound) and isinstance(value.function, Function):
+            value.function.owner = found
+            value.function.frame = frame
+    frame.names[node.name] = found
+    return NEXT
+
+
+def _import(machine: Machine, node: ast.Import, frame: Frame) -> int:
+    for alias in node.names:
+        found = machine.module(alias.name, frame.source)
+        top = alias.name.partition(".")[0]
+        if alias.asname:
+            frame.names[alias.asname] = found or Api(alias.name)
+        elif found is None or "." not in alias.name:
+            frame.names[top] = found or Api(top)
+    return NEXT
+
+
+def _import_from(machine: Machine, node: ast.ImportFrom, frame: Frame) -> int:
+    name = "." * node.level + (node.module or "")
+    found = machine.module(name, frame.source)
+    for alias in node.names:
+        if alias.name == "*":
+            frame.names.update(found.names if found is not None else {})
+            continue
+        if alias.name in SUBSTITUTIONS:
+            frame.names[alias.asname or alias.name] = Api(f"{name}.{alias.name}")
+            continue
+        inner = found.names.get(alias.name) if found is not None else None
+        if inner is None:
+            inner = machine.module(
+                f"{name}.{alias.name}".replace("..", ".") if node.level else f"{name}.{alias.name}", frame.source
+            )
+        frame.names[alias.asname or alias.name] = inner if inner is not None else Api(f"{name}.{alias.name}")
+    return NEXT
+
+
+def _global(_machine: Machine, node: ast.Global, frame: Frame) -> int:
+    outermost = frame
+    while outermost.outer is not None:
+        outermost = outermost.outer
+    frame.declared.update(dict.fromkeys(node.names, outermost))
+    return NEXT
+
+
+def _nonlocal(_machine: Machine, node: ast.Nonlocal, frame: Frame) -> int:
+    for name in node.names:
+        around = frame.outer
+        while around is not None and name not in around.names:
+            around = around.outer
+        if around is not None:
+            frame.declared[name] = around
+    return NEXT
+
+
+def _delete(_machine: Machine, node: ast.Delete, frame: Frame) -> int:
+    for target in node.targets:
+        if isinstance(target, ast.Name):
+            frame.names.pop(target.id, None)
+    return NEXT
+
+
+def _kept(left: dict[str, Value], rest: dict[str, Value]) -> dict[str, Value]:
+    """Return the names after a branch of which one side left the function."""
+    return {**{name: value for name, value in left.items() if name not in rest}, **rest}
+
+
+_STATEMENTS: dict[type[ast.stmt], Callable[[Machine, Any, Frame], int]] = {
+    ast.Expr: _expression,
+    ast.Assign: _assign,
+    ast.AnnAssign: _annotated,
+    ast.AugAssign: _augmented,
+    ast.If: _if,
+    ast.For: _for,
+    ast.AsyncFor: _for,
+    ast.While: _while,
+    ast.With: _with,
+    ast.AsyncWith: _with,
+    ast.Try: _try,
+    ast.Return: _return,
+    ast.Raise: _raise,
+    ast.Break: _break,
+    ast.Continue: _continue,
+    ast.Match: _match,
+    ast.FunctionDef: _function,
+    ast.AsyncFunctionDef: _function,
+    ast.ClassDef: _class,
+    ast.Import: _import,
+    ast.ImportFrom: _import_from,
+    ast.Global: _global,
+    ast.Nonlocal: _nonlocal,
+    ast.Delete: _delete,
+}
+if hasattr(ast, "TryStar"):
+    _STATEMENTS[ast.TryStar] = _try

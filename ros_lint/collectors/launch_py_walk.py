@@ -1,0 +1,165 @@
+"""From what a Python launch file makes to what it does: only what is returned or added counts."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from ros_lint.collectors.launch_py_objects import (
+    Conditions,
+    Frame,
+    Instance,
+    Made,
+    Raised,
+    Unknown,
+    Value,
+    Written,
+    alternatives,
+    plain,
+)
+from ros_lint.collectors.launch_py_texts import conditions_of, texts
+from ros_lint.collectors.launch_text import installed
+from ros_lint.facts import LaunchAction, LaunchValue
+from ros_lint.text import Span
+
+if TYPE_CHECKING:
+    from ros_lint.collectors.launch_py_objects import Source
+    from ros_lint.collectors.launch_py_run import Machine
+
+_DEEPEST = 60
+_MOST = 5_000
+
+
+def place(node: ast.AST, source: Source) -> tuple[int, int]:
+    """Return the offsets of an expression."""
+    return (
+        _offset(source, node.lineno, node.col_offset),  # type: ignore[attr-defined]
+        _offset(source, node.end_lineno, node.end_col_offset),  # type: ignore[attr-defined]
+    )
+
+
+def _offset(source: Source, line: int, column: int) -> int:
+    start = source.text.offset(line, 1)
+    if source.ascii:
+        return start + column
+    head = source.text.line(line).encode("utf-8", "surrogateescape")[:column]
+    return start + len(head.decode("utf-8", "surrogateescape"))
+
+
+def span_of(node: ast.AST, source: Source) -> Span:
+    """Return the span of an expression."""
+    return source.text.span(*place(node, source))
+
+
+class Walker:
+    """Turns values into actions."""
+
+    def __init__(self, machine: Machine, source: Source, rules: Mapping[str, Rule], otherwise: Rule) -> None:
+        """Make a walker. ``rules`` say what objects of a class do, ``otherwise`` what those of any other class do."""
+        self.machine = machine
+        self._rules = rules
+        self._otherwise = otherwise
+        self._source = source
+        self.blind: list[tuple[str, Span]] = []
+        """Where something is launched that is not known."""
+        self._depth = 0
+        self._open: set[int] = set()
+        self._left = _MOST
+
+    def actions(self, value: Value, conditions: Conditions = (), at: Span | None = None) -> list[LaunchAction]:
+        """Return what a value does when it is launched."""
+        found: list[LaunchAction] = []
+        if self._depth > _DEEPEST:
+            return found
+        self._depth += 1
+        try:
+            for one in alternatives(value, conditions):
+                found += self._one(one.value, one.conditions, at)
+        finally:
+            self._depth -= 1
+        return found
+
+    def _one(self, value: Value, conditions: Conditions, at: Span | None) -> list[LaunchAction]:
+        if isinstance(value, Instance) and value.made is not None:
+            value = value.made
+        if isinstance(value, Made):
+            if id(value) in self._open or self._left <= 0:
+                return []
+            value.seen = True
+            self._left -= 1
+            self._open.add(id(value))
+            try:
+                return self._made(value, conditions)
+            finally:
+                self._open.discard(id(value))
+        if isinstance(value, (list, tuple)):
+            return [action for one in value for action in self.actions(one, conditions, at)]
+        if isinstance(value, Unknown) and value.reason:
+            self.blind.append((value.reason, at or Span(self._source.text.path, 1, 1, 1, 1)))
+        return []
+
+    def _made(self, made: Made, conditions: Conditions) -> list[LaunchAction]:
+        conditions = _merged(conditions, made.conditions)
+        condition = made.get(-1, "condition")
+        if condition is not None:
+            conditions = (*conditions, *conditions_of(condition))
+        if made.name == "LaunchDescription":
+            return self._description(made, conditions)
+        return self._rules.get(made.name, self._otherwise)(self, made, conditions)
+
+    def _description(self, made: Made, conditions: Conditions) -> list[LaunchAction]:
+        found: list[LaunchAction] = []
+        index = 0
+        # Functions that are called on the way may add to it.
+        while index < len(made.entities) and index < 5_000:
+            found += self.actions(made.entities[index], conditions, span_of(made.node, made.source))
+            index += 1
+        return found
+
+    def value(self, made: Made, position: int, *names: str) -> LaunchValue | None:
+        """Return an argument as a text, None when it is not there."""
+        given = made.get(position, *names)
+        return None if given is None else self.text(given, made.written(position, *names), made.source)
+
+    def text(self, given: Value, node: ast.expr, source: Source) -> LaunchValue:
+        """Return a value as a text with the place where it is written."""
+        found = texts(given)
+        origin = plain(given)
+        while isinstance(origin, Made) and origin.name in ("TextSubstitution", "ParameterFile", "ParameterValue"):
+            origin = plain(origin.get(0, "text", "param_file", "value"))
+        if isinstance(origin, (list, tuple)) and len(origin) == 1:
+            origin = plain(origin[0])
+        if isinstance(origin, Written):
+            node, source = origin.node, origin.source
+        start, end = place(node, source)
+        if isinstance(node, ast.Constant) and len(found) == 1 and found[0]:
+            at = source.text.text.find(found[0], start, end)
+            if at >= 0 and node.value == found[0]:
+                return LaunchValue(found, source.text.span(at, at + len(found[0])), exact=True)
+        return LaunchValue(found, source.text.span(start, end))
+
+    def package_span(self, value: LaunchValue | None) -> Span | None:
+        """Return where the package is written that a path lies in."""
+        for text in value.texts if value is not None else ():
+            for found in installed(text):
+                named = self.machine.named.get(found.package)
+                if named is not None:
+                    node, source = named
+                    return self.text(found.package, node, source).span if isinstance(node, ast.Constant) else span_of(*named)
+        return None
+
+    def run(self, function: Value, arguments: Sequence[Value], keywords: Mapping[str, Value], made: Made) -> Value:
+        """Return what a function returns that launch calls."""
+        frame = Frame(made.source, None, {})
+        try:
+            return self.machine.call(plain(function), list(arguments), dict(keywords), made.node, frame)
+        except Raised:
+            return Unknown("a function that raises")
+
+
+def _merged(left: Conditions, right: Conditions) -> Conditions:
+    return (*left, *(one for one in right if one not in left))
+
+
+Rule = Callable[[Walker, Made, Conditions], list[LaunchAction]]
