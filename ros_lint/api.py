@@ -1,7 +1,16 @@
 """Everything a rule may import."""
 
 from ros_lint import conditions, manifest_edits
-from ros_lint.build_scripts import called, evaluated_name, hidden, missing_path, relative, top_file
+from ros_lint.build_scripts import (
+    called,
+    evaluated_name,
+    hidden,
+    missing_path,
+    relative,
+    stranded,
+    top_file,
+    unguarded_tests,
+)
 from ros_lint.cmake_finds import come_along, found_names, given_to
 from ros_lint.declare import (
     add_dependency,
@@ -120,8 +129,10 @@ __all__ = [
     "programs",
     "relative",
     "remove_dependency",
+    "stranded",
     "tag_for",
     "top_file",
+    "unguarded_tests",
     "undeclared",
     "works_unseen",
 ]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ros_lint.facts import Call, Facet, Opaque, Problem
+from ros_lint.facts import Call, Facet, Opaque, Problem, Role
 from ros_lint.tree import join
 from ros_lint.workspace import Package
 
@@ -54,3 +54,41 @@ def missing_path(problem: Problem) -> str:
     """Return the path that a problem about a missing file or folder names, relative to the package."""
     match = _PATH.match(problem.message)
     return match[1] if match else problem.message
+
+
+_TEST_COMMANDS = {
+    "ament_add_gtest": "ament_cmake_gtest",
+    "ament_add_gmock": "ament_cmake_gmock",
+    "ament_add_pytest_test": "ament_cmake_pytest",
+    "ament_add_google_benchmark": "ament_cmake_google_benchmark",
+    "add_launch_test": "launch_testing_ament_cmake",
+    "add_ros_test": "ros_testing",
+}
+_FOR_TESTS = frozenset({*_TEST_COMMANDS.values(), "ament_lint_auto", "ament_lint_common"})
+
+
+def unguarded_tests(package: Package) -> dict[str, Call]:
+    """Return the packages for tests that are declared for tests only and used in every build, with the first call."""
+    found: dict[str, Call] = {}
+    if package.builds_with != "ament_cmake":
+        return found
+    for call in called(package, "find_package", *_TEST_COMMANDS):
+        provider = _TEST_COMMANDS.get(call.name) or (call.texts[0] if call.args else "")
+        stops = call.name != "find_package" or "REQUIRED" in call.texts
+        if stops and not call.test and not call.blocks and provider in _FOR_TESTS and provider not in found:
+            if package.declares(provider) == Role.TEST:
+                found[provider] = call
+    return found
+
+
+def stranded(package: Package, name: str) -> bool:
+    """Return whether a program that launch would not find is built, and goes to bin or nowhere: its own rules say so."""
+    script = package.script
+    if script is None:
+        return False
+    if package.builds_with == "ament_cmake":
+        return any(
+            target.kind == "executable" and not target.test and target.name == name and "test" not in name
+            for target in script.targets
+        )
+    return any(provided.path == f"bin/{name}" for provided in script.provides)

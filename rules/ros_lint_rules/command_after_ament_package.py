@@ -52,6 +52,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     end: Call | None = None
     # Elsewhere a macro may have found ament_lint_auto before, and a second search does nothing.
     plain = any(call.texts[:1] in (("ament_cmake",), ("ament_cmake_auto",)) for call in called(package, "find_package"))
+    ends = [call for call in called(package, *_ENDS) if not call.blocks]
     for call in called(package, *_ENDS, *_STOP, *_LOST, "find_package"):
         if call.blocks and (set(call.blocks) != {"if"} or not call.test):
             continue
@@ -59,8 +60,8 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             plain = plain and call.texts[:1] != ("ament_lint_auto",)
             continue
         if call.name in _ENDS:
-            if not call.blocks:
-                end = end or call
+            if ends[-1:] == [call]:  # of those before, duplicate-ament-package speaks
+                end = call
         elif end is not None and (effect := _effect(call)):
             related = Related("this ends the package", end.place)
             yield Finding(f"{_quoted(call)} after {end.name}() {effect}; move it before", call.place, call.name, (related,))

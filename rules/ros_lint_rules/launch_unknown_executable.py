@@ -2,7 +2,7 @@
 ## What it finds
 
 A launch file that starts an executable which its package does not install into `lib/<package>`: it has another name,
-it is not built, or it lands in `bin/`.
+or it is not built.
 
 ## Why it matters
 
@@ -42,6 +42,7 @@ from ros_lint.api import (
     Workspace,
     launchable,
     programs,
+    stranded,
 )
 
 _MOST_RELATED = 4
@@ -92,7 +93,7 @@ def _missing(owner: str, name: str, workspace: Workspace) -> _Missing | None:
     names: set[str] = set()
     for one in owners:
         found = programs(one)
-        if found is None or name in found.names:
+        if found is None or name in found.names or stranded(one, name):
             return None
         if name in found.elsewhere:
             path = found.elsewhere[name]

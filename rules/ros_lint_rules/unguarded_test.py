@@ -23,39 +23,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Call, Finding, Package, Role, Rule, Severity, Workspace, called
-
-_PROVIDERS = {
-    "ament_add_gtest": "ament_cmake_gtest",
-    "ament_add_gmock": "ament_cmake_gmock",
-    "ament_add_pytest_test": "ament_cmake_pytest",
-    "ament_add_google_benchmark": "ament_cmake_google_benchmark",
-    "add_launch_test": "launch_testing_ament_cmake",
-    "add_ros_test": "ros_testing",
-}
-_FOR_TESTS = frozenset({*_PROVIDERS.values(), "ament_lint_auto", "ament_lint_common", "ament_cmake_ros_isolated"})
+from ros_lint.api import Finding, Package, Rule, Severity, Workspace, unguarded_tests
 
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
-    if package.builds_with != "ament_cmake":
-        return
-    told: set[str] = set()
-    for call in called(package, "find_package", *_PROVIDERS):
-        provider = _PROVIDERS.get(call.name) or (call.texts[0] if call.args else "")
-        if call.test or call.blocks or provider not in _FOR_TESTS or provider in told or not _stops(call):
-            continue
-        if package.declares(provider) == Role.TEST:
-            told.add(provider)
-            what = f"find_package({provider})" if call.name == "find_package" else f"{call.name}()"
-            yield Finding(
-                f"{what} outside if(BUILD_TESTING), but {provider} is there for tests only; put it inside",
-                call.place,
-                provider,
-            )
-
-
-def _stops(call: Call) -> bool:
-    return call.name != "find_package" or "REQUIRED" in call.texts
+    for provider, call in unguarded_tests(package).items():
+        what = f"find_package({provider})" if call.name == "find_package" else f"{call.name}()"
+        yield Finding(
+            f"{what} outside if(BUILD_TESTING), but {provider} is there for tests only; put it inside",
+            call.place,
+            provider,
+        )
 
 
 RULE = Rule(

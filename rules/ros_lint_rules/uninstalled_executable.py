@@ -67,7 +67,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if target.kind != "executable" or target.test or "test" in target.name:
             continue
         found = places.get(target.name, [])
-        if any(folder != "bin" for folder, _, _ in found):
+        if any(folder.partition("/")[0] != "bin" for folder, _, _ in found):
             continue
         launched = started.get(found[0][1] if found else target.name, [])
         related = tuple(Related("a launch file starts it here", reference.span) for reference in launched[:3])
@@ -75,7 +75,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if found and (sure or any(source.startswith("include/") for source in nodes)):
             span = found[0][2]
             yield Finding(
-                f"{target.name} is installed to bin/, where ros2 run and launch do not look; install it to lib/{package.name}",
+                f"{target.name} is installed to {found[0][0]}/, where ros2 run and launch do not look; install it to lib/{package.name}",
                 span,
                 target.name,
                 (*related, Related("it is built here", target.span)),

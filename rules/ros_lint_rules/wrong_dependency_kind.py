@@ -43,6 +43,7 @@ from ros_lint.api import (
     covered,
     needs,
     tag_for,
+    unguarded_tests,
 )
 
 _MOST_RELATED = 4
@@ -56,6 +57,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     manifest = package.manifest
     if manifest is None or manifest.problems or manifest.format == 1:
         return
+    unguarded = unguarded_tests(package)
     for need in needs(package, workspace):
         tags = [declared for declared in package.declared if declared.name in need.declared]
         if not tags or any(declared.depend.condition for declared in tags):
@@ -66,6 +68,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         role, why = lacking
         uses = [use for use in need.uses if use.sure and _is_about(use, role)]
         name = next((name for name in uses[0].providers if name in need.declared), need.declared[0])
+        if name in unguarded:
+            continue  # unguarded-test tells where to put it
         mine = [declared.depend for declared in tags if declared.name == name]
         tag = tag_for(package, workspace, name, need.role | (_given(tags, name) & ~Role.TEST))
         written = " and ".join(dict.fromkeys(f"<{depend.tag}>" for depend in mine))
