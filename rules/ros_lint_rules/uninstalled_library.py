@@ -25,6 +25,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros_lint.api import (
+    Call,
     Confidence,
     Edit,
     Facet,
@@ -63,6 +64,8 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     for target in script.targets:
         if target.kind != "library" or target.test or not target.sources or target.name in installed | listed | components:
             continue
+        if any("OBJECT" in call.texts[1:2] for call in _made(package, target.name)):
+            continue
         shared = _is_shared(package, target.name)
         users = [(name, span) for name, span in _linked_by(package, target.name) if name in installed] if shared else []
         exported = _exported(package, target.name)
@@ -88,11 +91,16 @@ def _names(package: Package, texts: tuple[str, ...]) -> Iterator[str]:
 def _is_shared(package: Package, name: str) -> bool:
     """Whether the library is a shared one for sure."""
     found = {mention.name for mention in package.script.mentions if mention.via == "cmake"} if package.script else set()
+    for call in _made(package, name):
+        kinds = {"STATIC", "OBJECT", "INTERFACE"}.intersection(call.texts)
+        return "SHARED" in call.texts or (not kinds and "ament_cmake_ros" in found)
+    return False
+
+
+def _made(package: Package, name: str) -> Iterator[Call]:
     for call in called(package, "add_library", "ament_auto_add_library", anywhere=True):
         if name in _names(package, call.texts[:1]):
-            kinds = {"STATIC", "OBJECT", "INTERFACE"}.intersection(call.texts)
-            return "SHARED" in call.texts or (not kinds and "ament_cmake_ros" in found)
-    return False
+            yield call
 
 
 def _linked_by(package: Package, library: str) -> Iterator[tuple[str, Span]]:

@@ -1,0 +1,55 @@
+"""
+## What it finds
+
+Build scripts that their tools refuse: syntax errors in `CMakeLists.txt`, `*.cmake`, `setup.py` and `setup.cfg`, marks of a
+merge conflict among them; entries of `data_files` that are no pair of a folder and a list, and destinations outside the
+install prefix.
+
+## Why it matters
+
+The build stops there. For entries of the wrong form, colcon stops with an AssertionError or TypeError that names no line.
+
+## How to fix it
+
+Correct the place. An entry of `data_files` is `('share/' + package_name, ['package.xml'])`: a tuple of a folder below the
+prefix and a list of files.
+
+## When it keeps silent
+
+For templates, for Python 2, and for Python that is newer than what can be read here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros_lint.api import Finding, Package, Rule, Severity, Workspace, relative
+
+_KINDS = {
+    "cmake-syntax": "CMake stops here: ",
+    "syntax": "",
+    "setup-cfg-syntax": "",
+    "data-files-form": "",
+    "absolute-destination": "",
+}
+
+
+def check(package: Package, _: Workspace) -> Iterator[Finding]:
+    script = package.script
+    if script is None or package.builds_with not in ("ament_cmake", "ament_python", "cmake"):
+        return
+    for problem in script.problems:
+        if problem.kind in _KINDS:
+            path = relative(package, problem.span.path)
+            yield Finding(f"{_KINDS[problem.kind]}{problem.message}", problem.span, path)
+
+
+RULE = Rule(
+    name="invalid-build-script",
+    code="ROS312",
+    summary="a build script must be readable for its tool",
+    severity=Severity.ERROR,
+    since="0.1",
+    doc=__doc__,
+    package=check,
+)
