@@ -50,7 +50,7 @@ from ros_lint.facts import Target as BuildTarget
 from ros_lint.graph import Edge, Graph, Reason
 from ros_lint.graph_cut import Knot, knots
 from ros_lint.launch_files import Launchable, Programs, is_apart, launchable, programs
-from ros_lint.needs import Need, covered, declared_closure, may_bring, needs, undeclared
+from ros_lint.needs import Need, comes_with_launching, covered, declared_closure, may_bring, needs, undeclared
 from ros_lint.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
 from ros_lint.strangers import Stranger, declared_names
 from ros_lint.suppress import Outcome
@@ -111,6 +111,7 @@ __all__ = [
     "called",
     "change_dependency",
     "come_along",
+    "comes_with_launching",
     "conditions",
     "covered",
     "declared_closure",

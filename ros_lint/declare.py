@@ -14,17 +14,25 @@ from ros_lint.workspace import Package, Workspace
 def tag_for(package: Package, workspace: Workspace, name: str, role: Role) -> str:
     """Return the one tag that a careful maintainer writes for all that a name is needed for (reference, section E2).
 
-    For a manifest of format 1, where nothing means "build and run", it is the tag for building, see :func:`add_dependency`.
+    Where the manifest says ``<depend>`` of everything, it goes on saying so. For a manifest of format 1, where nothing means
+    "build and run", it is the tag for building, see :func:`add_dependency`.
     """
     form = package.manifest.format if package.manifest else 3
     if role == Role.TEST:
         return "test_depend"
     needed = _without(role, Role.TEST)
     if needed == Role.EXEC:
-        return "run_depend" if form == 1 else "exec_depend"
+        habit = "depend" if form > 1 and _always_depend(package) else "exec_depend"
+        return "run_depend" if form == 1 else habit
     if needed == Role.TOOL or (needed == Role.BUILD and _is_tool(workspace, name)):
         return "buildtool_depend"
     return "build_depend" if form == 1 else "depend"
+
+
+def _always_depend(package: Package) -> bool:
+    """Whether a manifest knows no other tag than ``<depend>``, and that one well, for what is built or run."""
+    tags = [declared.depend.tag for declared in package.declared if declared.role & (Role.BUILD | Role.EXEC | Role.EXPORT)]
+    return len(tags) > 1 and set(tags) == {"depend"}
 
 
 def _without(role: Role, part: Role) -> Role:

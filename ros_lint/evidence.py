@@ -53,15 +53,20 @@ def resolve(source: Source, names: Names, headers: Mapping[str, tuple[str, ...]]
     ``headers`` maps the include path of each header that the workspace has below an include folder to its packages.
     """
     launched = frozenset(_relative(source, launch.path) for launch in source.launch)
+    tests = frozenset(_relative(source, launch.path) for launch in source.launch if launch.test)
     own = Liveness(source.name, source.files, source.script, source.facts, launched)
     uses: list[Use] = []
     if source.script is not None:
         for mention in source.script.mentions:
-            role = Role.TEST if mention.test else _script_role(source, mention.via)
-            uses += _use(source, own, names, headers, mention, role, sure=True)
+            role = Role.TEST if mention.test else _script_role(source, mention)
+            only_named = mention.what.startswith(_BY_NAME_ONLY)
+            uses += _use(
+                source, own, names, headers, mention._replace(optional=True) if only_named else mention, role, sure=True
+            )
         uses += _unspoken(source, names)
     for path, facts in source.facts.items():
         role, sure = own.place(path)
+        role = Role.TEST if path in tests else role
         for mention in facts.mentions:
             if mention.via == "package" and path in launched:
                 continue  # the launch collector has it, too
@@ -91,10 +96,14 @@ def _unspoken(source: Source, names: Names) -> Iterator[Use]:
 _ACTIONS = "action_msgs"
 
 
-def _script_role(source: Source, via: Via) -> Role:
-    if source.builds_with == "ament_python":
+def _script_role(source: Source, mention: Mention) -> Role:
+    if source.builds_with == "ament_python" or mention.via == "macro":
         return Role.TOOL
-    return Role.TOOL if via == "macro" else Role.BUILD
+    return Role.EXPORT if mention.what.startswith("ament_export_dependencies") else Role.BUILD
+
+
+_BY_NAME_ONLY = "pluginlib_export_plugin_description_file"
+"""Names the package that loads the plugin, which may as well be one that need not be there."""
 
 
 def _use(

@@ -61,19 +61,20 @@ class Liveness:
         if name.endswith(_INTERFACES):
             return PUBLIC, True
         python = name.endswith((".py", ".py.in")) or "." not in name
+        resource = name.endswith(_RESOURCES)
         folders = set(path.split("/")[:-1])
-        if path in self._launched and (path in self._installed or path in self._installed_python):
-            return Role.EXEC, True
         if TEST_FOLDERS & folders or (python and _is_test(name)):
             # pytest takes what is called test; beside it at the top lie its helpers, further down lies anything.
             taken = _is_test(name) or (path.partition("/")[0] in TEST_FOLDERS and path.count("/") == 1)
-            return Role.TEST, (taken or path in self._launched) if python else not self._sees_targets
+            return Role.TEST, (taken or path in self._launched) if python else not (self._sees_targets or resource)
+        if path in self._launched and (path in self._installed or path in self._installed_python):
+            return Role.EXEC, True
         idle = bool(_IDLE_FOLDERS & folders)
         if path in self._launched:
             return Role.EXEC, not (self._sees_share or idle)
         if path == "setup.py":
             return Role.TOOL, True
-        if name.endswith(_RESOURCES):
+        if resource:
             return Role.EXEC, path in self._installed or not (self._sees_share or idle)
         if python:
             return Role.EXEC, path in self._installed_python or not (self._sees_python or idle)

@@ -107,6 +107,16 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
     return tuple(found)
 
 
+_LAUNCH = frozenset({"launch", "launch_ros", "ament_index_python"})
+"""What ``ros2 launch`` brings along."""
+
+
+def comes_with_launching(package: Package, uses: Iterable[Use]) -> bool:
+    """Whether only launch files import it, and it is part of whatever can launch them (reference, section E2, row 15)."""
+    launched = {launch.path for launch in package.launch}
+    return all(use.via == "import" and use.package in _LAUNCH and use.span.path in launched for use in uses)
+
+
 def may_bring(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
     """Whether one of the declared names of which nothing is known could bring a package along.
 

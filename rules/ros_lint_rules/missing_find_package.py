@@ -27,6 +27,8 @@ from collections.abc import Iterator
 from ros_lint.api import Facet, Finding, Package, Related, Rule, Severity, Workspace, come_along, found_names
 
 _MOST_RELATED = 4
+_NOT_SOUGHT = ("interfaces of", "ament_export_dependencies", "pluginlib_export_plugin_description_file")
+"""What names packages without asking whether they have been found here."""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -41,7 +43,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         name = mention.name.partition("::")[0]
         if mention.via not in ("target", "macro") or mention.optional or name in have or name == package.name:
             continue
-        if mention.what.startswith("interfaces of") or not workspace.world.is_package(name):
+        if mention.what.startswith(_NOT_SOUGHT) or not workspace.world.is_package(name):
             continue
         what = mention.what or mention.name
         missing.setdefault(name, []).append((what, Related(f"also needed here: {what}", mention.span)))

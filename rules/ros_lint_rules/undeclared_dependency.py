@@ -29,7 +29,7 @@ needed at run time, `<exec_depend>` for what is needed at run time only, `<test_
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from ros_lint.api import (
     Confidence,
@@ -39,16 +39,14 @@ from ros_lint.api import (
     Related,
     Rule,
     Severity,
-    Use,
     Workspace,
     add_dependency,
+    comes_with_launching,
     tag_for,
     undeclared,
 )
 
 _MOST_RELATED = 4
-_LAUNCH = frozenset({"launch", "launch_ros", "ament_index_python"})
-"""What `ros2 launch` brings along."""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -66,14 +64,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             tuple(Related(f"also used here: {use.what}", use.span) for use in others[:_MOST_RELATED]),
             None if circular else Fix(f"declare {name} as <{tag}>", add_dependency(package, tag, name)),
             Confidence.HIGH if sure and not circular else Confidence.MEDIUM,
-            Severity.INFO if _comes_with_launching(package, need.uses) else None,
+            Severity.INFO if comes_with_launching(package, need.uses) else None,
         )
-
-
-def _comes_with_launching(package: Package, uses: Sequence[Use]) -> bool:
-    """Whether only launch files import it, and it is part of whatever can launch them (reference, section E2, row 15)."""
-    launched = {launch.path for launch in package.launch}
-    return all(use.via == "import" and use.package in _LAUNCH and use.span.path in launched for use in uses)
 
 
 def _message(name: str, tag: str, circular: bool) -> str:

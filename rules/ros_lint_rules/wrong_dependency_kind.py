@@ -19,12 +19,15 @@ Use the tag that the message names. The fix does this.
 
 - The package comes along in the right way with another declared dependency.
 - The use is optional, or in files that are perhaps not built or installed.
+- Only launch files name it, for what they start, include or look up: see `launch-outside-closure`.
+- Launch files import what comes with `ros2 launch`, and packages of tests declare what tests need.
 - A tag has a condition, or a declared dependency is itself not known, so that the package might come with it.
 - Only ROS packages count for run time: a rosdep key for building may have another one for running.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 
 from ros_lint.api import (
@@ -40,6 +43,7 @@ from ros_lint.api import (
     Use,
     Workspace,
     change_dependency,
+    comes_with_launching,
     covered,
     needs,
     tag_for,
@@ -47,8 +51,9 @@ from ros_lint.api import (
 )
 
 _MOST_RELATED = 4
+_TESTS = re.compile(r"_tests?(_|$)")
 _BUILT = ("include", "cmake", "interface", "macro", "target")
-_RUN = ("import", "package", "launch")
+_RUN = ("import", "package")
 _SEEN = ("include", "interface")
 _ASKED = (Role.BUILD, Role.EXEC, Role.EXPORT)
 
@@ -58,9 +63,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if manifest is None or manifest.problems or manifest.format == 1:
         return
     unguarded = unguarded_tests(package)
+    tests_all = _TESTS.search(package.name) is not None
     for need in needs(package, workspace):
         tags = [declared for declared in package.declared if declared.name in need.declared]
         if not tags or any(declared.depend.condition for declared in tags):
+            continue
+        if comes_with_launching(package, need.uses) or (tests_all and _is_tests_only(_given(tags))):
             continue
         lacking = next(_lacks(package, workspace, need, tags), None)
         if lacking is None:
