@@ -78,7 +78,7 @@ def collect(text: Text, kind: Kind) -> Collected:
     elif kind == "python":
         from ros_lint.collectors import python  # noqa: PLC0415
 
-        facts = python.collect(text)
+        facts = python.collect(text, launch=launch is not None)
     elif kind == "cmake":
         from ros_lint.collectors import cmake_syntax  # noqa: PLC0415
 

@@ -289,6 +289,31 @@ def test_a_computed_look_up_is_opaque() -> None:
     ]
 
 
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("x = os.path.join(get_package_share_directory('p'), 'config', 'a.yaml')\n", [("p", "config/a.yaml")]),
+        ("share = get_package_share_path('p')\nx = open(share / 'a' / 'b.xml')\n", [("p", "a/b.xml")]),
+        ("x = f(Path(get_package_share_directory('p')).joinpath('a.bt'), mode='r')\n", [("p", "a.bt")]),
+        ("x = f\"{get_package_share_directory('p')}/a/b.yaml\"\n", [("p", "a/b.yaml")]),
+        ("P = 'p'\nx = get_package_share_directory(P) + '/a.yaml'\n", [("p", "a.yaml")]),
+        ("x = '%s/a.%s' % (get_package_share_directory('p'), 'b.c')\n", [("p", "a.b.c")]),
+        ("x = os.path.join(get_package_share_directory('p'), name, 'a.yaml')\n", []),
+        ("x = os.path.join(get_package_prefix('p'), 'lib', 'a.so')\n", []),
+        (
+            "d = [os.path.join(get_package_share_directory('p'), n) for n in ('a.xml', 'b.xml')]\n",
+            [("p", "a.xml"), ("p", "b.xml")],
+        ),
+        ("x = os.path.join(get_package_share_directory('p'), 'a.xml' if y else 'b.xml')\n", [("p", "a.xml"), ("p", "b.xml")]),
+    ],
+)
+def test_files_that_are_looked_up(text: str, expected: list[tuple[str, str]]) -> None:
+    facts = python.collect(Text("a.py", text))
+    assert [(found.package, found.path) for found in facts.look_ups] == expected
+    assert {mention.name for mention in facts.mentions} == {"p"}
+    assert python.collect(Text("a.py", text), launch=True)[1:] == ((), (), (), (), ())
+
+
 CALLS = st.sampled_from(
     [
         "get_package_prefix('a')",

@@ -6,7 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.python_imports import scan, walk
-from ros_lint.collectors.python_look_ups import literals, look_ups
+from ros_lint.collectors.python_look_ups import Found, literals, look_ups
 from ros_lint.collectors.python_syntax import NotPythonError, parse, syntax_problem
 from ros_lint.facts import Facet, FileFacts, Mention, Opaque
 
@@ -16,36 +16,36 @@ if TYPE_CHECKING:
 _IMPORT_LINE = re.compile(r"^[ \t]*(?:from|import)[ \t]+([A-Za-z_][\w.]*)", re.MULTILINE)
 
 
-def collect(source: Text) -> FileFacts:
+def collect(source: Text, *, launch: bool = False) -> FileFacts:
     """Return the imports and look-ups of a Python file.
 
     Imports are mentions ``via="import"`` of dotted modules, relative ones left out (reference, section D6). Look-ups
-    such as ``get_package_share_directory("p")`` are ``via="package"``; one whose package is computed is opaque.
-    A file that the interpreter cannot parse is a problem unless it is a template, Python 2 or newer Python; what
-    its lines seem to import counts as optional.
+    such as ``get_package_share_directory("p")`` are ``via="package"``; one whose package is computed is opaque. Files
+    in the share folder of a package of which the source makes a path are ``look_ups``. With ``launch``, only imports
+    are of interest: the rest is better known to who reads launch files.
+
+    A file that the interpreter cannot parse is a problem unless it is a template, Python 2 or newer Python; what its
+    lines seem to import counts as optional.
     """
     found = scan(source.text)
-    facts: list[Mention | Opaque] | list[Mention] | None = literals(source)
-    if found is None or facts is None:
+    looked_up = Found() if launch else literals(source)
+    if found is None or looked_up is None:
         try:
             tree = parse(source)
         except NotPythonError as error:
             return _unreadable(source, error)
         if found is None:
             found = walk(source, tree)
-        if facts is None:
-            facts = look_ups(source, tree)
+        if looked_up is None:
+            looked_up = look_ups(source, tree)
     spans = source.spans([(item.start, item.start + len(item.module)) for item in found])
     mentions = [
         Mention(module, "import", span, f"import of {module}", optional)
         for (_, module, optional), span in zip(found, spans, strict=True)
     ]
-    mentions += [fact for fact in facts if isinstance(fact, Mention)]
-    return FileFacts(
-        source.path,
-        tuple(sorted(mentions, key=lambda mention: mention.span) if facts else mentions),
-        tuple(fact for fact in facts if isinstance(fact, Opaque)),
-    )
+    if looked_up.mentions:
+        mentions = sorted([*mentions, *looked_up.mentions], key=lambda mention: mention.span)
+    return FileFacts(source.path, tuple(mentions), looked_up.opaque, look_ups=looked_up.files)
 
 
 def _unreadable(source: Text, error: NotPythonError) -> FileFacts:
