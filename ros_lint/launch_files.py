@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from ros_lint.facts import Facet, LaunchFile
+from ros_lint.facts import Facet, LaunchFile, LaunchReference, LookUp
 from ros_lint.workspace import Package
 
 _TESTS = frozenset({"test", "tests", "testing", "integration_tests", "benchmark", "benchmarks", "unit_tests"})
@@ -68,3 +68,30 @@ def programs(package: Package) -> Programs | None:
         elif folder == "bin" or folder.startswith("lib/"):
             elsewhere.setdefault(name, provided.path)
     return Programs(frozenset(names), elsewhere)
+
+
+def started(packages: Iterable[Package]) -> dict[str, dict[str, list[LaunchReference]]]:
+    """Return the places where launch files start executables, by package and name; those of tests count, too."""
+    found: dict[str, dict[str, list[LaunchReference]]] = {}
+    for package in packages:
+        for launch in package.launch:
+            for reference in launch.references:
+                if reference.kind == "node":
+                    found.setdefault(reference.package, {}).setdefault(reference.name, []).append(reference)
+    return found
+
+
+def looked_up(packages: Iterable[Package]) -> dict[str, list[LookUp]]:
+    """Return the files that launch files and models need from the share directory of a package, by package."""
+    found: dict[str, list[LookUp]] = {}
+    for package in packages:
+        for launch in launchable(package):
+            for reference in launch.file.references:
+                if reference.kind in ("file", "include") and not reference.optional:
+                    one = LookUp(reference.package, reference.name, reference.span)
+                    found.setdefault(one.package, []).append(one)
+        skip = len(package.path) + 1 if package.path else 0
+        for look_up in package.look_ups:
+            if not is_apart(look_up.span.path[skip:]):
+                found.setdefault(look_up.package, []).append(look_up)
+    return found

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -12,6 +12,7 @@ from ros_lint.facts import (
     Depend,
     Facet,
     LaunchFile,
+    LaunchReference,
     LookUp,
     Manifest,
     Opaque,
@@ -158,6 +159,20 @@ class Workspace:
         for package in self.packages:
             found[package.name] = (*found.get(package.name, ()), package)
         return found
+
+    @cached_property
+    def started(self) -> Mapping[str, Mapping[str, Sequence[LaunchReference]]]:
+        """Where launch files start executables, by package and name."""
+        from ros_lint.launch_files import started  # noqa: PLC0415  (it looks at packages itself)
+
+        return started(self.packages)
+
+    @cached_property
+    def looked_up(self) -> Mapping[str, Sequence[LookUp]]:
+        """The files that launch files and models need from the share directory of a package, by package."""
+        from ros_lint.launch_files import looked_up  # noqa: PLC0415
+
+        return looked_up(self.packages)
 
     @cached_property
     def graph(self) -> Graph:

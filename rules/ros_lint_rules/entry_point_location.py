@@ -38,7 +38,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     outside = {p.path.rpartition("/")[2] for p in script.provides if p.path.startswith("bin/")} - inside
     using = {relative(package, use.span.path) for use in package.uses if use.package == "rclpy"}
     modules = {module.name: module.path for module in script.modules}
-    started = _started(package, workspace)
+    started = workspace.started.get(package.name, {})
     nodes = [
         entry
         for entry in script.entry_points
@@ -58,16 +58,6 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         Span(config, 1, 1, 1, 1) if there else nodes[0].span,
         "setup.cfg",
         tuple(Related("this entry point", entry.span) for entry in nodes[0 if there else 1 :][:4]),
-    )
-
-
-def _started(package: Package, workspace: Workspace) -> frozenset[str]:
-    return frozenset(
-        reference.name
-        for other in workspace.packages
-        for launch in other.launch
-        for reference in launch.references
-        if reference.kind == "node" and reference.package == package.name
     )
 
 

@@ -56,7 +56,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if script is None or package.builds_with not in ("ament_cmake", "ament_python"):
         return
     files = {file.path: file for file in script.files}
-    started = _started(package, workspace)
+    started = workspace.started.get(package.name, {})
     runs = {provided.path for provided in script.provides if provided.program}
     told: dict[Span, list[Provided]] = {}
     for provided in script.provides:
@@ -72,17 +72,6 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             yield from _line(package, file, name, name in started)
     for span, provided_here in told.items():
         yield _no_bit(package, span, provided_here, files)
-
-
-def _started(package: Package, workspace: Workspace) -> frozenset[str]:
-    """Return the executables of the package that launch files of the workspace start."""
-    return frozenset(
-        reference.name
-        for other in workspace.packages
-        for launch in other.launch
-        for reference in launch.references
-        if reference.kind == "node" and reference.package == package.name
-    )
 
 
 def _line(package: Package, file: ScriptFile, name: str, started: bool) -> Iterator[Finding]:

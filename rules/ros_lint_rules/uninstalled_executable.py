@@ -34,7 +34,6 @@ from ros_lint.api import (
     Facet,
     Finding,
     Fix,
-    LaunchReference,
     Package,
     Related,
     Rule,
@@ -62,20 +61,21 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             folder, _, name = provided.path.rpartition("/")
             places.setdefault(provided.target, []).append((folder, name, provided.span))
     nodes = _nodes(package)
-    started = _started(package, workspace)
+    started = workspace.started.get(package.name, {})
     for target in script.targets:
         if target.kind != "executable" or target.test or "test" in target.name:
             continue
         found = places.get(target.name, [])
         if any(folder.partition("/")[0] != "bin" for folder, _, _ in found):
             continue
-        launched = started.get(found[0][1] if found else target.name, [])
+        launched = started.get(found[0][1] if found else target.name, ())
         related = tuple(Related("a launch file starts it here", reference.span) for reference in launched[:3])
         sure = bool(launched or nodes.intersection(target.sources))
         if found and (sure or any(source.startswith("include/") for source in nodes)):
             span = found[0][2]
+            where = f"{found[0][0]}/, where ros2 run and launch do not look"
             yield Finding(
-                f"{target.name} is installed to {found[0][0]}/, where ros2 run and launch do not look; install it to lib/{package.name}",
+                f"{target.name} is installed to {where}; install it to lib/{package.name}",
                 span,
                 target.name,
                 (*related, Related("it is built here", target.span)),
@@ -97,16 +97,6 @@ def _nodes(package: Package) -> frozenset[str]:
     return frozenset(
         relative(package, use.span.path) for use in package.uses if use.via == "include" and use.package in _CLIENTS
     )
-
-
-def _started(package: Package, workspace: Workspace) -> dict[str, list[LaunchReference]]:
-    found: dict[str, list[LaunchReference]] = {}
-    for other in workspace.packages:
-        for launch in other.launch:
-            for reference in launch.references:
-                if reference.kind == "node" and reference.package == package.name and not launch.test:
-                    found.setdefault(reference.name, []).append(reference)
-    return found
 
 
 def _move(package: Package, span: Span, targets: tuple[BuildTarget, ...]) -> Fix | None:

@@ -44,7 +44,6 @@ from ros_lint.api import (
     called,
     is_apart,
     launchable,
-    relative,
 )
 
 _FOLDERS = frozenset(
@@ -69,9 +68,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     installed = {provided.path for provided in script.provides}
     kept = {provided.source for provided in script.provides if provided.source}
     missing: dict[str, list[tuple[str, Span]]] = {}
-    for name, span in _look_ups(package, workspace):
-        path = name.rstrip("/")
-        if f"share/{package.name}/{path}" in installed or path not in package.files or _is_launch(path):
+    files = frozenset(package.files)
+    for look_up in workspace.looked_up.get(package.name, ()):
+        path, span = look_up.path.rstrip("/"), look_up.span
+        if f"share/{package.name}/{path}" in installed or path not in files or _is_launch(path):
             continue
         if any(place.startswith(f"share/{package.name}/{path}/") for place in installed):
             continue
@@ -80,18 +80,6 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         yield _named(package, unit, found)
     told = {unit.partition("/")[0] for unit in missing}
     yield from _folders(package, kept, told)
-
-
-def _look_ups(package: Package, workspace: Workspace) -> Iterator[tuple[str, Span]]:
-    """Yield what is looked up in the package, and where."""
-    for other in workspace.packages:
-        for launch in launchable(other):
-            for reference in launch.file.references:
-                if reference.kind in ("file", "include") and reference.package == package.name and not reference.optional:
-                    yield reference.name, reference.span
-        for look_up in other.look_ups:
-            if look_up.package == package.name and not is_apart(relative(other, look_up.span.path)):
-                yield look_up.path, look_up.span
 
 
 def _is_launch(path: str) -> bool:

@@ -34,22 +34,13 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for target in script.targets:
         if target.kind != "executable" or target.test or target.name in installed or target.name in listed or custom:
             continue
-        if _is_started(package.name, target.name, workspace):
+        if target.name in workspace.started.get(package.name, {}):
             continue
         fix = None
         if script.end is not None:
             line = f"install(TARGETS {target.name} DESTINATION lib/${{PROJECT_NAME}})\n"
             fix = Fix(f"install {target.name}", (Edit(script.end, line),), safe=False)
         yield Finding(f"{target.name} is built, but neither installed nor a test", target.span, target.name, fix=fix)
-
-
-def _is_started(package: str, name: str, workspace: Workspace) -> bool:
-    return any(
-        reference.kind == "node" and reference.package == package and reference.name == name
-        for other in workspace.packages
-        for launch in other.launch
-        for reference in launch.references
-    )
 
 
 RULE = Rule(
