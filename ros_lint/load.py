@@ -76,7 +76,7 @@ class Loader:
         """
         tree = OverlayTree(self.tree, changed) if changed else self.tree
         self._progress("looking for packages", 0, 0)
-        discovery = discover(tree, self._roots)
+        discovery = discover(tree, self._roots, self.target.context)
         founds = [self._without_excluded(found) for found in discovery.packages if not self._exclude(found.path)]
         lists = source_lists.find(tree, self._roots, (join(found.path, file) for found in founds for file in found.files))
         founds = _without_submodules(founds, source_lists.submodules(tree, lists))
