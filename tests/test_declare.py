@@ -1,0 +1,63 @@
+"""Which tag is written for a need."""
+
+from __future__ import annotations
+
+import pytest
+
+from ros_lint.declare import tag_for
+from ros_lint.facts import Role
+from ros_lint.load import Loader
+from ros_lint.tree import MemoryTree
+from ros_lint.workspace import Package, Target, Workspace
+
+HEAD = """<package format="{form}">
+  <name>talker</name>
+  <version>1.0.0</version>
+  <description>Talks.</description>
+  <maintainer email="ada@robots.example">Ada</maintainer>
+  <license>Apache-2.0</license>
+"""
+
+
+def loaded(depends: str, form: int = 3) -> tuple[Package, Workspace]:
+    text = f"{HEAD.format(form=form)}{depends}<export><build_type>ament_cmake</build_type></export></package>"
+    tree = MemoryTree({"talker/package.xml": text, "talker/CMakeLists.txt": "project(talker)\nament_package()\n"})
+    workspace = Loader(tree, ("",), Target("jazzy", "test")).load()
+    return workspace.packages[0], workspace
+
+
+MIXED = "<depend>rclcpp</depend><exec_depend>rviz2</exec_depend>"
+ALWAYS = "<buildtool_depend>ament_cmake</buildtool_depend><depend>rclcpp</depend><depend>rviz2</depend>"
+
+
+@pytest.mark.parametrize(
+    ("role", "depends", "tag"),
+    [
+        (Role.TEST, ALWAYS, "test_depend"),
+        (Role.EXEC, MIXED, "exec_depend"),
+        (Role.EXEC, ALWAYS, "depend"),
+        (Role.EXEC, "", "exec_depend"),
+        (Role.EXEC | Role.TEST, MIXED, "exec_depend"),
+        (Role.BUILD, MIXED, "depend"),
+        (Role.BUILD | Role.EXEC, MIXED, "depend"),
+        (Role.BUILD | Role.EXPORT | Role.EXEC | Role.TEST, MIXED, "depend"),
+        (Role.EXPORT, MIXED, "depend"),
+        (Role.TOOL, ALWAYS, "buildtool_depend"),
+        (Role.TOOL | Role.TEST, ALWAYS, "buildtool_depend"),
+    ],
+)
+def test_the_tag_holds_all_that_is_needed(role: Role, depends: str, tag: str) -> None:
+    package, workspace = loaded(depends)
+    assert tag_for(package, workspace, "nav_msgs", role) == tag
+
+
+def test_what_others_declare_as_a_tool_is_a_tool() -> None:
+    package, workspace = loaded(MIXED)
+    assert tag_for(package, workspace, "ament_cmake_python", Role.BUILD) == "buildtool_depend"
+    assert tag_for(package, workspace, "std_msgs", Role.BUILD) == "depend"
+
+
+@pytest.mark.parametrize(("role", "tag"), [(Role.EXEC, "run_depend"), (Role.BUILD | Role.EXEC, "build_depend")])
+def test_format_1_has_other_tags(role: Role, tag: str) -> None:
+    package, workspace = loaded("", form=1)
+    assert tag_for(package, workspace, "nav_msgs", role) == tag

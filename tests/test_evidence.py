@@ -1,0 +1,116 @@
+"""From mentions to uses, and from uses to needs."""
+
+from __future__ import annotations
+
+from ros_lint.facts import Role, Use
+from ros_lint.load import Loader
+from ros_lint.needs import covered, may_bring, needs, undeclared
+from ros_lint.tree import MemoryTree
+from ros_lint.workspace import Target, Workspace
+
+HEAD = """<package format="3"><name>{name}</name><version>1.0.0</version><description>Does it.</description>
+<maintainer email="ada@robots.example">Ada</maintainer><license>Apache-2.0</license>{depends}
+<export><build_type>{kind}</build_type></export></package>
+"""
+
+
+def cmake(name: str, depends: str, lines: str, **files: str) -> dict[str, str]:
+    """Return the files of a package of ament_cmake; names of files have __ for / and _dot_ for a dot."""
+    found = {
+        f"{name}/package.xml": HEAD.format(name=name, depends=depends, kind="ament_cmake"),
+        f"{name}/CMakeLists.txt": f"project({name})\nfind_package(ament_cmake REQUIRED)\n{lines}\nament_package()\n",
+    }
+    found.update({f"{name}/{path.replace('__', '/').replace('_dot_', '.')}": text for path, text in files.items()})
+    return found
+
+
+def load(files: dict[str, str], distro: str = "jazzy") -> Workspace:
+    return Loader(MemoryTree(files), ("",), Target(distro, "test")).load()
+
+
+def uses(workspace: Workspace, name: str) -> list[Use]:
+    return [use for use in workspace.packages[0].uses if use.package == name]
+
+
+def test_roles_come_from_where_a_file_goes() -> None:
+    workspace = load(
+        cmake(
+            "talker",
+            "",
+            "add_executable(talker src/talker.cpp)\ninstall(DIRECTORY include/ DESTINATION include)\n"
+            "if(BUILD_TESTING)\nament_add_gtest(t test/t.cpp)\nendif()",
+            src__talker_dot_cpp="#include <nav_msgs/msg/path.hpp>\n",
+            include__talker__talker_dot_hpp="#include <sensor_msgs/msg/imu.hpp>\n",
+            test__t_dot_cpp="#include <std_msgs/msg/string.hpp>\n",
+            src__idle_dot_cpp="#include <shape_msgs/msg/plane.hpp>\n",
+        )
+    )
+    assert [(use.role, use.sure) for use in uses(workspace, "nav_msgs")] == [(Role.BUILD | Role.EXEC, True)]
+    assert [(use.role, use.sure) for use in uses(workspace, "sensor_msgs")] == [
+        (Role.BUILD | Role.EXPORT | Role.EXEC, True)
+    ]
+    assert [(use.role, use.sure) for use in uses(workspace, "std_msgs")] == [(Role.TEST, True)]
+    assert [use.sure for use in uses(workspace, "shape_msgs")] == [False]
+
+
+def test_what_a_hand_wrote_into_a_map_is_less_than_sure() -> None:
+    workspace = load(cmake("talker", "", "find_package(CUDA REQUIRED)\nfind_package(Eigen3 REQUIRED)"))
+    assert [use.sure for use in uses(workspace, "nvidia-cuda")] == [False]
+    assert [use.sure for use in uses(workspace, "eigen")] == [True]
+
+
+def test_an_action_needs_action_msgs_where_the_generators_do_not_bring_it() -> None:
+    files = cmake(
+        "robot_msgs",
+        "<buildtool_depend>rosidl_default_generators</buildtool_depend>",
+        "find_package(rosidl_default_generators REQUIRED)\nrosidl_generate_interfaces(robot_msgs action/Go.action)",
+        action__Go_dot_action="---\n---\n",
+    )
+    old, new = load(files, "humble"), load(files, "jazzy")
+    assert [need.name for need, _ in undeclared(old.packages[0], old)] == ["action_msgs"]
+    assert not undeclared(new.packages[0], new)
+
+
+def test_what_is_exported_is_needed_by_others_only() -> None:
+    workspace = load(cmake("base", "", "find_package(nav_msgs REQUIRED)\nament_export_dependencies(nav_msgs rclcpp)"))
+    assert [use.role for use in uses(workspace, "rclcpp")] == [Role.EXPORT]
+
+
+def test_each_need_is_answered_once() -> None:
+    workspace = load(
+        cmake(
+            "talker",
+            "<depend>sensor_msgs</depend><depend>rclcpp</depend>",
+            "find_package(rclcpp REQUIRED)\nfind_package(sensor_msgs REQUIRED)\nfind_package(std_msgs REQUIRED)\n"
+            "find_package(nav_msgs REQUIRED)\nfind_package(shape_msgs QUIET)\nif(shape_msgs_FOUND)\nendif()",
+        )
+    )
+    found = {need.name: (need.declared, need.brought) for need in needs(workspace.packages[0], workspace)}
+    assert found["rclcpp"] == (("rclcpp",), True)
+    assert found["std_msgs"] == ((), True)
+    assert found["nav_msgs"] == ((), False)
+    assert "shape_msgs" not in found
+    assert [need.name for need, sure in undeclared(workspace.packages[0], workspace) if sure] == ["nav_msgs"]
+
+
+def test_a_key_brings_the_keys_of_the_packages_that_its_own_depends_on() -> None:
+    workspace = load(cmake("talker", "<depend>libpcl-all-dev</depend>", "find_package(Eigen3 REQUIRED)"))
+    assert "eigen" not in [need.name for need, _ in undeclared(workspace.packages[0], workspace)]
+    assert [need.brought for need in needs(workspace.packages[0], workspace) if need.name == "eigen"] == [True]
+
+
+def test_an_unknown_name_can_bring_some_things_only() -> None:
+    workspace = load(cmake("talker", "", "") | cmake("base", "", ""))
+    assert not may_bring(("strange",), "base", workspace)  # a repository elsewhere needs none of this workspace
+    assert may_bring(("strange",), "rclcpp", workspace)
+    assert may_bring(("strange_msgs",), "std_msgs", workspace)
+    assert not may_bring(("strange_msgs",), "rclcpp", workspace)
+    assert not may_bring(("Eigen3", "python3-strange", "ament_python"), "rclcpp", workspace)
+
+
+def test_a_tag_covers_what_comes_along_with_it_for_its_role() -> None:
+    workspace = load(cmake("talker", "<build_depend>nav_msgs</build_depend><exec_depend>std_msgs</exec_depend>", ""))
+    package = workspace.packages[0]
+    assert covered(package, workspace, ("geometry_msgs",), Role.BUILD)
+    assert not covered(package, workspace, ("geometry_msgs",), Role.EXEC)
+    assert not covered(package, workspace, ("nav_msgs",), Role.BUILD)  # only what something else brings
