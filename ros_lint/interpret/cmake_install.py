@@ -186,6 +186,17 @@ class _Pattern(NamedTuple):
     """What its permissions say, None when it gives none."""
 
 
+class _Rule(NamedTuple):
+    """What an install(DIRECTORY) says of all its folders."""
+
+    patterns: list[_Pattern]
+    only: bool
+    """Whether files that no pattern matches are left out (FILES_MATCHING)."""
+    executable: bool | None
+    """What the permissions say, None when those of the source are kept."""
+    optional: bool
+
+
 def _install_directories(run: Run, args: list[str]) -> None:
     at = next((index for index, arg in enumerate(args) if arg in ("PATTERN", "REGEX")), len(args))
     parts = sections(args[:at], _DIRECTORY_WORDS)
@@ -198,9 +209,9 @@ def _install_directories(run: Run, args: list[str]) -> None:
     executable: bool | None = None if "USE_SOURCE_PERMISSIONS" in parts else False
     if permissions is not None:
         executable = any(word.endswith("_EXECUTE") for word in permissions)
-    only = "FILES_MATCHING" in parts or "FILES_MATCHING" in args[at:]
+    rule = _Rule(patterns, "FILES_MATCHING" in parts or "FILES_MATCHING" in args[at:], executable, "OPTIONAL" in parts)
     for value in parts[""]:
-        plain, certain = sure(value)
+        plain = sure(value)[0]
         source = run.source(plain)
         if destination is None or HOLE in plain:
             run.hide(facet_of(run, destination), "install(DIRECTORY) of a folder or to a place that is not known")
@@ -210,51 +221,49 @@ def _install_directories(run: Run, args: list[str]) -> None:
             target = destination
             if not plain.endswith("/") and source and plain not in (".", ".."):
                 target = join_path(destination, posixpath.basename(source))
-            conditional = run.conditional or run.testing or not certain
-            _install_directory(run, value, source, target, patterns, only, executable, conditional, "OPTIONAL" in parts)
+            _install_directory(run, value, source, target, rule)
 
 
-def _install_directory(
-    run: Run,
-    value: str,
-    source: str,
-    target: str,
-    patterns: list[_Pattern],
-    only: bool,
-    executable: bool | None,
-    conditional: bool,
-    optional: bool,
-) -> None:
+def _install_directory(run: Run, value: str, source: str, target: str, rule: _Rule) -> None:
+    plain, certain = sure(value)
     span = run.where(value)
+    conditional = run.conditional or run.testing or not certain
     if source in run.files:
-        run.installed.append(Provided(target, source, bool(executable), conditional, span))
+        run.problem("directory-is-file", f"install(DIRECTORY) of {source}, which is a file", span)
         return
     if run.is_unseen(source) or any(folder.startswith(f"{source}/" if source else "") for folder in run.sources.unseen):
         run.hide(facet_of(run, target), "install(DIRECTORY) of a folder whose files are not listed", span)
     if not run.is_folder(source):
-        if not optional:
+        if not rule.optional:
             run.missing.append((source, span, conditional))
         return
     skip = len(source) + 1 if source else 0
+    top = plain.rstrip("/") if plain.startswith("/") else f"/{join_path(run.directory, plain)}".rstrip("/")
     for file in run.below(source):
-        program = file in run.sources.executables if executable is None else executable
-        if patterns or only:
-            chosen, given = _chosen(file, source, patterns, only)
+        program = file in run.sources.executables if rule.executable is None else rule.executable
+        if rule.patterns or rule.only:
+            chosen, given = _chosen(file[skip:], top, rule)
             if not chosen:
                 continue
             program = program if given is None else given
         run.installed.append(Provided(join_path(target, file[skip:]), file, program, conditional, span))
 
 
-def _chosen(file: str, top: str, patterns: list[_Pattern], only: bool) -> tuple[bool, bool | None]:
-    """Return whether patterns leave a file in, and what permissions they give it."""
-    end = len(top)
-    while end != -1 and end < len(file):  # the folders on the way, from the top
-        if end and any(pattern.excluded and pattern.matches.search(f"/{file[:end]}") for pattern in patterns):
+def _chosen(file: str, top: str, rule: _Rule) -> tuple[bool, bool | None]:
+    """Return whether patterns leave a file below a folder in, and what permissions they give it.
+
+    Patterns see the path of the folder as it is written.
+    """
+    end = -1
+    while True:  # the folder and those on the way to the file
+        folder = f"{top}/{file[:end]}" if end > 0 else top
+        if any(pattern.excluded and pattern.matches.search(folder) for pattern in rule.patterns):
             return False, None
         end = file.find("/", end + 1)
-    matching = [pattern for pattern in patterns if pattern.matches.search(f"/{file}")]
-    if any(pattern.excluded for pattern in matching) or (only and not matching):
+        if end < 0:
+            break
+    matching = [pattern for pattern in rule.patterns if pattern.matches.search(f"{top}/{file}")]
+    if any(pattern.excluded for pattern in matching) or (rule.only and not matching):
         return False, None
     given = [pattern.executable for pattern in matching if pattern.executable is not None]
     return True, any(given) if given else None

@@ -1,0 +1,146 @@
+"""install() against CMake itself: the same files at the same places, with the same permission to run."""
+
+from __future__ import annotations
+
+import os
+import random
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from ros_lint.collectors.cmake_syntax import parse
+from ros_lint.interpret.cmake import Sources, evaluate
+from ros_lint.text import Text
+
+FILES = {
+    "CMakeLists.txt": False,
+    "launch/a.launch.py": False,
+    "launch/b.launch.xml": True,
+    "launch/sub/c.launch.py": False,
+    "launch/sub/deep/d.py": True,
+    "launch/__pycache__/a.pyc": False,
+    "config/a.yaml": False,
+    "config/b.yml": False,
+    "config/old/a.yaml": False,
+    "config/config/a.yaml": True,
+    "scripts/run": True,
+    "scripts/tool.py": True,
+    "scripts/lib.py": False,
+    "meshes/x.stl": False,
+    "a b/c d.txt": False,
+    "top.py": True,
+}
+"""Files, and whether they have the executable bit."""
+
+_FOLDERS = (
+    "launch",
+    "launch/",
+    "config",
+    "config/",
+    "launch/sub",
+    "launch/sub/",
+    "scripts",
+    "scripts/",
+    "./config",
+    "launch/../config",
+    ".",
+    "meshes",
+)
+_FILES = ("top.py", "scripts/run", "scripts/lib.py", "config/a.yaml", "launch/sub/c.launch.py", '"a b/c d.txt"', "./top.py")
+_PATTERNS = (
+    "*.py",
+    "*.yaml",
+    "*.launch.*",
+    "sub",
+    "__pycache__",
+    "*",
+    "[ab]*",
+    "?.yaml",
+    "config/a.yaml",
+    "sub/*",
+    "old",
+    "deep",
+    "d.py",
+    "*.y*ml",
+    "launch",
+    "[!a]*.py",
+)
+_REGEXES = (".*\\\\.py$", "/sub/", "a\\\\.(yaml|launch)", "config/[^/]*$", "^/.*launch", "\\\\.xml")
+
+
+def _rule(choice: random.Random, number: int) -> str:
+    some = choice.choice
+    place = some(("", "/x", "/x/y", "/./x", "/x/../z"))
+    destination = f"DESTINATION {some(('', '${CMAKE_INSTALL_PREFIX}/'))}r{number}{place}"
+    roll = choice.random()
+    if roll < 0.3:
+        files = " ".join(choice.sample(_FILES, choice.randint(1, 3)))
+        words = [some(("FILES", "PROGRAMS")), files, destination]
+        if choice.random() < 0.2:
+            words = [some(("FILES", "PROGRAMS")), some(_FILES), destination, "RENAME new.name"]
+        if choice.random() < 0.2:
+            words.append(some(("PERMISSIONS OWNER_READ OWNER_EXECUTE", "PERMISSIONS OWNER_READ OWNER_WRITE")))
+        if choice.random() < 0.2:
+            words[1] += " missing.txt" if not any("RENAME" in word for word in words) else ""
+            words.append("OPTIONAL")
+        return f"install({' '.join(words)})"
+    words = ["DIRECTORY", " ".join(choice.sample(_FOLDERS, choice.randint(1, 2))), destination]
+    words.append(
+        some(
+            (
+                "",
+                "",
+                "USE_SOURCE_PERMISSIONS",
+                "FILE_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE",
+                "MESSAGE_NEVER",
+                "OPTIONAL",
+            )
+        )
+    )
+    if choice.random() < 0.35:
+        words.append("FILES_MATCHING")
+    for _ in range(choice.choice((0, 0, 1, 1, 2, 3)) or ("FILES_MATCHING" in words)):
+        kind = f'PATTERN "{some(_PATTERNS)}"' if choice.random() < 0.75 else f'REGEX "{some(_REGEXES)}"'
+        words.append(f"{kind} {some(('', 'EXCLUDE', 'EXCLUDE', 'PERMISSIONS OWNER_READ OWNER_EXECUTE'))}")
+    return f"install({' '.join(words)})"
+
+
+@pytest.mark.skipif(shutil.which("cmake") is None, reason="cmake is not installed")
+def test_installed_files_are_those_of_cmake(tmp_path: Path) -> None:
+    choice = random.Random(4)
+    rules = [_rule(choice, number) for number in range(600)]
+    script = "cmake_minimum_required(VERSION 3.16)\nproject(p NONE)\n" + "\n".join(rules) + "\n"
+    folder = tmp_path / "p"
+    for path, executable in FILES.items():
+        place = folder / path
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_text("")
+        place.chmod(0o755 if executable else 0o644)
+    (folder / "CMakeLists.txt").write_text(script)
+    prefix = tmp_path / "prefix"
+    command = ["cmake", "-S", str(folder), "-B", str(tmp_path / "b"), f"-DCMAKE_INSTALL_PREFIX={prefix}"]
+    ran = subprocess.run(command, check=False, capture_output=True, text=True)
+    assert not ran.returncode, ran.stderr[:2000]
+    subprocess.run(["cmake", "--install", str(tmp_path / "b")], check=True, capture_output=True)
+    real = {
+        os.path.relpath(os.path.join(above, name), prefix): bool(os.stat(os.path.join(above, name)).st_mode & 0o100)
+        for above, _, names in os.walk(prefix)
+        for name in names
+    }
+
+    parsed = {"CMakeLists.txt": parse(Text("p/CMakeLists.txt", script))}
+    executables = frozenset(path for path, executable in FILES.items() if executable)
+    result = evaluate(Sources("p", "p", sorted(FILES), parsed, executables))
+    found = {provided.path: provided.program for provided in result.provides}
+    assert not result.opaque
+    assert not any(provided.conditional for provided in result.provides)
+    differing = {path.partition("/")[0] for path in found.keys() ^ real.keys()}
+    differing |= {path.partition("/")[0] for path in found.keys() & real.keys() if found[path] != real[path]}
+    shown = [
+        (rules[int(rule[1:])], sorted(path for path in found.keys() ^ real.keys() if path.startswith(f"{rule}/")))
+        for rule in differing
+    ]
+    assert not shown, shown[:5]
+    assert len(real) > 1500
