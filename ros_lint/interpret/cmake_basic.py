@@ -128,10 +128,10 @@ def _project(run: Run, args: list[str]) -> None:
     number = ""
     if "VERSION" in args[1:-1]:
         number = args[args.index("VERSION") + 1]
-    top = not run.name and len(run.directories) == 1
+    top = not run.name and not run.directory
     if top:
         run.name = name if is_known(name) else ""
-        run.name_span = run.where(args[0]) if args else None
+        run.name_span = run.where(args[0]) if run.name else None
         if is_known(number) and number:
             run.version, run.version_span = number, run.where(number)
         run.set("CMAKE_PROJECT_NAME", name)
