@@ -42,6 +42,7 @@ class Liveness:
         self._script = script
         self._facts = facts
         self._launched = launched
+        self._resolved: dict[tuple[str, str], tuple[str, ...]] = {}
         hidden = Facet(0)
         for opaque in script.opaque if script else ():
             hidden |= opaque.hides
@@ -86,12 +87,19 @@ class Liveness:
 
     def own_headers(self, header: str, includer: str) -> tuple[str, ...]:
         """Return the files of the package that an include can mean."""
-        name = header.rpartition("/")[2]
-        candidates = self._by_name.get(name)
+        folder = includer.rpartition("/")[0]
+        key = (header, folder)
+        if key not in self._resolved:
+            self._resolved[key] = self._resolve(header, folder)
+        return self._resolved[key]
+
+    def _resolve(self, header: str, folder: str) -> tuple[str, ...]:
+        candidates = self._by_name.get(header.rpartition("/")[2])
         if candidates is None:
             return ()
-        folder = includer.rpartition("/")[0]
-        beside = posixpath.normpath(f"{folder}/{header}") if "." in header[:2] else f"{folder}/{header}" if folder else header
+        beside = f"{folder}/{header}" if folder else header
+        if "." in header[:2]:
+            beside = posixpath.normpath(beside)
         if beside in candidates:
             return (beside,)
         end = f"/{header}"

@@ -26,6 +26,7 @@ from ros_lint.world import Member, World
 Progress = Callable[[str, int, int], None]
 """Hears what is being done, how much of it is done, and how much there is."""
 
+_NO_ROLE = Role(0)
 _NO_TEXT = (
     ".md", ".rst", ".png", ".jpg", ".stl", ".dae", ".obj", ".pgm", ".svg", ".gif", ".pdf", ".zip", ".onnx", ".pcd", ".bag", ".mcap",
 )  # fmt: skip
@@ -36,6 +37,7 @@ class _Read(NamedTuple):
     """A package with the facts of its files."""
 
     found: Found
+    declared: tuple[Declared, ...]
     script: BuildScript | None
     facts: Mapping[str, FileFacts]
     launch: tuple[LaunchFile, ...]
@@ -59,6 +61,7 @@ class Loader:
     ) -> None:
         self.tree = tree
         self.target = target
+        self._context = target.context
         self._roots = tuple(roots)
         self._underlays = tuple(underlays)
         self._knowledge = knowledge or Knowledge(target.distro)
@@ -81,7 +84,11 @@ class Loader:
         lists = source_lists.find(tree, self._roots, (join(found.path, file) for found in founds for file in found.files))
         founds = _without_submodules(founds, source_lists.submodules(tree, lists))
         collected = self._collect(founds, changed or {}) if sources else {}
-        reads = self._read(tree, founds, collected) if sources else [_Read(found, None, {}, ()) for found in founds]
+        reads = (
+            self._read(tree, founds, collected)
+            if sources
+            else [_Read(found, self._declared(found.manifest), None, {}, ()) for found in founds]
+        )
         world = World(tuple(self._members(reads, discovery.rejected)), self._underlays, self._knowledge)
         packages = tuple(self._join(tree, reads, world, sources))
         unusable = tuple(self._unusable(manifest) for manifest in discovery.rejected if not self._exclude(manifest.path))
@@ -123,32 +130,34 @@ class Loader:
         of_package = [
             {file: collected[path] for file in found.files if (path := join(found.path, file)) in collected} for found in founds
         ]
+        declared_by = [self._declared(found.manifest) for found in founds]
         parts = [
             scripts.Parts(
                 found,
                 {file: c.commands for file, c in files.items() if c.commands is not None},
-                _kinds(found.manifest, self.target.context),
+                _kinds(declared),
             )
-            for found, files in zip(founds, of_package, strict=True)
+            for found, declared, files in zip(founds, declared_by, of_package, strict=True)
         ]
         built = scripts.evaluate(tree, parts, self.target.distro)
         return [
             _Read(
                 found,
+                declared,
                 script,
                 {file: c.facts for file, c in files.items() if c.facts is not None},
                 tuple([c.launch for c in files.values() if c.launch is not None]),
             )
-            for found, script, files in zip(founds, built, of_package, strict=True)
+            for found, declared, script, files in zip(founds, declared_by, built, of_package, strict=True)
         ]
 
     def _members(self, reads: Sequence[_Read], rejected: Sequence[Manifest]) -> Iterator[Member]:
-        for found, script, _, _ in reads:
+        for found, declared, script, _, _ in reads:
             modules = tuple(dict.fromkeys(name.partition(".")[0] for name in script.python_packages)) if script else ()
-            yield _member(found.name, found.manifest, self.target.context)._replace(modules=modules)
+            yield _member(found.name, found.manifest, declared)._replace(modules=modules)
         for manifest in rejected:
             if manifest.name:
-                yield _member(manifest.name, manifest, self.target.context)
+                yield _member(manifest.name, manifest, self._declared(manifest))
 
     def _join(self, tree: Tree, reads: Sequence[_Read], world: World, search: bool) -> Iterator[Package]:
         sources = [
@@ -162,7 +171,7 @@ class Loader:
             self._progress("joining", number, len(reads))
             found = done.found
             uses = evidence.resolve(source, world, headers)
-            declared = _declared(found.manifest, self.target.context)
+            declared = done.declared
             yield Package(
                 name=found.name,
                 path=found.path,
@@ -193,6 +202,15 @@ class Loader:
         if not wanted:
             return {}
         return evidence.traces(wanted, _contents(tree, found))
+
+    def _declared(self, manifest: Manifest | None) -> tuple[Declared, ...]:
+        """Return every dependency element whose condition is not false, groups, conflicts and replaces included."""
+        found = []
+        for depend in manifest.depends if manifest else ():
+            truth = conditions.truth(depend.condition, self._context) if depend.condition else True
+            if truth is not False:
+                found.append(Declared(depend, ROLES.get(depend.tag, _NO_ROLE), truth is True))
+        return tuple(found)
 
     def _unusable(self, manifest: Manifest) -> Package:
         folder = manifest.path.rpartition("/")[0]
@@ -227,27 +245,17 @@ def _without_submodules(founds: Sequence[Found], folders: Sequence[str]) -> list
     return result
 
 
-def _declared(manifest: Manifest | None, context: Mapping[str, str]) -> tuple[Declared, ...]:
-    """Return every dependency element whose condition is not false, groups, conflicts and replaces included."""
-    found = []
-    for depend in manifest.depends if manifest else ():
-        truth = conditions.truth(depend.condition, context)
-        if truth is not False:
-            found.append(Declared(depend, ROLES.get(depend.tag, Role(0)), truth is True))
-    return tuple(found)
+def _member(name: str, manifest: Manifest | None, declared: Sequence[Declared]) -> Member:
+    groups = tuple(d.name for d in declared if d.depend.tag == "member_of_group")
+    return Member(name, manifest.version if manifest else "", _kinds(declared), groups)
 
 
-def _member(name: str, manifest: Manifest | None, context: Mapping[str, str]) -> Member:
-    groups = tuple(d.name for d in _declared(manifest, context) if d.depend.tag == "member_of_group")
-    return Member(name, manifest.version if manifest else "", _kinds(manifest, context), groups)
-
-
-def _kinds(manifest: Manifest | None, context: Mapping[str, str]) -> dict[str, tuple[str, ...]]:
-    names: dict[str, tuple[str, ...]] = {}
-    for declared in _declared(manifest, context):
-        for kind in TAG_KINDS.get(declared.depend.tag, ""):
-            names[kind] = (*names.get(kind, ()), declared.name)
-    return names
+def _kinds(declared: Sequence[Declared]) -> dict[str, tuple[str, ...]]:
+    names: dict[str, list[str]] = {}
+    for each in declared:
+        for kind in TAG_KINDS.get(each.depend.tag, ""):
+            names.setdefault(kind, []).append(each.depend.name)
+    return {kind: tuple(of_kind) for kind, of_kind in names.items()}
 
 
 def _unreadable(collected: Mapping[str, Collected]) -> Iterator[NotChecked]:
