@@ -61,6 +61,14 @@ def remove_dependency(package: Package, depend: Depend) -> tuple[Edit, ...]:
     return (manifest_edits.remove(package.manifest, depend),)
 
 
+def is_unseen_by_name(workspace: Workspace, name: str) -> bool:
+    """Whether a name alone says that it may do its work unseen: it is no package that is known, or a linter, a generator ..."""
+    world = workspace.world
+    if not world.is_package(name) or world.is_key(name):
+        return True
+    return any(fnmatch.fnmatchcase(name, pattern) for pattern in world.knowledge.names.unseen)
+
+
 def works_unseen(package: Package, workspace: Workspace, name: str) -> bool:
     """Whether a dependency of a package on a name can do its work without the name standing anywhere (reference, section F2).
 
@@ -69,9 +77,7 @@ def works_unseen(package: Package, workspace: Workspace, name: str) -> bool:
     generated interfaces need.
     """
     world = workspace.world
-    if not world.is_package(name) or world.is_key(name):
-        return True
-    if any(fnmatch.fnmatchcase(name, pattern) for pattern in world.knowledge.names.unseen):
+    if is_unseen_by_name(workspace, name):
         return True
     if package.script and package.script.interfaces and name in _IN_INTERFACES:
         return True

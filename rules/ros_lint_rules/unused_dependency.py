@@ -2,7 +2,8 @@
 ## What it finds
 
 A `<depend>` or `<build_depend>` on a ROS package that nothing in the package uses: no include, no import, no
-`find_package`, no interface, no launch file, and its name stands in no other file.
+`find_package`, no interface, no launch file, and its name stands in no other file. And a `<test_depend>` in a package
+without any test that could use it.
 
 ## Why it matters
 
@@ -15,11 +16,10 @@ Remove the tag. The fix does this.
 
 ## When it keeps silent
 
-Whenever the dependency might be needed in a way that leaves no trace: test, run-time and tool dependencies, rosdep keys
-of the system, tags under a condition, packages whose build scripts cannot be followed everywhere, packages that find
-what they declare (`ament_auto_find_build_dependencies`), metapackages, vendor
-packages and packages without code, and dependencies that give
-CMake macros, plugins or components.
+Whenever the dependency might be needed in a way that leaves no trace: linters, run-time and tool dependencies, rosdep
+keys of the system, tags under a condition, packages whose build scripts cannot be followed everywhere, metapackages,
+vendor packages and packages without code, and dependencies that give CMake macros, plugins or components. In packages
+that find what they declare (`ament_auto_find_build_dependencies`) also dependencies whose headers are not known.
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros_lint.api import (
+    BuildScript,
     Facet,
     Finding,
     Fix,
@@ -35,41 +36,66 @@ from ros_lint.api import (
     Severity,
     Workspace,
     builds_something,
+    is_unseen_by_name,
     remove_dependency,
     works_unseen,
 )
 
 _TAGS = ("depend", "build_depend")
 _FINDS_ALL = "ament_auto_find_build_dependencies"
+_NO_TEST = ("enable_testing", "ament_lint_auto_find_test_dependencies", "ament_auto_find_test_dependencies")
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    manifest = package.manifest
-    if manifest is None or manifest.problems or not _is_seen_whole(package):
+    manifest, script = package.manifest, package.script
+    if manifest is None or manifest.problems or script is None or script.problems or package.hidden(Facet.USES):
+        return
+    if package.builds_with not in ("ament_cmake", "ament_python") or not builds_something(package):
         return
     used = {provider for use in package.uses for provider in use.providers}
     for declared in package.declared:
         depend = declared.depend
-        if depend.tag not in _TAGS or depend.condition or depend.name in used or depend.name in package.traces:
+        if depend.condition or depend.name in used or is_unseen_by_name(workspace, depend.name):
             continue
-        if works_unseen(package, workspace, depend.name):
+        if depend.tag in _TAGS:
+            if works_unseen(package, workspace, depend.name) or depend.name in package.traces:
+                continue
+            if not _is_seen(script, workspace, depend.name):
+                continue
+            says = "nothing in the package uses it"
+        elif depend.tag == "test_depend" and not _can_test_with(package, script, workspace, depend.name):
+            says = "there is no test that could use it"
+        else:
             continue
+        written = f"<{depend.tag}>{depend.name}</{depend.tag}>"
         yield Finding(
-            f"{depend.name} is declared, but nothing in the package uses it: remove <{depend.tag}>{depend.name}</{depend.tag}>",
+            f"{depend.name} is declared, but {says}: remove {written}",
             depend.span,
             depend.name,
-            fix=Fix(f"remove <{depend.tag}>{depend.name}</{depend.tag}>", remove_dependency(package, depend)),
+            fix=Fix(f"remove {written}", remove_dependency(package, depend)),
         )
 
 
-def _is_seen_whole(package: Package) -> bool:
-    """Whether every use would have been seen (reference, section F3, conditions 5 and 6)."""
-    script = package.script
-    if script is None or script.problems or package.hidden(Facet.USES):
+def _is_seen(script: BuildScript, workspace: Workspace, name: str) -> bool:
+    """Whether a use would have been seen although CMake finds all that is declared (reference, section F3, condition 6)."""
+    if _FINDS_ALL not in script.calls:
+        return True
+    released = workspace.world.released(name)
+    return name in workspace.by_name or bool(released and released.interfaces)
+
+
+def _can_test_with(package: Package, script: BuildScript, workspace: Workspace, name: str) -> bool:
+    """Whether a package has tests, and such as can use another one: modules are used by Python, and by nothing else."""
+    if not any("test" in file.lower() for file in package.files) and not any(
+        "test" in call and call not in _NO_TEST for call in script.calls
+    ):
         return False
-    if package.builds_with not in ("ament_cmake", "ament_python") or _FINDS_ALL in script.calls:
-        return False
-    return builds_something(package)
+    released = workspace.world.released(name)
+    python = bool(released and released.build_type == "ament_python") and name not in workspace.by_name
+    return not python or any(file.endswith(_PYTHON) for file in package.files)
+
+
+_PYTHON = (".py", ".py.in", ".launch", ".launch.xml", ".launch.yaml")
 
 
 RULE = Rule(
