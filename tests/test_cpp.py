@@ -217,6 +217,44 @@ def test_look_ups_in_comments_do_not_count() -> None:
     assert collected("get_package_prefix(name);") == []
 
 
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ('x = get_package_share_directory("p") + "/config/a.yaml";', [("p", "config/a.yaml")]),
+        ('x = fs::path(a::get_package_share_directory("p")) / "config" / "a.yaml";', [("p", "config/a.yaml")]),
+        ('x = get_package_share_path("p") / "a" + ".yaml";', [("p", "a.yaml")]),
+        ('auto d = a::get_package_share_directory("p");\nf(d + "/a.yaml"); g(d + name);', [("p", "a.yaml")]),
+        ('std::string d(get_package_share_directory("p"));\nf(fs::path(d) / "b" / "a.yaml");', [("p", "b/a.yaml")]),
+        ('fs::path d{fs::path{get_package_share_directory("p")}};', []),
+        ('x = get_package_share_directory("p") + "/config/" + name;', []),
+        ('x = get_package_share_directory("p") + "_suffix";', []),
+        ('x = get_package_share_directory("p") + "/../a";', []),
+        ('x = get_package_prefix("p") + "/lib/a";', []),
+        ('auto d = get_package_share_directory("p");\nauto d = get_package_share_directory("q"); f(d + "/a");', []),
+    ],
+)
+def test_files_that_are_looked_up(text: str, expected: list[tuple[str, str]]) -> None:
+    facts = cpp.collect(source := Text("a.cpp", text))
+    assert [(found.package, found.path) for found in facts.look_ups] == expected
+    assert all(source.slice(found.span).strip("/") in found.path for found in facts.look_ups)
+    assert facts.mentions[0].name == "p"
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ('pluginlib::ClassLoader<nav2_core::X> loader("nav2_core", "nav2_core::X");', ["nav2_core"]),
+        ('Server::Server() : lp_loader_("a_b", "a_b::Base"), x_(1) {', ["a_b"]),
+        ('p = std::make_unique<pluginlib::ClassLoader<a::B<C>>>("a", "a::B");', ["a"]),
+        ('// ClassLoader<X> loader("a", "a::B");', []),
+        ('ClassLoader<X> loader("a", "b::C");', []),
+    ],
+)
+def test_plugin_loaders(text: str, expected: list[str]) -> None:
+    assert [name for via, name, _ in collected("#include <pluginlib/class_loader.hpp>\n" + text) if via == "package"] == expected
+    assert collected(text) == []
+
+
 def test_computed_include_is_opaque() -> None:
     facts = cpp.collect(Text("a.h", "#include CONFIG_H // x\n"))
     assert not facts.mentions

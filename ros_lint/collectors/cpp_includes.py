@@ -105,11 +105,7 @@ def blanked(text: str) -> str:
 def in_doubt(text: str, at: int) -> bool:
     """Return whether a comment or a raw string may hide an offset."""
     line = text.rfind("\n", 0, at) + 1
-    return (
-        text.find("//", line, at) >= 0
-        or text.find('R"', 0, at) >= 0
-        or text.rfind("/*", 0, at) > text.rfind("*/", 0, at)
-    )
+    return text.find("//", line, at) >= 0 or text.find('R"', 0, at) >= 0 or text.rfind("/*", 0, at) > text.rfind("*/", 0, at)
 
 
 def _blank(match: re.Match[str]) -> str:

@@ -1,0 +1,93 @@
+"""Packages that a C++ source looks up with ament_index_cpp, and files in their share folders that it makes paths of."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from ros_lint.collectors.cpp_includes import blanked, in_doubt
+from ros_lint.facts import LookUp, Mention
+
+if TYPE_CHECKING:
+    from ros_lint.text import Text
+
+_LOOK_UP = re.compile(r'(get_package_(?:share_directory|share_path|prefix))\s*\(\s*"([^"\\\n]+)"')
+_LOADER = re.compile(r'oader\w*(?:<[^;{}()"]*>)?\s*\w*\s*[({]\s*("([\w.-]+)"\s*,\s*"\2::[\w:]+")')
+# What is added to a path: only literals count, and only when nothing else is added behind them.
+_ADDED = re.compile(r'((?:\s*[/+]\s*"[^"\\\n]*")+)(?!\s*[/+]\s*[\w("])')
+_PIECE = re.compile(r'([/+])\s*"([^"]*)"')
+_CLOSED = re.compile(r"\s*\)+")
+_MAY_CLOSE = re.compile(r"\s*\)?")
+_ASSIGNED = re.compile(r"\b([A-Za-z_]\w*)\s*[=({]\s*(?:[\w:]+\s*[({]\s*)?(?:\w+::)*\Z")
+_FARTHEST = 200
+"""How far before a look-up the variable is looked for that gets what it gives."""
+
+
+def look_ups(source: Text, loads_plugins: bool) -> tuple[list[Mention], tuple[LookUp, ...]]:
+    """Return the packages that a source names in look-ups and to plugin loaders, and the files that it looks up.
+
+    ``loads_plugins`` says whether the source includes what declares the loaders. Reference, section E2, rows 23 and 24.
+    """
+    text = source.text
+    patterns = [_LOOK_UP] if "get_package_" in text else []
+    patterns += [_LOADER] if loads_plugins else []
+    if any(in_doubt(text, match.start()) for pattern in patterns for match in pattern.finditer(text)):
+        text = blanked(text)
+    calls = list(_LOOK_UP.finditer(text)) if _LOOK_UP in patterns else []
+    named = [(match.span(2), match[2], f'{match[1]}("{match[2]}")') for match in calls]
+    named += [
+        ((match.start(1) + 1, match.end(2)), match[2], match[1]) for match in (_LOADER.finditer(text) if loads_plugins else ())
+    ]
+    named.sort()
+    spans = source.spans([place for place, _, _ in named])
+    mentions = [Mention(name, "package", span, what) for (_, name, what), span in zip(named, spans, strict=True)]
+    files = sorted(_files(text, calls))
+    spans = source.spans([place for place, _, _ in files])
+    return mentions, tuple(LookUp(package, path, span) for (_, package, path), span in zip(files, spans, strict=True))
+
+
+def _files(text: str, calls: list[re.Match[str]]) -> Iterator[tuple[tuple[int, int], str, str]]:
+    """Yield the place of the first literal, the package and the path of files that are looked up."""
+    variables: dict[str, set[str]] = {}
+    for call in calls:
+        if call[1] == "get_package_prefix":
+            continue
+        closed = _CLOSED.match(text, call.end())
+        if closed is None:
+            continue
+        added = _ADDED.match(text, closed.end())
+        if added:
+            yield from _path(added, call[2])
+        elif assigned := _ASSIGNED.search(text, max(0, call.start() - _FARTHEST), call.start()):
+            variables.setdefault(assigned[1], set()).add(call[2])
+    for name, packages in variables.items():
+        if len(packages) == 1:
+            for end in _uses(text, name):
+                if added := _ADDED.match(text, end):
+                    yield from _path(added, *packages)
+
+
+def _uses(text: str, name: str) -> Iterator[int]:
+    """Yield the ends of the places where a variable is used, closing brackets included."""
+    start = text.find(name)
+    while start >= 0:
+        end = start + len(name)
+        before, after = text[start - 1 : start], text[end : end + 1]
+        if not (before.isalnum() or before == "_" or after.isalnum() or after == "_"):
+            closed = _MAY_CLOSE.match(text, end)
+            assert closed is not None
+            yield closed.end()
+        start = text.find(name, end)
+
+
+def _path(added: re.Match[str], package: str) -> Iterator[tuple[tuple[int, int], str, str]]:
+    pieces = list(_PIECE.finditer(added[1]))
+    text = ""
+    for piece in pieces:
+        text = f"{text}/{piece[2]}" if piece[1] == "/" else text + piece[2]
+    path = posixpath.normpath(text.lstrip("/")) if text.startswith("/") else ""
+    if path and path != "." and not path.startswith(".."):
+        start = added.start(1) + pieces[0].start(2)
+        yield (start, start + len(pieces[0][2])), package, path
