@@ -26,6 +26,7 @@ from ros_lint.collectors.launch_py_walk import Rule, Walker, span_of
 from ros_lint.facts import LaunchAction, LaunchValue
 from ros_lint.text import Span
 
+_MOST_PARAMETERS = 2_000
 _NODES = frozenset({"Node", "LifecycleNode", "ComposableNodeContainer"})
 
 
@@ -280,7 +281,9 @@ def _parameters(walker: Walker, made: Made) -> tuple[tuple[str, LaunchValue], ..
 
 def _parameter(walker: Walker, value: Value, node: ast.expr, made: Made, found: list[tuple[str, LaunchValue]]) -> None:
     waiting = [("", value)]
-    while waiting and len(found) < 2_000:
+    for _ in range(_MOST_PARAMETERS):
+        if not waiting:
+            break
         name, one = waiting.pop(0)
         if isinstance(one, dict):
             inner = [(f"{name}.{key}" if name else _key(key), plain(inner)) for key, inner in one.items()]
@@ -347,7 +350,9 @@ def _texts_in(value: Value) -> list[Value]:
     """Return the texts in a value: itself, or those in a list or dictionary."""
     found: list[Value] = []
     waiting = [value]
-    while waiting and len(found) < 500:
+    for _ in range(_MOST_PARAMETERS):
+        if not waiting:
+            break
         one = plain(waiting.pop(0))
         if isinstance(one, dict):
             waiting += one.values()

@@ -30,8 +30,9 @@ from ros_lint.collectors.launch_py_operations import (
     text_of,
     texts_made,
     truth,
+    with_format,
 )
-from ros_lint.collectors.launch_text import UNKNOWN, is_plain, joined
+from ros_lint.collectors.launch_text import joined
 
 if TYPE_CHECKING:
     from ros_lint.collectors.launch_py_run import Machine
@@ -112,20 +113,9 @@ def _formatted(machine: Machine, node: ast.JoinedStr, frame: Frame) -> Value:
         found = text_of(value)
         if part.format_spec is not None or part.conversion not in (-1, 115):
             spec = machine.evaluate(part.format_spec, frame) if part.format_spec is not None else ""
-            found = tuple(_with_format(plain(value), one, plain(spec), part.conversion) for one in found)
+            found = tuple(with_format(plain(value), one, plain(spec), part.conversion) for one in found)
         rows.append(found)
     return texts_made(joined(rows, "".join), node, frame)
-
-
-def _with_format(value: Value, text: str, spec: Value, conversion: int) -> str:
-    if not isinstance(spec, str) or not is_plain(spec) or not is_plain(text) or len(spec) > 8:
-        return UNKNOWN
-    try:
-        if conversion == 114:
-            return format(repr(value if isinstance(value, _NUMBERS) else text), spec)
-        return format(value if isinstance(value, _NUMBERS) else text, spec)
-    except (ValueError, OverflowError, MemoryError):
-        return UNKNOWN
 
 
 def _operation(machine: Machine, node: ast.BinOp, frame: Frame) -> Value:

@@ -27,7 +27,7 @@ from ros_lint.collectors.launch_py_objects import (
     union,
     written,
 )
-from ros_lint.collectors.launch_py_operations import hashable, text_of, texts_made
+from ros_lint.collectors.launch_py_operations import hashable, text_of, texts_made, with_format
 from ros_lint.collectors.launch_text import LONGEST, UNKNOWN, is_plain, is_settled, joined
 
 if TYPE_CHECKING:
@@ -201,7 +201,12 @@ def _formatted(owner: str, arguments: list[Value], keywords: dict[str, Value], n
         key = field or str(count)
         count += 1
         value = arguments[int(key)] if key.isdigit() and int(key) < len(arguments) else keywords.get(key)
-        rows.append(text_of(value) if value is not None and not spec else (UNKNOWN,))
+        if value is None:
+            rows.append((UNKNOWN,))
+        elif spec:
+            rows.append(tuple(with_format(plain(value), one, spec, -1) for one in text_of(value)))
+        else:
+            rows.append(text_of(value))
     return texts_made(joined(rows, "".join), node, frame)
 
 

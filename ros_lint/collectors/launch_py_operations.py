@@ -123,6 +123,18 @@ def hashable(key: Value) -> Any:
     return UNKNOWN
 
 
+def with_format(value: Value, text: str, spec: Value, conversion: int) -> str:
+    """Return a value formatted; ``text`` is its text, ``conversion`` as in :class:`ast.FormattedValue`."""
+    if not isinstance(spec, str) or not is_plain(spec) or not is_plain(text) or len(spec) > 8:
+        return UNKNOWN
+    try:
+        if conversion == 114:
+            return format(repr(value if isinstance(value, _NUMBERS) else text), spec)
+        return format(value if isinstance(value, _NUMBERS) else text, spec)
+    except (ValueError, OverflowError, MemoryError):
+        return UNKNOWN
+
+
 def texts_made(found: tuple[str, ...], node: ast.expr, frame: Frame) -> Value:
     """Return a text, or one of several, made by an expression."""
     if len(found) == 1:

@@ -166,8 +166,7 @@ class Machine:
             if default is not None:
                 found.keyword_defaults[argument.arg] = self.evaluate(default, frame)
         if frame.source.yields and not isinstance(node, ast.Lambda):
-            walked = (inner for statement in node.body for inner in ast.walk(statement))
-            found.yields = any(isinstance(inner, (ast.Yield, ast.YieldFrom)) for inner in walked)
+            found.yields = _yields(node)
         return found
 
     # --- calls ----------------------------------------------------------------------------------------------------
@@ -319,3 +318,15 @@ class Machine:
 
     def negated(self, value: Value) -> Value:
         return negated(self, value)
+
+
+def _yields(node: ast.FunctionDef | ast.AsyncFunctionDef) -> bool:
+    """Whether a function is a generator: it yields itself, not just a function in it."""
+    waiting: list[ast.AST] = list(node.body)
+    while waiting:
+        inner = waiting.pop()
+        if isinstance(inner, (ast.Yield, ast.YieldFrom)):
+            return True
+        if not isinstance(inner, (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda, ast.ClassDef)):
+            waiting += ast.iter_child_nodes(inner)
+    return False

@@ -1,0 +1,246 @@
+"""The language of Python launch files, as far as people write it, and what ends the following of them."""
+
+import time
+from pathlib import Path
+
+import pytest
+
+from ros_lint.collectors import launch_py, launch_text
+from ros_lint.text import Text
+from tests.launch_cases import collect, said
+
+HEAD = """\
+from dataclasses import dataclass
+from functools import partial
+import os, sys
+from pathlib import Path
+from launch import LaunchDescription
+from launch.actions import *
+from launch_ros.actions import Node
+
+def generate_launch_description():
+"""
+
+# The body of generate_launch_description(), and what it starts; a question mark is for "perhaps".
+CASES = """\
+def make(e, p='a'):
+    return Node(package=p, executable=e)
+return [make('b'), make('c', p='d')]
+=> node a b, node d c
+
+def make(*names, **more):
+    return [Node(executable=n, **more) for n in names]
+return make('b', 'c', package='a')
+=> node a b, node a c
+
+make = partial(Node, package='a')
+return [make(executable='b')]
+=> node a b
+
+make = lambda e: Node(package='a', executable=e)
+return list(map(make, ['b', 'c']))
+=> node a b, node a c
+
+def each():
+    for e in 'bc':
+        yield Node(package='a', executable=e)
+return list(each())
+=> node a b, node a c
+
+nodes = {'b': 'a'}
+nodes['c'] = 'd'
+return [Node(package=p, executable=e) for e, p in nodes.items()]
+=> node a b, node d c
+
+ld = LaunchDescription()
+for i, e in enumerate(['b', 'c']):
+    if i:
+        ld.add_action(Node(package='a', executable=e))
+return ld
+=> node a c
+
+ld = LaunchDescription([Node(package='a', executable='b')])
+ld.add_action(Node(package='a', executable='c'))
+return ld
+=> node a b, node a c
+
+l = []
+l += [Node(package='a', executable='b')]
+l.extend([Node(package='a', executable='c')])
+return LaunchDescription(l)
+=> node a b, node a c
+
+i = 0
+l = []
+while i < 2:
+    l.append(Node(package='a', executable=f'b{i}'))
+    i += 1
+return l
+=> node a b0, node a b1
+
+@dataclass
+class Robot:
+    p: str
+    e: str = 'b'
+    def node(self):
+        return Node(package=self.p, executable=self.e)
+return [Robot('a').node()]
+=> node a b
+
+class Robot:
+    def __init__(self, p):
+        self.p = p
+return [Node(package=Robot('a').p, executable='b')]
+=> node a b
+
+def setup(context, p):
+    e = LaunchConfiguration('e').perform(context)
+    return [Node(package=p, executable=e)]
+return [DeclareLaunchArgument('e', default_value='b'), OpaqueFunction(function=setup, args=['a'])]
+=> node a b
+
+def setup(context):
+    if LaunchConfiguration('sim').perform(context) == 'true':
+        return [Node(package='a', executable='b')]
+    return [Node(package='a', executable='c')]
+return [OpaqueFunction(function=setup)]
+=> node? a b, node? a c
+
+def setup(context, ld):
+    ld.add_action(Node(package='a', executable='b'))
+ld = LaunchDescription()
+ld.add_action(OpaqueFunction(function=setup, args=[ld]))
+return ld
+=> node a b
+
+return [RegisterEventHandler(OnProcessExit(target_action=x, on_exit=[Node(package='a', executable='b')]))]
+=> node a b
+
+return [RegisterEventHandler(OnProcessStart(on_start=lambda event, context: [Node(package='a', executable='b')]))]
+=> node a b
+
+return [TimerAction(period=3.0, actions=[Node(package='a', executable='b')])]
+=> node a b
+
+try:
+    p = {'x': 'c'}['y']
+except KeyError:
+    p = 'a'
+return [Node(package=p, executable='b')]
+=> node a b
+
+p = os.environ.get('P', 'a')
+return [Node(package=p, executable='b')]
+=> node a b
+
+p = 'x_a'.split('_')[-1].strip().replace('b', 'c')
+return [Node(package=p, executable='{}{:02d}'.format('b', 1))]
+=> node a b01
+
+return [Node(package='a', executable='b')] if sys.argv else []
+=> node? a b
+
+for arg in sys.argv:
+    if arg.startswith('x'):
+        return [Node(package='a', executable='b')]
+return [Node(package='a', executable='c')]
+=> node? a b, node a c
+
+return unknown_helper(Node(package='a', executable='b'))
+=> node? a b
+
+x = 'a' and 'b'
+y = None or 'a'
+return [Node(package=y, executable=x)]
+=> node a b
+"""
+
+
+def body(text: str) -> str:
+    return HEAD + "".join(f"    {line}\n" for line in text.split("\n"))
+
+
+@pytest.mark.parametrize("case", CASES.strip().split("\n\n"))
+def test_the_language_of_launch_files(case: str) -> None:
+    program, _, wanted = case.rpartition("\n=> ")
+    assert said(*collect("a.launch.py", body(program))) == wanted.split(", ")
+
+
+def test_modules_of_the_workspace_are_followed() -> None:
+    helper = """\
+from .names import P
+def node(e):
+    from launch_ros.actions import Node
+    return Node(package=P, executable=e)
+"""
+    texts = {
+        "tools.launch": Text("src/tools/tools/launch.py", helper),
+        ".names": Text("src/tools/tools/names.py", "P = 'a'\n"),
+    }
+    source = Text("a.launch.py", "from tools.launch import node\n" + body("return [node('b')]"))
+    found = launch_py.collect(source, lambda name, importer: texts.get(name))
+    assert [(one.package, one.name, one.package_span.path) for one in found.references] == [
+        ("a", "b", "src/tools/tools/names.py")
+    ]
+    assert not found.opaque
+    assert launch_py.collect(source).opaque
+
+
+def test_files_of_the_workspace_are_read() -> None:
+    program = """\
+import yaml
+share = get_package_share_directory('p')
+with open(share + '/nodes.yaml') as f:
+    data = yaml.safe_load(f)
+return [Node(package=n['p'], executable=n['e']) for n in data['nodes']]
+"""
+    files = {f"{launch_text.share('p')}/nodes.yaml": "nodes:\n- {p: a, e: b}\n- {p: c, e: d}\n"}
+    found = launch_py.collect(Text("a.launch.py", body(program)), files=files.get)
+    assert [(one.package, one.name) for one in found.references if one.kind == "node"] == [("a", "b"), ("c", "d")]
+
+
+def test_nothing_of_it_runs(tmp_path: Path) -> None:
+    trap = tmp_path / "sprung"
+    text = f"import os\nopen({str(trap)!r}, 'w').write('x')\nos.system('touch {trap}')\n"
+    collect("a.launch.py", text + body(f"open({str(trap)!r}, 'w')\nexec('x')\nreturn []"))
+    assert not trap.exists()
+
+
+@pytest.mark.parametrize(
+    "program",
+    [
+        "x = " + "[" * 5000,
+        "x = " + "+".join(["'a'"] * 20_000),
+        "x = " + "f(" * 150 + ")" * 150,
+        "x = x + y\ny = x + y\nNode(package=x, executable=y).z",
+        "\n".join(f"x{n} = x{n - 1} + x{n - 1}" for n in range(1, 200)) + "\nNode(package=x199, executable='b').z",
+        "a = 'x' if y else 'z'\n" + "\n".join(f"a = a + ('{n}' if y else 'w')" for n in range(99)) + "\njoin(a, a)",
+        "\0",
+        "while True:\n    pass",
+        "while True:\n    x = [x]",
+        "x = []\nfor i in range(10 ** 9):\n    x.append(i)",
+        "x = [a for a in range(99) for b in range(99) for c in range(99) for d in range(99)]",
+        "x = ['a'] * 10 ** 9\ny = 'a' * 10 ** 9",
+        "x = 7\nfor i in range(99):\n    x = x * x",
+        "def f(n):\n    return f(n + 1) + f(n + 1)\nf(0)",
+        "def f(n):\n    return [f(n) for _ in range(9)]\nf(0)",
+        "def f(x):\n    for k in x:\n        f(k)\n    return f(x)\nf(unknown)",
+        "x = []\nx.append(x)\nreturn x",
+        "x = {}\nx['x'] = x\nstr(x)\nreturn [Node(package='a', executable='b', parameters=[x])]",
+        "a = LaunchDescription()\na.add_action(a)\nreturn a",
+        "x = '%s' % ('a' * 9999)\n" + "x = x + x\n" * 60 + "return [x]",
+        "x = '{:>999999999}'.format('a')\ny = '%999999999d' % 1\nz = f'{1:999999999}'",
+        "x = DeclareLaunchArgument('a', default_value=LaunchConfiguration('a'))\nreturn [x]",
+        "b = DeclareLaunchArgument('b', default_value=[LaunchConfiguration('a')] * 9)\n"
+        "return [DeclareLaunchArgument('a', default_value=LaunchConfiguration('b')), b]",
+        "\n".join(f"if unknown{n}:\n    x{n} = {n}" for n in range(300)),
+        "\n".join("    " * n + f"if unknown{n}:" for n in range(90)) + "\n" + "    " * 90 + "pass",
+        "\n".join(f"x = x + [y] if unknown{n} else [x]" for n in range(40)) + "\nreturn x",
+        "class A(A): pass\nA().b()",
+        "f = lambda: f()\nf()",
+    ],
+)
+def test_hostile_files_end_soon(program: str) -> None:
+    begin = time.process_time()
+    collect("a.launch.py", body(program))
+    assert time.process_time() - begin < 2
