@@ -1,6 +1,6 @@
 """Everything a rule may import."""
 
-from ros_lint import conditions, manifest_edits
+from ros_lint import cmake_edits, conditions, manifest_edits, setup_edits
 from ros_lint.build_scripts import (
     called,
     evaluated_name,
@@ -111,6 +111,7 @@ __all__ = [
     "builds_something",
     "called",
     "change_dependency",
+    "cmake_edits",
     "come_along",
     "comes_with_launching",
     "conditions",
@@ -132,6 +133,7 @@ __all__ = [
     "programs",
     "relative",
     "remove_dependency",
+    "setup_edits",
     "stranded",
     "tag_for",
     "top_file",

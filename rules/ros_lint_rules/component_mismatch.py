@@ -40,6 +40,7 @@ from ros_lint.api import (
     Severity,
     Workspace,
     called,
+    cmake_edits,
     evaluated_name,
     is_apart,
     relative,
@@ -146,17 +147,9 @@ def _libraries(package: Package) -> Iterator[Finding]:
         if target is None or name in listed or any(file.startswith(f"lib{name}.") for file in installed):
             continue
         told.add(name)
-        fix = Fix(f"install {name}", (Edit(script.end, _INSTALL.format(name)),)) if script.end else None
+        fix = Fix(f"install {name}", (cmake_edits.install_library(script.end, name),)) if script.end else None
         message = f"the library {name} has components, and is not installed; install it to lib"
         yield Finding(message, call.span(0), name, (Related("it is built here", target.span),), fix)
-
-
-_INSTALL = """\
-install(TARGETS {}
-  ARCHIVE DESTINATION lib
-  LIBRARY DESTINATION lib
-  RUNTIME DESTINATION bin)
-"""
 
 
 RULE = Rule(

@@ -27,7 +27,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Edit, Facet, Finding, Fix, Package, Rule, Severity, Slot, Span, Workspace
+from ros_lint.api import Facet, Finding, Fix, Package, Rule, Severity, Slot, Span, Workspace, setup_edits
 
 _MARKERS = "share/ament_index/resource_index/packages"
 
@@ -38,13 +38,15 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         return
     if "setup.py" not in package.files:
         return
-    slot = next((slot for slot in script.slots if slot.option == "data_files"), None)
+    slot = setup_edits.slot(script, "data_files")
     paths = {provided.path for provided in script.provides}
     place = slot.end if slot else script.name_span or Span(script.path, 1, 1, 1, 1)
     unfound = any(problem.kind == "missing-file" and "resource/" in problem.message for problem in script.problems)
     if not unfound and not any(path.startswith(f"{_MARKERS}/") for path in paths):
         marker = f"resource/{package.name}"
-        fix = _fix(slot, f"('{_MARKERS}', ['resource/' + NAME])", package.name) if marker in package.files else None
+        fix = None
+        if slot and marker in package.files:
+            fix = _add(slot, f"('{_MARKERS}', [{setup_edits.joined(slot, package.name, 'resource/')}])")
         yield Finding(
             f"the marker of the package is not installed, so ROS does not find it; add {marker} to data_files",
             place,
@@ -56,17 +58,12 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             f"package.xml is not installed; add ('share/{package.name}', ['package.xml']) to data_files",
             place,
             "package.xml",
-            fix=_fix(slot, "('share/' + NAME, ['package.xml'])", package.name),
+            fix=_add(slot, f"({setup_edits.joined(slot, package.name, 'share/')}, ['package.xml'])") if slot else None,
         )
 
 
-def _fix(slot: Slot | None, element: str, name: str) -> Fix | None:
-    if slot is None or slot.size == 0:
-        return None
-    element = element.replace("NAME", slot.variable) if slot.variable else element.replace("' + NAME", f"{name}'")
-    gap = " " if slot.indent is None else f"\n{slot.indent}"
-    text = f"{gap}{element}," if slot.comma else f",{gap}{element}"
-    return Fix(f"add {element} to data_files", (Edit(slot.end, text),))
+def _add(slot: Slot, element: str) -> Fix:
+    return Fix(f"add {element} to data_files", (setup_edits.add(slot, element),))
 
 
 RULE = Rule(

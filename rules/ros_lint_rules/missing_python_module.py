@@ -24,7 +24,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Edit, Facet, Finding, Fix, Package, Rule, Severity, Slot, Span, Workspace
+from ros_lint.api import Facet, Finding, Fix, Package, Rule, Severity, Slot, Span, Workspace, setup_edits
 
 _APART = frozenset({"test", "tests", "testing", "launch", "doc", "docs", "example", "examples", "scripts", "resource", "build"})
 
@@ -34,7 +34,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     if script is None or package.builds_with != "ament_python" or package.hidden(Facet.PYTHON):
         return
     installed = set(script.python_packages)
-    slot = next((slot for slot in script.slots if slot.option == "packages"), None)
+    slot = setup_edits.slot(script, "packages")
     place = slot.end if slot else (script.name_span or Span(script.path, 1, 1, 1, 1))
     told: set[str] = set()
     for name, folder in _packages(package):
@@ -72,13 +72,11 @@ def _packages(package: Package) -> Iterator[tuple[str, str]]:
 
 
 def _fix(slot: Slot | None, name: str, package: str) -> Fix | None:
-    if slot is None or slot.size == 0:
+    if slot is None:
         return None
-    rest = name.removeprefix(package)
-    element = f"{slot.variable} + '{rest}'" if slot.variable and rest.startswith(".") else f"'{name}'"
-    gap = " " if slot.indent is None else f"\n{slot.indent}"
-    text = f"{gap}{element}," if slot.comma else f",{gap}{element}"
-    return Fix(f"add {name} to packages", (Edit(slot.end, text),))
+    inside = name.startswith(f"{package}.")
+    element = setup_edits.joined(slot, package, "", name.removeprefix(package)) if inside else f"'{name}'"
+    return Fix(f"add {name} to packages", (setup_edits.add(slot, element),))
 
 
 RULE = Rule(

@@ -14,7 +14,8 @@ Link to targets: `target_link_libraries(t PUBLIC rclcpp::rclcpp ${std_msgs_TARGE
 
 ## When it keeps silent
 
-In other distributions, and with medium confidence where nobody said which distribution is meant; where that package is found, or the command is defined in the package itself; under conditions.
+In other distributions; where that package is found, or the command is defined in the package itself; under conditions. The
+confidence is medium where nobody said which distribution is meant.
 """
 
 from __future__ import annotations

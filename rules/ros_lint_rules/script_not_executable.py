@@ -45,6 +45,7 @@ from ros_lint.api import (
     Span,
     Workspace,
     called,
+    cmake_edits,
     relative,
 )
 
@@ -96,14 +97,14 @@ def _line(package: Package, file: ScriptFile, name: str, started: bool) -> Itera
 def _no_bit(package: Package, span: Span, provided: list[Provided], files: dict[str, ScriptFile]) -> Finding:
     names = sorted(dict.fromkeys(one.path.rpartition("/")[2] for one in provided))
     named = ", ".join(names[:3]) + (" ..." if len(names) > 3 else "")
-    call = next((call for call in called(package, "install", anywhere=True) if _covers(call, span)), None)
+    call = next((call for call in called(package, "install", anywhere=True) if call.args and cmake_edits.covers(call, span)), None)
     way, fix = "install(PROGRAMS)", None
     if call is not None and call.texts[0] == "DIRECTORY":
         way = "USE_SOURCE_PERMISSIONS, or install(PROGRAMS)"
         if all(files[one.source].executable for one in provided):
-            fix = Fix("add USE_SOURCE_PERMISSIONS", (Edit(_last(call), " USE_SOURCE_PERMISSIONS"),))
+            fix = Fix("add USE_SOURCE_PERMISSIONS", (cmake_edits.keep_permissions(call),))
     elif call is not None and call.texts[0] == "FILES":
-        fix = Fix("install as PROGRAMS", (Edit(call.span(0), "PROGRAMS"),), safe=False)
+        fix = Fix("install as PROGRAMS", (cmake_edits.write(call, 0, "PROGRAMS"),), safe=False)
     elif not span.path.endswith((".txt", ".cmake")):
         way = "chmod +x, or entry_points"
     it = "them" if len(names) > 1 else "it"
@@ -128,17 +129,6 @@ def _confidence(package: Package, call: Call | None) -> Confidence:
 def _source(package: Package, provided: Provided) -> Span:
     path = f"{package.path}/{provided.source}" if package.path else provided.source
     return Span(path, 1, 1, 1, 1)
-
-
-def _covers(call: Call, span: Span) -> bool:
-    whole = call.whole
-    return bool(call.args) and whole.path == span.path and whole[1:3] <= span[1:3] and span[3:5] <= whole[3:5]
-
-
-def _last(call: Call) -> Span:
-    """Return the place after the value of DESTINATION, which comes before any PATTERN."""
-    at = call.texts.index("DESTINATION") + 1 if "DESTINATION" in call.texts[:-1] else 0
-    return call.span(at).end()
 
 
 RULE = Rule(

@@ -30,7 +30,6 @@ from ros_lint.api import (
     BuildTarget,
     Call,
     Confidence,
-    Edit,
     Facet,
     Finding,
     Fix,
@@ -41,6 +40,7 @@ from ros_lint.api import (
     Span,
     Workspace,
     called,
+    cmake_edits,
     hidden,
     relative,
 )
@@ -103,14 +103,14 @@ def _move(package: Package, span: Span, targets: tuple[BuildTarget, ...]) -> Fix
     """Correct the destination of the executables, where the rule says it by itself and installs no other program."""
     kinds = {target.name: target.kind for target in targets}
     for call in called(package, "install"):
-        if call.texts[:1] != ("TARGETS",) or not _covers(call, span):
+        if call.texts[:1] != ("TARGETS",) or not cmake_edits.covers(call, span):
             continue
         texts = call.texts
         at = texts.index("RUNTIME") + 2 if "RUNTIME" in texts[:-2] else 0
         if not at and all(kinds.get(text) == "executable" for text in _targets(texts)) and "DESTINATION" in texts[:-1]:
             at = texts.index("DESTINATION") + 1
         if at and texts[at - 1] == "DESTINATION" and texts[at] in ("bin", "${CMAKE_INSTALL_BINDIR}"):
-            return Fix("install it to lib/${PROJECT_NAME}", (Edit(call.span(at), "lib/${PROJECT_NAME}"),), safe=False)
+            return Fix("install it to lib/${PROJECT_NAME}", (cmake_edits.write(call, at, "lib/${PROJECT_NAME}"),), safe=False)
     return None
 
 
@@ -121,16 +121,8 @@ def _targets(texts: tuple[str, ...]) -> Iterator[str]:
         yield text
 
 
-def _covers(call: Call, span: Span) -> bool:
-    whole = call.whole
-    return whole.path == span.path and whole[1:3] <= span[1:3] and span[3:5] <= whole[3:5]
-
-
 def _install(end: Span | None, name: str) -> Fix | None:
-    if end is None:
-        return None
-    line = f"install(TARGETS {name} DESTINATION lib/${{PROJECT_NAME}})\n"
-    return Fix(f"install {name}", (Edit(end, line),))
+    return Fix(f"install {name}", (cmake_edits.install_program(end, "TARGETS", name),)) if end else None
 
 
 RULE = Rule(

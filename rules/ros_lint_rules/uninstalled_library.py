@@ -27,7 +27,6 @@ from collections.abc import Iterator
 from ros_lint.api import (
     Call,
     Confidence,
-    Edit,
     Facet,
     Finding,
     Fix,
@@ -38,17 +37,10 @@ from ros_lint.api import (
     Span,
     Workspace,
     called,
+    cmake_edits,
     evaluated_name,
     hidden,
 )
-
-_INSTALL = """\
-install(TARGETS {}
-  ARCHIVE DESTINATION lib
-  LIBRARY DESTINATION lib
-  RUNTIME DESTINATION bin)
-"""
-
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
     script = package.script
@@ -78,7 +70,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             target.span,
             target.name,
             related,
-            Fix(f"install {target.name}", (Edit(script.end, _INSTALL.format(target.name)),)) if script.end else None,
+            Fix(f"install {target.name}", (cmake_edits.install_library(script.end, target.name),)) if script.end else None,
             Confidence.HIGH if reason else Confidence.MEDIUM if shared else Confidence.LOW,
             None if reason else Severity.WARNING,
         )

@@ -28,9 +28,7 @@ import re
 from collections.abc import Iterator
 
 from ros_lint.api import (
-    Call,
     Confidence,
-    Edit,
     Facet,
     Finding,
     Fix,
@@ -38,12 +36,12 @@ from ros_lint.api import (
     Related,
     Rule,
     Severity,
-    Slot,
     Span,
     Workspace,
-    called,
+    cmake_edits,
     is_apart,
     launchable,
+    setup_edits,
 )
 
 _FOLDERS = frozenset(
@@ -112,14 +110,16 @@ def _named(package: Package, unit: str, found: list[tuple[str, Span]]) -> Findin
 def _place(package: Package) -> Span:
     script = package.script
     assert script is not None
-    slot = next((slot for slot in script.slots if slot.option == "data_files"), None)
+    slot = setup_edits.slot(script, "data_files")
     return script.end or (slot.end if slot else script.name_span) or Span(script.path, 1, 1, 1, 1)
 
 
 def _folders(package: Package, kept: set[str], told: set[str]) -> Iterator[Finding]:
     """Speak of folders of resources of which nothing is installed."""
     for folder, files in _unkept(package, kept).items():
-        if folder.partition("/")[0] in told or all(file.rpartition(".")[2] in _PLAIN for file in files):
+        if folder.partition("/")[0] in told or (
+            folder != "controllers" and all(file.rpartition(".")[2] in _PLAIN for file in files)
+        ):
             continue
         named = ", ".join(file.rpartition("/")[2] for file in files[:3]) + (" ..." if len(files) > 3 else "")
         yield Finding(
@@ -161,57 +161,16 @@ def _fix(package: Package, unit: str) -> Fix | None:
     script = package.script
     assert script is not None
     folder, _, name = unit.rpartition("/")
-    if not script.path.endswith("CMakeLists.txt"):
-        return _data_files(next((slot for slot in script.slots if slot.option == "data_files"), None), package.name, unit)
-    if not name:
-        if call := _beside(package):
-            last = _last_folder(call)
-            gap = _gap(call, last)
-            return Fix(f"install {folder}/", (Edit(call.span(last).end(), f"{gap}{folder}"),))
-        line = f"install(DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}})\n"
-    else:
-        line = f"install(FILES {unit} DESTINATION share/${{PROJECT_NAME}}{'/' + folder if folder else ''})\n"
-    return Fix(f"install {folder or name}", (Edit(script.end, line),)) if script.end else None
-
-
-def _beside(package: Package) -> Call | None:
-    """Return a rule that installs folders to share/<package> as they are, to which another can be added."""
-    for call in called(package, "install"):
-        texts = call.texts
-        if texts[:1] != ("DIRECTORY",) or call.blocks or "DESTINATION" not in texts[:-1]:
-            continue
-        to = texts[texts.index("DESTINATION") + 1].rstrip("/")
-        plain = {"DIRECTORY", "DESTINATION"}
-        folders = texts[1 : texts.index("DESTINATION")]
-        if to not in ("share/${PROJECT_NAME}", f"share/{package.name}") or not folders:
-            continue
-        if len(texts) == len(folders) + 3 and not plain.intersection(folders) and not any("$" in one for one in folders):
-            return call
-    return None
-
-
-def _last_folder(call: Call) -> int:
-    return call.texts.index("DESTINATION") - 1
-
-
-def _gap(call: Call, last: int) -> str:
-    """Return what stands between the folders of a rule: a line each, or a space."""
-    span = call.span(last)
-    if span.line == call.span(last - 1).line:
-        return " "
-    return "\n" + " " * (span.column - 1)
-
-
-def _data_files(slot: Slot | None, name: str, unit: str) -> Fix | None:
-    if slot is None or slot.size == 0 or unit.endswith("/"):
-        return None
-    folder = unit.rpartition("/")[0]
-    inner = f"/{folder}" if folder else ""
-    head = f"'share/' + {slot.variable} + '{inner}'" if slot.variable and inner else f"'share/{name}{inner}'"
-    element = f"({head}, ['{unit}'])"
-    gap = " " if slot.indent is None else f"\n{slot.indent}"
-    text = f"{gap}{element}," if slot.comma else f",{gap}{element}"
-    return Fix(f"install {unit}", (Edit(slot.end, text),))
+    edit = None
+    if script.path.endswith("CMakeLists.txt"):
+        if not name:
+            edit = cmake_edits.install_folder(package, folder)
+        elif script.end:
+            edit = cmake_edits.install_file(script.end, unit)
+    elif name and (slot := setup_edits.slot(script, "data_files")):
+        place = setup_edits.joined(slot, package.name, "share/", f"/{folder}" if folder else "")
+        edit = setup_edits.add(slot, f"({place}, ['{unit}'])")
+    return Fix(f"install {unit}", (edit,)) if edit else None
 
 
 RULE = Rule(

@@ -22,7 +22,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Confidence, Edit, Facet, Finding, Fix, Package, Rule, Severity, Span, Workspace, hidden, is_apart
+from ros_lint.api import (
+    Confidence,
+    Facet,
+    Finding,
+    Fix,
+    Package,
+    Rule,
+    Severity,
+    Span,
+    Workspace,
+    cmake_edits,
+    hidden,
+    is_apart,
+)
 
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
@@ -36,8 +49,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         path = f"{package.path}/{file.path}" if package.path else file.path
         fix = None
         if script.end is not None:
-            line = f"install(PROGRAMS {file.path} DESTINATION lib/${{PROJECT_NAME}})\n"
-            fix = Fix(f"install {file.path}", (Edit(script.end, line),))
+            fix = Fix(f"install {file.path}", (cmake_edits.install_program(script.end, "PROGRAMS", file.path),))
         yield Finding(
             f"{file.path} is a script, and is not installed, so ros2 run does not find it",
             Span(path, 1, 1, 1, 1),

@@ -21,7 +21,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Edit, Facet, Finding, Fix, Package, Rule, Severity, Workspace, called, hidden
+from ros_lint.api import Facet, Finding, Fix, Package, Rule, Severity, Workspace, called, cmake_edits, hidden
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -38,8 +38,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             continue
         fix = None
         if script.end is not None:
-            line = f"install(TARGETS {target.name} DESTINATION lib/${{PROJECT_NAME}})\n"
-            fix = Fix(f"install {target.name}", (Edit(script.end, line),), safe=False)
+            edit = cmake_edits.install_program(script.end, "TARGETS", target.name)
+            fix = Fix(f"install {target.name}", (edit,), safe=False)
         yield Finding(f"{target.name} is built, but neither installed nor a test", target.span, target.name, fix=fix)
 
 

@@ -1,0 +1,77 @@
+"""Edits of CMakeLists.txt that keep its style: worked out from the commands as they are written, without their text."""
+
+from __future__ import annotations
+
+from ros_lint.build_scripts import called
+from ros_lint.facts import Call
+from ros_lint.rule import Edit
+from ros_lint.text import Span
+from ros_lint.workspace import Package
+
+_LIBRARY = """\
+install(TARGETS {}
+  ARCHIVE DESTINATION lib
+  LIBRARY DESTINATION lib
+  RUNTIME DESTINATION bin)
+"""
+
+
+def covers(call: Call, span: Span) -> bool:
+    """Return whether a place is within a call."""
+    whole = call.whole
+    return whole.path == span.path and whole[1:3] <= span[1:3] and span[3:5] <= whole[3:5]
+
+
+def install_library(end: Span, name: str) -> Edit:
+    """Install a library, before the place ``end``: that of ament_package()."""
+    return Edit(end, _LIBRARY.format(name))
+
+
+def install_program(end: Span, kind: str, name: str) -> Edit:
+    """Install one of TARGETS, PROGRAMS to lib/<package>."""
+    return Edit(end, f"install({kind} {name} DESTINATION lib/${{PROJECT_NAME}})\n")
+
+
+def install_file(end: Span, path: str) -> Edit:
+    """Install a file below share/<package>, at the path that it has in the package."""
+    folder = path.rpartition("/")[0]
+    return Edit(end, f"install(FILES {path} DESTINATION share/${{PROJECT_NAME}}{'/' + folder if folder else ''})\n")
+
+
+def install_folder(package: Package, folder: str) -> Edit | None:
+    """Install a folder to share/<package>: in the rule that does it for other folders, if there is one, or else in a new one.
+
+    None when there is no place for a new one.
+    """
+    call = _beside(package)
+    if call is not None:
+        last = call.texts.index("DESTINATION") - 1
+        span = call.span(last)
+        gap = " " if span.line == call.span(last - 1).line else "\n" + " " * (span.column - 1)
+        return Edit(span.end(), f"{gap}{folder}")
+    end = package.script.end if package.script else None
+    return Edit(end, f"install(DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}})\n") if end else None
+
+
+def _beside(package: Package) -> Call | None:
+    """Return a rule that installs folders to share/<package> as they are, and does nothing else."""
+    for call in called(package, "install"):
+        texts = call.texts
+        if texts[:1] != ("DIRECTORY",) or call.blocks or texts[-2:-1] != ("DESTINATION",):
+            continue
+        folders = texts[1:-2]
+        plain = all("$" not in folder and not folder.isupper() for folder in folders)
+        if folders and plain and texts[-1].rstrip("/") in ("share/${PROJECT_NAME}", f"share/{package.name}"):
+            return call
+    return None
+
+
+def keep_permissions(call: Call) -> Edit:
+    """Add USE_SOURCE_PERMISSIONS to install(DIRECTORY), after the destination: patterns come later."""
+    at = call.texts.index("DESTINATION") + 1 if "DESTINATION" in call.texts[:-1] else len(call.args) - 1
+    return Edit(call.span(at).end(), " USE_SOURCE_PERMISSIONS")
+
+
+def write(call: Call, index: int, text: str) -> Edit:
+    """Put another argument in the place of one."""
+    return Edit(call.span(index), text)
