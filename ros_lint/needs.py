@@ -120,8 +120,8 @@ def comes_with_launching(package: Package, uses: Iterable[Use]) -> bool:
 def may_bring(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
     """Whether one of the declared names of which nothing is known could bring a package along.
 
-    What comes from elsewhere needs none of this workspace: repositories do not need each other in a circle. A name with a
-    dash or a capital is no package, but a rosdep key or a mistake; a package of messages brings messages.
+    What comes from elsewhere needs none of this workspace: repositories do not need each other in a circle. A package of
+    messages brings messages.
     """
     if name in workspace.by_name:
         return False
@@ -129,9 +129,19 @@ def may_bring(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
     messages = bool(released and released.interfaces)
     plumbing = name.startswith(("rosidl_", "builtin_", "action_msgs", "service_msgs", "unique_identifier_msgs"))
     for each in unknown:
-        if "-" in each or each != each.lower() or each == "ament_python":
+        if _is_no_package(each, workspace):
             continue
         if each.endswith(("_msgs", "_interfaces", "_srvs", "_msg")) and not (messages or plumbing):
             continue
         return True
     return False
+
+
+def _is_no_package(name: str, workspace: Workspace) -> bool:
+    """Whether an unknown name can stand for no package of ROS 2: it is spelt like a key, a slip, or one of ROS 1."""
+    if "-" in name or name != name.lower() or name == "ament_python":
+        return True
+    gone = workspace.world.knowledge.names.end_of_life(name)
+    if gone:
+        return all(distro.startswith("ROS 1 ") for distro in gone)
+    return workspace.world.meant(name) is not None

@@ -105,7 +105,7 @@ def test_an_unknown_name_can_bring_some_things_only() -> None:
     assert may_bring(("strange",), "rclcpp", workspace)
     assert may_bring(("strange_msgs",), "std_msgs", workspace)
     assert not may_bring(("strange_msgs",), "rclcpp", workspace)
-    assert not may_bring(("Eigen3", "python3-strange", "ament_python"), "rclcpp", workspace)
+    assert not may_bring(("Eigen3", "python3-strange", "ament_python", "roscpp", "sensor_msg"), "rclcpp", workspace)
 
 
 def test_a_tag_covers_what_comes_along_with_it_for_its_role() -> None:

@@ -31,7 +31,6 @@ from ros_lint.api import (
     Fix,
     Package,
     Related,
-    Role,
     Rule,
     Severity,
     Workspace,
@@ -48,7 +47,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     declared = tuple(dict.fromkeys(declared.name for declared in package.declared))
     for need in needs(package, workspace):
-        if need.declared or not need.brought or all(use.via == "macro" and not use.role & Role.TEST for use in need.uses):
+        if need.declared or not need.brought or all(use.via == "macro" for use in need.uses):
             continue
         best, *others = need.uses
         name = next((name for name in best.providers if workspace.world.path(declared, name)), need.name)
