@@ -24,6 +24,8 @@ def collect(name: str, path: str, source: Text) -> PythonModule:
     except NotPythonError:
         return PythonModule(name, path, (), True)
     names = set(_names(tree.body))
+    if "global " in source.text:
+        names.update(name for node in ast.walk(tree) if isinstance(node, ast.Global) for name in node.names)
     wild = {"*", "__getattr__"} & names
     return PythonModule(name, path, tuple(sorted(names)), bool(wild) or "globals()" in source.text or "exec(" in source.text)
 
