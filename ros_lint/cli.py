@@ -17,7 +17,11 @@ def main(argv: Sequence[str] | None = None) -> int:
 
         print(f"ros-lint {__version__}")
         return 0
+    import gc  # noqa: PLC0415
+
     from ros_lint.arguments import parse  # noqa: PLC0415
+
+    gc.disable()  # a run makes a model once and ends: looking for garbage in it again and again takes a seventh of it
 
     try:
         command, options = parse(arguments)
