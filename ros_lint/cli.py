@@ -9,6 +9,7 @@ import os
 import sys
 from collections.abc import Sequence
 
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Run a command. Returns the exit code; raises nothing but what ends the process."""
     arguments = list(sys.argv[1:] if argv is None else argv)
