@@ -134,8 +134,10 @@ def _missing(run: Run) -> list[Problem]:
 
 
 def _undefined(run: Run) -> list[Problem]:
-    return [
-        Problem("undefined-target", f"install() of {name}, which is no target", span)
-        for name, span, conditional in run.undefined
-        if not conditional and name not in run.targets and not any(o.hides & Facet.LIBRARIES for o in run.opaques)
-    ]
+    if run.wild:
+        return []
+    undefined = [(name, span) for name, span, conditional in run.undefined if not conditional and "__rosidl" not in name]
+    places = {span for _, span in undefined}
+    if any(opaque.hides & Facet.LIBRARIES and opaque.span not in places for opaque in run.opaques):
+        return []
+    return [Problem("undefined-target", f"install() of {name}, which is no target", span) for name, span in undefined]

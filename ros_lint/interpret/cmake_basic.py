@@ -172,11 +172,11 @@ def _include(run: Run, args: list[str]) -> int | None:
 def _include_file(run: Run, name: str, optional: bool) -> int | None:
     if name.startswith(FOREIGN):
         return _include_foreign(run, name)
-    is_module = "/" not in name and not name.endswith(".cmake")
+    is_module = "/" not in name and "." not in name
     folders = run.get("CMAKE_MODULE_PATH") or ""
     candidates = [name]
-    if is_module:
-        candidates = [f"{folder}/{name}.cmake" for folder in folders.split(";") if is_fixed(folder)]
+    if not name.startswith("/"):
+        candidates[:0] = [f"{folder}/{name}.cmake" for folder in folders.split(";") if is_fixed(folder)]
     for candidate in candidates:
         path = run.source(candidate)
         if path is not None and path in run.sources.scripts:

@@ -14,7 +14,7 @@ from ros_lint.interpret.cmake_values import FOREIGN, HOLE, PREFIX, is_known, spl
 _FOREIGN_VARIABLE = re.compile(
     r"\$\{([A-Za-z0-9_+.-]+?)_(?:TARGETS|LIBRARIES|LIBRARY|LIBS|INCLUDE_DIRS?|INCLUDES|DEFINITIONS|LDFLAGS|CFLAGS)\}"
 )
-_FOREIGN_TARGET = re.compile(r"(?<![\w:])([A-Za-z_][\w.+-]*)::[\w.+:-]*\w")
+_FOREIGN_TARGET = re.compile(r"(?<!\w)(?<!::)([A-Za-z_][\w.+-]*)::[\w.+:-]*\w")
 
 
 def find_package(run: Run, args: list[str]) -> int | None:

@@ -28,6 +28,8 @@ from ros_lint.interpret.cmake_state import (
     NEXT,
     RETURN,
     STOP,
+    TESTS,
+    USUAL,
     Changes,
     Choice,
     Exit,
@@ -52,19 +54,21 @@ def run_body(run: Run, body: Sequence[Node], start: int = 0) -> Exit:
             return ended
         if ended == NEXT | STOP:
             continue  # only the ways that go on matter
-        rest, changes = _perhaps(run, partial(run_body, run, body, index + 1))
-        run.join([{}, changes])
-        return (ended & ~NEXT) | rest
+        rest, changes = _perhaps(run, partial(run_body, run, body, index + 1), ended)
+        run.join([{}, changes], 1 if ended & USUAL else None)
+        return (ended & ~(NEXT | USUAL | TESTS)) | rest
     return NEXT
 
 
-def _perhaps(run: Run, piece: partial[Exit]) -> tuple[Exit, Changes]:
-    """Run something that may also not run."""
-    run.unsure += 1
+def _perhaps(run: Run, piece: partial[Exit], reached: Exit = NEXT) -> tuple[Exit, Changes]:
+    """Run something that may also not run. ``reached`` says by USUAL and TESTS what is known of that."""
+    unsure, testing = run.unsure, run.testing
+    run.unsure += not reached & USUAL
+    run.testing = testing or bool(reached & TESTS)
     try:
         return run.branch(piece)
     finally:
-        run.unsure -= 1
+        run.unsure, run.testing = unsure, testing
 
 
 def run_command(run: Run, command: Command) -> Exit:
@@ -171,7 +175,7 @@ def _run_way(run: Run, way: _Way) -> Exit:
 def _run_ways(run: Run, ways: Sequence[_Way]) -> Exit:
     ended: Exit = 0
     alive: list[tuple[Changes, bool]] = []
-    stopped: list[Changes] = []
+    onward: list[_Way] = []
     for way in ways:
         run.unsure += not way.usual
         try:
@@ -179,14 +183,18 @@ def _run_ways(run: Run, ways: Sequence[_Way]) -> Exit:
         finally:
             run.unsure -= not way.usual
         if one == STOP:
-            stopped.append(changes)
             continue
+        if one & NEXT:
+            onward.append(way)
         ended |= one & ~STOP
         alive.append((changes, way.usual))
     if not alive:
         return STOP
     default = next((index for index, (_, usual) in enumerate(alive) if usual), None)
     run.join([changes for changes, _ in alive], default)
+    if ended != NEXT and onward:
+        ended |= USUAL if any(way.usual for way in onward) else 0
+        ended |= TESTS if all(way.testing for way in onward) and not run.testing else 0
     return ended
 
 

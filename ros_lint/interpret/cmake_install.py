@@ -154,6 +154,8 @@ def _install_file(run: Run, value: str, path: str, program: bool, certain: bool,
     span = run.where(value)
     source = run.source(plain)
     conditional = run.conditional or run.testing or not certain
+    if source is not None and run.is_unseen(source):
+        source = None
     if source is not None and source not in run.files:
         if run.is_folder(source) and source:
             run.problem("file-is-directory", f"install(FILES) of {source}, which is a directory", span)

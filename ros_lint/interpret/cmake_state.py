@@ -18,6 +18,10 @@ CONTINUE: Final = 4
 RETURN: Final = 8
 STOP: Final = 16
 """CMake gives up: message(FATAL_ERROR)."""
+USUAL: Final = 32
+"""Beside NEXT: it is usual that the next command follows."""
+TESTS: Final = 64
+"""Beside NEXT: the next command follows only where tests are wanted."""
 
 
 class Variables(dict[str, "str | None"]):
