@@ -38,14 +38,20 @@ def collect(source: Text, *, launch: bool = False) -> FileFacts:
             found = walk(source, tree)
         if looked_up is None:
             looked_up = look_ups(source, tree)
-    spans = source.spans([(item.start, item.start + len(item.module)) for item in found])
+    named = [item for item in found if item.module]
+    spans = source.spans([(item.start, item.start + len(item.module)) for item in named])
     mentions = [
         Mention(module, "import", span, f"import of {module}", optional)
-        for (_, module, optional), span in zip(found, spans, strict=True)
+        for (_, module, optional), span in zip(named, spans, strict=True)
+    ]
+    opaque = [
+        Opaque(Facet.USES, "which module is imported here is computed", source.span(item.start, item.start))
+        for item in found
+        if not item.module
     ]
     if looked_up.mentions:
         mentions = sorted([*mentions, *looked_up.mentions], key=lambda mention: mention.span)
-    return FileFacts(source.path, tuple(mentions), looked_up.opaque, look_ups=looked_up.files)
+    return FileFacts(source.path, tuple(mentions), (*opaque, *looked_up.opaque), look_ups=looked_up.files)
 
 
 def _unreadable(source: Text, error: NotPythonError) -> FileFacts:

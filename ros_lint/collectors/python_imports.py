@@ -23,12 +23,13 @@ class Import(NamedTuple):
     start: int
     """Offset of the module as written."""
     module: str
-    """Dotted."""
+    """Dotted, "" when it is computed."""
     optional: bool
     """Whether the program does without: for type checkers only, or with the error caught."""
 
 
-_IMPORT = re.compile(r"import(?=[ \t(*\\])")
+_IMPORT = re.compile(r"import(?=[ \t(*\\]|_module\(|orskip\(|__\()")
+_DYNAMIC = frozenset({"import_module", "importorskip", "__import__"})
 _MODULE = re.compile(r"[ \t]*([^\W\d]\w*(?:\.[^\W\d]\w*)*)(?:[ \t]+as[ \t]+[^\W\d]\w*)?[ \t\r]*(,|\Z)")
 _FROM = re.compile(r"from[ \t]+([^\W\d]\w*(?:\.[^\W\d]\w*)*)[ \t]+\Z")
 _RELATIVE = re.compile(r"from[ \t]*\.[ \t.\w]*\Z")
@@ -71,7 +72,7 @@ def scan(text: str) -> list[Import] | None:
                 continue
             else:
                 return None
-        elif before[0] == "#" or not _may_follow(before):
+        elif before[0] == "#" or (text[match.end()] in " \t(*\\" and not _may_follow(before)):
             continue
         else:
             return None
@@ -227,13 +228,31 @@ def walk(source: Text, tree: ast.Module) -> list[Import]:
     """Return the imports of a source in order.
 
     Optional are those under TYPE_CHECKING, and those in a try statement that goes on when the import fails or under
-    a test of the platform, unless every branch imports from the same package (reference, section D6).
+    a test of the platform, unless every branch imports from the same package (reference, section D6). Calls of
+    ``importlib.import_module()`` and the like are imports, too; whoever calls one is taken to be able to go without.
     """
-    return sorted(
+    found = [
         Import(start, module, optional)
         for statement, optional in _imports(tree.body)
         for start, module in _modules(source, statement)
-    )
+    ]
+    if any(name in source.text for name in _DYNAMIC):
+        found += _calls(source, tree)
+    return sorted(found)
+
+
+def _calls(source: Text, tree: ast.Module) -> Iterator[Import]:
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call) and node.args:
+            function, given = node.func, node.args[0]
+            name = function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
+            if name not in _DYNAMIC:
+                continue
+            if not isinstance(given, ast.Constant) or not isinstance(given.value, str):
+                yield Import(start_of(source, given), "", True)
+            elif not given.value.startswith("."):
+                start = source.text.find(given.value, start_of(source, given))
+                yield Import(max(start, 0), given.value, True)
 
 
 _Found = tuple[ast.Import | ast.ImportFrom, bool]
