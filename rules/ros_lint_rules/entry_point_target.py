@@ -53,7 +53,8 @@ def _entry(package: Package, entry: EntryPoint) -> Iterator[Finding]:
         yield Finding(message, entry.span, entry.name)
         return
     if entry.target.rstrip().endswith("()"):
-        yield Finding(f"the target of {entry.name} ends with (); write {entry.target.rstrip()[:-2]}", entry.span, entry.name)
+        message = f"the target of {entry.name} ends with (); write {entry.target.rstrip()[:-2]}"
+        yield Finding(message, entry.span, entry.name, fix=_without_call(entry))
         return
     match = _TARGET.match(entry.target)
     if match is None:
@@ -105,6 +106,16 @@ def _no_module(package: Package, entry: EntryPoint, name: str) -> Iterator[Findi
     yield Finding(
         f"{entry.name}: there is no module {name}{hint}", entry.span, entry.name, fix=_fix(entry, name, near[0] if near else "")
     )
+
+
+def _without_call(entry: EntryPoint) -> Fix | None:
+    """Take away the () at the end, where the entry is a text of its own on one line."""
+    span = entry.span
+    spare = span.end_column - span.column - len(entry.name) - len(entry.target) - len("'='")
+    if span.line != span.end_line or not 0 <= spare <= 2:  # blanks around the sign
+        return None
+    place = span._replace(column=span.end_column - 3, end_column=span.end_column - 1)
+    return Fix("take away the ()", (Edit(place, ""),))
 
 
 def _fix(entry: EntryPoint, wrong: str, right: str) -> Fix | None:

@@ -2,8 +2,8 @@
 ## What it finds
 
 Python packages in the sources of an `ament_python` package that are not installed: a sub-package that a written list
-`packages=[package_name]` leaves out, a folder that `find_packages()` skips because it has no `__init__.py` although modules
-of the package import it, and the module of an entry point that no package listed has.
+`packages=[package_name]` leaves out, and the folder of an entry point that is not listed, or that `find_packages()` passes
+over because it has no `__init__.py`.
 
 ## Why it matters
 
@@ -54,11 +54,14 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             continue
         told.add(inside)
         entry = next(entry for entry in script.entry_points if entry.target.partition(":")[0].strip() == module.name)
+        folder = module.path.rpartition("/")[0]
+        whole = f"{folder}/__init__.py" in package.files
+        way = "" if whole else f"; add {folder}/__init__.py"
         yield Finding(
-            f"{entry.name} needs {module.path}, and {inside} is not among the packages that are installed",
+            f"{entry.name} needs {module.path}, and {inside} is not among the packages that are installed{way}",
             entry.span,
             inside,
-            fix=_fix(slot, inside, package.name),
+            fix=_fix(slot, inside, package.name) if whole else None,
         )
 
 

@@ -89,7 +89,7 @@ def _line(package: Package, file: ScriptFile, name: str, started: bool) -> Itera
             sure = name.endswith(".py") and (file.main or started)
             fix = Fix(f"begin with {interpreter}", (Edit(place, f"{interpreter}\n"),)) if sure else None
             yield Finding(message, place, file.path, fix=fix, confidence=Confidence.HIGH if sure else Confidence.MEDIUM)
-    elif not file.executable:
+    elif not file.executable and package.builds_with == "ament_cmake":
         message = f"{file.path} is not executable, so it does not start after colcon build --symlink-install; chmod +x"
         yield Finding(message, place, file.path, confidence=Confidence.MEDIUM, severity=Severity.WARNING)
 
