@@ -110,7 +110,7 @@ def test_what_guards_a_mention(text: str, optional: bool | None, test: bool) -> 
 def test_targets_and_variables_of_other_packages() -> None:
     script = run(
         "find_package(rclcpp REQUIRED)\nfind_package(OpenCV REQUIRED)\nadd_library(core a.cpp)\n"
-            "add_library(pkg::core ALIAS core)\n"
+        "add_library(pkg::core ALIAS core)\n"
         "target_link_libraries(core PUBLIC rclcpp::rclcpp $<BUILD_INTERFACE:fmt::fmt> ${OpenCV_LIBS} "
         "${std_msgs_TARGETS} pkg::core)\n"
         "ament_target_dependencies(core PUBLIC std_msgs)\nament_export_dependencies(rclcpp)\n",
@@ -232,8 +232,8 @@ def test_ament_auto() -> None:
 
 def test_interfaces() -> None:
     script = run(
-        'set(msgs "msg/A.msg" "msg/B.msg")\n"
-            "rosidl_generate_interfaces(${PROJECT_NAME} ${msgs} "srv/C.srv" DEPENDENCIES std_msgs)\n',
+        'set(msgs "msg/A.msg" "msg/B.msg")\n'
+        'rosidl_generate_interfaces(${PROJECT_NAME} ${msgs} "srv/C.srv" DEPENDENCIES std_msgs)\n',
         ("msg/A.msg", "msg/B.msg", "srv/C.srv"),
     )
     assert script.interfaces == ("msg/A", "msg/B", "srv/C")
@@ -340,7 +340,7 @@ def test_macros_of_the_workspace_are_followed() -> None:
         {
             "cmake/tools-extras.cmake.in": 'include("${tools_DIR}/install_all.cmake")\nfind_package(rclcpp REQUIRED)\n',
             "cmake/install_all.cmake": "macro(install_all)\n"
-                "install(DIRECTORY ${ARGN} DESTINATION share/${PROJECT_NAME})\nendmacro()\n",
+            "install(DIRECTORY ${ARGN} DESTINATION share/${PROJECT_NAME})\nendmacro()\n",
         },
         "project(tools)\ninstall(FILES cmake/install_all.cmake DESTINATION share/tools/cmake)\n"
         "ament_package(CONFIG_EXTRAS cmake/tools-extras.cmake.in)\n",
