@@ -21,6 +21,7 @@ from ros_lint.declare import (
     tag_for,
     works_unseen,
 )
+from ros_lint.evidence import used_names
 from ros_lint.facts import (
     ANYTHING,
     ROLES,
@@ -139,5 +140,6 @@ __all__ = [
     "top_file",
     "undeclared",
     "unguarded_tests",
+    "used_names",
     "works_unseen",
 ]

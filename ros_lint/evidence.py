@@ -218,8 +218,16 @@ def opaque_of(source: Source) -> tuple[Opaque, ...]:
 
 def unused_names(declared: Sequence[str], uses: Sequence[Use]) -> tuple[str, ...]:
     """Return the declared names that no use, sure or not, is satisfied by."""
-    used = {provider for use in uses for provider in use.providers}
+    used = used_names(declared, uses)
     return tuple(name for name in dict.fromkeys(declared) if name not in used)
+
+
+def used_names(declared: Iterable[str], uses: Iterable[Use]) -> frozenset[str]:
+    """Return the names that satisfy a use. Of several that would do, the best does it if it is declared."""
+    names = frozenset(declared)
+    return frozenset(
+        name for use in uses for name in ((use.package,) if use.package in names else use.providers)
+    )
 
 
 def traces(names: Sequence[str], files: Iterable[tuple[str, bytes]]) -> dict[str, Span]:

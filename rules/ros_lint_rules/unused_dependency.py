@@ -18,8 +18,7 @@ Remove the tag. The fix does this.
 
 Whenever the dependency might be needed in a way that leaves no trace: linters, run-time and tool dependencies, rosdep
 keys of the system, tags under a condition, packages whose build scripts cannot be followed everywhere, metapackages,
-vendor packages and packages without code, and dependencies that give CMake macros, plugins or components. In packages
-that find what they declare (`ament_auto_find_build_dependencies`) also dependencies whose headers are not known.
+vendor packages and packages without code, and dependencies that give CMake macros, plugins or components.
 """
 
 from __future__ import annotations
@@ -38,11 +37,11 @@ from ros_lint.api import (
     builds_something,
     is_unseen_by_name,
     remove_dependency,
+    used_names,
     works_unseen,
 )
 
 _TAGS = ("depend", "build_depend")
-_FINDS_ALL = "ament_auto_find_build_dependencies"
 _NO_TEST = ("enable_testing", "ament_lint_auto_find_test_dependencies", "ament_auto_find_test_dependencies")
 
 
@@ -52,15 +51,14 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     if package.builds_with not in ("ament_cmake", "ament_python") or not builds_something(package):
         return
-    used = {provider for use in package.uses for provider in use.providers}
+    built = [each.name for each in package.declared if each.depend.tag in _TAGS and not each.depend.condition]
+    used = used_names(built, package.uses)
     for declared in package.declared:
         depend = declared.depend
         if depend.condition or depend.name in used or is_unseen_by_name(workspace, depend.name):
             continue
         if depend.tag in _TAGS:
-            if works_unseen(package, workspace, depend.name) or depend.name in package.traces:
-                continue
-            if not _is_seen(script, workspace, depend.name):
+            if depend.name in package.traces or works_unseen(package, workspace, depend.name):
                 continue
             says = "nothing in the package uses it"
         elif depend.tag == "test_depend" and not _can_test_with(package, script, workspace, depend.name):
@@ -74,14 +72,6 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             depend.name,
             fix=Fix(f"remove {written}", remove_dependency(package, depend)),
         )
-
-
-def _is_seen(script: BuildScript, workspace: Workspace, name: str) -> bool:
-    """Whether a use would have been seen although CMake finds all that is declared (reference, section F3, condition 6)."""
-    if _FINDS_ALL not in script.calls:
-        return True
-    released = workspace.world.released(name)
-    return name in workspace.by_name or bool(released and released.interfaces)
 
 
 def _can_test_with(package: Package, script: BuildScript, workspace: Workspace, name: str) -> bool:
