@@ -34,6 +34,12 @@ def main(argv: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("ros-lint: interrupted", file=sys.stderr)
         return 130
+    except Exception:  # exit code 1 would say that there are findings
+        import traceback  # noqa: PLC0415
+
+        traceback.print_exc()
+        print("ros-lint: this is a mistake in ros-lint; please report it with the lines above", file=sys.stderr)
+        return 2
 
 
 def _run(command: str, options: dict[str, object]) -> int:
