@@ -41,10 +41,11 @@ def test_files_are_found_as_on_a_disk(seed: int, tmp_path: Path, monkeypatch: py
     for _ in range(40):
         pattern = "/".join(dice.choice(PARTS) for _ in range(dice.randint(1, 4))).lstrip("/")
         pattern = dice.choice(["", "", "", "./"]) + pattern
-        # CPython finds nothing in a folder that is there for "a/**/**", and this is no pattern that anybody writes.
+        # Versions of CPython differ about folders in "x/**" where x is a file, and about "a/**/**".
         for recursive in [False] if "**/**" in pattern else [False, True]:
-            expected = sorted(glob.glob(pattern, recursive=recursive))
-            assert files.glob(pattern, recursive=recursive) == expected, pattern
+            expected = sorted(path for path in glob.glob(pattern, recursive=recursive) if path[-1] != "/")
+            found = files.glob(pattern, recursive=recursive)
+            assert [path for path in found if path[-1] != "/"] == expected, pattern
     for top in [".", "a", "a/b", "./a", "nope", "a/c.py"]:
         expected_walk = sorted((root, sorted(folders), sorted(names)) for root, folders, names in os.walk(top))
         assert sorted((root, sorted(folders), sorted(names)) for root, folders, names in files.walk(top)) == expected_walk

@@ -78,7 +78,7 @@ class Files:
             return
         for top in self._glob(folder, recursive, hidden, True) if _MAGIC.search(folder) else [folder]:
             if recursive and name == "**":
-                found: Iterable[str] = ["", *self._below(top, "", hidden)]
+                found: Iterable[str] = ["", *self._below(top, "", hidden)] if self.is_folder(top) else []
             elif _MAGIC.search(name):
                 matches = re.compile(translate(name)).match
                 shown = hidden or name.startswith(".")
