@@ -235,7 +235,7 @@ def traces(names: Sequence[str], files: Iterable[tuple[str, bytes]]) -> dict[str
 
     ``files`` are paths with contents, which are searched as they are: few of them have a name in question.
     """
-    spellings = {name: {name, name.replace("-", "_"), name.replace("_", "-")} for name in names}
+    spellings = {name: _spellings(name) for name in names}
     found: dict[str, Span] = {}
     for path, data in files:
         for name in [name for name in spellings if name not in found]:
@@ -248,6 +248,15 @@ def traces(names: Sequence[str], files: Iterable[tuple[str, bytes]]) -> dict[str
         if len(found) == len(spellings):
             break
     return found
+
+
+def _spellings(name: str) -> tuple[str, ...]:
+    """Return how a package may be written: with dashes, as a nested namespace or include folder.
+
+    Conversions of tf2 are found by the types of their arguments, and bear no name but tf2.
+    """
+    found = {name, name.replace("-", "_"), name.replace("_", "-"), name.replace("_", "::", 1), name.replace("_", "/", 1)}
+    return tuple(sorted(found | {"tf2"} if name.startswith("tf2_") else found))
 
 
 def _find_word(data: bytes, word: bytes) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ros_lint.evidence import traces
 from ros_lint.facts import Role, Use
 from ros_lint.load import Loader
 from ros_lint.needs import covered, may_bring, needs, undeclared
@@ -114,3 +115,19 @@ def test_a_tag_covers_what_comes_along_with_it_for_its_role() -> None:
     assert covered(package, workspace, ("geometry_msgs",), Role.BUILD)
     assert not covered(package, workspace, ("geometry_msgs",), Role.EXEC)
     assert not covered(package, workspace, ("nav_msgs",), Role.BUILD)  # only what something else brings
+
+
+def test_a_name_leaves_traces_in_many_spellings() -> None:
+    files = [
+        ("a.cpp", b"// \xff\nacme::route_tools::Route route;\n"),
+        ("b.cpp", b"auto message = tf2::toMsg(transform);\n"),
+        ("c.yaml", b"key: my-own-tools\nother: nav_msgs_extra\n"),
+    ]
+    found = traces(("acme_route_tools", "tf2_eigen", "my_own_tools", "route", "nav", "std_msgs", "xnav_msgs"), files)
+    assert {name: (span.path, span.line) for name, span in found.items()} == {
+        "acme_route_tools": ("a.cpp", 2),
+        "tf2_eigen": ("b.cpp", 1),
+        "my_own_tools": ("c.yaml", 1),
+        "route": ("a.cpp", 2),
+        "nav": ("c.yaml", 2),
+    }
