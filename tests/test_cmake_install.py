@@ -107,7 +107,15 @@ def _rule(choice: random.Random, number: int) -> str:
     return f"install({' '.join(words)})"
 
 
-@pytest.mark.skipif(shutil.which("cmake") is None, reason="cmake is not installed")
+try:
+    from cmake import CMAKE_BIN_DIR  # type: ignore[import-not-found, unused-ignore]  # of the wheel on PyPI
+
+    CMAKE = shutil.which("cmake", path=CMAKE_BIN_DIR)
+except ImportError:
+    CMAKE = shutil.which("cmake")
+
+
+@pytest.mark.skipif(CMAKE is None, reason="cmake is not installed")
 def test_installed_files_are_those_of_cmake(tmp_path: Path) -> None:
     choice = random.Random(4)
     rules = [_rule(choice, number) for number in range(600)]
@@ -120,10 +128,11 @@ def test_installed_files_are_those_of_cmake(tmp_path: Path) -> None:
         place.chmod(0o755 if executable else 0o644)
     (folder / "CMakeLists.txt").write_text(script)
     prefix = tmp_path / "prefix"
-    command = ["cmake", "-S", str(folder), "-B", str(tmp_path / "b"), f"-DCMAKE_INSTALL_PREFIX={prefix}"]
+    assert CMAKE is not None
+    command = [CMAKE, "-S", str(folder), "-B", str(tmp_path / "b"), f"-DCMAKE_INSTALL_PREFIX={prefix}"]
     ran = subprocess.run(command, check=False, capture_output=True, text=True)
     assert not ran.returncode, ran.stderr[:2000]
-    subprocess.run(["cmake", "--install", str(tmp_path / "b")], check=True, capture_output=True)
+    subprocess.run([CMAKE, "--install", str(tmp_path / "b")], check=True, capture_output=True)
     real = {
         os.path.relpath(os.path.join(above, name), prefix): bool(os.stat(os.path.join(above, name)).st_mode & 0o100)
         for above, _, names in os.walk(prefix)
