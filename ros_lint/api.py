@@ -1,6 +1,7 @@
 """Everything a rule may import."""
 
 from ros_lint import cmake_edits, conditions, manifest_edits, setup_edits
+from ros_lint.apart import is_apart
 from ros_lint.build_scripts import (
     called,
     evaluated_name,
@@ -12,6 +13,7 @@ from ros_lint.build_scripts import (
     unguarded_tests,
 )
 from ros_lint.cmake_finds import come_along, found_names, given_to
+from ros_lint.collectors.launch_text import is_plain
 from ros_lint.declare import (
     add_dependency,
     builds_something,
@@ -32,8 +34,10 @@ from ros_lint.facts import (
     Element,
     EntryPoint,
     Facet,
+    LaunchAction,
     LaunchFile,
     LaunchReference,
+    LaunchValue,
     Manifest,
     Opaque,
     PluginClass,
@@ -51,8 +55,10 @@ from ros_lint.facts import (
 from ros_lint.facts import Target as BuildTarget
 from ros_lint.graph import Edge, Graph, Reason
 from ros_lint.graph_cut import Knot, knots
-from ros_lint.launch_files import Launchable, Programs, is_apart, launchable, programs
+from ros_lint.launch_files import Launchable, Programs, launchable, programs
+from ros_lint.launch_links import Links, everything
 from ros_lint.needs import Need, comes_with_launching, covered, declared_closure, may_bring, needs, undeclared
+from ros_lint.resource_files import uninstalled as uninstalled_resources
 from ros_lint.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
 from ros_lint.strangers import Stranger, declared_names
 from ros_lint.suppress import Outcome
@@ -79,9 +85,12 @@ __all__ = [
     "Fix",
     "Graph",
     "Knot",
+    "LaunchAction",
     "LaunchFile",
     "LaunchReference",
+    "LaunchValue",
     "Launchable",
+    "Links",
     "Manifest",
     "Meant",
     "Need",
@@ -120,10 +129,12 @@ __all__ = [
     "declared_closure",
     "declared_names",
     "evaluated_name",
+    "everything",
     "found_names",
     "given_to",
     "hidden",
     "is_apart",
+    "is_plain",
     "is_unseen_by_name",
     "knots",
     "launchable",
@@ -140,6 +151,7 @@ __all__ = [
     "top_file",
     "undeclared",
     "unguarded_tests",
+    "uninstalled_resources",
     "used_names",
     "works_unseen",
 ]

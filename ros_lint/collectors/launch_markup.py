@@ -202,17 +202,17 @@ def _process(reader: Reader, entity: Entity, kind: str) -> LaunchAction:
     given: list[tuple[str, LaunchValue]] = []
     if kind == "process":
         given += reader.words(entity, "cmd", entity.need("cmd"))
-    for name in ("cwd", "launch-prefix", "output", "respawn"):
-        value = reader.optional(entity, name)
-        if value is not None and name in ("cwd", "launch-prefix"):
+    for attribute in ("cwd", "launch-prefix", "output", "respawn"):
+        value = reader.optional(entity, attribute)
+        if value is not None and attribute in ("cwd", "launch-prefix"):
             given.append(("", value))
     name = reader.optional(entity, "name")
     if entity.get("on_exit") not in (None, "shutdown"):
         raise Rejected("on-exit", f"on_exit of <{entity.tag}> can only be shutdown", entity.place("on_exit"))
     entity.get("respawn_max_retries", "int")
     for limit in ("respawn_delay", "sigkill_timeout", "sigterm_timeout"):
-        value = entity.get(limit, "float")
-        if value is not None and (isinstance(value, str) or value < 0):
+        seconds = entity.get(limit, "float")
+        if seconds is not None and (isinstance(seconds, str) or seconds < 0):
             raise Rejected("wrong-type", f"{limit} of <{entity.tag}> is no number from 0 on", entity.place(limit))
     entity.get("shell", "bool")
     entity.get("emulate_tty", "bool")

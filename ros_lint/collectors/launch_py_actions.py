@@ -23,6 +23,7 @@ from ros_lint.collectors.launch_py_objects import (
 from ros_lint.collectors.launch_py_run import Machine
 from ros_lint.collectors.launch_py_texts import SUBSTITUTIONS, texts
 from ros_lint.collectors.launch_py_walk import Rule, Walker, span_of
+from ros_lint.collectors.launch_text import UNKNOWN
 from ros_lint.facts import LaunchAction, LaunchValue
 from ros_lint.text import Span
 
@@ -115,9 +116,11 @@ def _pairs(walker: Walker, value: Value, made: Made) -> Iterator[tuple[str, Laun
     given = plain(value)
     if isinstance(given, dict):
         given = list(given.items())
-    for pair in items(walker.machine, given) or () if given is not None else ():
+    pairs = items(walker.machine, given) if given is not None else []
+    for pair in pairs if pairs is not None else [given]:
         parts = items(walker.machine, pair)
         if parts is None or len(parts) != 2:
+            yield UNKNOWN, walker.text(UNKNOWN, node, made.source)
             continue
         for name in texts(parts[0]):
             yield name, walker.text(parts[1], node, made.source)

@@ -1,0 +1,129 @@
+"""Launch files that include each other: what an include means in the workspace, and what a file takes and uses."""
+
+from __future__ import annotations
+
+import posixpath
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
+
+from ros_lint.collectors.launch_text import OWN_FOLDER, configurations, installed, is_plain, is_settled
+from ros_lint.facts import LaunchAction, LaunchFile, LaunchValue
+from ros_lint.workspace import Package
+
+_DEEPEST = 20
+
+
+class Linked(NamedTuple):
+    """A launch file of the workspace, where it is installed."""
+
+    package: Package
+    file: LaunchFile
+    path: str
+    """Below share/<package>."""
+
+
+class Takes(NamedTuple):
+    """What a launch file and those that it includes do with launch configurations."""
+
+    required: tuple[str, ...]
+    """Arguments without default that the file itself declares, whatever else is so."""
+    known: frozenset[str]
+    """Names that are declared, set or used."""
+    complete: bool
+    """Whether every include could be followed, so that no other name can matter."""
+
+
+class Links:
+    """All launch files of a workspace by where they are installed."""
+
+    def __init__(self, packages: Iterable[Package]) -> None:
+        self._by_path: dict[tuple[str, str], list[Linked]] = {}
+        self._places: dict[str, Linked] = {}
+        self._takes: dict[str, Takes] = {}
+        for package in packages:
+            skip = len(package.path) + 1 if package.path else 0
+            files = {file.path[skip:]: file for file in package.launch}
+            share = f"share/{package.name}/"
+            for provided in package.script.provides if package.script and files else ():
+                file = files.get(provided.source)
+                if file is not None and provided.path.startswith(share):
+                    linked = Linked(package, file, provided.path[len(share) :])
+                    self._by_path.setdefault((package.name, linked.path), []).append(linked)
+                    self._places.setdefault(file.path, linked)
+
+    def target(self, value: LaunchValue | None, source: LaunchFile) -> Linked | None:
+        """Return the one launch file of the workspace that an include in a file means, None when it is not that clear."""
+        if value is None or len(value.texts) != 1 or not is_settled(value.texts[0]):
+            return None
+        text = value.texts[0]
+        if text.startswith(f"{OWN_FOLDER}/"):
+            own = self._places.get(source.path)
+            if own is None:
+                return None
+            folder = own.path.rpartition("/")[0]
+            key = (own.package.name, posixpath.normpath(posixpath.join(folder, text[len(OWN_FOLDER) + 1 :])))
+        else:
+            places = list(installed(text))
+            if len(places) != 1 or not places[0].share:
+                return None
+            key = (places[0].package, places[0].share)
+        found = self._by_path.get(key, [])
+        return found[0] if len(found) == 1 else None
+
+    def takes(self, file: LaunchFile) -> Takes:
+        """Return what a file does with launch configurations."""
+        return self._find(file, ())
+
+    def _find(self, file: LaunchFile, open_files: tuple[str, ...]) -> Takes:
+        done = self._takes.get(file.path)
+        if done is not None:
+            return done
+        if file.path in open_files or len(open_files) > _DEEPEST:
+            return Takes((), frozenset(), complete=False)
+        known: set[str] = set()
+        complete = not file.problems and not file.opaque
+        for action in everything(file.actions):
+            for value in values(action):
+                for text in value.texts:
+                    known.update(name for name, _ in configurations(text))
+            for condition in action.conditions:
+                for text in condition.texts:
+                    known.update(name for name, _ in configurations(text))
+            if action.kind in ("argument", "set") and action.target is not None:
+                known.update(action.target.texts)
+                complete = complete and all(is_plain(text) for text in action.target.texts)
+            if action.kind == "include":
+                inner = self.target(action.target, file)
+                takes = None if inner is None else self._find(inner.file, (*open_files, file.path))
+                known |= takes.known if takes is not None else set()
+                complete = complete and takes is not None and takes.complete
+        required = tuple(dict.fromkeys(_required(file.actions)))
+        found = Takes(required, frozenset(known), complete)
+        if not open_files:
+            self._takes[file.path] = found
+        return found
+
+
+def everything(actions: Iterable[LaunchAction]) -> Iterator[LaunchAction]:
+    """Yield actions and all those in them."""
+    for action in actions:
+        yield action
+        yield from everything(action.children)
+
+
+def values(action: LaunchAction) -> Iterator[LaunchValue]:
+    """Yield every text of an action, but for those of the actions in it."""
+    for value in (action.package, action.target, action.value, action.name, action.namespace):
+        if value is not None:
+            yield value
+    for _, value in (*action.arguments, *action.parameters):
+        yield value
+    for pair in action.remappings:
+        yield from pair
+
+
+def _required(actions: Iterable[LaunchAction]) -> Iterator[str]:
+    """Yield the arguments that must be given: declared at the top, without default, under no condition."""
+    for action in actions:
+        if action.kind == "argument" and action.value is None and not action.conditions and action.target is not None:
+            yield from (text for text in action.target.texts if is_plain(text))

@@ -1,0 +1,84 @@
+"""
+## What it finds
+
+A launch file that the real front end refuses: it does not parse, has a tag, an attribute or a substitution that does not
+exist, misses one that is needed, or holds a value of another type.
+
+## Why it matters
+
+`ros2 launch` stops with the first of these, and whoever includes the file stops with it. A file half ported from ROS 1
+fails this way: `$(find p)` is `$(find-pkg-share p)`, `$(arg x)` is `$(var x)`, `type=` of a node is `exec=`.
+
+## How to fix it
+
+The message names what is wrong. See the launch format of your distribution for tags and attributes.
+
+## When it keeps silent
+
+- Launch files of ROS 1 as a whole.
+- Tags that packages add to the format.
+- Launch files of tests, examples and templates.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros_lint.api import Confidence, Finding, Package, Problem, Related, Rule, Severity, Workspace, launchable
+
+_MOST_RELATED = 4
+_LEFTOVERS = {
+    "there is no substitution $(find)": "; ROS 2 has $(find-pkg-share)",
+    "there is no substitution $(arg)": "; ROS 2 has $(var)",
+    "there is no substitution $(optenv)": "; ROS 2 has $(env name default)",
+    "<node> has no attribute type": "; ROS 2 has exec",
+    "<node> has no attribute required": "; ROS 2 has on_exit",
+    "<node> has no attribute ns": "; ROS 2 has namespace",
+    "<group> has no attribute ns": "; ROS 2 has <push_ros_namespace>",
+    "<include> has no attribute ns": "; ROS 2 has <push_ros_namespace> in a <group>",
+    "<arg> has no attribute value": "; ROS 2 has <let>",
+    "<arg> has no attribute doc": "; ROS 2 has description",
+    "<param> has no attribute command": "; ROS 2 has $(command)",
+    "there is no tag <rosparam>": "; ROS 2 has <param from=...> in a node",
+    "there is no tag <remap>": "; ROS 2 has <set_remap>",
+    "there is no tag <param>": "; ROS 2 has <set_parameter>",
+    "there is no tag <env>": "; ROS 2 has <set_env>",
+    "there is no tag <machine>": "; ROS 2 has none",
+}
+"""What ROS 1 had, and what it is called now (reference, section G3.4)."""
+
+
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    for launch in launchable(package):
+        if not launch.file.problems:
+            continue
+        first, *others = sorted(launch.file.problems, key=lambda problem: problem.span)
+        yield Finding(
+            _message(first),
+            first.span,
+            launch.path,
+            tuple(Related(_message(other), other.span) for other in others[:_MOST_RELATED]),
+            confidence=max(_confidence(problem, workspace) for problem in launch.file.problems),
+        )
+
+
+def _message(problem: Problem) -> str:
+    return f"{problem.message}{_LEFTOVERS.get(problem.message, '')}"
+
+
+def _confidence(problem: Problem, workspace: Workspace) -> Confidence:
+    # A package or a newer release may have added what is not known here.
+    if problem.message in _LEFTOVERS or problem.kind not in ("unknown-tag", "unexpected-attribute", "unexpected-child"):
+        return Confidence.HIGH
+    return Confidence.MEDIUM if workspace.target.distro == "rolling" or problem.kind == "unknown-tag" else Confidence.HIGH
+
+
+RULE = Rule(
+    name="launch-invalid",
+    code="ROS506",
+    summary="a launch file must be one that ros2 launch takes",
+    severity=Severity.ERROR,
+    since="0.1",
+    doc=__doc__,
+    package=check,
+)

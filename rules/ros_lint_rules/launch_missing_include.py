@@ -1,0 +1,114 @@
+"""
+## What it finds
+
+A launch file that includes a launch file, or names a parameter, model, map or display file, which its package does not
+have: neither installed there nor in its sources.
+
+## Why it matters
+
+The launch file stops, or the node comes up without its parameters.
+
+## How to fix it
+
+Correct the path; the message names files of the same name that the package does install.
+
+## When it keeps silent
+
+- The file is in the sources and not installed: that is `uninstalled-resource`.
+- A part of the package's build script that cannot be followed may install it.
+- Files that look as if something writes or downloads them: networks, records, images; folders. Maps, which people make
+  with the robot, have medium confidence.
+- For a released package: its launch files are not known whole; other files of it are not known at all.
+- The launch file asks first if the package is there.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterator
+
+from ros_lint.api import (
+    Confidence,
+    Facet,
+    Finding,
+    LaunchReference,
+    Package,
+    Related,
+    Rule,
+    Severity,
+    Workspace,
+    launchable,
+)
+
+_MOST_RELATED = 4
+_WRITTEN = (".yaml", ".yml", ".rviz", ".urdf", ".xacro", ".srdf", ".sdf", ".world", ".wbt", ".lua", ".launch", ".py", ".xml")
+"""Kinds of files that people write and keep with the package."""
+
+
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    wanted: dict[tuple[str, str], list[LaunchReference]] = {}
+    for launch in launchable(package):
+        for reference in launch.file.references:
+            if reference.kind in ("include", "file") and not reference.optional:
+                wanted.setdefault((reference.package, reference.name), []).append(reference)
+    for (owner, path), references in wanted.items():
+        best, *others = sorted(references, key=lambda one: (one.by_default, one.kind != "include", one.span))
+        if best.kind == "file" and not path.endswith(_WRITTEN):
+            continue
+        others_there = _files_without(owner, path, best.kind, workspace)
+        if others_there is None:
+            continue
+        sure = bool(workspace.by_name.get(owner)) or workspace.target.told
+        yield Finding(
+            f"{owner} has no {path}{_hint(path, others_there)}",
+            best.span,
+            path,
+            tuple(Related("also named here", other.span) for other in others[:_MOST_RELATED]),
+            confidence=Confidence.HIGH if sure and not best.by_default and not _is_made(path) else Confidence.MEDIUM,
+        )
+
+
+def _is_made(path: str) -> bool:
+    """Whether people make such a file with the robot, as they do maps."""
+    return not {"map", "maps"}.isdisjoint(path.split("/")[:-1])
+
+
+def _files_without(owner: str, path: str, kind: str, workspace: Workspace) -> tuple[str, ...] | None:
+    """Return the files below share/<package> when this one is certainly not among them."""
+    owners = workspace.by_name.get(owner, ())
+    if not owners:
+        known = workspace.world.launch_files(owner)
+        return known.names if kind == "include" and known.ask(path) == "missing" else None
+    share = f"share/{owner}/"
+    names: set[str] = set()
+    for one in owners:
+        if one.script is None or one.hidden(Facet.SHARE) or one.builds_with not in ("ament_cmake", "ament_python"):
+            return None
+        names.update(p.path[len(share) :] for p in one.script.provides if p.path.startswith(share))
+        # What is in the sources and installed nowhere is told by another rule, also when the folders differ.
+        installed = {provided.source for provided in one.script.provides}
+        if any((file == path or file.endswith(f"/{path}")) and file not in installed for file in one.files):
+            return None
+        if any(path.startswith(f"{folder}/") for folder in (*one.unseen, *one.nested)):
+            return None
+    if path in names or any(name.startswith(f"{path}/") for name in names):
+        return None
+    return tuple(sorted(names))
+
+
+def _hint(path: str, names: tuple[str, ...]) -> str:
+    base = path.rpartition("/")[2]
+    same = [name for name in names if name.rpartition("/")[2] == base]
+    near = same or difflib.get_close_matches(path, names, 1, 0.8)
+    return f"; did you mean {near[0]}?" if near else ""
+
+
+RULE = Rule(
+    name="launch-missing-include",
+    code="ROS505",
+    summary="a file that a launch file includes or names must exist in its package",
+    severity=Severity.ERROR,
+    since="0.1",
+    doc=__doc__,
+    package=check,
+)

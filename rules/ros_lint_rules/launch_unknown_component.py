@@ -1,0 +1,101 @@
+"""
+## What it finds
+
+A launch file that loads a component class which its package does not register.
+
+## Why it matters
+
+The container answers `Failed to find class with the requested plugin name`, and the component is not there, while
+everything else runs.
+
+## How to fix it
+
+Correct the name of the class, or register it: `rclcpp_components_register_node(library PLUGIN "ns::Class" EXECUTABLE x)`
+or `rclcpp_components_register_nodes(library "ns::Class")`. The fix corrects the name where one class must be meant.
+
+## When it keeps silent
+
+- A part of the package's build script that cannot be followed may register the class.
+- For a released package: the sources of its release are not known whole.
+- Launch files of tests and examples.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterator
+
+from ros_lint.api import (
+    Confidence,
+    Edit,
+    Facet,
+    Finding,
+    Fix,
+    LaunchReference,
+    Package,
+    Related,
+    Rule,
+    Severity,
+    Workspace,
+    launchable,
+)
+
+_MOST_RELATED = 4
+
+
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    loaded: dict[tuple[str, str], list[LaunchReference]] = {}
+    for launch in launchable(package):
+        for reference in launch.file.references:
+            if reference.kind == "component":
+                loaded.setdefault((reference.package, reference.name), []).append(reference)
+    for (owner, name), references in loaded.items():
+        names = _names_without(owner, name, workspace)
+        if names is None:
+            continue
+        best, *others = sorted(references, key=lambda reference: (reference.by_default, reference.span))
+        meant = [other for other in names if other.lower() == name.lower()]
+        near = meant or difflib.get_close_matches(name, names, 2, 0.75)
+        hint = f"; did you mean {' or '.join(near)}?" if near else "" if names else ", and no other either"
+        sure = bool(workspace.by_name.get(owner)) or workspace.target.told
+        yield Finding(
+            f"{owner} registers no component {name}{hint}",
+            best.span,
+            name,
+            tuple(Related("also loaded here", other.span) for other in others[:_MOST_RELATED]),
+            _fix(meant, references),
+            Confidence.HIGH if sure and not best.by_default else Confidence.MEDIUM,
+        )
+
+
+def _names_without(owner: str, name: str, workspace: Workspace) -> tuple[str, ...] | None:
+    """Return the components that a package registers when this one is certainly not among them."""
+    owners = workspace.by_name.get(owner, ())
+    if not owners:
+        known = workspace.world.components(owner)
+        return known.names if known.ask(name) == "missing" else None
+    names: set[str] = set()
+    for one in owners:
+        if one.script is None or one.hidden(Facet.COMPONENTS):
+            return None
+        names.update(component.name for component in one.script.components)
+    return None if name in names else tuple(sorted(names))
+
+
+def _fix(meant: list[str], references: list[LaunchReference]) -> Fix | None:
+    if len(meant) != 1 or not all(reference.exact for reference in references):
+        return None
+    spans = dict.fromkeys(reference.span for reference in references)
+    return Fix(f"load {meant[0]}", tuple(Edit(span, meant[0]) for span in spans), safe=False)
+
+
+RULE = Rule(
+    name="launch-unknown-component",
+    code="ROS504",
+    summary="a component that a launch file loads must be registered by its package",
+    severity=Severity.ERROR,
+    since="0.1",
+    doc=__doc__,
+    fixable=True,
+    package=check,
+)
