@@ -446,6 +446,8 @@ class BuildScript(NamedTuple):
     plugins: tuple[PluginFile, ...] = ()
     """Its plugin descriptions."""
     slots: tuple[Slot, ...] = ()
+    named: tuple[tuple[str, Span], ...] = ()
+    """Resources that it does not install, each with a place where a text of the package names it in its folder."""
     files: tuple[ScriptFile, ...] = ()
     """Scripts that it installs to lib/<package> or bin, and those that lie beside them or in folders for scripts."""
 

@@ -5,11 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
+from ros_lint.apart import is_apart
 from ros_lint.facts import Facet, LaunchFile, LaunchReference, LookUp
 from ros_lint.workspace import Package
-
-_TESTS = frozenset({"test", "tests", "testing", "integration_tests", "benchmark", "benchmarks", "unit_tests"})
-_APART = frozenset({"example", "examples", "template", "templates", "doc", "docs"})
 
 
 class Launchable(NamedTuple):
@@ -30,15 +28,6 @@ def launchable(package: Package) -> Iterator[Launchable]:
         path = file.path[len(package.path) + 1 :] if package.path else file.path
         if not (file.test or file.helper or is_apart(path)):
             yield Launchable(file, path, path in installed or path.startswith(modules))
-
-
-def is_apart(path: str) -> bool:
-    """Return whether a file serves tests, shows something, or is to be filled in, by its path."""
-    *folders, name = path.split("/")
-    folder_names = frozenset(folders)
-    if not _TESTS.isdisjoint(folder_names) or not _APART.isdisjoint(folder_names):
-        return True
-    return name.startswith("test_") or "_test." in name or ".test." in name or "{" in path
 
 
 class Programs(NamedTuple):

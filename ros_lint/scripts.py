@@ -7,11 +7,12 @@ from collections.abc import Container, Iterator, Mapping, Sequence, Set
 from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple
 
+from ros_lint import resource_files
 from ros_lint.collect import FAILED
 from ros_lint.collectors import cmake_calls, plugin_xml, python_names, setup_layout
 from ros_lint.collectors.cmake_syntax import Parsed
 from ros_lint.discover import Found
-from ros_lint.facts import ANYTHING, BuildScript, Opaque, PythonModule, ScriptFile
+from ros_lint.facts import ANYTHING, BuildScript, Facet, Opaque, PythonModule, ScriptFile
 from ros_lint.text import Span, Text, read
 from ros_lint.tree import Tree, join
 
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
 
 _PLUGIN_FILE = re.compile(r"plugin.*\.xml\Z", re.IGNORECASE)
 _SCRIPTS = re.compile(r"(?:scripts|nodes|bin|script)/[^/]+\Z")
+_MOST_RESOURCES = 40
+"""Of a folder: a tree of models has thousands of files, and one that is named is enough."""
 _PYTHON = ("setup.py", "setup.cfg", "pyproject.toml")
 
 
@@ -127,7 +130,30 @@ def _with_files(tree: Tree, found: Found, script: BuildScript) -> BuildScript:
     sources.update(dict.fromkeys(file for file in found.files if _is_script(file, folders)))
     executables = _Executables(tree, found)
     files = [_script_file(file, text, file in executables) for file in sources if (text := _text(tree, found, file))]
-    return script._replace(plugins=plugins, files=tuple(files)) if plugins or files else script
+    hidden = any(opaque.hides & Facet.SHARE for opaque in script.opaque)
+    resources = () if hidden else tuple(_named(tree, found, script))
+    if not (plugins or files or resources):
+        return script
+    return script._replace(plugins=plugins, files=tuple(files), named=resources)
+
+
+def _named(tree: Tree, found: Found, script: BuildScript) -> Iterator[tuple[str, Span]]:
+    """Yield the resources that are not installed and that a text of the package names, with the first place."""
+    missing = resource_files.uninstalled(found.files, (provided.source for provided in script.provides))
+    left = {file: resource_files.pattern_of(file) for files in missing.values() for file in files[:_MOST_RESOURCES]}
+    for file in filter(resource_files.may_name, found.files if left else ()):
+        path = join(found.path, file)
+        try:
+            data = tree.read(path)
+        except OSError:
+            continue
+        for resource, pattern in list(left.items()):
+            hit = pattern.search(data) if resource != file and resource.rpartition("/")[2].encode() in data else None
+            if hit:
+                line = data.count(b"\n", 0, hit.start(1)) + 1
+                column = len(data[data.rfind(b"\n", 0, hit.start(1)) + 1 : hit.start(1)].decode("utf-8", "replace")) + 1
+                yield resource, Span(path, line, column, line, column + len(resource.rpartition("/")[2]))
+                del left[resource]
 
 
 def _is_script(file: str, folders: Container[str]) -> bool:

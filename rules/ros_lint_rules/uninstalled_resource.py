@@ -24,7 +24,6 @@ In `CMakeLists.txt` add the folder to `install(DIRECTORY ... DESTINATION share/$
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 
 from ros_lint.api import (
@@ -39,22 +38,11 @@ from ros_lint.api import (
     Span,
     Workspace,
     cmake_edits,
-    is_apart,
     launchable,
     setup_edits,
+    uninstalled_resources,
 )
 
-_FOLDERS = frozenset(
-    {
-        "behavior_trees", "behaviors", "calibration", "cfg", "config", "configs", "controllers", "data", "description",
-        "maps", "map", "media", "meshes", "mesh", "model", "models", "param", "params", "protos", "rviz", "rviz2", "robots",
-        "textures", "trees", "urdf", "sdf", "world", "worlds", "xacro", "images", "proto", "srdf",
-    }
-)  # fmt: skip
-_FILES = re.compile(
-    r"\.(?:ya?ml|rviz|urdf|xacro|sdf|world|worlds|wbt|stl|dae|obj|pgm|png|jpe?g|xml|json|lua|srdf|config|proto|csv|onnx|sh|py|txt)\Z",
-    re.IGNORECASE,
-)
 _PLAIN = frozenset({"py", "sh", "txt", "md"})
 _DOCUMENTS = frozenset({"images", "media", "data"})
 
@@ -116,45 +104,34 @@ def _place(package: Package) -> Span:
 
 def _folders(package: Package, kept: set[str], told: set[str]) -> Iterator[Finding]:
     """Speak of folders of resources of which nothing is installed."""
-    for folder, files in _unkept(package, kept).items():
+    script = package.script
+    assert script is not None
+    launches = {launch.path for launch in launchable(package)}
+    places = dict(script.named)
+    for folder, found in uninstalled_resources(package.files, kept).items():
+        files = [file for file in found if file not in launches]
         if folder.partition("/")[0] in told or (
             folder != "controllers" and all(file.rpartition(".")[2] in _PLAIN for file in files)
         ):
             continue
-        named = ", ".join(file.rpartition("/")[2] for file in files[:3]) + (" ..." if len(files) > 3 else "")
+        looked_up = [file for file in files if file in places]
+        shown = [file.rpartition("/")[2] for file in looked_up + [file for file in files if file not in places]]
+        named = ", ".join(shown[:3]) + (" ..." if len(shown) > 3 else "")
         yield Finding(
             f"{folder}/ ({named}) is not installed, so nothing finds it at run time",
             _place(package),
             f"{folder}/",
+            tuple(Related(f"{file.rpartition('/')[2]} is named here", places[file]) for file in looked_up[:4]),
             fix=_fix(package, f"{folder}/") if "/" not in folder else None,
-            confidence=Confidence.LOW if folder.partition("/")[0] in _DOCUMENTS else Confidence.MEDIUM,
+            confidence=_confidence(folder, looked_up),
             severity=Severity.WARNING,
         )
 
 
-def _unkept(package: Package, kept: set[str]) -> dict[str, list[str]]:
-    """Return the topmost folders of which nothing is installed, with their resources."""
-    occupied = {folder for source in kept for folder in _above(source)}
-    launches = {launch.path for launch in launchable(package)}
-    found: dict[str, list[str]] = {}
-    for file in package.files:
-        top = file.partition("/")[0].lower()
-        if "/" not in file or is_apart(file) or not (top in _FOLDERS or (top == "launch" and file.endswith(".launch"))):
-            continue
-        if not (_FILES.search(file) or file.endswith(".launch")) or file in launches:
-            continue
-        free = [folder for folder in _above(file) if folder not in occupied]
-        if free:
-            found.setdefault(free[-1], []).append(file)
-    return found
-
-
-def _above(path: str) -> Iterator[str]:
-    """Yield the folders that a file is in, the innermost first."""
-    folder = path.rpartition("/")[0]
-    while folder:
-        yield folder
-        folder = folder.rpartition("/")[0]
+def _confidence(folder: str, looked_up: list[str]) -> Confidence:
+    if looked_up:
+        return Confidence.HIGH
+    return Confidence.LOW if folder.partition("/")[0] in _DOCUMENTS else Confidence.MEDIUM
 
 
 def _fix(package: Package, unit: str) -> Fix | None:

@@ -1,0 +1,67 @@
+"""Files that are looked up at run time, by the folders in which they are kept: parameters, models, maps, displays."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+
+from ros_lint.apart import is_apart
+
+_FOLDERS = frozenset(
+    {
+        "behavior_trees", "behaviors", "calibration", "cfg", "config", "configs", "controllers", "data", "description",
+        "maps", "map", "media", "meshes", "mesh", "model", "models", "param", "params", "protos", "rviz", "rviz2", "robots",
+        "textures", "trees", "urdf", "sdf", "world", "worlds", "xacro", "images", "proto", "srdf",
+    }
+)  # fmt: skip
+_FILES = re.compile(
+    r"\.(?:ya?ml|rviz|urdf|xacro|sdf|worlds?|wbt|stl|dae|obj|pgm|png|jpe?g|xml|json|lua|srdf|config|proto|csv|onnx|sh|py|txt)\Z",
+    re.IGNORECASE,
+)
+
+
+def uninstalled(files: Iterable[str], sources: Iterable[str]) -> dict[str, list[str]]:
+    """Return the topmost folders of a package of which nothing is installed, with their resources.
+
+    ``files`` are those of the package, ``sources`` those that it installs; both relative to it.
+    """
+    occupied = {folder for source in sources for folder in _above(source)}
+    found: dict[str, list[str]] = {}
+    for file in files:
+        top, _, rest = file.partition("/")
+        top = top.lower()
+        if not rest or not (top in _FOLDERS or (top == "launch" and file.endswith(".launch"))):
+            continue
+        if not (_FILES.search(file) or file.endswith(".launch")) or is_apart(file):
+            continue
+        free = [folder for folder in _above(file) if folder not in occupied]
+        if free:
+            found.setdefault(free[-1], []).append(file)
+    return found
+
+
+def _above(path: str) -> Iterator[str]:
+    """Yield the folders that a file is in, the innermost first."""
+    folder = path.rpartition("/")[0]
+    while folder:
+        yield folder
+        folder = folder.rpartition("/")[0]
+
+
+_MAY_NAME = (".py", ".launch", ".xml", ".yaml", ".yml", ".urdf", ".xacro", ".sdf", ".world", ".cpp", ".hpp", ".cc", ".h")
+
+
+def may_name(file: str) -> bool:
+    """Return whether a text can be one that looks up files: a program, a launch file, a model, parameters."""
+    name = file.rpartition("/")[2]
+    return file.endswith(_MAY_NAME) and name not in ("package.xml", "setup.py") and not is_apart(file)
+
+
+def pattern_of(file: str) -> re.Pattern[bytes]:
+    """Return what finds a file where it is looked up: its name after that of its folder, as ``config/a`` or ``"config", "a"``.
+
+    Not where further folders stand before: a path such as ``/home/me/config/a`` needs no installation.
+    """
+    folder, _, name = file.rpartition("/")
+    inner = folder.rpartition("/")[2]
+    return re.compile(rb"(?<![\w-])(?<![\w.~-]/)%s[\"'/, \t\r\n)(]{1,24}(%s)(?![\w-])" % (re.escape(inner.encode()), re.escape(name.encode())))
