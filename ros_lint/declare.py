@@ -24,7 +24,7 @@ def tag_for(package: Package, workspace: Workspace, name: str, role: Role) -> st
     if needed == Role.EXEC:
         habit = "depend" if form > 1 and _always_depend(package) else "exec_depend"
         return "run_depend" if form == 1 else habit
-    if needed == Role.TOOL or (needed == Role.BUILD and _is_tool(workspace, name)):
+    if needed == Role.TOOL or (_has(needed, Role.BUILD) and _is_tool(workspace, name)):
         return "buildtool_depend"
     return "build_depend" if form == 1 else "depend"
 
@@ -33,6 +33,10 @@ def _always_depend(package: Package) -> bool:
     """Whether a manifest knows no other tag than ``<depend>``, and that one well, for what is built or run."""
     tags = [declared.depend.tag for declared in package.declared if declared.role & (Role.BUILD | Role.EXEC | Role.EXPORT)]
     return len(tags) > 1 and set(tags) == {"depend"}
+
+
+def _has(role: Role, part: Role) -> bool:
+    return bool(role & part)
 
 
 def _without(role: Role, part: Role) -> Role:

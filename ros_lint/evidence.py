@@ -102,7 +102,7 @@ def _script_role(source: Source, mention: Mention) -> Role:
     return Role.EXPORT if mention.what.startswith("ament_export_dependencies") else Role.BUILD
 
 
-_BY_NAME_ONLY = "pluginlib_export_plugin_description_file"
+_BY_NAME_ONLY = "plugins for "
 """Names the package that loads the plugin, which may as well be one that need not be there."""
 
 

@@ -20,6 +20,9 @@ _IDLE_FOLDERS = frozenset({"doc", "docs", "example", "examples", "tutorial", "tu
 HEADERS = (".h", ".hh", ".hpp", ".hxx", ".inl", ".ipp", ".tpp", ".cuh")
 _INTERFACES = (".msg", ".srv", ".action", ".idl")
 _RESOURCES = (".urdf", ".xacro", ".sdf", ".world", ".rviz", ".yaml", ".yml", ".xml")
+_RUNNERS = ("pytest", "launch_test", "ros_test", "add_test", "nose")
+"""Parts of the names of CMake commands that run tests in Python."""
+
 _PROGRAMS = ("lib/", "bin/")
 
 PRODUCTION = Role.BUILD | Role.EXEC
@@ -65,8 +68,8 @@ class Liveness:
         resource = name.endswith(_RESOURCES)
         folders = set(path.split("/")[:-1])
         if TEST_FOLDERS & folders or (python and _is_test(name)):
-            # pytest takes what is called test; beside it at the top lie its helpers, further down lies anything.
-            taken = _is_test(name) or (path.partition("/")[0] in TEST_FOLDERS and path.count("/") == 1)
+            # pytest takes what is called test, and beside it lie its helpers; elsewhere lies anything.
+            taken = self._runs_python_tests and (_is_test(name) or path.rpartition("/")[0] in self._folders_with_tests)
             return Role.TEST, (taken or path in self._launched) if python else not (self._sees_targets or resource)
         if path in self._launched and (path in self._installed or path in self._installed_python):
             return Role.EXEC, True
@@ -118,6 +121,18 @@ class Liveness:
             for suffix in (".in", ".em")
             if f"{name}{suffix}" in self._by_name
         )
+
+    @cached_property
+    def _runs_python_tests(self) -> bool:
+        """Whether anything runs tests written in Python: always in a Python package, and in others where CMake says so."""
+        if self._script is None or not self._script.path.endswith("CMakeLists.txt"):
+            return True
+        return any(word in call for call in self._script.calls for word in _RUNNERS)
+
+    @cached_property
+    def _folders_with_tests(self) -> frozenset[str]:
+        split = (file.rpartition("/") for file in self._files if file.endswith(".py"))
+        return frozenset(folder for folder, _, name in split if _is_test(name))
 
     @cached_property
     def _by_name(self) -> Mapping[str, tuple[str, ...]]:

@@ -27,7 +27,7 @@ from collections.abc import Iterator
 from ros_lint.api import Facet, Finding, Package, Related, Rule, Severity, Workspace, come_along, found_names
 
 _MOST_RELATED = 4
-_NOT_SOUGHT = ("ament_export_dependencies", "pluginlib_export_plugin_description_file")
+_NOT_SOUGHT = ("ament_export_dependencies", "plugins for ")
 """What names packages without asking whether they have been found here."""
 
 

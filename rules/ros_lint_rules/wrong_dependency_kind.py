@@ -22,7 +22,8 @@ Use the tag that the message names. The fix does this.
 - Only launch files name it, for what they start, include or look up: see `launch-outside-closure`.
 - Launch files import what comes with `ros2 launch`, and packages of tests declare what tests need.
 - A tag has a condition, or a declared dependency is itself not known, so that the package might come with it.
-- Only ROS packages count for run time: a rosdep key for building may have another one for running.
+- Only ROS packages count for run time: a rosdep key for building may have another one for running, and build tools and
+  vendor packages have nothing to run.
 """
 
 from __future__ import annotations
@@ -45,6 +46,7 @@ from ros_lint.api import (
     change_dependency,
     comes_with_launching,
     covered,
+    is_unseen_by_name,
     needs,
     tag_for,
     unguarded_tests,
@@ -116,7 +118,7 @@ def _lacks(package: Package, workspace: Workspace, need: Need, tags: Sequence[De
         return
     if not given & Role.TEST and missing(Role.BUILD, Role.BUILD | Role.TOOL):
         yield Role.BUILD, "but it is needed to build this package"
-    if all(workspace.world.is_package(name) for name in need.declared):
+    if not any(is_unseen_by_name(workspace, name) for name in need.declared):
         if missing(Role.EXEC, Role.EXEC | Role.EXPORT):
             yield Role.EXEC, "but it is needed at run time"
         if missing(Role.EXPORT, Role.EXEC | Role.EXPORT):
