@@ -2,7 +2,6 @@
 
 from ros_lint import cmake_edits, conditions, manifest_edits, setup_edits
 from ros_lint.apart import is_apart
-from ros_lint.apart import is_apart
 from ros_lint.build_scripts import (
     called,
     evaluated_name,
@@ -59,7 +58,6 @@ from ros_lint.graph_cut import Knot, knots
 from ros_lint.launch_files import Launchable, Programs, launchable, programs
 from ros_lint.launch_links import Links, everything
 from ros_lint.needs import Need, comes_with_launching, covered, declared_closure, may_bring, needs, undeclared
-from ros_lint.resource_files import uninstalled as uninstalled_resources
 from ros_lint.resource_files import uninstalled as uninstalled_resources
 from ros_lint.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
 from ros_lint.strangers import Stranger, declared_names
@@ -153,7 +151,6 @@ __all__ = [
     "top_file",
     "undeclared",
     "unguarded_tests",
-    "uninstalled_resources",
     "uninstalled_resources",
     "used_names",
     "works_unseen",
