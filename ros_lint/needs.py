@@ -44,7 +44,12 @@ _TELLING: tuple[Via, ...] = ("include", "import", "cmake", "interface", "target"
 
 
 def needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
-    """Return every need of a package, in the order of the best evidence. What it can do without is no need."""
+    """Return every need of a package, in the order of the best evidence. What it can do without is no need.
+
+    A package of ROS 1 (build type catkin) has its own ways to get what it needs, and none that are known here.
+    """
+    if package.builds_with == "catkin":
+        return ()
     found: dict[str, list[Use]] = {}
     for use in package.uses:
         if not use.optional:
