@@ -86,6 +86,7 @@ def _graph(made: argparse.ArgumentParser) -> None:
 def _why(made: argparse.ArgumentParser) -> None:
     made.add_argument("package", help="the package that needs")
     made.add_argument("dependency", help="the package or key that is needed")
+    made.add_argument("--explain-silence", action="store_true", help="why the rules about dependencies say nothing of the two")
     _graph_like(made)
 
 

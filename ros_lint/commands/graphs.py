@@ -7,7 +7,7 @@ import sys
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from ros_lint.commands import explain_package, graph, order, overlay, why
+from ros_lint.commands import explain_package, graph, order, overlay, silence, why
 from ros_lint.config import ConfigError
 from ros_lint.knowledge import KnowledgeError
 from ros_lint.opening import UsageError, no_packages, open_workspace
@@ -21,8 +21,15 @@ _COMMANDS: Mapping[str, Callable[[Workspace, Said], tuple[str, str, int]]] = {
     "overlay": lambda workspace, said: overlay.run(workspace),
     "graph": lambda workspace, said: graph.run(workspace, said["format"], metrics=said.get("metrics", False)),
     "explain-package": lambda workspace, said: explain_package.run(workspace, said["package"], said["format"]),
-    "why": lambda workspace, said: why.run(workspace, said["package"], said["dependency"]),
+    "why": lambda workspace, said: (
+        silence.run(workspace, said["package"], said["dependency"])
+        if said.get("explain-silence")
+        else why.run(workspace, said["package"], said["dependency"])
+    ),
 }
+
+_WITH_SOURCES = ("explain-package", "why")
+"""Questions about what the sources say; manifests answer the others."""
 
 
 def run(command: str, said: Said) -> int:
@@ -31,7 +38,7 @@ def run(command: str, said: Said) -> int:
     try:
         with progress:
             opened = open_workspace(said, os.environ, progress.tell)
-            workspace = opened.loader.load(sources=command == "explain-package")
+            workspace = opened.loader.load(sources=command in _WITH_SOURCES)
             out, err, code = _COMMANDS[command](workspace, said)
     except (UsageError, ConfigError, KnowledgeError) as error:
         print(f"ros-lint: {error}", file=sys.stderr)

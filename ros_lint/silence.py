@@ -1,0 +1,94 @@
+"""Why the rules about dependencies say nothing of a package and a dependency: the steps of each rule, told aloud."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros_lint.declare import builds_something, works_unseen
+from ros_lint.facts import Facet, Role, Use
+from ros_lint.needs import declared_closure, may_bring
+from ros_lint.workspace import Package, Workspace
+
+_MOST = 5
+
+
+def explain(package: Package, workspace: Workspace, name: str) -> Iterator[str]:
+    """Yield lines: where the dependency is used, how it is declared, and why each rule is silent, if it is."""
+    uses = [use for use in package.uses if name in use.providers]
+    for use in uses[:_MOST]:
+        yield f"{use.span}: {use.what}, {_needed_for(use)}"
+    if len(uses) > _MOST:
+        yield f"and {len(uses) - _MOST} more uses"
+    tags = [each.depend for each in package.declared if each.name == name]
+    for depend in tags:
+        condition = f" if {depend.condition}" if depend.condition else ""
+        yield f"{depend.span}: <{depend.tag}>{depend.name}</{depend.tag}>{condition}"
+    yield f"undeclared-dependency: {_not_undeclared(package, workspace, name, uses)}"
+    yield f"unused-dependency: {_not_unused(package, workspace, name, uses)}"
+
+
+def _needed_for(use: Use) -> str:
+    words = [word for role, word in _WORDS if use.role & role]
+    doubts = ["optional"] if use.optional else []
+    if not use.sure:
+        doubts.append("in a file that is perhaps not built or installed, or by a name that is not sure")
+    return f"needed {' and '.join(words) or 'for nothing'}{''.join(f'; {doubt}' for doubt in doubts)}"
+
+
+_WORDS = (
+    (Role.BUILD, "to build"),
+    (Role.EXPORT, "to build against"),
+    (Role.EXEC, "to run"),
+    (Role.TEST, "to test"),
+    (Role.TOOL, "as a build tool"),
+)
+
+
+def _not_undeclared(package: Package, workspace: Workspace, name: str, uses: list[Use]) -> str:
+    if package.manifest is None or package.manifest.problems:
+        return "silent, for package.xml cannot be used as it is"
+    if package.declares(name):
+        return "silent, for it is declared"
+    if not uses:
+        return f"silent, for nothing that is seen uses it{_hidden(package)}"
+    if all(use.optional for use in uses):
+        return "silent, for every use is optional"
+    closure = declared_closure(package, workspace)
+    starts = [each.name for each in package.declared]
+    for other in dict.fromkeys(other for use in uses if not use.optional for other in use.providers):
+        if other in closure:
+            way = workspace.world.path(starts, other)
+            return f"silent, for it comes along: {' > '.join(way or (other,))}; see transitive-dependency"
+    if all(use.via == "launch" for use in uses):
+        return "silent, for only launch files name it; see launch-outside-closure"
+    if not any(use.sure for use in uses):
+        return "less than certain, for no use is sure; shown with --pedantic"
+    if may_bring(closure.unknown, name, workspace):
+        return f"less than certain, for nobody knows what {', '.join(closure.unknown)} may bring; shown with --pedantic"
+    return "reported"
+
+
+def _not_unused(package: Package, workspace: Workspace, name: str, uses: list[Use]) -> str:
+    tags = [each.depend for each in package.declared if each.name == name]
+    if not tags:
+        return "silent, for it is not declared"
+    if all(depend.condition for depend in tags):
+        return "silent, for it is declared under a condition"
+    if uses:
+        return f"silent, for it is used: {uses[0].span}"
+    if name in package.traces:
+        return f"silent, for its name stands here: {package.traces[name]}"
+    if hidden := _hidden(package):
+        return f"silent{hidden}"
+    if not builds_something(package):
+        return "silent, for the package builds and installs no code of its own"
+    if works_unseen(package, workspace, name):
+        return "silent, for it may do its work without being named"
+    if not any(depend.tag in ("depend", "build_depend") for depend in tags):
+        return "silent unless it is declared for tests and there are none: this tag says that it leaves no trace"
+    return "reported"
+
+
+def _hidden(package: Package) -> str:
+    hidden = package.hidden(Facet.USES)
+    return f", and not everything is seen: {hidden[0].reason} ({hidden[0].span})" if hidden else ""

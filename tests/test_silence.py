@@ -1,0 +1,66 @@
+"""Why a rule says nothing."""
+
+from __future__ import annotations
+
+import pytest
+
+from ros_lint.commands import silence
+from ros_lint.load import Loader
+from ros_lint.tree import MemoryTree
+from ros_lint.workspace import Target, Workspace
+
+FILES = {
+    "talker/package.xml": """<package format="3"><name>talker</name><version>1.0.0</version><description>Talks.</description>
+<maintainer email="ada@robots.example">Ada</maintainer><license>Apache-2.0</license>
+<buildtool_depend>ament_cmake</buildtool_depend>
+<depend>rclcpp</depend>
+<depend>sensor_msgs</depend>
+<depend>tf2_msgs</depend>
+<build_depend condition="$X == 1">shape_msgs</build_depend>
+<export><build_type>ament_cmake</build_type></export></package>
+""",
+    "talker/CMakeLists.txt": """project(talker)
+find_package(ament_cmake REQUIRED)
+find_package(std_msgs REQUIRED)
+find_package(nav_msgs REQUIRED)
+find_package(map_msgs QUIET)
+if(map_msgs_FOUND)
+endif()
+add_executable(talker talker.cpp)
+ament_package()
+""",
+    "talker/talker.cpp": "#include <rclcpp/rclcpp.hpp>\n",
+    "talker/idle.cpp": "#include <diagnostic_msgs/msg/key_value.hpp>\n",
+    "talker/notes.txt": "sensor_msgs may be needed one day\n",
+}
+
+
+@pytest.fixture(scope="module")
+def workspace() -> Workspace:
+    return Loader(MemoryTree(FILES), ("",), Target("jazzy", "test")).load()
+
+
+@pytest.mark.parametrize(
+    ("name", "undeclared", "unused"),
+    [
+        ("nav_msgs", "reported", "silent, for it is not declared"),
+        ("std_msgs", "silent, for it comes along: sensor_msgs > std_msgs", "silent, for it is not declared"),
+        ("map_msgs", "silent, for every use is optional", "silent, for it is not declared"),
+        ("diagnostic_msgs", "less than certain, for no use is sure", "silent, for it is not declared"),
+        ("rclcpp", "silent, for it is declared", "silent, for it is used: talker/talker.cpp:1"),
+        ("sensor_msgs", "silent, for it is declared", "silent, for its name stands here: talker/notes.txt:1"),
+        ("shape_msgs", "silent, for it is declared", "silent, for it is declared under a condition"),
+        ("tf2_msgs", "silent, for it is declared", "reported"),
+        ("joy", "silent, for nothing that is seen uses it", "silent, for it is not declared"),
+    ],
+)
+def test_each_reason(workspace: Workspace, name: str, undeclared: str, unused: str) -> None:
+    out, err, code = silence.run(workspace, "talker", name)
+    said = dict(line.split(": ", 1) for line in out.splitlines() if line.startswith("un"))
+    assert (err, code) == ("", 0)
+    assert said["undeclared-dependency"].startswith(undeclared)
+    assert said["unused-dependency"].startswith(unused)
+
+
+def test_no_such_package(workspace: Workspace) -> None:
+    assert silence.run(workspace, "listener", "rclcpp")[2] == 2
