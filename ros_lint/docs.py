@@ -40,7 +40,8 @@ def page(rule: Rule) -> str:
         "some findings have a fix" if rule.fixable else "no fix",
         f"since {rule.since}",
     ]
-    return f"# {rule.name} ({rule.code})\n\n{rule.summary[0].upper()}{rule.summary[1:]}.\n\n{' · '.join(facts)}\n\n{rule.doc.strip()}\n"
+    summary = f"{rule.summary[0].upper()}{rule.summary[1:]}."
+    return f"# {rule.name} ({rule.code})\n\n{summary}\n\n{' · '.join(facts)}\n\n{rule.doc.strip()}\n"
 
 
 def overview(rules: Sequence[Rule]) -> str:

@@ -21,7 +21,12 @@ GOOD = """<?xml version="1.0"?>
   <export><build_type>ament_cmake</build_type></export>
 </package>
 """
-CMAKE = "cmake_minimum_required(VERSION 3.16)\nproject({0})\nfind_package(ament_cmake REQUIRED)\nfind_package(sensor_msgs REQUIRED)\nament_package()\n"
+CMAKE = """cmake_minimum_required(VERSION 3.16)
+project({0})
+find_package(ament_cmake REQUIRED)
+find_package(sensor_msgs REQUIRED)
+ament_package()
+"""
 
 
 class Ran(NamedTuple):

@@ -139,7 +139,8 @@ def test_select_and_ignore(demo: Path) -> None:
 
 def test_pedantic_shows_more(demo: Path) -> None:
     manifest = demo / "src" / "rover_driver" / "package.xml"
-    manifest.write_text(manifest.read_text().replace("<depend>rclcpp</depend>", "<depend>rclcpp</depend><depend>of_the_house</depend>"))
+    text = manifest.read_text().replace("<depend>rclcpp</depend>", "<depend>rclcpp</depend><depend>of_the_house</depend>")
+    manifest.write_text(text)
     assert len(findings(demo, "--pedantic")) > len(findings(demo))
 
 

@@ -7,12 +7,11 @@ import sys
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from ros_lint.progress import Progress
-
 from ros_lint import __version__, engine, registry
 from ros_lint.config import ConfigError, Settings
 from ros_lint.knowledge import KnowledgeError
 from ros_lint.opening import Opened, UsageError, no_packages, open_workspace
+from ros_lint.progress import Progress
 from ros_lint.report import Hidden, Report, Unseen
 from ros_lint.rule import Severity
 from ros_lint.workspace import Workspace
