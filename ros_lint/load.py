@@ -27,26 +27,10 @@ Progress = Callable[[str, int, int], None]
 """Hears what is being done, how much of it is done, and how much there is."""
 
 _NO_ROLE = Role(0)
-_NO_TEXT = tuple(
-    [
-        ".md",
-        ".rst",
-        ".png",
-        ".jpg",
-        ".stl",
-        ".dae",
-        ".obj",
-        ".pgm",
-        ".svg",
-        ".gif",
-        ".pdf",
-        ".zip",
-        ".onnx",
-        ".pcd",
-        ".bag",
-        ".mcap",
-    ]
-)
+_NO_TEXT = (
+    ".md", ".rst", ".png", ".jpg", ".svg", ".gif", ".pdf", ".stl", ".dae", ".obj", ".pgm", ".pcd",
+    ".zip", ".onnx", ".bag", ".mcap",
+)  # fmt: skip
 _NO_TRACE = ("changelog", "readme", "license", "licence", "contributing", "quality_declaration", "copying", "notice")
 
 
