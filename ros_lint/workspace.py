@@ -168,6 +168,17 @@ class Workspace:
         return started(self.packages)
 
     @cached_property
+    def loaded(self) -> Mapping[str, frozenset[str]]:
+        """The component classes that launch files load, by package."""
+        found: dict[str, frozenset[str]] = {}
+        for package in self.packages:
+            for launch in package.launch:
+                for reference in launch.references:
+                    if reference.kind == "component":
+                        found[reference.package] = found.get(reference.package, frozenset()) | {reference.name}
+        return found
+
+    @cached_property
     def looked_up(self) -> Mapping[str, Sequence[LookUp]]:
         """The files that launch files and models need from the share directory of a package, by package."""
         from ros_lint.launch_files import looked_up  # noqa: PLC0415

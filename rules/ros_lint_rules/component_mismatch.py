@@ -18,7 +18,8 @@ Write the same name, with its namespaces, into both. Install the library to `lib
 ## When it keeps silent
 
 Where the components or the libraries of the package cannot be seen whole; for tests; where no source of the package has the
-macro.
+macro. A package that registers no component at all may compose its nodes by itself: the confidence is medium unless a launch
+file of the workspace loads the component.
 """
 
 from __future__ import annotations
@@ -49,7 +50,7 @@ from ros_lint.api import (
 _REGISTER = ("rclcpp_components_register_node", "rclcpp_components_register_nodes")
 
 
-def check(package: Package, _: Workspace) -> Iterator[Finding]:
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_cmake" or package.hidden(Facet.COMPONENTS):
         return
@@ -66,7 +67,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
                 left = [one for one in left if one not in alike]
                 yield _unmade(component, alike)
     for one in left:
-        yield _unregistered(package, one)
+        yield _unregistered(package, one, started=one.name in workspace.loaded.get(package.name, ()))
     if not package.hidden(Facet.LIBRARIES):
         yield from _libraries(package)
 
@@ -108,7 +109,7 @@ def _library_of(package: Package, one: Registration) -> str:
     return ""
 
 
-def _unregistered(package: Package, one: Registration) -> Finding:
+def _unregistered(package: Package, one: Registration, *, started: bool) -> Finding:
     script = package.script
     assert script is not None
     library = _library_of(package, one)
@@ -122,7 +123,7 @@ def _unregistered(package: Package, one: Registration) -> Finding:
         one.span,
         one.name,
         fix=fix,
-        confidence=Confidence.HIGH if library else Confidence.MEDIUM,
+        confidence=Confidence.HIGH if library and (script.components or started) else Confidence.MEDIUM,
         severity=Severity.WARNING,
     )
 

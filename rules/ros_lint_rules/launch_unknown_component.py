@@ -79,6 +79,8 @@ def _names_without(owner: str, name: str, workspace: Workspace) -> tuple[str, ..
         if one.script is None or one.hidden(Facet.COMPONENTS):
             return None
         names.update(component.name for component in one.script.components)
+        # Of a class that the sources make loadable and CMake does not register, component-mismatch speaks.
+        names.update(made.name for made in one.registrations if made.kind == "component")
     return None if name in names else tuple(sorted(names))
 
 
