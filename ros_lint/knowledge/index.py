@@ -136,6 +136,7 @@ class Index:
         self.date = said.get("date", "")
         self.commit = said.get("rosdistro", "")
         self._table = table
+        self._declared_as: dict[str, dict[str, int]] = {}
 
     def __len__(self) -> int:
         return len(self._table)
@@ -168,7 +169,9 @@ class Index:
 
     def declared_as(self, name: str) -> Mapping[str, int]:
         """Return by how many packages a name is declared with each set of kinds, such as {"t": 12, "bex": 1}."""
-        found: dict[str, int] = {}
+        if name in self._declared_as:
+            return self._declared_as[name]
+        found = self._declared_as[name] = {}
         for line in self._table.lines():
             if name not in line:
                 continue
