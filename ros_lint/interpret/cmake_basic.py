@@ -193,7 +193,7 @@ def _include_file(run: Run, name: str, optional: bool) -> int | None:
     if path is not None and not name.startswith(BINARY) and path not in run.files:
         run.problem("missing-file", f"include() of {path}, which does not exist", run.where(args_text(name)))
         return None
-    run.open_world = True
+    run.open_world = run.wild = True
     run.hide(ANYTHING, f"include() of {readable(name)} cannot be followed")
     return None
 
@@ -253,13 +253,13 @@ def _add_subdirectory(run: Run, args: list[str]) -> int | None:
     name = args[0] if args else ""
     path = run.source(name) if is_fixed(name) else None
     if path is None:
-        run.open_world = True
+        run.open_world = run.wild = True
         run.hide(ANYTHING, "add_subdirectory() of a folder that is not in sight")
         return None
     script = f"{path}/CMakeLists.txt" if path else "CMakeLists.txt"
     if script not in run.sources.scripts:
         if run.is_folder(path):
-            run.open_world = True
+            run.open_world = run.wild = True
             run.hide(ANYTHING, f"add_subdirectory() of {path}, which has no CMakeLists.txt in sight")
         else:
             run.problem("missing-file", f"add_subdirectory() of {path}, which does not exist", run.where(name))

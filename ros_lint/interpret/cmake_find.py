@@ -9,7 +9,7 @@ from ros_lint.collectors.cmake_syntax import QUOTED, UNQUOTED
 from ros_lint.facts import ANYTHING, Facet
 from ros_lint.interpret.cmake_basic import include_foreign, include_own
 from ros_lint.interpret.cmake_run import Handler, Run, folded
-from ros_lint.interpret.cmake_values import FOREIGN, HOLE, PREFIX, is_known, split, sure
+from ros_lint.interpret.cmake_values import FOREIGN, HOLE, PREFIX, SOURCE, is_known, split, sure
 
 _FOREIGN_VARIABLE = re.compile(
     r"\$\{([A-Za-z0-9_+.-]+?)_(?:TARGETS|LIBRARIES|LIBRARY|LIBS|INCLUDE_DIRS?|INCLUDES|DEFINITIONS|LDFLAGS|CFLAGS)\}"
@@ -22,10 +22,11 @@ def find_package(run: Run, args: list[str]) -> int | None:
     name, certain = sure(args[0]) if args else ("", True)
     if not is_known(name):
         run.open_world = True
-        run.hide(Facet.USES, "find_package() of a name that is not known")
+        if may_be_package(name):
+            run.hide(Facet.USES, "find_package() of a name that is not known")
         return None
     required = "REQUIRED" in args
-    module = run.modules.get(name) if run.modules else None
+    module = run.modules.get(name) if run.modules and "CONFIG" not in args and "NO_MODULE" not in args else None
     if name and module is None and run.at_home():
         span = run.where(args[0])
         optional = not certain or ("QUIET" in args and not required)
@@ -33,9 +34,14 @@ def find_package(run: Run, args: list[str]) -> int | None:
         if not required and not run.muted:
             run.loose.setdefault(name, []).append(span)
     found(run, name, required=required and certain)
-    if module is not None:
+    if module is not None and all(frame.file != f"{SOURCE}/{module}" for frame in run.frames):
         return include_own(run, module)
     return None
+
+
+def may_be_package(name: str) -> bool:
+    """Return whether a name that is known in part may be that of a ROS package: those are in lower case (REP 144)."""
+    return not any(letter.isupper() for letter in name)
 
 
 def found(run: Run, name: str, *, required: bool) -> None:
@@ -78,7 +84,8 @@ def _uses(run: Run, args: list[str]) -> None:
         if name in ("PUBLIC", "INTERFACE", "PRIVATE", "SYSTEM"):
             continue
         if HOLE in name:
-            run.hide(Facet.USES, "the name of a package is not known")
+            if may_be_package(name):
+                run.hide(Facet.USES, "the name of a package is not known")
         elif is_known(name):
             what = f"{args[0]} {name}" if args[0] != "-" else ""
             run.mention(name, "target", run.where(arg), what, optional=not certain)

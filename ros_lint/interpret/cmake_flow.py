@@ -176,12 +176,15 @@ def _run_ways(run: Run, ways: Sequence[_Way]) -> Exit:
     ended: Exit = 0
     alive: list[tuple[Changes, bool]] = []
     onward: list[_Way] = []
+    some_usual = any(way.usual for way in ways)
     for way in ways:
         run.unsure += not way.usual
+        run.unusual += some_usual and not way.usual
         try:
             one, changes = run.branch(partial(_run_way, run, way))
         finally:
             run.unsure -= not way.usual
+            run.unusual -= some_usual and not way.usual
         if one == STOP:
             continue
         if one & NEXT:
@@ -409,20 +412,24 @@ def _substituted(given: dict[str, str], args: tuple[Argument, ...]) -> tuple[Arg
     return tuple(found)
 
 
+def _without(run: Run, name: str, args: list[str]) -> Exit:
+    """Run a command that CMake brings, in spite of a procedure of its name."""
+    handler = HANDLERS.get(name)
+    return (handler(run, args) or NEXT) if handler is not None else NEXT
+
+
 def call(run: Run, procedure: Procedure | Choice, args: list[str]) -> Exit:
     """Call a function or macro."""
     if isinstance(procedure, Choice):
+        name = next(option.name for option in procedure.procedures if option is not None).lower()
         ended: Exit = 0
         branches: list[Changes] = []
-        for option in procedure.procedures:
-            if option is None:
-                branches.append({})
-                ended |= NEXT
-                continue
-            one, changes = _perhaps(run, partial(call, run, option, args))
+        for number, option in enumerate(procedure.procedures):
+            piece = partial(call, run, option, args) if option is not None else partial(_without, run, name, args)
+            one, changes = _perhaps(run, piece, USUAL if number == procedure.usual else NEXT)
             ended |= one
             branches.append(changes)
-        run.join(branches)
+        run.join(branches, procedure.usual)
         return ended
     if not procedure.body:
         return NEXT

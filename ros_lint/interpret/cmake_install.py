@@ -40,6 +40,12 @@ _DIRECTORY_WORDS: Final = {
 }  # fmt: skip
 
 
+_WRITES = re.compile(
+    r"\bfile\s*\(|symlink|\bcopy|\binstall|\b(?:ln|cp|mv)\b|configure_file|rename|\btar\b|\bmake\b", re.IGNORECASE
+)
+"""What code that puts files somewhere has in it."""
+
+
 def facet_of(run: Run, destination: str | None) -> Facet:
     """Return which side of the package something installed there belongs to."""
     if not destination or destination == ".":
@@ -63,8 +69,10 @@ def _install(run: Run, args: list[str]) -> None:
         _install_files(run, args[1:], mode == "PROGRAMS")
     elif mode == "DIRECTORY":
         _install_directories(run, args[1:])
-    elif mode in ("CODE", "SCRIPT"):
+    elif mode == "SCRIPT" or (mode == "CODE" and any(not is_fixed(arg) or _WRITES.search(arg) for arg in args[1:])):
         run.hide(_ANYWHERE, f"install({mode}) runs code during the installation")
+    elif mode == "CODE":
+        pass  # such as compiling Python modules
     elif mode not in ("EXPORT", "EXPORT_ANDROID_MK", "IMPORTED_RUNTIME_ARTIFACTS", "RUNTIME_DEPENDENCY_SET"):
         run.hide(_ANYWHERE, "install() of something unknown")
 

@@ -14,7 +14,7 @@ from ros_lint.interpret.cmake_flow import HANDLERS, call, counts
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_state import Procedure, Properties
 from ros_lint.interpret.cmake_targets import generate
-from ros_lint.interpret.cmake_values import HOLE, is_known, sure
+from ros_lint.interpret.cmake_values import HOLE, elements, is_known, sure
 from ros_lint.knowledge.cmake_commands import macros
 from ros_lint.tree import join as join_path
 
@@ -79,7 +79,7 @@ def _interfaces(run: Run, args: list[str]) -> None:
             continue
         if run.muted:
             continue
-        run.interfaces[f"{kind}/{stem}"] = None
+        run.interfaces[f"{suffix if suffix != 'idl' else kind}/{stem}"] = None
         span = run.where(arg)
         source = run.source(plain.replace(":", "/") if ":" in plain else plain)
         conditional = run.conditional or run.testing or not certain
@@ -168,14 +168,19 @@ def _package(run: Run, args: list[str]) -> None:
     name = run.get("PROJECT_NAME") or ""
     span = run.here()
     conditional = run.conditional or run.testing
-    for arg in sections(args, {"CONFIG_EXTRAS": -1, "CONFIG_EXTRAS_POST": -1}).items() if args else ():
-        if arg[0]:
-            _extras(run, name, arg[1], conditional)
+    given = sections(args, dict.fromkeys(_EXTRAS, -1)) if args else {}
+    for word in _EXTRAS:
+        files = [*given.get(word, ()), *elements(run.get(f"{name}_{word}") or "")]
+        if files:
+            _extras(run, name, files, conditional)
     if is_known(name):
         found = [(f"share/{name}/package.xml", "package.xml")] if "package.xml" in run.files else []
         found += [(f"share/ament_index/resource_index/packages/{name}", ""), (f"share/{name}/cmake/{name}Config.cmake", "")]
         run.installed += [Provided(path, source, False, conditional, span) for path, source in found]
     _end(run)
+
+
+_EXTRAS: Final = ("CONFIG_EXTRAS", "CONFIG_EXTRAS_POST")
 
 
 def _extras(run: Run, name: str, files: list[str], conditional: bool) -> None:

@@ -103,6 +103,8 @@ class Run(State):
         self.steps = 0
         self.unsure = 0
         """How many conditions that may be false lead here."""
+        self.unusual = 0
+        """How many of them are false unless the user asks for something else."""
         self.testing = False
         self.muted = 0
         self.modules = {
@@ -404,8 +406,13 @@ class Run(State):
             self.mentions[Mention(name, via, span, what, optional or self.unsure > 0, self.testing)] = None
 
     def hide(self, facet: Facet, reason: str, span: Span | None = None) -> None:
-        """Note that something cannot be seen through."""
-        if not self.muted:
+        """Note that something cannot be seen through.
+
+        Where the script does not come to unless it is asked to, it hides only what a package may be needed for.
+        """
+        if self.unusual:
+            facet &= Facet.USES
+        if facet and not self.muted:
             self.opaques[Opaque(facet, reason, span or self.here())] = None
 
     def problem(self, kind: str, message: str, span: Span) -> None:

@@ -59,6 +59,8 @@ class Choice(NamedTuple):
     """Several procedures of one name, of which one was defined. ``None``: perhaps none was."""
 
     procedures: tuple[Procedure | None, ...]
+    usual: int | None
+    """The index of the one that is defined unless the user asks for another."""
 
 
 class Change(NamedTuple):
@@ -205,10 +207,14 @@ def _merged(mapping: Mapping[str, Any], values: Sequence[Any], default: int | No
     there = [value for value in values if value is not MISSING]
     if isinstance(there[0], (Procedure, Choice)):
         alternatives: list[Procedure | None] = []
-        for value in values:
+        usual = None
+        for number, value in enumerate(values):
             options = value.procedures if isinstance(value, Choice) else (None if value is MISSING else value,)
             alternatives += [option for option in options if not any(option is known for known in alternatives)]
-        return Choice(tuple(alternatives))
+            wanted = value.usual if isinstance(value, Choice) else 0
+            if number == default and wanted is not None:
+                usual = next(at for at, one in enumerate(alternatives) if one is options[wanted])
+        return Choice(tuple(alternatives), usual)
     return there[0]
 
 
