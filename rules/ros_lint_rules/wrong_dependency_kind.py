@@ -20,7 +20,7 @@ Use the tag that the message names. The fix does this.
 - The package comes along in the right way with another declared dependency.
 - The use is optional, or in files that are perhaps not built or installed.
 - Only launch files name it, for what they start, include or look up: see `launch-outside-closure`.
-- Launch files import what comes with `ros2 launch`, and packages of tests declare what tests need.
+- Launch files import what comes with `ros2 launch`, and what packages of tests declare serves tests anyhow.
 - A tag has a condition, or a declared dependency is itself not known, so that the package might come with it.
 - Only ROS packages count for run time: a rosdep key for building may have another one for running, and build tools and
   vendor packages have nothing to run.
@@ -53,7 +53,7 @@ from ros_lint.api import (
 )
 
 _MOST_RELATED = 4
-_TESTS = re.compile(r"_tests?(_|$)")
+_TESTS = re.compile(r"(^|_)(tests?|testing)(_|$)")
 _BUILT = ("include", "cmake", "interface", "macro", "target")
 _RUN = ("import", "package")
 _SEEN = ("include", "interface")
@@ -64,13 +64,14 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     manifest = package.manifest
     if manifest is None or manifest.problems or manifest.format == 1:
         return
+    if _TESTS.search(package.name):
+        return
     unguarded = unguarded_tests(package)
-    tests_all = _TESTS.search(package.name) is not None
     for need in needs(package, workspace):
         tags = [declared for declared in package.declared if declared.name in need.declared]
         if not tags or any(declared.depend.condition for declared in tags):
             continue
-        if comes_with_launching(package, need.uses) or (tests_all and _is_tests_only(_given(tags))):
+        if comes_with_launching(package, need.uses):
             continue
         lacking = next(_lacks(package, workspace, need, tags), None)
         if lacking is None:
