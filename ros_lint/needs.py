@@ -126,20 +126,25 @@ def may_bring(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
     """Whether one of the declared names of which nothing is known could bring a package along.
 
     What comes from elsewhere needs none of this workspace: repositories do not need each other in a circle. A package of
-    messages brings messages.
+    messages brings messages, and build tools and linters come with others of their kind.
     """
     if name in workspace.by_name:
         return False
+    tool = name.startswith("ament_") and not name.startswith("ament_index")
     released = workspace.world.released(name)
     messages = bool(released and released.interfaces)
     plumbing = name.startswith(("rosidl_", "builtin_", "action_msgs", "service_msgs", "unique_identifier_msgs"))
     for each in unknown:
-        if _is_no_package(each, workspace):
+        if _is_no_package(each, workspace) or (tool and not any(word in each for word in _OF_TOOLS)):
             continue
         if each.endswith(("_msgs", "_interfaces", "_srvs", "_msg")) and not (messages or plumbing):
             continue
         return True
     return False
+
+
+_OF_TOOLS = ("ament", "cmake", "lint", "common", "tools", "test")
+"""Parts of the names of packages that bring build tools, linters or what runs tests."""
 
 
 def _is_no_package(name: str, workspace: Workspace) -> bool:

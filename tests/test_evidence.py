@@ -106,6 +106,8 @@ def test_an_unknown_name_can_bring_some_things_only() -> None:
     assert may_bring(("strange",), "rclcpp", workspace)
     assert may_bring(("strange_msgs",), "std_msgs", workspace)
     assert not may_bring(("strange_msgs",), "rclcpp", workspace)
+    assert may_bring(("acme_cmake",), "ament_cmake_auto", workspace)
+    assert not may_bring(("strange",), "ament_lint_auto", workspace)
     assert not may_bring(("Eigen3", "python3-strange", "ament_python", "roscpp", "sensor_msg"), "rclcpp", workspace)
 
 
