@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from ros_lint.collectors import launch_py, launch_text
+from ros_lint.facts import Facet
 from ros_lint.text import Text
 from tests.launch_cases import collect, said
 
@@ -164,6 +165,43 @@ def body(text: str) -> str:
 def test_the_language_of_launch_files(case: str) -> None:
     program, _, wanted = case.rpartition("\n=> ")
     assert said(*collect("a.launch.py", body(program))) == wanted.split(", ")
+
+
+@pytest.mark.parametrize("case", CASES.strip().split("\n\n"))
+def test_facts_hold_plain_values(case: str) -> None:
+    """They travel between processes and into the cache, so nothing of the program may hang on them."""
+    program, _, _ = case.rpartition("\n=> ")
+    _, found = collect("a.launch.py", body(program))
+    waiting: list[object] = [found]
+    while waiting:
+        one = waiting.pop()
+        assert type(one).__module__ in ("builtins", "ros_lint.facts", "ros_lint.text"), one
+        assert isinstance(one, tuple) or type(one) in (str, bool, int, type(None), Facet)
+        waiting += one if isinstance(one, tuple) else ()
+
+
+def test_values_of_one_branch_stay_together() -> None:
+    program = """\
+if model == 'a':
+    package, file = 'pa', 'a.launch.py'
+elif model == 'b':
+    package, file = 'pb', 'b.launch.py'
+else:
+    package, file = 'pc', 'c.launch.py'
+share = get_package_share_directory(package)
+other = os.path.join(get_package_share_directory('p') if sim else share, 'x' if sim else 'y')
+return [
+    IncludeLaunchDescription([FindPackageShare(package), '/launch/', file]),
+    IncludeLaunchDescription(os.path.join(share, 'launch', file)),
+    IncludeLaunchDescription(f'{share}/launch/{file}'),
+    IncludeLaunchDescription(str(Path(share) / 'launch' / file)),
+    IncludeLaunchDescription(share + '/launch/' + file),
+]
+"""
+    source, found = collect("a.launch.py", body(program))
+    includes = [line for line in said(source, found) if line.startswith("include")]
+    assert sorted(set(includes)) == [f"include? p{x} launch/{x}.launch.py" for x in "abc"]
+    assert len(includes) == 15
 
 
 def test_modules_of_the_workspace_are_followed() -> None:

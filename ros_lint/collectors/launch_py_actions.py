@@ -123,7 +123,7 @@ def _pairs(walker: Walker, value: Value, made: Made) -> Iterator[tuple[str, Laun
             yield UNKNOWN, walker.text(UNKNOWN, node, made.source)
             continue
         for name in texts(parts[0]):
-            yield name, walker.text(parts[1], node, made.source)
+            yield str(name), walker.text(parts[1], node, made.source)
 
 
 def _declare(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
@@ -136,7 +136,7 @@ def _declare(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchA
             target=walker.value(made, 0, "name"),
             value=default,
             package_span=walker.package_span(default),
-            choices=tuple(text for choice in choices or () for text in texts(choice)),
+            choices=tuple(str(text) for choice in choices or () for text in texts(choice)),
             conditions=conditions,
         )
     ]
@@ -298,7 +298,7 @@ def _parameter(walker: Walker, value: Value, node: ast.expr, made: Made, found: 
 
 
 def _key(key: Value) -> str:
-    return texts(key)[0] or "?"
+    return str(texts(key)[0]) or "?"
 
 
 def _remappings(walker: Walker, made: Made) -> tuple[tuple[LaunchValue, LaunchValue], ...]:

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.launch_py_methods import items
-from ros_lint.collectors.launch_py_objects import Unknown, Value, union, written
-from ros_lint.collectors.launch_py_operations import text_of
+from ros_lint.collectors.launch_py_objects import Unknown, Value, written
+from ros_lint.collectors.launch_py_operations import text_of, texts_made
 from ros_lint.collectors.launch_text import UNKNOWN
 
 if TYPE_CHECKING:
@@ -42,9 +42,7 @@ class Call:
         return (UNKNOWN,) if value is None else text_of(value)
 
     def result(self, found: tuple[str, ...]) -> Value:
-        if len(found) == 1:
-            return written(found[0], self.node, self.frame.source)
-        return union(written(one, self.node, self.frame.source) for one in found)
+        return texts_made(found, self.node, self.frame)
 
     def items(self, position: int) -> list[Value] | None:
         return items(self.machine, self.get(position))

@@ -168,6 +168,7 @@ def _choice(machine: Machine, node: ast.IfExp, frame: Frame) -> Value:
     answer, condition = truth(machine, machine.evaluate(node.test, frame))
     if answer is not None:
         return machine.evaluate(node.body if answer else node.orelse, frame)
+    condition = machine.fresh(condition)
     with machine.under(condition):
         first = machine.evaluate(node.body, frame)
     opposite = opposite_of(condition)

@@ -14,12 +14,14 @@ from ros_lint.collectors.launch_py_methods import items
 from ros_lint.collectors.launch_py_objects import (
     Api,
     FilePath,
+    Guarded,
     Made,
     Method,
     Unknown,
     Value,
     alternatives,
     environment,
+    guarded_text,
     union,
 )
 from ros_lint.collectors.launch_py_operations import text_of
@@ -90,7 +92,7 @@ def _note(call: Call, package: Value, at: ast.expr, eager: bool) -> None:
     for one in alternatives(package):
         node, where = getattr(one.value, "node", at), getattr(one.value, "source", source)
         if isinstance(one.value, str):
-            call.machine.look_up(one.value, node, where, eager)
+            call.machine.look_up(str(one.value), node, where, eager)
 
 
 _ADDS = frozenset({"add_action", "add_entity", "append"})
@@ -123,18 +125,18 @@ def _method(call: Call, owner: Made) -> Value:
 def _share(call: Call) -> Value:
     given = call.get(0, "package_name", "package")
     _note(call, given, call.node.args[0] if call.node.args else call.node, eager=True)
-    return call.result(tuple(launch_text.share(package) for package in call.texts(0, "package_name", "package")))
+    return call.result(joined([call.texts(0, "package_name", "package")], lambda row: launch_text.share(row[0])))
 
 
 def _share_path(call: Call) -> Value:
     found = _share(call)
-    return union(FilePath(str(one.value)) for one in alternatives(found))
+    return union(Guarded(FilePath(str(one.value)), one.conditions) for one in alternatives(found))
 
 
 def _prefix(call: Call) -> Value:
     given = call.get(0, "package_name", "package")
     _note(call, given, call.node.args[0] if call.node.args else call.node, eager=True)
-    return call.result(tuple(launch_text.prefix(package) for package in call.texts(0, "package_name", "package")))
+    return call.result(joined([call.texts(0, "package_name", "package")], lambda row: launch_text.prefix(row[0])))
 
 
 def _join(call: Call) -> Value:
@@ -143,16 +145,17 @@ def _join(call: Call) -> Value:
 
 
 def _on_path(function: Callable[[str], str]) -> Rule:
-    return lambda call: call.result(tuple(function(text) for text in call.texts(0)))
+    return lambda call: call.result(joined([call.texts(0)], lambda row: function(row[0])))
 
 
 def _split(function: Callable[[str], tuple[str, ...]]) -> Rule:
-    return lambda call: union(function(text) for text in call.texts(0))
+    return lambda call: union(guarded_text(text, function(text)) for text in call.texts(0))
 
 
 def _path(call: Call) -> Value:
     rows = [call.texts(position) for position in range(len(call.arguments))]
-    return union(FilePath(text) for text in (joined(rows, lambda row: posixpath.join("", *row)) if rows else (".",)))
+    found = joined(rows, lambda row: posixpath.join("", *row)) if rows else (".",)
+    return union(guarded_text(text, FilePath(text)) for text in found)
 
 
 def _variable(call: Call) -> Value:

@@ -10,7 +10,7 @@ import ast
 from collections.abc import Iterable, Iterator
 from typing import Any, Final
 
-from ros_lint.collectors.launch_text import MOST, UNKNOWN, configuration, is_plain
+from ros_lint.collectors.launch_text import MOST, UNKNOWN, agree, conditional, conditions_of, configuration, is_plain
 from ros_lint.facts import LaunchCondition
 from ros_lint.text import Text
 
@@ -249,6 +249,8 @@ def union(values: Iterable[Value]) -> Value:
     found: list[Guarded] = []
     for value in values:
         for one in alternatives(value):
+            if len(one.conditions) > 1 and not agree(one.conditions):
+                continue
             if not any(_same(one.value, other.value) and one.conditions == other.conditions for other in found):
                 found.append(one)
         if len(found) > MOST:
@@ -269,6 +271,18 @@ def alternatives(value: Value, conditions: Conditions = ()) -> Iterator[Guarded]
         yield from alternatives(value.value, (*conditions, *value.conditions))
     else:
         yield Guarded(value, conditions)
+
+
+def guarded_text(text: str, made: Value) -> Value:
+    """Return a value made from an alternative of a text, under the conditions of that one."""
+    conditions = conditions_of(text)
+    return Guarded(made, conditions) if conditions else made
+
+
+def under(texts: Iterable[str], conditions: Conditions) -> Iterator[str]:
+    """Yield texts under further conditions."""
+    for text in texts:
+        yield conditional(text, (*conditions, *conditions_of(text))) if conditions else text
 
 
 def plain(value: Value) -> Value:

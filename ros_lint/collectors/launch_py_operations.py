@@ -19,12 +19,14 @@ from ros_lint.collectors.launch_py_objects import (
     Unknown,
     Value,
     alternatives,
+    guarded_text,
     plain,
+    under,
     union,
     written,
 )
 from ros_lint.collectors.launch_py_texts import texts
-from ros_lint.collectors.launch_text import LONGEST, UNKNOWN, certain_part, is_plain, joined, presence
+from ros_lint.collectors.launch_text import LONGEST, UNKNOWN, certain_part, distinct, is_plain, joined, presence
 from ros_lint.facts import LaunchCondition
 
 if TYPE_CHECKING:
@@ -81,19 +83,19 @@ def _truth_of_several(machine: Machine, value: Union) -> tuple[bool | None, Laun
 
 def text_of(value: Value) -> tuple[str, ...]:
     """Return what str() makes of a value."""
-    found: list[str] = []
-    for one in alternatives(value):
-        if isinstance(one.value, str):
-            found.append(one.value)
-        elif isinstance(one.value, FilePath):
-            found.append(one.value.text)
-        elif one.value is None or isinstance(one.value, (*_NUMBERS, bytes)):
-            found.append(str(one.value))
-        elif isinstance(one.value, (list, tuple, dict, set)):
-            found.append(_shown(one.value))
-        else:
-            found.append(UNKNOWN)
-    return tuple(dict.fromkeys(found))
+    if isinstance(value, str):
+        return (value,)
+    return distinct(text for one in alternatives(value) for text in under((_str(one.value),), one.conditions))
+
+
+def _str(value: Value) -> str:
+    if isinstance(value, str):
+        return value
+    if isinstance(value, FilePath):
+        return value.text
+    if value is None or isinstance(value, (*_NUMBERS, bytes)):
+        return str(value)
+    return _shown(value) if isinstance(value, (list, tuple, dict, set)) else UNKNOWN
 
 
 def _shown(value: Any) -> str:
@@ -139,7 +141,7 @@ def texts_made(found: tuple[str, ...], node: ast.expr, frame: Frame) -> Value:
     """Return a text, or one of several, made by an expression."""
     if len(found) == 1:
         return written(found[0], node, frame.source)
-    return union(written(one, node, frame.source) for one in found)
+    return union(guarded_text(one, written(one, node, frame.source)) for one in found)
 
 
 _OPERATORS: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
@@ -248,7 +250,7 @@ def _one_compare(op: ast.cmpop, left: Value, right: Value) -> Value:
         return same is isinstance(op, ast.Is)
     if isinstance(op, (ast.In, ast.NotIn)):
         return _contained(op, left, right)
-    if isinstance(left, Unknown) or isinstance(right, Unknown):
+    if isinstance(left, (Unknown, Api, Made)) or isinstance(right, (Unknown, Api, Made)):
         return Unknown("comparison with what is not known")
     if isinstance(op, (ast.Eq, ast.NotEq)):
         if isinstance(left, FilePath) and isinstance(right, FilePath):
@@ -286,7 +288,7 @@ def _contained(op: ast.cmpop, left: Value, right: Value) -> Value:
 
 def opposite_of(condition: LaunchCondition) -> LaunchCondition:
     """Return the condition that holds when this one does not."""
-    return PERHAPS if condition is PERHAPS else condition._replace(wanted=not condition.wanted)
+    return condition._replace(wanted=not condition.wanted)
 
 
 def sliced(owner: Value, parts: list[Value]) -> Value:

@@ -35,6 +35,7 @@ from ros_lint.collectors.launch_py_objects import (
     Union,
     Unknown,
     Value,
+    guarded_text,
     plain,
     union,
 )
@@ -63,6 +64,7 @@ class Machine:
         self._sources: dict[str, Source | None] = {}
         self._left = STEPS
         self._depth = 0
+        self._branches = 0
         self.conditions: Conditions = ()
         self.made: list[Made] = []
         """Everything made of the classes of the launch libraries, in order."""
@@ -90,6 +92,13 @@ class Machine:
             yield
         finally:
             self.conditions = before
+
+    def fresh(self, condition: LaunchCondition) -> LaunchCondition:
+        """Return a condition of which nothing is known as one that its own opposite can be told from."""
+        if condition is not PERHAPS:
+            return condition
+        self._branches += 1
+        return LaunchCondition((f"{UNKNOWN}{self._branches}",), None)
 
     def guard(self, value: Value) -> Value:
         """Return a value as it goes into a collection now."""
@@ -295,7 +304,8 @@ class Machine:
             ast.copy_location(call, node)
             return Made("PathJoinSubstitution", [[left, *right]], {}, call, frame.source)
         rows = [text_of(left), *[text_of(one) for one in right]]
-        return union(FilePath(text) for text in joined(rows, lambda row: posixpath.join("", *row)))
+        found = joined(rows, lambda row: posixpath.join("", *row))
+        return union(guarded_text(text, FilePath(text)) for text in found)
 
     def open_file(self, path: str, node: ast.expr) -> Value:  # noqa: ARG002
         """Return the text of a file of the workspace, or what stands for it."""

@@ -152,6 +152,7 @@ def _either(
     machine: Machine, body: Sequence[ast.stmt], other: Sequence[ast.stmt], condition: LaunchCondition, frame: Frame
 ) -> int:
     """Follow both sides of a branch, and join what they leave behind."""
+    condition = machine.fresh(condition)
     before, opposite = machine.conditions, opposite_of(condition)
     start = dict(frame.names)
     first = _side(machine, body, (*before, condition), frame)

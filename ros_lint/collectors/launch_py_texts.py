@@ -17,8 +17,9 @@ from ros_lint.collectors.launch_py_objects import (
     alternatives,
     environment,
     plain,
+    under,
 )
-from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, joined
+from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, distinct, joined
 from ros_lint.facts import LaunchCondition
 
 _DEEPEST = 60
@@ -27,19 +28,16 @@ _DEEPEST = 60
 def texts(value: Value, depth: int = 0) -> tuple[str, ...]:
     """Return every text that a value can become when launch performs it; a list is concatenated."""
     if isinstance(value, str):
-        return (value,)
+        return (str(value),)  # facts keep nothing of the program
     if depth > _DEEPEST:
         return (UNKNOWN,)
-    found: list[str] = []
-    for one in alternatives(value):
-        found += _one(one.value, depth)
-    found = list(dict.fromkeys(str(text) for text in found))
-    return tuple(found) if 0 < len(found) <= launch_text.MOST else (UNKNOWN,)
+    found = distinct(text for one in alternatives(value) for text in under(_one(one.value, depth), one.conditions))
+    return found if 0 < len(found) <= launch_text.MOST else (UNKNOWN,)
 
 
 def _one(value: Value, depth: int) -> tuple[str, ...]:
     if isinstance(value, str):
-        return (value,)
+        return (str(value),)
     if isinstance(value, FilePath):
         return (value.text,)
     if value is None or isinstance(value, (bool, int, float)):
@@ -79,11 +77,11 @@ def _path(made: Made, depth: int) -> tuple[str, ...]:
 
 
 def _share(made: Made, depth: int) -> tuple[str, ...]:
-    return tuple(launch_text.share(package) for package in texts(made.get(0, "package"), depth))
+    return joined([texts(made.get(0, "package"), depth)], lambda row: launch_text.share(row[0]))
 
 
 def _prefix(made: Made, depth: int) -> tuple[str, ...]:
-    return tuple(launch_text.prefix(package) for package in texts(made.get(0, "package"), depth))
+    return joined([texts(made.get(0, "package"), depth)], lambda row: launch_text.prefix(row[0]))
 
 
 def _in_package(made: Made, depth: int) -> tuple[str, ...]:
@@ -97,11 +95,11 @@ def _inner(*names: str) -> Callable[[Made, int], tuple[str, ...]]:
 
 
 def _expression(made: Made, depth: int) -> tuple[str, ...]:
-    return tuple(launch_text.expression(text) for text in texts(made.get(0, "expression"), depth))
+    return joined([texts(made.get(0, "expression"), depth)], lambda row: launch_text.expression(row[0]))
 
 
 def _command(made: Made, depth: int) -> tuple[str, ...]:
-    return tuple(launch_text.command(text) for text in texts(made.get(0, "command"), depth))
+    return joined([texts(made.get(0, "command"), depth)], lambda row: launch_text.command(row[0]))
 
 
 def _choice(made: Made, depth: int) -> tuple[str, ...]:
@@ -180,7 +178,7 @@ def conditions_of(value: Value) -> Conditions:
     for one in alternatives(value):
         made = one.value
         if isinstance(made, Made) and made.name in ("IfCondition", "UnlessCondition"):
-            asked = texts(made.get(0, "predicate_expression"))
+            asked = tuple(map(str, texts(made.get(0, "predicate_expression"))))
             found.append(LaunchCondition(asked, None, made.name == "IfCondition"))
         elif isinstance(made, Made) and made.name in ("LaunchConfigurationEquals", "LaunchConfigurationNotEquals"):
             names = texts(made.get(0, "launch_configuration_name"))
@@ -188,7 +186,7 @@ def conditions_of(value: Value) -> Conditions:
             if len(names) != 1 or len(wanted) != 1:
                 return (PERHAPS,)
             equal = made.name == "LaunchConfigurationEquals"
-            found.append(LaunchCondition((launch_text.configuration(names[0]),), wanted[0], equal))
+            found.append(LaunchCondition((launch_text.configuration(names[0]),), str(wanted[0]), equal))
         else:
             return (PERHAPS,)
     return tuple(found) if len(found) == 1 else (PERHAPS,)

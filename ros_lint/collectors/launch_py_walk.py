@@ -124,7 +124,7 @@ class Walker:
 
     def text(self, given: Value, node: ast.expr, source: Source) -> LaunchValue:
         """Return a value as a text with the place where it is written."""
-        found = texts(given)
+        found = tuple(map(str, texts(given)))
         origin = plain(given)
         while isinstance(origin, Made) and origin.name in ("TextSubstitution", "ParameterFile", "ParameterValue"):
             origin = plain(origin.get(0, "text", "param_file", "value"))

@@ -17,6 +17,8 @@ from collections.abc import Callable, Iterable, Iterator
 from itertools import islice, product
 from typing import NamedTuple
 
+from ros_lint.facts import LaunchCondition
+
 UNKNOWN = "\ue000"
 _ROOT = "\ue001"
 OWN_FOLDER = "/\ue002"
@@ -32,6 +34,7 @@ MOST = 24
 """How many alternatives of a text are kept apart."""
 
 _DEEPEST = 30
+_MOST_CHOICES = 3_000
 LONGEST = 20_000
 """How many characters of a text are followed."""
 
@@ -144,12 +147,63 @@ def installed(text: str) -> Iterator[Installed]:
         yield Installed(match[1], "/".join(parts))
 
 
+class Conditional(str):
+    """An alternative of a text that holds only under conditions."""
+
+    __slots__ = ("conditions",)
+
+    conditions: tuple[LaunchCondition, ...]
+
+
+def conditional(text: str, conditions: tuple[LaunchCondition, ...]) -> str:
+    """Return a text as one that holds under conditions."""
+    if not conditions:
+        return text
+    made = Conditional(text)
+    made.conditions = conditions
+    return made
+
+
+def conditions_of(text: str) -> tuple[LaunchCondition, ...]:
+    """Return what must hold for an alternative of a text."""
+    return text.conditions if isinstance(text, Conditional) else ()
+
+
+def agree(conditions: Iterable[LaunchCondition]) -> bool:
+    """Return whether conditions can hold together: none is the opposite of another."""
+    wanted: dict[tuple[tuple[str, ...], str | None], bool] = {}
+    equal: dict[tuple[str, ...], str] = {}
+    for condition in conditions:
+        key = (condition.texts, condition.equals)
+        if wanted.setdefault(key, condition.wanted) is not condition.wanted:
+            return False
+        if not condition.wanted or condition.equals is None:
+            continue
+        if equal.setdefault(condition.texts, condition.equals) != condition.equals:
+            return False
+    return True
+
+
+def distinct(texts: Iterable[str]) -> tuple[str, ...]:
+    """Return each text once; one that comes under different conditions holds under none."""
+    found: dict[str, str] = {}
+    for text in texts:
+        other = found.setdefault(text, text)
+        if other is not text and conditions_of(other) != conditions_of(text):
+            found[text] = str(text)
+    return tuple(found.values())
+
+
 def joined(rows: Iterable[tuple[str, ...]], function: Callable[[tuple[str, ...]], str]) -> tuple[str, ...]:
-    """Return what a function makes of one alternative of each row, for every choice."""
-    found = dict.fromkeys(
-        function(choice) if sum(map(len, choice)) <= LONGEST else UNKNOWN for choice in islice(product(*rows), MOST + 1)
-    )
-    return tuple(found) if len(found) <= MOST else (UNKNOWN,)
+    """Return what a function makes of one alternative of each row, for every choice whose conditions agree."""
+    found: list[str] = []
+    for choice in islice(product(*rows), _MOST_CHOICES):
+        conditions = tuple(dict.fromkeys(condition for text in choice for condition in conditions_of(text)))
+        if conditions and not agree(conditions):
+            continue
+        found.append(conditional(function(choice) if sum(map(len, choice)) <= LONGEST else UNKNOWN, conditions))
+    texts = distinct(found)
+    return texts if 0 < len(texts) <= MOST else (UNKNOWN,)
 
 
 def fill(text: str, values: Callable[[str], tuple[str, ...] | None], evaluate: Callable[[str], str]) -> tuple[str, ...]:
