@@ -159,6 +159,17 @@ def test_actions_that_are_never_launched_start_nothing(body: str, wanted: list[s
     assert python(body) == wanted
 
 
+def test_keywords_of_old_are_understood_and_told() -> None:
+    text = f"{HEAD}    return [Node(package='a', node_executable='b', node_name='c')]\n"
+    source, found = collect("a.launch.py", text)
+    assert said(source, found) == ["node a b"]
+    assert [problem.message for problem in found.problems] == [
+        "node_executable= of Node is gone since Galactic: say executable=",
+        "node_name= of Node is gone since Galactic: say name=",
+    ]
+    assert source.slice(found.problems[0].span) == "node_executable='b'"
+
+
 def test_the_main_guard_is_not_run_by_launch() -> None:
     assert python("return []", "if __name__ == '__main__':\n    Node(package='a', executable='b').x()\n") == []
 

@@ -55,7 +55,7 @@ def collect(
         "python",
         tuple(sorted(references.found, key=lambda reference: reference.span)),
         tuple(references.opaque),
-        (),
+        tuple(dict.fromkeys(reading.problems)),
         test,
         helper,
         tuple(reading.actions),
@@ -78,6 +78,10 @@ class _Reading:
         self._walker = walker(machine, self._source)
         self.actions: list[LaunchAction] = []
         self._blind: list[Opaque] = []
+
+    @property
+    def problems(self) -> list[Problem]:
+        return self._walker.problems
 
     def read(self, tree: ast.Module, helper: bool) -> None:
         frame = self._machine.run(tree, self._source)

@@ -24,8 +24,16 @@ from ros_lint.collectors.launch_py_run import Machine
 from ros_lint.collectors.launch_py_texts import SUBSTITUTIONS, texts
 from ros_lint.collectors.launch_py_walk import Rule, Walker, span_of
 from ros_lint.collectors.launch_text import UNKNOWN
-from ros_lint.facts import LaunchAction, LaunchValue
+from ros_lint.facts import LaunchAction, LaunchValue, Problem
 from ros_lint.text import Span
+
+_REMOVED = {
+    "node_executable": "executable",
+    "node_name": "name",
+    "node_namespace": "namespace",
+    "node_plugin": "plugin",
+}
+"""Keywords that have another name now (reference, section G2.3)."""
 
 _MOST_PARAMETERS = 2_000
 _NODES = frozenset({"Node", "LifecycleNode", "ComposableNodeContainer"})
@@ -40,7 +48,16 @@ def _span(made: Made) -> Span:
     return span_of(made.node, made.source)
 
 
+def _note_removed(walker: Walker, made: Made) -> None:
+    for keyword in made.node.keywords:
+        now = _REMOVED.get(keyword.arg or "")
+        if now is not None:
+            message = f"{keyword.arg}= of {made.name} is gone since Galactic: say {now}="
+            walker.problems.append(Problem("removed-keyword", message, span_of(keyword, made.source)))
+
+
 def _node(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    _note_removed(walker, made)
     children: list[LaunchAction] = []
     if made.name == "ComposableNodeContainer":
         children = walker.actions(made.get(-1, "composable_node_descriptions"), (), _span(made))
@@ -50,9 +67,9 @@ def _node(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchActi
         "node",
         _span(made),
         package=walker.value(made, -1, "package"),
-        target=walker.value(made, -1, "executable"),
-        name=walker.value(made, -1, "name"),
-        namespace=walker.value(made, -1, "namespace"),
+        target=walker.value(made, -1, "executable", "node_executable"),
+        name=walker.value(made, -1, "name", "node_name"),
+        namespace=walker.value(made, -1, "namespace", "node_namespace"),
         arguments=_given(walker, made, "arguments", "ros_arguments", "prefix", "additional_env", "env", "cwd"),
         parameters=_parameters(walker, made),
         remappings=_remappings(walker, made),
@@ -63,14 +80,15 @@ def _node(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchActi
 
 
 def _component(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    _note_removed(walker, made)
     return [
         LaunchAction(
             "component",
             _span(made),
             package=walker.value(made, -1, "package"),
-            target=walker.value(made, -1, "plugin"),
-            name=walker.value(made, -1, "name"),
-            namespace=walker.value(made, -1, "namespace"),
+            target=walker.value(made, -1, "plugin", "node_plugin"),
+            name=walker.value(made, -1, "name", "node_name"),
+            namespace=walker.value(made, -1, "namespace", "node_namespace"),
             parameters=_parameters(walker, made),
             remappings=_remappings(walker, made),
             conditions=conditions,

@@ -20,7 +20,7 @@ from ros_lint.collectors.launch_py_objects import (
 )
 from ros_lint.collectors.launch_py_texts import conditions_of, texts
 from ros_lint.collectors.launch_text import installed
-from ros_lint.facts import LaunchAction, LaunchValue
+from ros_lint.facts import LaunchAction, LaunchValue, Problem
 from ros_lint.text import Span
 
 if TYPE_CHECKING:
@@ -61,6 +61,7 @@ class Walker:
         self._rules = rules
         self._otherwise = otherwise
         self._source = source
+        self.problems: list[Problem] = []
         self.blind: list[tuple[str, Span]] = []
         """Where something is launched that is not known."""
         self._depth = 0

@@ -2,7 +2,7 @@
 ## What it finds
 
 A launch file that the real front end refuses: it does not parse, has a tag, an attribute or a substitution that does not
-exist, misses one that is needed, or holds a value of another type.
+exist, misses one that is needed, or holds a value of another type; one in Python that gives keywords which were removed.
 
 ## Why it matters
 
