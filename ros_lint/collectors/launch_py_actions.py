@@ -346,7 +346,7 @@ def _nested(walker: Walker, made: Made) -> list[LaunchAction]:
 
 
 def _other(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
-    if "package" in made.keywords and "executable" in made.keywords:
+    if "package" in made.keywords and ("executable" in made.keywords or "node_executable" in made.keywords):
         return _node(walker, made, conditions)
     if made.name in SUBSTITUTIONS:
         return []
