@@ -50,11 +50,15 @@ class Command(NamedTuple):
 
     def span(self, path: str, start: int, end: int) -> Span:
         """Return the span between two offsets within the command, in the file of that path."""
+        if not self.breaks:
+            shift = self.column - self.start
+            # As Span(...), in half the time: there are ten thousands of them.
+            return tuple.__new__(Span, (path, self.line, start + shift, self.line, end + shift))
         return Span(path, *self._position(start), *self._position(end))
 
     def place(self, path: str) -> Span:
         """Return the span of the name."""
-        return Span(path, self.line, self.column, self.line, self.column + len(self.written))
+        return tuple.__new__(Span, (path, self.line, self.column, self.line, self.column + len(self.written)))
 
     def _position(self, offset: int) -> tuple[int, int]:
         passed = bisect_right(self.breaks, offset)

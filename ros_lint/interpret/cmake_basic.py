@@ -148,8 +148,12 @@ def _project(run: Run, args: list[str]) -> None:
     parts = number.split(".") if is_known(number) else [HOLE] * 4
     for index, part in enumerate(("MAJOR", "MINOR", "PATCH", "TWEAK")):
         values[f"PROJECT_VERSION_{part}"] = values[f"{name}_VERSION_{part}"] = parts[index] if index < len(parts) else ""
-    for variable, value in values.items():
-        if HOLE not in variable:
+    if name == HOLE:
+        values = {variable: value for variable, value in values.items() if HOLE not in variable}
+    if run.log is None:
+        run.scopes[-1].update(values)
+    else:
+        for variable, value in values.items():
             run.set(variable, value)
 
 

@@ -30,6 +30,9 @@ class Truth(NamedTuple):
     test_if_false: bool = False
 
 
+_TESTS_WANTED: Final = Truth(LIKELY, test_if_true=True)
+
+
 class _Token(NamedTuple):
     text: str
     quoted: bool
@@ -52,6 +55,8 @@ _FALSE_WORDS: Final = frozenset({"", "0", "OFF", "NO", "FALSE", "N", "IGNORE"})
 
 def condition(run: Run, command: Command) -> Truth:
     """Return what a condition evaluates to."""
+    if len(command.args) == 1 and command.args[0][0] == "BUILD_TESTING":
+        return _TESTS_WANTED  # by far the most frequent condition
     tokens: list[_Token] = []
     for text, kind, _, _ in command.args:
         if kind == UNQUOTED:
@@ -246,10 +251,11 @@ def _word(run: Run, token: _Token) -> Truth:
 
 def _tests_enabled(run: Run, name: str) -> Truth:
     """Tests are enabled unless the user says otherwise (ament_cmake_test; reference, section C1.5)."""
+    if name == "BUILD_TESTING":
+        return _TESTS_WANTED
     value = run.get(name)
-    if name == "BUILD_TESTING" or value is None or not is_fixed(value):
-        usual = LIKELY if name == "BUILD_TESTING" else UNLIKELY
-        return Truth(usual, test_if_true=True)
+    if value is None or not is_fixed(value):
+        return Truth(UNLIKELY, test_if_true=True)
     return Truth(UNLIKELY if is_off(value) else LIKELY, test_if_true=True)
 
 

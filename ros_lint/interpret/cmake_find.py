@@ -14,7 +14,11 @@ from ros_lint.interpret.cmake_values import FOREIGN, HOLE, PREFIX, SOURCE, is_kn
 _FOREIGN_VARIABLE = re.compile(
     r"\$\{([A-Za-z0-9_+.-]+?)_(?:TARGETS|LIBRARIES|LIBRARY|LIBS|INCLUDE_DIRS?|INCLUDES|DEFINITIONS|LDFLAGS|CFLAGS)\}"
 )
-_FOREIGN_TARGET = re.compile(r"(?<!\w)(?<!::)([A-Za-z_][\w.+-]*)::[\w.+:-]*\w")
+_FOREIGN_TARGET = re.compile(r"(?<!\w)(?<!::)[A-Za-z_][\w.+-]*::[\w.+:-]*\w")
+
+
+_SHARED_LIBRARIES: Final = frozenset({"ament_cmake_ros", "ament_cmake_ros_core"})
+"""Packages that turn BUILD_SHARED_LIBS on (reference, section C1.6)."""
 
 
 def find_package(run: Run, args: list[str]) -> int | None:
@@ -54,7 +58,7 @@ def found(run: Run, name: str, *, required: bool) -> None:
         run.set(f"{name}_FOUND", HOLE)
     run.open_world = True
     run.prefixes[name] = None
-    if name in ("ament_cmake_ros", "ament_cmake_ros_core") and run.get("BUILD_SHARED_LIBS") is None:
+    if name in _SHARED_LIBRARIES and run.get("BUILD_SHARED_LIBS") is None:
         run.put(run.cache, "BUILD_SHARED_LIBS", "ON")
         run.settable.add("BUILD_SHARED_LIBS")
     helper = run.helpers.get(name)
@@ -73,8 +77,14 @@ def found(run: Run, name: str, *, required: bool) -> None:
 
 def _find_all(run: Run, args: list[str]) -> None:
     """``ros_lint_find(build|test)``: what the manifest declares is searched."""
-    for name in run.sources.build_depends if args[:1] == ["build"] else run.sources.test_depends:
-        found(run, name, required=True)
+    names = run.sources.build_depends if args[:1] == ["build"] else run.sources.test_depends
+    run.open_world = True
+    run.prefixes.update(dict.fromkeys(names))
+    for name in names:
+        if name not in run.packages:
+            run.put(run.packages, name, "1")
+        if name in run.helpers or name in _SHARED_LIBRARIES:
+            found(run, name, required=True)
 
 
 def _uses(run: Run, args: list[str]) -> None:
@@ -91,6 +101,11 @@ def _uses(run: Run, args: list[str]) -> None:
             run.mention(name, "target", run.where(arg), what, optional=not certain)
 
 
+def _target_uses(run: Run, args: list[str]) -> None:
+    """``ros_lint_target_uses(how target names...)``."""
+    _uses(run, [args[0], *args[2:]])
+
+
 def _pkg_config(run: Run, args: list[str]) -> None:
     if not args or HOLE in args[0]:
         return
@@ -104,10 +119,10 @@ def link(run: Run, args: list[str]) -> None:
     for arg in args[1:]:
         if "::" not in arg:
             continue
-        for match in _FOREIGN_TARGET.finditer(arg):
-            name = match[0]
-            if name not in run.targets and match[1] not in (run.name, run.sources.name):
-                run.mention(name, "target", run.where(arg), optional=arg.startswith("\2"))
+        plain, certain = sure(arg)
+        for name in [plain] if is_known(plain) and "$" not in plain else _FOREIGN_TARGET.findall(plain):
+            if name not in run.targets and name.partition("::")[0] not in (run.name, run.sources.name):
+                run.mention(name, "target", run.where(arg), optional=not certain)
     if not run.at_home():
         return
     frame = run.frames[-1]
@@ -164,5 +179,6 @@ COMMANDS: Final[dict[str, Handler]] = {
     "fetchcontent_populate": _external_project,
     "ros_lint_find": _find_all,
     "ros_lint_uses": _uses,
+    "ros_lint_target_uses": _target_uses,
     "ros_lint_hide": _hide,
 }

@@ -438,7 +438,8 @@ def call(run: Run, procedure: Procedure | Choice, args: list[str]) -> Exit:
     frame = Frame(procedure.own, procedure.path, procedure.folder, procedure)
     firm = None
     command = run.frames[-1].command
-    if command is not None and any(HOLE in arg or arg.startswith(MAYBE) for arg in args):
+    given = "".join(args)
+    if command is not None and (HOLE in given or MAYBE in given):
         firm = run.firm_arguments(command)
         if firm is not None:  # cmake_language(CALL) takes two words more than the command itself
             firm = max(0, firm - (len(run.arguments(command)) - len(args)))

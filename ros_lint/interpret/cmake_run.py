@@ -295,9 +295,9 @@ class Run(State):
             own = own or frame
             if not value:
                 break
-            for text, kind, start, end in command.args:
-                if text == value and kind < OPEN:
-                    return command.span(frame.path, start, end)
+            for argument in command.args:
+                if argument[0] == value and argument[1] < OPEN:
+                    return command.span(frame.path, argument[2], argument[3])
         assert own is not None
         frame, command = own, own.command
         assert command is not None

@@ -101,7 +101,7 @@ def join(values: Iterable[str]) -> str:
 
 def sure(element: str) -> tuple[str, bool]:
     """Return a list element without its mark, and whether it is certainly there."""
-    return (element[1:], False) if element.startswith(MAYBE) else (element, True)
+    return (element[1:], False) if element[:1] == MAYBE else (element, True)
 
 
 def maybe(element: str) -> str:

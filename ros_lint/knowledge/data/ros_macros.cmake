@@ -3,6 +3,7 @@
 # package(NAME) names the package that the definitions after it come with. The evaluator runs them in place of the real
 # ones. Besides CMake's own commands they use these primitives:
 #   ros_lint_uses(how names...)              the names are packages; "how" is quoted before a name, - for nothing
+#   ros_lint_target_uses(how target names...)  likewise, behind the name of a target
 #   ros_lint_find(build|test)                the dependencies that package.xml declares are searched
 #   ros_lint_component(classes...)           classes that a component container can load
 #   ros_lint_interfaces(install|- files...)  code is generated from interface files
@@ -98,8 +99,8 @@ endfunction()
 
 package(ament_cmake_target_dependencies)
 
-macro(ament_target_dependencies target)
-  ros_lint_uses("ament_target_dependencies of" ${ARGN})
+macro(ament_target_dependencies)
+  ros_lint_target_uses("ament_target_dependencies of" ${ARGN})
 endmacro()
 
 macro(ament_get_recursive_properties var_include_dirs var_libraries)
