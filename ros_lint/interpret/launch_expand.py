@@ -116,7 +116,7 @@ class _Run:
                     pushed = (*pushed, "")
                 return scope._replace(namespace=_joined_namespaces(scope.namespace, pushed))
             case "group":
-                self._group(action, scope._replace(certain=certain))
+                return scope._replace(namespace=self._group(action, scope._replace(certain=certain)))
             case "later":
                 self._actions(action.children, scope._replace(values=dict(scope.values), certain=certain))
             case "include":
@@ -146,12 +146,14 @@ class _Run:
         else:
             scope.values[name] = tuple(dict.fromkeys((*before, *texts)))
 
-    def _group(self, action: LaunchAction, scope: _Scope) -> None:
+    def _group(self, action: LaunchAction, scope: _Scope) -> Texts:
+        """Do what a group does, and return the namespace that holds after it."""
         scoped = action.name is None or action.name.texts != ("unscoped",)
         inner = scope._replace(values=dict(scope.values)) if scoped else scope
         for name, value in action.arguments:
             self._set(inner, name, self.texts(value, scope), certain=True)
-        self._actions(action.children, inner)
+        after = self._actions(action.children, inner)
+        return scope.namespace if scoped else after.namespace
 
     def _include(self, action: LaunchAction, scope: _Scope, certain: bool) -> _Scope:
         self._start(action, scope, certain)
@@ -170,10 +172,10 @@ class _Run:
             return scope
         self._open.append(path)
         folder = path.rpartition("/")[0]
-        # What is included shares the configurations, but not the place that it stands in.
-        self._actions(file.actions, scope._replace(folder=(folder,), certain=certain))
+        # What is included shares the configurations and the namespace, but not the place that it stands in.
+        after = self._actions(file.actions, scope._replace(folder=(folder,), certain=certain))
         self._open.pop()
-        return scope
+        return scope._replace(namespace=after.namespace)
 
     def _start(self, action: LaunchAction, scope: _Scope, certain: bool) -> None:
         command = [value for name, value in action.arguments if not name] if action.kind == "process" else []

@@ -1,0 +1,118 @@
+"""What launch files start with given arguments, through their includes."""
+
+from collections.abc import Mapping
+
+from ros_lint.facts import LaunchFile
+from ros_lint.interpret.launch_expand import Expansion, Started, expand
+from tests.launch_cases import collect
+
+
+def xml(body: str, path: str = "pkg/launch/a.launch.xml") -> LaunchFile:
+    return collect(path, f"<launch>\n{body}\n</launch>\n")[1]
+
+
+def python(actions: str, path: str = "pkg/launch/a.launch.py") -> LaunchFile:
+    return collect(
+        path,
+        "from launch import LaunchDescription\nfrom launch.actions import *\nfrom launch.conditions import *\n"
+        "from launch.substitutions import *\nfrom launch_ros.actions import *\n"
+        f"def generate_launch_description():\n    return LaunchDescription([{actions}])\n",
+    )[1]
+
+
+def run(file: LaunchFile, given: Mapping[str, str] | None = None, **files: LaunchFile) -> Expansion:
+    by_path = {f"/x/{name}.launch.xml": one for name, one in files.items()}
+    return expand(file, given or {}, by_path.get)
+
+
+def short(started: Started) -> str:
+    words = [started.kind, "|".join(started.package), "|".join(started.target)]
+    return " ".join(word for word in words if word) + ("" if started.certain else " ?")
+
+
+def said(expansion: Expansion) -> list[str]:
+    return [short(one) for one in expansion.started if one.kind != "include"]
+
+
+def test_defaults_and_given_arguments() -> None:
+    file = xml('<arg name="which" default="one"/><node pkg="p" exec="$(var which)"/>')
+    assert said(run(file)) == ["node p one"]
+    assert said(run(file, {"which": "two"})) == ["node p two"]
+
+
+def test_conditions_have_three_values() -> None:
+    file = xml(
+        '<arg name="sim" default="false"/>'
+        '<node pkg="p" exec="a" if="$(var sim)"/>'
+        '<node pkg="p" exec="b" unless="$(var sim)"/>'
+        '<node pkg="p" exec="c" if="$(env NOT_KNOWN)"/>'
+    )
+    assert said(run(file)) == ["node p b", "node p c ?"]
+    assert said(run(file, {"sim": "true"})) == ["node p a", "node p c ?"]
+
+
+def test_a_required_argument_is_not_known() -> None:
+    file = xml('<arg name="sim"/><node pkg="p" exec="a" if="$(var sim)"/><node pkg="p" exec="b"/>')
+    assert said(run(file)) == ["node p a ?", "node p b"]
+
+
+def test_python_is_followed_in_the_same_way() -> None:
+    file = python(
+        "DeclareLaunchArgument('sim', default_value='true'), "
+        "Node(package='p', executable='a', condition=IfCondition(LaunchConfiguration('sim'))), "
+        "Node(package='p', executable=['b_', LaunchConfiguration('sim')])"
+    )
+    assert said(run(file)) == ["node p a", "node p b_true"]
+    assert said(run(file, {"sim": "false"})) == ["node p b_false"]
+
+
+def test_groups_keep_their_values_and_namespaces_unless_unscoped() -> None:
+    body = '<arg name="v" default="out"/><group{}><push-ros-namespace namespace="n"/><let name="v" value="in"/></group>'
+    node = '<node pkg="p" exec="$(var v)"/>'
+    for scoped, wanted, namespace in (("", "out", ("",)), (' scoped="false"', "in", ("n",))):
+        (started,) = run(xml(body.format(scoped) + node)).started
+        assert (started.target, started.namespace) == ((wanted,), namespace)
+
+
+def test_namespaces_are_joined() -> None:
+    file = xml(
+        '<group><push-ros-namespace namespace="a"/><group><push-ros-namespace namespace="b"/>'
+        '<node pkg="p" exec="x" namespace="c"/><node pkg="p" exec="y" namespace="/d"/></group></group><node pkg="p" exec="z"/>'
+    )
+    assert [one.namespace for one in run(file).started] == [("a/b/c",), ("/d",), ("",)]
+
+
+def test_includes_share_values_and_say_what_is_missing() -> None:
+    inner = xml('<arg name="robot"/><arg name="speed" default="1"/><node pkg="p" exec="$(var robot)_$(var speed)"/>')
+    outer = '<include file="/x/inner.launch.xml">{}</include>'
+    found = run(xml(outer.format('<arg name="robot" value="r"/>')), inner=inner)
+    assert (said(found), found.missing, found.complete) == (["node p r_1"], (), True)
+    assert [one.depth for one in found.started] == [0, 1]
+    found = run(xml(outer.format('<arg name="speed" value="2"/>')), inner=inner)
+    assert [one.name for one in found.missing] == ["robot"]
+
+
+def test_what_an_unscoped_include_sets_stays_set() -> None:
+    inner = xml('<push-ros-namespace namespace="n"/><let name="v" value="inner"/>')
+    file = xml('<include file="/x/inner.launch.xml"/><node pkg="p" exec="$(var v)"/>')
+    (started,) = (one for one in run(file, inner=inner).started if one.kind == "node")
+    assert (started.target, started.namespace) == (("inner",), ("n",))
+
+
+def test_an_include_under_an_unknown_condition_is_perhaps() -> None:
+    inner = xml('<node pkg="p" exec="x"/>')
+    file = xml('<include file="/x/inner.launch.xml" if="$(env NOT_KNOWN)"/>')
+    assert said(run(file, inner=inner)) == ["node p x ?"]
+
+
+def test_includes_in_a_circle_come_to_an_end() -> None:
+    inner = xml('<node pkg="p" exec="x"/><include file="/x/inner.launch.xml"/>')
+    found = run(xml('<include file="/x/inner.launch.xml"/>'), inner=inner)
+    assert said(found) == ["node p x"]
+    assert not found.complete
+
+
+def test_branches_that_grow_without_end_are_cut() -> None:
+    files = {f"f{n}": xml(f'<include file="/x/f{n + 1}.launch.xml"/>' * 4) for n in range(12)}
+    found = run(files["f0"], **files)
+    assert not found.complete
