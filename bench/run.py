@@ -40,9 +40,8 @@ def main() -> int:
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--jobs", type=int, default=1, help="processes of ros-lint (default: 1)")
     options = parser.parse_args()
-    print(
-        "| workspace | packages | files read | floor | cold | warm | colcon list | peak memory |\n|---|---|---|---|---|---|---|---|"
-    )
+    print("| workspace | packages | files read | floor | cold | warm | colcon list | peak memory |")
+    print("|---|---|---|---|---|---|---|---|")
     for workspace in options.workspaces:
         print(row(os.path.abspath(workspace), options.rounds, options.jobs), flush=True)
     print(f"\n| start | to a bare interpreter |\n|---|---|\n{starts(options.rounds)}")

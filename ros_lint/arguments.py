@@ -163,6 +163,12 @@ def _add(made: argparse.ArgumentParser, option: Option) -> None:
 class _Words(argparse.Action):
     """``--select a,b --select c`` is the list a, b, c."""
 
-    def __call__(self, parser: object, namespace: argparse.Namespace, values: Any, option_string: str | None = None) -> None:
+    def __call__(  # argparse says what it hands over
+        self,
+        parser: object,  # noqa: ARG002
+        namespace: argparse.Namespace,
+        values: Any,
+        option_string: str | None = None,  # noqa: ARG002
+    ) -> None:
         words = [word.strip() for word in str(values).split(",") if word.strip()]
         setattr(namespace, self.dest, (*getattr(namespace, self.dest, ()), *words))

@@ -75,9 +75,9 @@ def unguarded_tests(package: Package) -> dict[str, Call]:
     for call in called(package, "find_package", *_TEST_COMMANDS):
         provider = _TEST_COMMANDS.get(call.name) or (call.texts[0] if call.args else "")
         stops = call.name != "find_package" or "REQUIRED" in call.texts
-        if stops and not call.test and not call.blocks and provider in _FOR_TESTS and provider not in found:
-            if package.declares(provider) == Role.TEST:
-                found[provider] = call
+        always = stops and not call.test and not call.blocks
+        if always and provider in _FOR_TESTS and provider not in found and package.declares(provider) == Role.TEST:
+            found[provider] = call
     return found
 
 

@@ -64,4 +64,5 @@ def pattern_of(file: str) -> re.Pattern[bytes]:
     """
     folder, _, name = file.rpartition("/")
     inner = folder.rpartition("/")[2]
-    return re.compile(rb"(?<![\w-])(?<![\w.~-]/)%s[\"'/, \t\r\n)(]{1,24}(%s)(?![\w-])" % (re.escape(inner.encode()), re.escape(name.encode())))
+    words = (re.escape(inner.encode()), re.escape(name.encode()))
+    return re.compile(rb"(?<![\w-])(?<![\w.~-]/)%s[\"'/, \t\r\n)(]{1,24}(%s)(?![\w-])" % words)

@@ -15,10 +15,11 @@ from ros_lint import edits, engine, registry
 from ros_lint.commands import check
 from ros_lint.opening import Opened
 from ros_lint.report import Issue, Report
+from ros_lint.rule import Confidence
 from ros_lint.text import Text, read
 
-_MOST_ROUNDS = 10
-"""Fixes can make way for others. Ten rounds are far more than any file needs."""
+_MOST_ROUNDS = 100
+"""Fixes make way for others, and of those that are at odds one is made a round. No workspace needs as many."""
 
 
 class Mended(NamedTuple):
@@ -126,7 +127,9 @@ class _Proof:
         after = self.issues(new)
         has = Counter(issue.identity for issue in after)
         for issue in after:
-            if has[issue.identity] > had[issue.identity]:
+            # What is less than certain, or asked for only, may change: a need that was undeclared can become a transitive one.
+            serious = issue.rule.default and issue.finding.confidence is Confidence.HIGH
+            if serious and has[issue.identity] > had[issue.identity]:
                 return f"because then {issue.finding.message}"
         if any(has[issue.identity] >= had[issue.identity] for issue in group):
             return "because the fix does not help"

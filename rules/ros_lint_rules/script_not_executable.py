@@ -97,7 +97,8 @@ def _line(package: Package, file: ScriptFile, name: str, started: bool) -> Itera
 def _no_bit(package: Package, span: Span, provided: list[Provided], files: dict[str, ScriptFile]) -> Finding:
     names = sorted(dict.fromkeys(one.path.rpartition("/")[2] for one in provided))
     named = ", ".join(names[:3]) + (" ..." if len(names) > 3 else "")
-    call = next((call for call in called(package, "install", anywhere=True) if call.args and cmake_edits.covers(call, span)), None)
+    installs = (call for call in called(package, "install", anywhere=True) if call.args)
+    call = next((call for call in installs if cmake_edits.covers(call, span)), None)
     way, fix = "install(PROGRAMS)", None
     if call is not None and call.texts[0] == "DIRECTORY":
         way = "USE_SOURCE_PERMISSIONS, or install(PROGRAMS)"

@@ -28,7 +28,6 @@ from collections.abc import Iterator
 
 from ros_lint.api import (
     BuildTarget,
-    Call,
     Confidence,
     Facet,
     Finding,

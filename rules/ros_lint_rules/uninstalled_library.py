@@ -42,6 +42,7 @@ from ros_lint.api import (
     hidden,
 )
 
+
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_cmake" or hidden(package, Facet.LIBRARIES):
