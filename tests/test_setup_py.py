@@ -460,6 +460,33 @@ def test_what_is_not_known_is_opaque(body: str, hidden: Facet, reason: str) -> N
     assert not any(item.path.startswith("share") for item in found.provides)
 
 
+@pytest.mark.parametrize(
+    "body",
+    [
+        "x = 'aa'\nwhile True: x = x + x",
+        "x = 'aa'\nwhile True: x += x",
+        "x = ['a']\nwhile True: x = x + x",
+        "x = ['a']\nwhile True: x += x",
+        "x = 'aa'\nwhile True: x = f'{x}{x}'",
+        "x = 'aa'\nwhile True: x = '%s%s' % (x, x)",
+        "x = 'aa'\nwhile True: x = '{0}{0}'.format(x)",
+        "x = 'aa'\nwhile True: x = x.replace('a', x)",
+        "x = 'aa'\nwhile True: x = x.join([x, x, x])",
+        "x = ['a']\nwhile True: x = [y for y in x for z in 'ab']",
+        "x = ('a',)\nwhile True: x = (*x, *x)",
+        "x = {}\nwhile True: x = {'a': x}\n",
+        "x = [f()]\nfor y in x: x.append(y)",
+        "x = [1]\nfor y in x:\n    if f(): x.append(y)\n    else: x.extend(x)",
+        "def f(n): return f(n + 1) + f(n + 2)\nx = f(0)",
+        "x = " + "(" * 150 + "1" + ")" * 150 + " + 1" * 3000,
+    ],
+)
+def test_what_takes_too_long_ends(body: str) -> None:
+    found = script(f"{body}\nsetup(name='pkg', data_files=x)")
+    assert found.opaque
+    assert not found.provides
+
+
 def test_the_rest_stays_known() -> None:
     found = script(
         """
@@ -603,3 +630,21 @@ def test_an_unknown_folder_of_scripts() -> None:
     found = script("setup(name='pkg', scripts=['scripts/tool.py'])", "[install]\ninstall_scripts = $HOME/bin\n")
     assert not found.provides
     assert [(item.hides, str(item.span)) for item in found.opaque] == [(Facet.EXECUTABLES, "ws/pkg/setup.cfg:2:1")]
+
+
+ODD = """None 5 [] {} () "x" f() [f()] {"a":f()} {"console_scripts":5} {"console_scripts":{"a":1}} lambda:1 (1,2,3) [1,"a",None]
+{**f()} os.environ sys.argv {1:2} "a"*3 -1 1/0 [][0] [("a",)] [(1,2)] [[1]] [("a",["b"],3)] [(None,None)] [("a","b")] open("x")
+b"x" 3.5 ... {"a","b"} True range(5) zip([1],[2]) dict(a=1) os setup find_packages [].append {}["a"] [*glob("*")]
+glob("**",recursive=True) [[["pkg"]]] __import__("x") (lambda:(yield))() "{:99999}".format(1) "a b = c = d" [i/0for(i)in[1]]"""
+
+
+@pytest.mark.parametrize(
+    "option", ["name", "version", "packages", "py_modules", "package_dir", "data_files", "scripts", "entry_points", "cmdclass"]
+)
+def test_odd_options_are_survived(option: str) -> None:
+    for odd in ODD.split():
+        found = script(f"setup({option}={odd}, **{{}})")
+        assert all(isinstance(item.path, str) for item in found.provides)
+        script(f"x = {odd}\nfor y in x: x.append(y)\nif x: x, y = x\nx += x\nsetup({option}=x)")
+        script(f"setup({option}=[{odd}])")
+        script(f"setup(**{odd})")

@@ -27,7 +27,7 @@ from ros_lint.interpret.setup_py_values import (
     unknown_in,
 )
 
-MOST_STEPS: Final = 200_000
+MOST_STEPS: Final = 100_000
 """Expressions and statements that one setup.py may evaluate. Real ones need some hundreds."""
 Scopes = tuple[dict[str, Value], ...]
 
@@ -65,7 +65,10 @@ class Expressions(ABC):
         if handler is None:
             return Unknown(f"{at(node)} is not followed", node)
         try:
-            return handler(self, node)
+            found = handler(self, node)
+            if isinstance(found, (str, list, tuple)):
+                self._steps += len(found) >> 8  # copying is work, too
+            return found
         except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
             return Unknown(f"{at(node)} fails with {type(error).__name__}", node)
 

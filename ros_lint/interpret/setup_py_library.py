@@ -5,15 +5,15 @@ from __future__ import annotations
 import ast
 import fnmatch
 import posixpath
-import re
 from collections.abc import Callable
 from itertools import product
+from math import prod
 from pathlib import PurePosixPath
 from typing import Any
 
 from ros_lint.interpret.setup_py_expressions import Expressions
 from ros_lint.interpret.setup_py_files import ROOT
-from ros_lint.interpret.setup_py_operators import binary
+from ros_lint.interpret.setup_py_operators import LONGEST, binary, check_format, check_size
 from ros_lint.interpret.setup_py_state import LeaveError
 from ros_lint.interpret.setup_py_values import Globbed, Maybe, Module, Native, Unknown, Value, certain, located, unknown_in
 
@@ -112,8 +112,12 @@ def _text_method(name: str, owner: str, arguments: list[Value], keywords: dict[s
     unknown = unknown_in([*arguments, *keywords.values()])
     if unknown:
         return unknown
-    if name == "format" and re.search(r"\d{4,}", owner):
+    if name == "join" and sum(map(len, arguments[0])) + len(owner) * len(arguments[0]) > LONGEST:
         raise ValueError
+    if name == "format":
+        check_format(owner)
+    if name in ("format", "replace"):
+        check_size(owner, [*arguments, *keywords.values()])
     return located(getattr(str, name)(owner, *arguments, **keywords), node)
 
 
@@ -286,6 +290,12 @@ def _chain_from(program: Expressions, node: ast.Call, lists: Value) -> Value:
     return _chain(program, node, *program.elements(lists, node))
 
 
+def _product(_: Expressions, __: ast.Call, *lists: Value) -> Value:
+    if prod(map(len, lists)) > LONGEST:
+        raise ValueError
+    return list(product(*lists))
+
+
 def _sum(program: Expressions, node: ast.Call, lists: Value, start: Value = 0) -> Value:
     total = start
     for item in program.elements(lists, node):
@@ -361,7 +371,7 @@ FUNCTIONS: dict[str, Callable[..., Value]] = {
     "setuptools.find_namespace_packages": _find_packages(namespaces=True),
     "itertools.chain": _chain,
     "itertools.chain.from_iterable": _chain_from,
-    "itertools.product": _plain(lambda *lists: list(product(*lists))),
+    "itertools.product": _product,
     "sys.exit": _exit,
     "exit": _exit,
     "quit": _exit,

@@ -5,13 +5,13 @@ from __future__ import annotations
 import ast
 import operator
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any, Final
 
 from ros_lint.interpret.setup_py_values import Unknown, Value, Word, certain, located, same, unknown_in
 
 LONGEST: Final = 100_000
-"""Elements or characters of a value that is made by multiplication."""
+"""Elements or characters of a value that is computed."""
 
 _BINARY: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
     ast.Add: operator.add,
@@ -38,6 +38,8 @@ _WIDE = re.compile(r"\d{4,}|\*")
 def binary(operation: ast.operator, left: Value, right: Value, node: ast.AST) -> Value:
     """Return what a binary operator gives. Raises what the operator raises, and ValueError for too large a value."""
     if isinstance(operation, ast.Add):
+        if hasattr(left, "__len__") and hasattr(right, "__len__") and len(left) + len(right) > LONGEST:
+            raise ValueError
         if isinstance(left, list) and isinstance(right, (list, Unknown)):
             return [*left, *(right if isinstance(right, list) else [right])]
         if isinstance(left, Unknown) and isinstance(right, list):
@@ -46,14 +48,27 @@ def binary(operation: ast.operator, left: Value, right: Value, node: ast.AST) ->
     if unknown:
         return unknown
     if isinstance(operation, ast.Mod) and isinstance(left, str):
-        if _WIDE.search(left):
-            raise ValueError
+        check_format(left)
+        check_size(left, right if type(right) is tuple else (right,))
         return Word.at(left % right, node)
     if isinstance(operation, ast.Mult):
         if _size(left) * _size(right) > LONGEST:
             raise ValueError
         return located(left * right, node)
     return located(_BINARY[type(operation)](left, right), node)
+
+
+def check_size(template: str, values: Iterable[Value]) -> None:
+    """Raise ValueError when values put into a template could make a text that is too long."""
+    longest = max((len(value) if isinstance(value, str) else 100 for value in values), default=0)
+    if len(template) * longest > 100 * LONGEST:
+        raise ValueError
+
+
+def check_format(template: str) -> None:
+    """Raise ValueError when a field of a format is too wide, or as wide as a value says."""
+    if _WIDE.search(template):
+        raise ValueError
 
 
 def _size(value: Value) -> float:
@@ -76,8 +91,7 @@ def compare(operation: ast.cmpop, left: Value, right: Value) -> Value:
 
 def formatted(value: Value, conversion: int, spec: str) -> str:
     """Return what a replacement field of an f-string gives. Raises ValueError for a field that is too wide."""
-    if _WIDE.search(spec):
-        raise ValueError
+    check_format(spec)
     if conversion >= 0:
         value = _CONVERSIONS[chr(conversion)](value)
     return format(value, spec)

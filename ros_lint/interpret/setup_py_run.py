@@ -140,7 +140,10 @@ class Program(Expressions):
     def _block(self, body: Sequence[ast.stmt]) -> None:
         for statement in body:
             self.step()
-            self._statement(statement)
+            try:
+                self._statement(statement)
+            except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
+                raise ExhaustedError(f"line {statement.lineno} fails with {type(error).__name__}") from None
 
     def _statement(self, statement: ast.stmt) -> None:
         match statement:

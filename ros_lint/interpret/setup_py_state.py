@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Final
 
 from ros_lint.interpret.setup_py_values import Unknown, Value, either, merged
 
@@ -25,11 +25,16 @@ class LeaveError(Exception):
         self.value = value
 
 
+MOST_FORKS: Final = 200
+"""How many times both ways of an unknown condition are tried. Real programs have a handful."""
+
+
 class Journal:
     """Remembers containers before they change, so that a block can be undone."""
 
     def __init__(self) -> None:
         self._open: list[dict[int, tuple[Container, Container]]] = []
+        self._forks = 0
 
     def touch(self, container: Container) -> None:
         """Say that a container is about to change."""
@@ -39,6 +44,9 @@ class Journal:
 
     def both(self, ways: tuple[Callable[[], None], Callable[[], None]], unknown: Unknown) -> None:
         """Go two ways one of which is taken, and leave behind what may be true after either."""
+        self._forks += 1
+        if self._forks > MOST_FORKS:
+            raise ExhaustedError("more conditions are unknown than are followed")
         after: list[dict[int, Container]] = []
         left: list[LeaveError | None] = []
         touched: dict[int, tuple[Container, Container]] = {}
