@@ -352,7 +352,8 @@ def really_run(cmake_program: str, scripts: dict[int, Script], folder: Path) -> 
             lines.append(
                 f"function(run_{number})\n  set_property(GLOBAL PROPERTY TRACES)\n{sets}{_FORGET}"
                 f'  file(APPEND "${{OUT}}" "script {number}\\n")\n'
-                f'  include("{folder}/{number}.cmake")\n{_DUMP}endfunction()\nrun_{number}()'
+                f'  include("{folder}/{number}.cmake")\n{_DUMP}endfunction()\n'
+                f"function(outer_{number})\n  run_{number}()\nendfunction()\nouter_{number}()"
             )
         driver.write_text("\n".join(lines) + '\nfile(APPEND "${OUT}" "end\\n")\n')
         command = [cmake_program, "-Wno-dev", f"-DOUT={out}", "-P", str(driver)]

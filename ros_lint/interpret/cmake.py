@@ -7,17 +7,22 @@ from collections.abc import Mapping
 from ros_lint.facts import ANYTHING, BuildScript, Facet, Mention, Opaque, Problem, Provided
 from ros_lint.interpret import (
     cmake_basic,
+    cmake_branches,
+    cmake_definitions,
     cmake_file,
     cmake_find,
     cmake_flow,
+    cmake_include,
     cmake_install,
     cmake_list,
+    cmake_loops,
     cmake_math,
     cmake_ros,
     cmake_string,
     cmake_targets,
 )
-from ros_lint.interpret.cmake_run import BudgetError, Helper, Run, Sources
+from ros_lint.interpret.cmake_run import BudgetError, Run
+from ros_lint.interpret.cmake_sources import Helper, Sources
 from ros_lint.interpret.cmake_state import STOP, Frame
 from ros_lint.interpret.cmake_values import SOURCE
 from ros_lint.text import Span
@@ -29,6 +34,7 @@ for _module in (
     cmake_basic,
     cmake_file,
     cmake_find,
+    cmake_include,
     cmake_install,
     cmake_list,
     cmake_math,
@@ -37,6 +43,7 @@ for _module in (
     cmake_targets,
 ):
     cmake_flow.HANDLERS.update(_module.COMMANDS)
+cmake_flow.BLOCKS.update({**cmake_branches.BLOCKS, **cmake_definitions.BLOCKS, **cmake_loops.BLOCKS})
 
 _TOP = "CMakeLists.txt"
 _NO_HELPERS: Mapping[str, Helper] = {}

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import posixpath
 import re
 from typing import Final
 
-from ros_lint.collectors.cmake_syntax import PLAIN, parse
-from ros_lint.facts import ANYTHING, Facet
+from ros_lint.collectors.cmake_syntax import parse
+from ros_lint.facts import ANYTHING
 from ros_lint.interpret.cmake_arguments import parse_keywords
 from ros_lint.interpret.cmake_flow import run_file, run_named
 from ros_lint.interpret.cmake_run import Handler, Run
-from ros_lint.interpret.cmake_state import BREAK, CONTINUE, RETURN, STOP, Frame, Variables
-from ros_lint.interpret.cmake_values import BINARY, FOREIGN, HOLE, SOURCE, certainly_set, is_fixed, is_known, join, merge, split
+from ros_lint.interpret.cmake_state import BREAK, CONTINUE, RETURN, STOP, Frame
+from ros_lint.interpret.cmake_values import HOLE, certainly_set, is_fixed, is_known, join, merge, split
 from ros_lint.text import Text
-from ros_lint.tree import join as join_path
 
 
 def _set(run: Run, args: list[str]) -> None:
@@ -36,11 +34,7 @@ def _set(run: Run, args: list[str]) -> None:
         run.set_outer(name, join(args[1:-1]) if len(args) > 2 else None)
         return
     run.set(name, join(args[1:]))
-    command = run.frames[-1].command
-    if command is not None and run.frames[-1].own:
-        for argument in command.args[1:]:
-            if argument[1] == PLAIN:
-                run.literals.setdefault(argument[0], (run.frames[-1].path, command, argument))
+    run.remember(1)
 
 
 def _set_cache(run: Run, name: str, value: str, kind: str, force: bool) -> None:
@@ -157,134 +151,6 @@ def _project(run: Run, args: list[str]) -> None:
             run.set(variable, value)
 
 
-def _include(run: Run, args: list[str]) -> int | None:
-    optional = "OPTIONAL" in args
-    if "RESULT_VARIABLE" in args[:-1]:
-        run.set(args[args.index("RESULT_VARIABLE") + 1], HOLE)
-    name = args[0] if args else ""
-    if not name or name in MODULES:
-        if name in MODULES:
-            _module(run, name)
-        return None
-    if not is_fixed(name):
-        run.hide(ANYTHING, "include() of a file whose name is not known")
-        run.open_world = True
-        return None
-    return _include_file(run, name, optional)
-
-
-def _include_file(run: Run, name: str, optional: bool) -> int | None:
-    if name.startswith(FOREIGN):
-        return _include_foreign(run, name)
-    is_module = "/" not in name and "." not in name
-    folders = run.get("CMAKE_MODULE_PATH") or ""
-    candidates = [name]
-    if not name.startswith("/"):
-        candidates[:0] = [f"{folder}/{name}.cmake" for folder in folders.split(";") if is_fixed(folder)]
-    for candidate in candidates:
-        path = run.source(candidate)
-        if path is not None and path in run.sources.scripts:
-            return include_own(run, path)
-    if optional:
-        return None
-    if is_module:
-        # Whatever a found package's or CMake's own module does, it is made to be called, not to build things itself.
-        run.open_world = True
-        if not folders or HOLE not in folders:
-            run.hide(Facet.USES, f"include() of the module {name}, which is not in sight")
-        return None
-    path = run.source(name)
-    if path is not None and not name.startswith(BINARY) and path not in run.files:
-        run.problem("missing-file", f"include() of {path}, which does not exist", run.where(args_text(name)))
-        return None
-    run.open_world = run.wild = True
-    run.hide(ANYTHING, f"include() of {readable(name)} cannot be followed")
-    return None
-
-
-def args_text(value: str) -> str:
-    """Return a value for looking up where it stands."""
-    return value
-
-
-def include_own(run: Run, path: str) -> int | None:
-    """Run a script of the package in the current scope."""
-    frame = Frame(True, join_path(run.sources.path, path), f"{SOURCE}/{path}")
-    return run_file(run, run.sources.scripts[path].commands, frame)
-
-
-def _include_foreign(run: Run, name: str) -> int | None:
-    package, _, installed = name[len(FOREIGN) :].partition("/")
-    helper = run.helpers.get(package)
-    if helper is not None:
-        source = next((file.source for file in helper.script.provides if file.path == installed), None)
-        if source is not None and source in helper.sources.scripts:
-            return include_foreign(run, package, source)
-    run.open_world = True
-    run.hide(Facet.USES, f"include() of {installed} of {package} cannot be followed")
-    return None
-
-
-def include_foreign(run: Run, package: str, source: str) -> int | None:
-    """Run a script of another package of the workspace in the current scope."""
-    helper = run.helpers[package]
-    installed = f"share/{package}/cmake/{posixpath.basename(source).removesuffix('.in')}"
-    installed = next((file.path for file in helper.script.provides if file.source == source), installed)
-    frame = Frame(False, join_path(helper.sources.path, source), f"{FOREIGN}{package}/{installed}", provider=package)
-    return run_file(run, helper.sources.scripts[source].commands, frame)
-
-
-MODULES: Final = frozenset({
-    "CMakePackageConfigHelpers", "CTest", "CheckCXXCompilerFlag", "CheckCXXSourceCompiles", "CheckCXXSourceRuns",
-    "CheckCCompilerFlag", "CheckCSourceCompiles", "CheckFunctionExists", "CheckIPOSupported", "CheckIncludeFile",
-    "CheckIncludeFileCXX", "CheckIncludeFiles", "CheckLanguage", "CheckLibraryExists", "CheckSymbolExists",
-    "CheckTypeSize", "CMakeDependentOption", "CMakeParseArguments", "CMakePrintHelpers", "CPack", "ExternalProject",
-    "FeatureSummary", "FetchContent", "FindPackageHandleStandardArgs", "FindPkgConfig", "GNUInstallDirs",
-    "GenerateExportHeader", "GoogleTest", "InstallRequiredSystemLibraries", "ProcessorCount", "TestBigEndian",
-    "UseJava", "UseSWIG", "WriteBasicConfigVersionFile", "CheckLinkerFlag", "CheckCompilerFlag", "CheckCXXSymbolExists",
-    "CheckStructHasMember", "CheckPIESupported", "CheckSourceCompiles", "DefaultPolicies", "FortranCInterface",
-    "CMakePushCheckState", "CheckCXXLinkerFlag",
-})  # fmt: skip
-"""CMake's own modules. They define commands and build nothing by themselves."""
-
-
-def _module(run: Run, name: str) -> None:
-    if name == "CTest":
-        run.settable.add("BUILD_TESTING")
-
-
-def _add_subdirectory(run: Run, args: list[str]) -> int | None:
-    name = args[0] if args else ""
-    path = run.source(name) if is_fixed(name) else None
-    if path is None:
-        run.open_world = run.wild = True
-        run.hide(ANYTHING, "add_subdirectory() of a folder that is not in sight")
-        return None
-    script = f"{path}/CMakeLists.txt" if path else "CMakeLists.txt"
-    if script not in run.sources.scripts:
-        if run.is_folder(path):
-            run.open_world = run.wild = True
-            run.hide(ANYTHING, f"add_subdirectory() of {path}, which has no CMakeLists.txt in sight")
-        else:
-            run.problem("missing-file", f"add_subdirectory() of {path}, which does not exist", run.where(name))
-        return None
-    run.enter_directory(path)
-    run.scopes.append(Variables())
-    kept = run.versions
-    frame = Frame(True, join_path(run.sources.path, script), f"{SOURCE}/{script}")
-    try:
-        return run_file(run, run.sources.scripts[script].commands, frame)
-    finally:
-        run.versions = kept
-        run.scopes.pop()
-        run.leave_directory()
-
-
-def readable(value: str) -> str:
-    """Return a value for a message."""
-    return value.replace(f"{SOURCE}/", "").replace(BINARY, "the build folder").replace(HOLE, "…").replace("\1", "")
-
-
 def _parse_arguments(run: Run, args: list[str]) -> None:
     """cmake_parse_arguments(prefix options one multi args...) and its PARSE_ARGV form."""
     if args[:1] == ["PARSE_ARGV"]:
@@ -372,8 +238,6 @@ COMMANDS: Final[dict[str, Handler]] = {
     "cmake_minimum_required": _minimum,
     "cmake_policy": _policy,
     "project": _project,
-    "include": _include,
-    "add_subdirectory": _add_subdirectory,
     "cmake_parse_arguments": _parse_arguments,
     "execute_process": _execute_process,
     "exec_program": _execute_process,

@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 from typing import Final
 
-from ros_lint.interpret.cmake_values import HOLE, LONGEST, MAYBE, flat
+from ros_lint.interpret.cmake_values import HOLE, LONGEST, MAYBE, certainly_set, flat
 
 Part = str | tuple[str, "Template"]
 """Text, or a reference: where to look ("", "ENV" or "CACHE") and the template of the name."""
@@ -109,6 +109,8 @@ def _stands_alone(pieces: list[str], index: int) -> str:
     before = "".join(pieces[:index])
     after = "".join(pieces[index + 1 :])
     alone = (not before or before.endswith(";")) and (not after or after.startswith(";"))
+    # A list that may be empty leaves an empty element behind, which no mark stands for.
+    alone = alone and certainly_set(pieces[index])
     return pieces[index] if alone else flat(pieces[index])
 
 

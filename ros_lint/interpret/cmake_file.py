@@ -10,7 +10,7 @@ from ros_lint.interpret.cmake_basic import nothing
 from ros_lint.interpret.cmake_glob import glob_regex
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_targets import generate
-from ros_lint.interpret.cmake_values import HOLE, SOURCE, data, is_fixed, is_known, join
+from ros_lint.interpret.cmake_values import ATOM, HOLE, SOURCE, data, is_fixed, is_known, join
 
 
 def _file(run: Run, args: list[str]) -> None:
@@ -29,7 +29,7 @@ def _file(run: Run, args: list[str]) -> None:
         run.set(args[2], args[1] if ":" not in args[1] and "\\" not in args[1] else HOLE)
     elif mode == "REAL_PATH" and len(args) > 2:
         run.set(args[2], _absolute(args[1], run.places["CMAKE_CURRENT_SOURCE_DIR"]))
-    elif mode in ("READ", "SIZE", "TIMESTAMP", "READ_SYMLINK", "MD5", "SHA1", "SHA256") or mode == "STRINGS":
+    elif mode in ("READ", "SIZE", "TIMESTAMP", "READ_SYMLINK", "MD5", "SHA1", "SHA256", "STRINGS"):
         run.set(args[2] if len(args) > 2 else "", HOLE)
 
 
@@ -57,38 +57,44 @@ def _glob(run: Run, args: list[str], recurse: bool) -> None:
             run.set(args[0], HOLE)
             return
         found += _matches(run, pattern, recurse, folders)
-    paths = [f"{SOURCE}/{path}" for path in sorted(dict.fromkeys(found), key=data)]
     if relative is not None:
-        paths = [_relative(path, relative) for path in paths]
-    run.set(args[0], join(paths))
+        found = [_relative(path, relative) for path in found]
+    run.set(args[0], HOLE if HOLE in found else join(sorted(dict.fromkeys(found), key=data)))
 
 
 def _matches(run: Run, pattern: str, recurse: bool, folders: bool) -> list[str]:
-    """Return the files, and folders if they are wanted, that a pattern matches."""
-    path = pattern[len(SOURCE) + 1 :] if pattern.startswith(SOURCE) else posixpath.join(run.directory, pattern)
-    path = posixpath.normpath(path)
-    head, _, last = path.rpartition("/")
-    fixed = re.split(r"/?[^/]*[*?\[]", path, maxsplit=1)[0]
-    if fixed == path:
-        fixed = head
-    regex = glob_regex(head)
-    middle = "(?:[^/]+/)*" if recurse else ""
-    whole = re.compile(f"{regex}{'/' if head else ''}{middle}{glob_regex(last)}")
-    files = run.below(fixed)
+    """Return the files, and folders if they are wanted, that a pattern matches, as paths that begin as the pattern does."""
+    path = pattern if pattern.startswith(SOURCE) else f"{run.places['CMAKE_CURRENT_SOURCE_DIR']}/{pattern}"
+    parts = path.split("/")
+    fixed = next((index for index, part in enumerate(parts) if any(letter in part for letter in "*?[")), len(parts) - 1)
+    fixed = min(fixed, len(parts) - 1)
+    top = "/".join(parts[:fixed])
+    folder = run.source(top)
+    if folder is None:
+        return [HOLE]
+    *heads, last = map(glob_regex, parts[fixed:])
+    whole = re.compile("".join(f"{head}/" for head in heads) + ("(?:[^/]+/)*" if recurse else "") + last)
+    skip = len(folder) + 1 if folder else 0
+    files = [file[skip:] for file in run.below(folder)]
     found = [file for file in files if whole.fullmatch(file)]
     if folders:
         above = {file[:end] for file in files for end in range(len(file)) if file[end] == "/"}
-        found += [folder for folder in above if whole.fullmatch(folder)]
-    return found
+        if recurse and heads:
+            return [HOLE]
+        found += [name for name in above if recurse or whole.fullmatch(name)]  # the search lists every folder it enters
+    return [f"{top}/{name}" for name in found]
 
 
 def _relative(path: str, base: str) -> str:
-    root = next((root for root in _ROOTS if path.startswith(root) and base.startswith(root)), None)
-    if root is not None and is_fixed(path) and is_fixed(base):
-        return posixpath.relpath(path, base).removeprefix("./")
-    if path.startswith("/") and base.startswith("/") and is_known(path) and is_known(base):
-        return posixpath.relpath(path, base)
-    return HOLE
+    same = next((root for root in _ROOTS if path.startswith(root) and base.startswith(root)), None)
+    if not (is_fixed(path) and is_fixed(base)):
+        return HOLE
+    if same is None and not (path.startswith("/") and base.startswith("/") and is_known(path) and is_known(base)):
+        return HOLE
+    found = posixpath.relpath(path, base)
+    if found == ".":
+        return ""
+    return f"{found}/" if found.endswith("..") else found
 
 
 _ROOTS: Final = ("/\1source", "/\1build", "/\1prefix")
@@ -97,7 +103,10 @@ _ROOTS: Final = ("/\1source", "/\1build", "/\1prefix")
 def _absolute(path: str, base: str) -> str:
     if not is_fixed(path) or not is_fixed(base):
         return HOLE
-    return posixpath.normpath(path if path.startswith("/") else posixpath.join(base, path))
+    whole = path if path.startswith("/") else posixpath.join(base, path)
+    found = posixpath.normpath(whole)
+    # What lies above the package is not known.
+    return found if whole.split("/")[1][:1] != ATOM or found.split("/")[1] == whole.split("/")[1] else HOLE
 
 
 def _component(run: Run, args: list[str]) -> None:
@@ -112,9 +121,10 @@ def _component(run: Run, args: list[str]) -> None:
 def _part(run: Run, path: str, mode: str, base: str) -> str:
     if mode in ("ABSOLUTE", "REALPATH"):
         return _absolute(path, base)
-    if mode in ("PROGRAM", "PROGRAM_ARGS") or "\2" in path:
+    if mode in ("PROGRAM", "PROGRAM_ARGS") or "\2" in path or "\\" in path:
         return HOLE
-    path = path.rstrip("/") if len(path) > 1 else path
+    if mode in ("DIRECTORY", "PATH"):
+        path = re.sub("/{2,}", "/", path).rstrip("/") or path[:1]
     folder, slash, last = path.rpartition("/")
     if mode in ("DIRECTORY", "PATH"):
         return HOLE if HOLE in last or path == SOURCE else (folder or ("/" if slash else ""))

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Final
 
-from ros_lint.collectors.cmake_syntax import PLAIN
 from ros_lint.interpret.cmake_regex import RegexError, anywhere, forget, translated
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_string import ascii_lower, ascii_upper, genex_strip, replace_all, strip
@@ -43,11 +42,7 @@ def _append(run: Run, name: str, args: list[str]) -> None:
         return
     old = run.get(name)
     run.set(name, join([old, *args]) if old else join(args))
-    command = run.frames[-1].command
-    if command is not None and run.frames[-1].own:
-        for argument in command.args[2:]:
-            if argument[1] == PLAIN:
-                run.literals.setdefault(argument[0], (run.frames[-1].path, command, argument))
+    run.remember(2)
 
 
 def _prepend(run: Run, name: str, args: list[str]) -> None:

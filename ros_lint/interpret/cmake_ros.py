@@ -11,7 +11,8 @@ from ros_lint.collectors.cmake_syntax import Command
 from ros_lint.facts import ANYTHING, Component, Facet, Provided
 from ros_lint.interpret.cmake_arguments import sections
 from ros_lint.interpret.cmake_blocks import Definition, blocks
-from ros_lint.interpret.cmake_flow import HANDLERS, call, counts
+from ros_lint.interpret.cmake_definitions import counts
+from ros_lint.interpret.cmake_flow import HANDLERS, call
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_state import Procedure, Properties
 from ros_lint.interpret.cmake_targets import generate

@@ -6,13 +6,13 @@ import posixpath
 import re
 from bisect import bisect_left
 from collections.abc import Callable, Mapping, Sequence
-from collections.abc import Set as AbstractSet
 from functools import lru_cache
 from typing import Final, NamedTuple
 
-from ros_lint.collectors.cmake_syntax import OPEN, QUOTED, UNQUOTED, Argument, Command, Parsed
-from ros_lint.facts import BuildScript, Component, Facet, Mention, Opaque, Problem, Provided, Via
+from ros_lint.collectors.cmake_syntax import LITERAL, OPEN, PLAIN, QUOTED, UNQUOTED, Argument, Command
+from ros_lint.facts import Component, Facet, Mention, Opaque, Problem, Provided, Via
 from ros_lint.interpret.cmake_expand import ExpansionError, expand, template
+from ros_lint.interpret.cmake_sources import Helper, Sources
 from ros_lint.interpret.cmake_state import MISSING, Frame, Properties, State
 from ros_lint.interpret.cmake_values import ATOM, BINARY, HOLE, MAYBE, PREFIX, SOURCE, split
 from ros_lint.knowledge.cmake_commands import SOFT_VARIABLES, UNKNOWN_VARIABLES, VARIABLES
@@ -23,37 +23,6 @@ MOST_STEPS: Final = 50_000
 """Commands that one package may run. The largest real one runs some 3,000."""
 DEEPEST: Final = 60
 """Calls within calls. CMake allows 1,000; real packages need less than 20."""
-
-
-class Sources(NamedTuple):
-    """What a package's CMake scripts can see of it."""
-
-    name: str
-    """As package.xml gives it, or ""."""
-    path: str
-    """The folder of the package, relative to the base of the run; "" is the base."""
-    files: Sequence[str]
-    """Every file below the folder, relative to it, sorted."""
-    scripts: Mapping[str, Parsed]
-    """CMakeLists.txt and all ``*.cmake`` and ``*.cmake.in`` files, by path relative to the folder."""
-    executables: AbstractSet[str] = frozenset()
-    """Those of the files that have the executable bit."""
-    version: str = ""
-    """As package.xml gives it."""
-    build_depends: tuple[str, ...] = ()
-    """What ament_auto_find_build_dependencies() finds: declared to build, to build with, or for everything."""
-    test_depends: tuple[str, ...] = ()
-    unseen: tuple[str, ...] = ()
-    """Folders below the package, relative to it, that exist and whose files are not listed."""
-    texts: Mapping[str, str] = {}
-    """What files hold that are read while CMake runs, such as setup.cfg, by path relative to the folder."""
-
-
-class Helper(NamedTuple):
-    """Another package of the workspace whose CMake code runs in those that find it (CONFIG_EXTRAS)."""
-
-    sources: Sources
-    script: BuildScript
 
 
 class InstalledTarget(NamedTuple):
@@ -75,6 +44,13 @@ def folded(name: str) -> str:
 
 
 _SIMPLE = re.compile(r"\$\{(\w+)\}")
+
+
+def _inside(path: str, command: Command, argument: Argument) -> Span:
+    """Return the place of an argument without its quotes."""
+    _, kind, start, end = argument
+    quotes = kind in (QUOTED, LITERAL)
+    return command.span(path, start + quotes, end - quotes)
 
 
 def substituted(text: str, given: Mapping[str, str]) -> str:
@@ -297,18 +273,25 @@ class Run(State):
                 break
             for argument in command.args:
                 if argument[0] == value and argument[1] < OPEN:
-                    return command.span(frame.path, argument[2], argument[3])
+                    return _inside(frame.path, command, argument)
         assert own is not None
         frame, command = own, own.command
         assert command is not None
         if value in self.literals:
-            path, command, (_, _, start, end) = self.literals[value]
-            return command.span(path, start, end)
+            return _inside(*self.literals[value])
         if value and frame is self.frames[-1]:
             for text, kind, start, end in command.args:
                 if kind in (UNQUOTED, QUOTED) and value in split(self.evaluated(text)):
                     return command.span(frame.path, start, end)
         return command.place(frame.path)
+
+    def remember(self, first: int) -> None:
+        """Note where list elements are written: the arguments of the current command from an index on."""
+        frame = self.frames[-1]
+        if frame.own and frame.command is not None:
+            for argument in frame.command.args[first:]:
+                if argument[1] in (PLAIN, LITERAL):
+                    self.literals.setdefault(argument[0], (frame.path, frame.command, argument))
 
     def here(self) -> Span:
         """Return the place of the current command in the package's own files."""
@@ -419,10 +402,6 @@ class Run(State):
         """Note that a command is wrong, if it runs for sure."""
         if not self.muted and not self.unsure:
             self.problems[Problem(kind, message, span)] = None
-
-    def property(self, target: str) -> Properties:
-        """Return what is known of a target."""
-        return self.targets.get(target, Properties())
 
 
 Handler = Callable[[Run, list[str]], "int | None"]

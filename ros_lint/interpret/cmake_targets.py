@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Final, Literal
 
 from ros_lint.facts import Facet, Target
-from ros_lint.interpret.cmake_conditions import is_off
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_state import Properties
+from ros_lint.interpret.cmake_truth import is_off
 from ros_lint.interpret.cmake_values import HOLE, elements, is_fixed, is_known, join, sure
 
 _LIBRARY_TYPES: Final = ("STATIC", "SHARED", "MODULE", "OBJECT", "INTERFACE", "UNKNOWN")

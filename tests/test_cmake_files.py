@@ -1,0 +1,94 @@
+"""file(GLOB), paths and the like against CMake itself."""
+
+from __future__ import annotations
+
+import random
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from ros_lint.collectors.cmake_syntax import parse
+from ros_lint.interpret import cmake_flow
+from ros_lint.interpret.cmake import Sources
+from ros_lint.interpret.cmake_run import Run
+from ros_lint.interpret.cmake_state import Frame
+from ros_lint.interpret.cmake_values import HOLE, SOURCE, is_fixed
+from ros_lint.text import Text
+
+try:
+    from cmake import CMAKE_BIN_DIR  # type: ignore[import-not-found, unused-ignore]  # of the wheel on PyPI
+
+    CMAKE = shutil.which("cmake", path=CMAKE_BIN_DIR)
+except ImportError:
+    CMAKE = shutil.which("cmake")
+
+FILES = (
+    "src/a.cpp", "src/b.cpp", "src/b.hpp", "src/sub/c.cpp", "src/sub/deep/d.cpp", "src/a-1.cpp", "src/.hidden.cpp", "src/[x].cpp",
+    "launch/a.launch.py", "launch/B.launch.py", "launch/é.launch.py", "a.txt", "b.c.txt", "a b/c.txt", "script",
+)  # fmt: skip
+
+
+def _line(choice: random.Random) -> str:
+    some = choice.choice
+    top = some(("", "", "${CMAKE_CURRENT_SOURCE_DIR}/", "${CMAKE_CURRENT_LIST_DIR}/", "./"))
+    patterns = (
+        "src/*.cpp", "src/*", "*", "src/[ab].cpp", "src/?.*pp", "src/*/*.cpp", "*/*.cpp", "launch/*.launch.py", "*.txt",
+        "src/sub", "src/[!a]*.cpp", "sr?/sub/*", "nothing/*", "src/[a-b]*", "src/../*.txt", "src/a.cpp", "launch/[A-Z]*",
+    )  # fmt: skip
+    paths = (
+        "src/a.cpp", "src/sub/c.tar.gz", "/abs/path/x.y.z", "a.txt", ".hidden", "dir.d/file", "../up.txt", "src/./a/../b.cpp",
+        "noext", "${CMAKE_CURRENT_SOURCE_DIR}/src/a.cpp", "dir/", "x..y", "", "/",
+    )  # fmt: skip
+    roll = choice.random()
+    if roll < 0.5:
+        mode = some(("GLOB", "GLOB_RECURSE"))
+        options = " ".join(
+            some(("", "", found))
+            for found in (
+                f"LIST_DIRECTORIES {some(('true', 'false'))}",
+                f"RELATIVE {some(('${CMAKE_CURRENT_SOURCE_DIR}', '${CMAKE_CURRENT_SOURCE_DIR}/src'))}",
+            )
+        )
+        return f'file({mode} V {options} "{top}{some(patterns)}"{some(("", f" {chr(34)}{top}{some(patterns)}{chr(34)}"))})'
+    if roll < 0.85:
+        mode = some(("NAME", "NAME_WE", "EXT", "LAST_EXT", "NAME_WLE", "DIRECTORY", "PATH", "ABSOLUTE"))
+        base = some(("", "", " BASE_DIR /base", " BASE_DIR ${CMAKE_CURRENT_SOURCE_DIR}/src")) if mode == "ABSOLUTE" else ""
+        return f'get_filename_component(V "{some(paths)}" {mode}{base})'
+    absolute = ("${CMAKE_CURRENT_SOURCE_DIR}/src/a.cpp", "${CMAKE_CURRENT_SOURCE_DIR}/b", "${CMAKE_CURRENT_SOURCE_DIR}")
+    return f'file(RELATIVE_PATH V "{some(absolute)}" "{some(absolute)}")'
+
+
+@pytest.mark.skipif(CMAKE is None, reason="cmake is not installed")
+def test_files_and_paths_are_those_of_cmake(tmp_path: Path) -> None:
+    choice = random.Random(5)
+    lines = list(dict.fromkeys(_line(choice) for _ in range(800)))
+    folder = tmp_path / "package"
+    for path in FILES:
+        (folder / path).parent.mkdir(parents=True, exist_ok=True)
+        (folder / path).write_text("")
+    script = tmp_path / "script.cmake"
+    dumps = "\n".join(f'set(V)\n{line}\nfile(APPEND "${{OUT}}" "{number} ${{V}}\\n")' for number, line in enumerate(lines))
+    script.write_text(
+        f"cmake_minimum_required(VERSION 3.20)\nset(CMAKE_CURRENT_LIST_DIR ${{CMAKE_CURRENT_SOURCE_DIR}})\n{dumps}\n"
+    )
+    out = tmp_path / "out.txt"
+    assert CMAKE is not None
+    ran = subprocess.run([CMAKE, f"-DOUT={out}", "-P", str(script)], cwd=folder, capture_output=True, text=True, check=False)
+    assert not ran.returncode, ran.stderr[:2000]
+    real = dict(line.split(" ", 1) for line in out.read_text().splitlines())
+
+    wrong = []
+    unknown = 0
+    for number, line in enumerate(lines):
+        run = Run(Sources("p", "package", sorted(FILES), {}), "", {}, lambda *_: None)
+        run.versions = (3, 20)
+        run.enter_directory("")
+        cmake_flow.run_file(run, parse(Text("x", line)).commands, Frame(True, "", f"{SOURCE}/CMakeLists.txt"))
+        value = run.get("V") or ""
+        unknown += HOLE in value
+        if is_fixed(value) and value.replace(SOURCE, str(folder)) != real[str(number)]:
+            wrong.append((line, value, real[str(number)]))
+    assert not wrong, "\n".join(map(str, wrong[:12]))
+    assert unknown < len(lines) / 20
