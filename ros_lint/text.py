@@ -35,6 +35,8 @@ class Span(NamedTuple):
         return Span(self.path, self.end_line, self.end_column, self.end_line, self.end_column)
 
 
+_make = tuple.__new__
+
 # Not str.splitlines: it also splits at form feeds and U+2028, which no parser here counts as a line.
 _NEWLINE = re.compile(r"\r\n|\r|\n")
 
@@ -65,7 +67,13 @@ class Text:
 
     def span(self, start: int, end: int) -> Span:
         """Return the span between two offsets, each from 0 to the length of the text."""
-        return Span(self.path, *self.position(start), *self.position(end))
+        starts = self._line_starts()
+        line = bisect_right(starts, start)
+        before = starts[line - 1] - 1
+        if line < len(starts) and end >= starts[line]:
+            return Span(self.path, line, start - before, *self.position(end))
+        # Nearly all places lie within a line: made twice as fast as by the constructor.
+        return _make(Span, (self.path, line, start - before, line, end - before))
 
     def spans(self, ranges: Iterable[tuple[int, int]]) -> Iterator[Span]:
         """Return the spans of ranges that are sorted and lie within a line each.
