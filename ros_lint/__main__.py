@@ -1,7 +1,5 @@
 """``python -m ros_lint``."""
 
-import sys
+from ros_lint.cli import run
 
-from ros_lint.cli import main
-
-sys.exit(main())
+run()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-import difflib
+import os
 import sys
 from collections.abc import Callable, Sequence
 from typing import Any, NoReturn
@@ -22,12 +22,32 @@ exit codes: 0 nothing found, 1 findings at or above --fail-on, 2 the tool could 
 class _Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         if message.startswith("unrecognized arguments: "):
+            import difflib  # noqa: PLC0415  (needed for a slip only)
+
             flag = message.partition(": ")[2].split()[0].partition("=")[0]
             known = [text for action in self._actions for text in action.option_strings]
             close = difflib.get_close_matches(flag, known, 1)
             message += f", did you mean {close[0]}?" if close else ""
         print(f"ros-lint: {message} (ros-lint --help lists what there is)", file=sys.stderr)
         raise SystemExit(2)
+
+
+class _Formatter(argparse.RawDescriptionHelpFormatter):
+    """Knows its width without ``shutil``: argparse makes one for every option there is, on every start."""
+
+    def __init__(self, prog: str) -> None:
+        super().__init__(prog, width=_columns() - 2)
+
+
+def _columns() -> int:
+    """Return the width of the terminal as shutil.get_terminal_size does, at least 30."""
+    told = os.environ.get("COLUMNS", "")
+    if told.isdecimal() and int(told):
+        return max(int(told), 30)
+    try:
+        return max(os.get_terminal_size(sys.__stdout__.fileno()).columns, 30) if sys.__stdout__ else 80
+    except (OSError, ValueError):
+        return 80
 
 
 def parse(arguments: Sequence[str]) -> tuple[str, dict[str, Any]]:
@@ -49,7 +69,7 @@ def parser(command: str, *, top: bool = False) -> argparse.ArgumentParser:
         "ros-lint" if top else f"ros-lint {command}",
         description="Check ROS 2 workspaces without building them." if top else f"{COMMANDS[command].capitalize()}.",
         epilog=_EPILOG.format(listed) if top else None,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        formatter_class=_Formatter,
         allow_abbrev=False,
         argument_default=argparse.SUPPRESS,
     )

@@ -7,7 +7,23 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from typing import NoReturn
+
+
+def run() -> NoReturn:
+    """Run the command of this process and end it."""
+    code = main()
+    try:
+        sys.stdout.flush()
+        sys.stderr.flush()
+    except OSError:
+        code = code or 2  # whoever read along has gone
+    # Nothing is left to be saved. Taking a model of a large workspace to pieces would take as long as reading it.
+    os._exit(code)
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import fnmatch
-import traceback
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
@@ -83,6 +82,8 @@ def run(workspace: Workspace, rules: Iterable[Rule]) -> tuple[tuple[Issue, ...],
             except KnowledgeError:
                 raise  # no rule can do its job, and the user must act
             except Exception:
+                import traceback  # noqa: PLC0415
+
                 crashes.append(Crash(rule.name, package.name if package else "", traceback.format_exc()))
     return tuple(sorted(issues, key=order)), tuple(crashes)
 

@@ -7,9 +7,8 @@ when the settings enable plugins.
 
 from __future__ import annotations
 
-import difflib
 import importlib
-import pkgutil
+import os
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from types import ModuleType
@@ -53,8 +52,17 @@ def _plugin_rules() -> Iterator[Rule]:
 def _rules_of(module: ModuleType) -> Iterator[Rule]:
     if isinstance(rule := getattr(module, "RULE", None), Rule):
         yield rule
-    for info in pkgutil.iter_modules(getattr(module, "__path__", ()), f"{module.__name__}."):
-        yield from _rules_of(importlib.import_module(info.name))
+    for name in sorted({name for folder in getattr(module, "__path__", ()) for name in _inside(folder)}):
+        yield from _rules_of(importlib.import_module(f"{module.__name__}.{name}"))
+
+
+def _inside(folder: str) -> Iterator[str]:
+    """Yield the modules and packages in the folder of a package. ``pkgutil`` would cost more to import than to have."""
+    for entry in os.scandir(folder) if os.path.isdir(folder) else ():
+        name, dot, suffix = entry.name.partition(".")
+        is_module = suffix == "py" or (not dot and os.path.isfile(os.path.join(entry.path, "__init__.py")))
+        if is_module and name.isidentifier() and name != "__init__":
+            yield name
 
 
 def matching(rules: Sequence[Rule], selector: str) -> tuple[Rule, ...]:
@@ -71,6 +79,8 @@ def matching(rules: Sequence[Rule], selector: str) -> tuple[Rule, ...]:
 
 def suggest(rules: Sequence[Rule], selector: str) -> str:
     """Return the name or code nearest to a selector that means nothing, or ""."""
+    import difflib  # noqa: PLC0415  (needed for a slip only)
+
     words = [word for rule in rules for word in (rule.name, rule.code)]
     close = difflib.get_close_matches(selector, [*words, "all", "default"], 1)
     return close[0] if close else ""

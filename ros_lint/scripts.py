@@ -121,13 +121,13 @@ def _modules(tree: Tree, found: Found, script: BuildScript) -> Iterator[PythonMo
 def _with_files(tree: Tree, found: Found, script: BuildScript) -> BuildScript:
     """Return a script with what is known of the other files that it installs: plugin descriptions and scripts."""
     named = {call.texts[1] for call in script.written if call.name.startswith("pluginlib_export") and len(call.args) > 1}
-    candidates = [file for file in found.files if file.endswith(".xml") and (file in named or _PLUGIN_FILE.search(file))]
+    markup = [file for file in found.files if file.endswith(".xml")]
+    candidates = [file for file in markup if file in named or _PLUGIN_FILE.search(file)]
     described = (plugin_xml.collect(file, text) for file in candidates if (text := _text(tree, found, file)))
-    plugins = tuple(plugin for plugin in described if plugin)
+    plugins = tuple([plugin for plugin in described if plugin])
     started = (f"lib/{found.name}/", "bin/")
-    sources = dict.fromkeys(p.source for p in script.provides if p.source and p.path.startswith(started))
-    folders = {file.rpartition("/")[0] for file in sources}
-    sources.update(dict.fromkeys(file for file in found.files if _is_script(file, folders)))
+    sources = dict.fromkeys([p.source for p in script.provides if p.source and p.path.startswith(started)])
+    sources.update(dict.fromkeys(_programs(found.files, {file.rpartition("/")[0] for file in sources})))
     executables = _Executables(tree, found)
     files = [_script_file(file, text, file in executables) for file in sources if (text := _text(tree, found, file))]
     hidden = any(opaque.hides & Facet.SHARE for opaque in script.opaque)
@@ -139,16 +139,22 @@ def _with_files(tree: Tree, found: Found, script: BuildScript) -> BuildScript:
 
 def _named(tree: Tree, found: Found, script: BuildScript) -> Iterator[tuple[str, Span]]:
     """Yield the resources that are not installed and that a text of the package names, with the first place."""
-    missing = resource_files.uninstalled(found.files, (provided.source for provided in script.provides))
-    left = {file: resource_files.pattern_of(file) for files in missing.values() for file in files[:_MOST_RESOURCES]}
+    missing = resource_files.uninstalled(found.files, [provided.source for provided in script.provides])
+    left: dict[str, tuple[bytes, bytes]] = {}
+    for file in (file for files in missing.values() for file in files[:_MOST_RESOURCES]):
+        folder, _, name = file.encode().rpartition(b"/")
+        left[file] = folder.rpartition(b"/")[2], name
     for file in filter(resource_files.may_name, found.files if left else ()):
         path = join(found.path, file)
         try:
             data = tree.read(path)
         except OSError:
             continue
-        for resource, pattern in list(left.items()):
-            hit = pattern.search(data) if resource != file and resource.rpartition("/")[2].encode() in data else None
+        folders = {folder for folder in {folder for folder, _ in left.values()} if folder in data}
+        for resource, (folder, name) in list(left.items()) if folders else ():
+            if folder not in folders or resource == file or name not in data:
+                continue
+            hit = resource_files.pattern_of(resource).search(data)
             if hit:
                 line = data.count(b"\n", 0, hit.start(1)) + 1
                 column = len(data[data.rfind(b"\n", 0, hit.start(1)) + 1 : hit.start(1)].decode("utf-8", "replace")) + 1
@@ -156,11 +162,13 @@ def _named(tree: Tree, found: Found, script: BuildScript) -> Iterator[tuple[str,
                 del left[resource]
 
 
-def _is_script(file: str, folders: Container[str]) -> bool:
-    """Whether a file may be a program: by its place, beside others or in a folder for them, and by its name."""
-    folder, _, name = file.rpartition("/")
-    named = name.endswith((".py", ".sh")) or "." not in name
-    return named and bool(folder) and (folder in folders or _SCRIPTS.match(file) is not None)
+def _programs(files: Sequence[str], folders: Container[str]) -> Iterator[str]:
+    """Yield the files that may be programs: by their place, beside others or in a folder for them, and by their name."""
+    for file in files:
+        if file.endswith((".py", ".sh")) or file.rfind(".") < file.rfind("/"):
+            folder = file.rpartition("/")[0]
+            if folder and (folder in folders or _SCRIPTS.match(file)):
+                yield file
 
 
 def _script_file(path: str, text: Text, executable: bool) -> ScriptFile:
