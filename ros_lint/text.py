@@ -131,7 +131,8 @@ class Text:
         return self._starts
 
 
-_BOMS = ((codecs.BOM_UTF8, "utf-8-sig"), (codecs.BOM_UTF16_LE, "utf-16"), (codecs.BOM_UTF16_BE, "utf-16"))
+# "utf-16" writes the mark of the little end, so the other one stays in the text as its first character.
+_BOMS = ((codecs.BOM_UTF8, "utf-8-sig"), (codecs.BOM_UTF16_LE, "utf-16"), (codecs.BOM_UTF16_BE, "utf-16-be"))
 # XML 1.0, appendix F: a file without a mark that begins with markup all the same.
 _XML_WIDE = (
     (re.compile(rb"(?:[ \t\r\n]\0)*<\0"), "utf-16-le"),
@@ -148,6 +149,10 @@ def decode(data: bytes) -> tuple[str, str]:
     declaration or a Python coding line names, then UTF-8. Bytes that are no UTF-8 survive as lone surrogates, so nothing
     raises and nothing is lost.
     """
+    head = data[:400]
+    named = b"coding" in head
+    if not named and data.isascii() and b"\0" not in head[:2]:
+        return data.decode("ascii"), "utf-8"  # nearly every file, and nothing of what follows
     for mark, codec in _BOMS:
         if data.startswith(mark):
             try:
@@ -156,15 +161,15 @@ def decode(data: bytes) -> tuple[str, str]:
                 break
             return text, codec
     for begins, codec in _XML_WIDE:
-        if b"\0" in data[:2] and begins.match(data):
+        if b"\0" in head[:2] and begins.match(data):
             with suppress(UnicodeDecodeError):
                 return data.decode(codec), codec
-    declared = _XML_ENCODING.match(data) or (_PYTHON_ENCODING.match(data) if b"coding" in data[:400] else None)
+    declared = _XML_ENCODING.match(data) or (_PYTHON_ENCODING.match(data) if named else None)
     if declared:
         try:
             codec = codecs.lookup(declared[1].decode("ascii")).name
             text = data.decode(codec)
-            if codec != "utf-8" and text.encode(codec) == data:
+            if codec == "utf-8" or text.encode(codec) == data:
                 return text, codec
         except (LookupError, UnicodeError):
             pass

@@ -32,7 +32,14 @@ def test_many_spans_are_as_one_by_one(text: str, places: list[int]) -> None:
     assert list(source.spans(ranges)) == [source.span(*each) for each in ranges]
 
 
-@given(st.binary(max_size=60) | TEXTS.map(lambda text: text.encode("utf-8", "surrogateescape")))
+BEGINNINGS = (b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff", b"<\0", b"\0<", b"# coding: utf-16\n", b'<?xml encoding="utf-8"?>')
+
+
+@given(
+    st.binary(max_size=60)
+    | TEXTS.map(lambda text: text.encode("utf-8", "surrogateescape"))
+    | st.builds(bytes.__add__, st.sampled_from(BEGINNINGS), st.binary(max_size=9))
+)
 def test_bytes_survive(data: bytes) -> None:
     text = read("f", data)
     assert text.encode(text.text) == data
@@ -43,6 +50,9 @@ def test_bytes_survive(data: bytes) -> None:
     [
         (b"\xef\xbb\xbfa", "a", "utf-8-sig"),
         ("é".encode("utf-16"), "é", "utf-16"),
+        (b"\xfe\xff\x00\xe9", "\ufeffé", "utf-16-be"),
+        (b"\xfe\xff", "\ufeff", "utf-16-be"),
+        (b"\xff\xfe\xff\xfe", "\ufeff", "utf-16"),
         (b'<?xml version="1.0" encoding="ISO-8859-1"?>\xe9', '<?xml version="1.0" encoding="ISO-8859-1"?>é', "iso8859-1"),
         (b"# -*- coding: latin-1 -*-\n\xe9", "# -*- coding: latin-1 -*-\né", "iso8859-1"),
         (b'<?xml version="1.0" encoding="no-such"?>\xe9', '<?xml version="1.0" encoding="no-such"?>\udce9', "utf-8"),
