@@ -9,10 +9,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.collectors.launch_expression import evaluate, means_true
-from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, asked_for, fill, is_settled, joined
+from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, asked_for, configurations, fill, is_settled, joined
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable, Iterable, Iterator, Mapping
 
     from ros_lint.facts import LaunchAction, LaunchCondition, LaunchFile, LaunchValue
     from ros_lint.text import Span
@@ -42,13 +42,56 @@ class Started(NamedTuple):
     span: Span
     depth: int
     """How many includes lie between."""
+    container: Texts = ()
+    """The full name of the container that a component is loaded into."""
+    environment: tuple[tuple[str, Texts], ...] = ()
+    """Variables that the launch file sets for it."""
+    file: str = ""
+    """The path of an included file that was followed, as :attr:`LaunchFile.path`; "" when it could not be."""
+    unknown: tuple[str, ...] = ()
+    """Why something in the texts is not known."""
+    when: tuple[LaunchCondition, ...] = ()
+    """The conditions that it depends on, with what is known filled in; empty when ``certain``."""
+
+
+class Argument(NamedTuple):
+    """A launch argument that a file declares, with what it is in this run."""
+
+    name: str
+    texts: Texts
+    span: Span
+    depth: int
+    given: bool
+    """Whether it has its value from whoever launches or includes the file, and not from its default."""
 
 
 class Missing(NamedTuple):
-    """An argument that an included file requires and nobody gives."""
+    """An argument that a file requires and nobody gives."""
 
     name: str
     span: Span
+    """Of the declaration."""
+    include: Span | None = None
+    """Of the include that does not give it, None for the file that is launched."""
+
+
+class Refused(NamedTuple):
+    """A value that is not among the choices of its argument."""
+
+    name: str
+    value: str
+    choices: tuple[str, ...]
+    span: Span
+    """Of the declaration."""
+
+
+class Circle(NamedTuple):
+    """An include that leads back to a file which is being included, with the same values: it never ends."""
+
+    path: str
+    """Of the file, as :attr:`LaunchFile.path`."""
+    span: Span
+    """Of the include."""
 
 
 class Expansion(NamedTuple):
@@ -58,37 +101,73 @@ class Expansion(NamedTuple):
     missing: tuple[Missing, ...]
     complete: bool
     """False when it was cut short, because includes go in a circle or there is too much."""
+    arguments: tuple[Argument, ...] = ()
+    """In the order in which they are declared."""
+    refused: tuple[Refused, ...] = ()
+    circles: tuple[Circle, ...] = ()
 
 
 def expand(
     file: LaunchFile, given: Mapping[str, str], files: Callable[[str], LaunchFile | None] = lambda path: None, distro: str = ""
 ) -> Expansion:
-    """Return what a launch file starts with the arguments given."""
+    """Return what a launch file starts with the arguments given.
+
+    ``files`` finds an included file by its path, which may begin with the mark of an install prefix; the path of ``file``
+    itself says where it lies, too.
+    """
     run = _Run(files, {f"${name}": (value,) for name, value in (("ROS_DISTRO", distro),) if value})
     run.file(file, {name: (value,) for name, value in given.items()})
-    return Expansion(tuple(run.started), tuple(run.missing), run.complete)
+    return Expansion(
+        tuple(run.started),
+        tuple(run.missing),
+        run.complete,
+        tuple(run.arguments),
+        tuple(run.refused),
+        tuple(run.circles),
+    )
 
 
 class _Scope(NamedTuple):
-    """What actions see and change. The mappings live on while actions of one scope run."""
+    """What actions see and change. ``values`` lives on while actions of one scope run; the rest is passed on."""
 
     values: dict[str, Texts]
     folder: Texts
     namespace: Texts = ("",)
     certain: bool = True
+    parameters: tuple[tuple[str, Texts], ...] = ()
+    remappings: tuple[tuple[Texts, Texts], ...] = ()
+    environment: tuple[tuple[str, Texts], ...] = ()
+    container: Texts = ()
+    when: tuple[LaunchCondition, ...] = ()
+    include: Span | None = None
+    """By which the file came that is being followed."""
+
+    def after(self, inner: _Scope) -> _Scope:
+        """Return what holds after actions that ran in another scope but were not to be kept apart."""
+        return self._replace(
+            namespace=inner.namespace,
+            parameters=inner.parameters,
+            remappings=inner.remappings,
+            environment=inner.environment,
+        )
 
 
 class _Run:
     def __init__(self, files: Callable[[str], LaunchFile | None], environment: Mapping[str, Texts]) -> None:
         self._files = files
         self._environment = environment
-        self._open: list[str] = []
+        self._open: list[tuple[str, dict[str, Texts]]] = []
+        self._unknown: dict[str, None] = {}
         self.started: list[Started] = []
         self.missing: list[Missing] = []
+        self.arguments: list[Argument] = []
+        self.refused: list[Refused] = []
+        self.circles: list[Circle] = []
         self.complete = True
 
     def file(self, file: LaunchFile, given: dict[str, Texts]) -> None:
         folder = file.path.rpartition("/")[0]
+        self._open.append((file.path, dict(given)))
         self._actions(file.actions, _Scope(given, (folder or ".",)))
 
     def _actions(self, actions: Iterable[LaunchAction], scope: _Scope) -> _Scope:
@@ -100,44 +179,51 @@ class _Run:
         if len(self.started) > _MOST:
             self.complete = False
             return scope
-        truth = self._truth(action.conditions, scope)
+        truth, when = self._truth(action.conditions, scope)
         if truth is False:
             return scope
-        certain = scope.certain and truth is True
+        outer = scope
+        if truth is None:
+            scope = scope._replace(certain=False, when=(*scope.when, *when))
         match action.kind:
             case "argument":
-                self._declare(action, scope, certain)
+                self._declare(action, scope)
             case "set":
                 for name in self.texts(action.target, scope):
-                    self._set(scope, name, self.texts(action.value, scope), certain)
-            case "namespace":
-                pushed = self.texts(action.value, scope)
-                if not certain:
-                    pushed = (*pushed, "")
-                return scope._replace(namespace=_joined_namespaces(scope.namespace, pushed))
+                    self._set(scope, name, self.texts(action.value, scope), scope.certain)
+            case "namespace" | "parameter" | "remap" | "environment":
+                return outer.after(self._pushed(action, scope))
             case "group":
-                return scope._replace(namespace=self._group(action, scope._replace(certain=certain)))
+                return outer.after(self._group(action, scope))
             case "later":
-                self._actions(action.children, scope._replace(values=dict(scope.values), certain=certain))
+                self._actions(action.children, scope._replace(values=dict(scope.values)))
             case "include":
-                return self._include(action, scope, certain)
+                return outer.after(self._include(action, scope))
             case "node" | "component" | "process":
-                self._start(action, scope, certain)
-                self._actions(action.children, scope._replace(certain=certain))
+                started = self._start(action, scope)
+                container = _joined_namespaces(started.namespace, started.name) if started.name else (UNKNOWN,)
+                self._actions(action.children, scope._replace(container=container))
             case _:
-                self._actions(action.children, scope._replace(certain=certain))
-        return scope
+                self._actions(action.children, scope)
+        return outer
 
-    def _declare(self, action: LaunchAction, scope: _Scope, certain: bool) -> None:
+    def _declare(self, action: LaunchAction, scope: _Scope) -> None:
         for name in self.texts(action.target, scope):
-            if name in scope.values:
-                continue
-            if action.value is None:
-                if self._open and certain:
-                    self.missing.append(Missing(name, action.span))
+            given = name in scope.values
+            if not given and action.value is None:
+                if scope.certain:
+                    self.missing.append(Missing(name, action.span, scope.include))
                 scope.values[name] = (UNKNOWN,)
-            else:
-                self._set(scope, name, self.texts(action.value, scope), certain)
+            elif not given:
+                self._set(scope, name, self.texts(action.value, scope), scope.certain)
+            texts = scope.values[name]
+            self.arguments.append(Argument(name, texts, action.span, self._depth, given))
+            if scope.certain and len(texts) == 1 and is_settled(texts[0]) and self._is_refused(texts[0], action):
+                self.refused.append(Refused(name, texts[0], action.choices, action.span))
+
+    @staticmethod
+    def _is_refused(value: str, action: LaunchAction) -> bool:
+        return bool(action.choices) and all(map(is_settled, action.choices)) and value not in action.choices
 
     def _set(self, scope: _Scope, name: str, texts: Texts, certain: bool) -> None:
         before = scope.values.get(name)
@@ -146,54 +232,90 @@ class _Run:
         else:
             scope.values[name] = tuple(dict.fromkeys((*before, *texts)))
 
-    def _group(self, action: LaunchAction, scope: _Scope) -> Texts:
-        """Do what a group does, and return the namespace that holds after it."""
-        scoped = action.name is None or action.name.texts != ("unscoped",)
-        inner = scope._replace(values=dict(scope.values)) if scoped else scope
-        for name, value in action.arguments:
-            self._set(inner, name, self.texts(value, scope), certain=True)
-        after = self._actions(action.children, inner)
-        return scope.namespace if scoped else after.namespace
+    def _pushed(self, action: LaunchAction, scope: _Scope) -> _Scope:
+        """Return a scope with what an action sets for everything that comes after it."""
+        texts = self.texts(action.value, scope)
+        if action.kind == "namespace":
+            return scope._replace(namespace=_joined_namespaces(scope.namespace, texts if scope.certain else (*texts, "")))
+        if not scope.certain:
+            texts = (*texts, UNKNOWN)
+        names = self.texts(action.target, scope) or ("",)
+        if action.kind == "remap":
+            return scope._replace(remappings=(*scope.remappings, (names, texts)))
+        pairs = tuple((name, texts) for name in names)
+        if action.kind == "parameter":
+            return scope._replace(parameters=(*scope.parameters, *pairs))
+        return scope._replace(environment=(*(one for one in scope.environment if one[0] not in names), *pairs))
 
-    def _include(self, action: LaunchAction, scope: _Scope, certain: bool) -> _Scope:
-        self._start(action, scope, certain)
+    def _group(self, action: LaunchAction, scope: _Scope) -> _Scope:
+        """Do what a group does, and return what holds after it."""
+        name = self.texts(action.name, scope)
+        scoped = name != ("unscoped",)
+        inner = scope._replace(values=dict(scope.values)) if scoped else scope
+        if scoped and name:
+            inner = inner._replace(container=name)
+        for given, value in action.arguments:
+            self._set(inner, given, self.texts(value, scope), certain=True)
+        after = self._actions(action.children, inner)
+        return scope if scoped else after
+
+    def _include(self, action: LaunchAction, scope: _Scope) -> _Scope:
+        started = self._start(action, scope)
         for name, value in action.arguments:
             if name:
-                self._set(scope, name, self.texts(value, scope), certain)
-        targets = self.texts(action.target, scope)
-        if len(targets) != 1 or UNKNOWN in targets[0]:
-            return scope
-        path = targets[0]
-        if path in self._open or len(self._open) > _DEEPEST:
-            self.complete = False
-            return scope
-        file = self._files(path)
+                self._set(scope, name, self.texts(value, scope), scope.certain)
+        path = started.target[0] if len(started.target) == 1 else UNKNOWN
+        file = self._files(path) if is_settled(path) else None
         if file is None:
             return scope
-        self._open.append(path)
-        folder = path.rpartition("/")[0]
+        self.started[-1] = started._replace(file=file.path)
+        again = (path, scope.values) in self._open
+        if again and scope.certain:
+            self.circles.append(Circle(file.path, action.span))
+        if again or self.circles or len(self._open) > _DEEPEST:
+            self.complete = False
+            return scope
+        self._open.append((path, dict(scope.values)))
         # What is included shares the configurations and the namespace, but not the place that it stands in.
-        after = self._actions(file.actions, scope._replace(folder=(folder,), certain=certain))
-        self._open.pop()
-        return scope._replace(namespace=after.namespace)
-
-    def _start(self, action: LaunchAction, scope: _Scope, certain: bool) -> None:
-        command = [value for name, value in action.arguments if not name] if action.kind == "process" else []
-        self.started.append(
-            Started(
-                action.kind,
-                self.texts(action.package, scope),
-                joined([self.texts(word, scope) for word in command], " ".join) if command else self.texts(action.target, scope),
-                self.texts(action.name, scope),
-                _joined_namespaces(scope.namespace, self.texts(action.namespace, scope) or ("",)),
-                tuple((name, self.texts(value, scope)) for name, value in action.parameters),
-                tuple((self.texts(a, scope), self.texts(b, scope)) for a, b in action.remappings),
-                tuple((name, self.texts(value, scope)) for name, value in action.arguments if name),
-                certain,
-                action.span,
-                len(self._open),
-            )
+        after = self._actions(
+            file.actions, scope._replace(folder=(path.rpartition("/")[0],), include=action.span, container=())
         )
+        self._open.pop()
+        return after
+
+    @property
+    def _depth(self) -> int:
+        return len(self._open) - 1
+
+    def _start(self, action: LaunchAction, scope: _Scope) -> Started:
+        command = [value for name, value in action.arguments if not name] if action.kind == "process" else []
+        self._unknown.clear()
+        is_node = action.kind in ("node", "component")
+        started = Started(
+            action.kind,
+            self.texts(action.package, scope),
+            joined([self.texts(word, scope) for word in command], " ".join) if command else self.texts(action.target, scope),
+            self.texts(action.name, scope),
+            _joined_namespaces(scope.namespace, self.texts(action.namespace, scope) or ("",)),
+            (
+                *(scope.parameters if is_node else ()),
+                *((name, self.texts(value, scope)) for name, value in action.parameters),
+            ),
+            (
+                *(scope.remappings if is_node else ()),
+                *((self.texts(a, scope), self.texts(b, scope)) for a, b in action.remappings),
+            ),
+            tuple((name, self.texts(value, scope)) for name, value in action.arguments if name),
+            scope.certain,
+            action.span,
+            self._depth,
+            scope.container if action.kind == "component" else (),
+            scope.environment if action.kind in ("node", "process") else (),
+            unknown=tuple(self._unknown),
+            when=scope.when,
+        )
+        self.started.append(started)
+        return started
 
     def texts(self, value: LaunchValue | None, scope: _Scope) -> Texts:
         """Return what a value is in a scope, () for none."""
@@ -205,20 +327,43 @@ class _Run:
             if is_settled(text) and OWN_FOLDER not in text:
                 found[text] = None
                 continue
-            for one in fill(text, lambda name: scope.values.get(name) or self._environment.get(name), evaluate):
+            for one in fill(text, lambda name: self._value(name, scope), evaluate):
                 found.update(dict.fromkeys(one.replace(OWN_FOLDER, folder) for folder in scope.folder))
+                if UNKNOWN in one:
+                    self._unknown.update(dict.fromkeys(self._reasons(text, scope)))
         return tuple(found)
 
-    def _truth(self, conditions: Iterable[LaunchCondition], scope: _Scope) -> bool | None:
-        """Return whether all conditions hold."""
-        result: bool | None = True
+    def _value(self, name: str, scope: _Scope) -> Texts | None:
+        if not name.startswith("$"):
+            return scope.values.get(name)
+        return dict(scope.environment).get(name[1:]) or self._environment.get(name)
+
+    def _reasons(self, text: str, scope: _Scope) -> Iterator[str]:
+        """Yield why a text is not known."""
+        for name, has_default in configurations(text):
+            value = self._value(name, scope)
+            if name.startswith("$"):
+                if value is None and not has_default:
+                    yield f"the environment variable {name[1:]} is not known here"
+            elif value == (UNKNOWN,):
+                yield f"the argument {name} is not known"
+            elif value is None and not has_default:
+                yield f"nothing sets the launch configuration {name}"
+        if UNKNOWN in text:
+            yield "it is computed in a way that cannot be followed"
+
+    def _truth(
+        self, conditions: Iterable[LaunchCondition], scope: _Scope
+    ) -> tuple[bool | None, tuple[LaunchCondition, ...]]:
+        """Return whether all conditions hold, and those of which that is not known."""
+        open_: list[LaunchCondition] = []
         for condition in conditions:
             truth = self._holds(condition, scope)
             if truth is False:
-                return False
+                return False, ()
             if truth is None:
-                result = None
-        return result
+                open_.append(condition)
+        return (None if open_ else True), tuple(open_)
 
     def _holds(self, condition: LaunchCondition, scope: _Scope) -> bool | None:
         answers: set[bool | None] = set()
