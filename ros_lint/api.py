@@ -60,7 +60,7 @@ from ros_lint.launch_links import Links, everything
 from ros_lint.needs import Need, comes_with_launching, covered, declared_closure, may_bring, needs, undeclared
 from ros_lint.resource_files import uninstalled as uninstalled_resources
 from ros_lint.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
-from ros_lint.strangers import Stranger, declared_names
+from ros_lint.strangers import Stranger, declared_names, strangers
 from ros_lint.suppress import Outcome
 from ros_lint.text import Span
 from ros_lint.workspace import Declared, Package, Target, Workspace
@@ -147,6 +147,7 @@ __all__ = [
     "remove_dependency",
     "setup_edits",
     "stranded",
+    "strangers",
     "tag_for",
     "top_file",
     "undeclared",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import fnmatch
 from collections.abc import Sequence
 
 from ros_lint import manifest_edits
@@ -70,7 +69,7 @@ def is_unseen_by_name(workspace: Workspace, name: str) -> bool:
     world = workspace.world
     if not world.is_package(name) or world.is_key(name):
         return True
-    return any(fnmatch.fnmatchcase(name, pattern) for pattern in world.knowledge.names.unseen)
+    return world.knowledge.names.works_unseen(name)
 
 
 def works_unseen(package: Package, workspace: Workspace, name: str) -> bool:

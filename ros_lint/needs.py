@@ -9,7 +9,8 @@ from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from ros_lint.facts import Role, Use, Via
-from ros_lint.workspace import Package, Workspace
+from ros_lint.text import Span
+from ros_lint.workspace import Package, Workspace, per_package
 from ros_lint.world import Closure
 
 
@@ -41,8 +42,11 @@ class Need(NamedTuple):
 
 
 _TELLING: tuple[Via, ...] = ("include", "import", "cmake", "interface", "target", "macro", "package", "key", "launch")
+_RANKS = {via: rank for rank, via in enumerate(_TELLING)}
+_TEST = Role.TEST
 
 
+@per_package
 def needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
     """Return every need of a package, in the order of the best evidence. What it can do without is no need.
 
@@ -53,35 +57,62 @@ def needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
     found: dict[str, list[Use]] = {}
     for use in package.uses:
         if not use.optional:
-            found.setdefault(use.package, []).append(use)
-    declared = frozenset(declared.name for declared in package.declared)
-    closure = declared_closure(package, workspace)
-    result = []
-    for name, uses in found.items():
+            if use.package in found:
+                found[use.package].append(use)
+            else:
+                found[use.package] = [use]
+    declared = frozenset([declared.depend.name for declared in package.declared])
+    closure = all_declared(package, workspace)
+    result = [_need(name, uses, declared, closure) for name, uses in found.items()]
+    result.sort(key=_place)
+    return tuple(result)
+
+
+def _need(name: str, uses: list[Use], declared: frozenset[str], closure: Closure) -> Need:
+    """Return what uses of a name amount to; they come sorted by place."""
+    if len(uses) > 1:
         uses.sort(key=_rank)
-        names = [name for use in uses for name in use.providers]
-        direct = tuple(name for name in dict.fromkeys(names) if name in declared)
-        # Each place has to be satisfied: Eigen3 of CMake by its find module, a header of Eigen by the library.
-        brought = all(any(name in closure for name in use.providers) for use in uses)
-        if brought or not direct:
-            result.append(Need(name, tuple(uses), direct, brought))
-        else:
-            left = tuple(use for use in uses if not any(name in closure for name in use.providers))
-            result.append(Need(name, left, (), False))
-    return tuple(sorted(result, key=lambda need: need.uses[0].span))
+    answers = dict.fromkeys([use.providers for use in uses])
+    direct: list[str] = []
+    left = set()
+    for names in answers:
+        brought = False
+        for each in names:
+            brought = brought or each in closure
+            if each in declared and each not in direct:
+                direct.append(each)
+        if not brought:
+            left.add(names)
+    # Each place has to be satisfied: Eigen3 of CMake by its find module, a header of Eigen by the library.
+    if not left or not direct:
+        return Need(name, tuple(uses), tuple(direct), not left)
+    return Need(name, tuple([use for use in uses if use.providers in left]), (), False)
 
 
-def _rank(use: Use) -> tuple[object, ...]:
+def _rank(use: Use) -> int:
     """The surest and most telling evidence first."""
-    return (not use.sure, use.role == Role.TEST, _TELLING.index(use.via), use.span)
+    rank = _RANKS[use.via]
+    if not use.sure:
+        rank += 32
+    return rank + 16 if use.role is _TEST else rank
+
+
+def _place(need: Need) -> Span:
+    return need.uses[0].span
 
 
 _ANY = ~Role(0)
 
 
-def declared_closure(package: Package, workspace: Workspace, role: Role = _ANY) -> Closure:
+@per_package
+def all_declared(package: Package, workspace: Workspace) -> Closure:
+    """Return all that comes along with what is declared, members of groups included."""
+    return declared_closure(package, workspace, _ANY)
+
+
+def declared_closure(package: Package, workspace: Workspace, role: Role) -> Closure:
     """Return all that comes along with what is declared for any part of a role, members of groups included."""
-    starts = [each.name for each in package.declared if each.role & role]
+    starts = [each.name for each in package.declared if role is _ANY or each.role & role]
     for group in package.group_depends:
         starts += workspace.world.group_members(group.name)
     return workspace.world.closure(starts)
@@ -98,12 +129,13 @@ def covered(package: Package, workspace: Workspace, names: Iterable[str], role: 
     return bool(unknown) and any(may_bring(unknown, name, workspace) for name in names)
 
 
+@per_package
 def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool], ...]:
     """Return the needs that nothing declared brings along, and whether that is sure.
 
     What only launch files name, to start, include or look it up, is left out: it has a rule of its own.
     """
-    unknown = declared_closure(package, workspace).unknown
+    unknown = all_declared(package, workspace).unknown
     found = []
     for need in needs(package, workspace):
         if need.declared or need.brought or all(use.via == "launch" for use in need.uses):

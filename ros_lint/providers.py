@@ -126,7 +126,7 @@ def meant(world: World, name: str, *, python: bool) -> Meant | None:
 
 def near(world: World, name: str, *, python: bool) -> tuple[str, ...]:
     """Return packages and keys that resemble an unknown name, nearest first, at most three."""
-    sure = meant(world, name, python=python)
+    sure = world.meant(name, python=python)
     found = _declarable(world, world.spelling.near(name))
     return tuple(dict.fromkeys([sure.name, *found] if sure else found))[:3]
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ros_lint.declare import builds_something, works_unseen
 from ros_lint.facts import Facet, Role, Use
-from ros_lint.needs import declared_closure, may_bring
+from ros_lint.needs import all_declared, may_bring
 from ros_lint.workspace import Package, Workspace
 
 _MOST = 5
@@ -53,7 +53,7 @@ def _not_undeclared(package: Package, workspace: Workspace, name: str, uses: lis
         return f"silent, for nothing that is seen uses it{_hidden(package)}"
     if all(use.optional for use in uses):
         return "silent, for every use is optional"
-    closure = declared_closure(package, workspace)
+    closure = all_declared(package, workspace)
     starts = [each.name for each in package.declared]
     for other in dict.fromkeys(other for use in uses if not use.optional for other in use.providers):
         if other in closure:

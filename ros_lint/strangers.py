@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from ros_lint.facts import Depend, Role
-from ros_lint.workspace import Declared, Package, Workspace
+from ros_lint.workspace import Declared, Package, Workspace, per_workspace
 
 _BUILD_TYPES = frozenset({"ros.ament_cmake", "ros.ament_python", "ros.cmake"})
 
@@ -32,22 +32,30 @@ class Stranger(NamedTuple):
         return not self.package.declares(self.name) & (Role.BUILD | Role.EXPORT | Role.TOOL)
 
 
-def declared_names(workspace: Workspace) -> Iterator[Stranger]:
-    """Yield every name that a package surely declares, once, where it has to resolve.
+@per_workspace
+def declared_names(workspace: Workspace) -> Mapping[str, Sequence[Package]]:
+    """Return every name that has to resolve, with the packages that declare it.
 
-    Left out are packages of ROS 1 (catkin) and those whose manifest nobody can use, tags under a condition that nobody can
-    evaluate, and packages of the workspace that colcon does not see: other rules speak of these.
+    Left out are packages of ROS 1 (catkin) and those whose manifest nobody can use, and packages of the workspace that colcon
+    does not see: other rules speak of these.
     """
     hidden = {package.name for package in workspace.unusable}
     for package in workspace.packages:
-        hidden.update(nested.name for nested in package.nested)
+        hidden.update([nested.name for nested in package.nested])
+    found: dict[str, list[Package]] = {}
     for package in workspace.packages:
         if package.manifest is None or package.manifest.problems or package.type not in _BUILD_TYPES:
             continue
-        tags: dict[str, list[Declared]] = {}
-        for declared in package.declared:
-            tags.setdefault(declared.name, []).append(declared)
-        for name, found in tags.items():
-            sure = [declared for declared in found if declared.certain]
-            if sure and name not in hidden:
-                yield Stranger(package, sure[0], tuple(declared.depend for declared in found))
+        for name in dict.fromkeys([declared.depend.name for declared in package.declared]):
+            if name not in hidden:
+                found.setdefault(name, []).append(package)
+    return found
+
+
+def strangers(name: str, packages: Iterable[Package]) -> Iterator[Stranger]:
+    """Yield a name once for each package that surely declares it: under no condition that nobody can evaluate."""
+    for package in packages:
+        tags = [declared for declared in package.declared if declared.name == name]
+        first = next((declared for declared in tags if declared.certain), None)
+        if first is not None:
+            yield Stranger(package, first, tuple(declared.depend for declared in tags))

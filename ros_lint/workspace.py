@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property, wraps
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from ros_lint.facts import (
     BuildScript,
@@ -152,6 +152,8 @@ class Workspace:
         self.target = target
         self.not_checked = not_checked
         self.source_lists = source_lists
+        self.said: dict[object, Any] = {}
+        """What functions that remember have said: :func:`per_workspace`, :func:`per_package`."""
 
     @cached_property
     def by_name(self) -> Mapping[str, tuple[Package, ...]]:
@@ -191,3 +193,35 @@ class Workspace:
         from ros_lint.graph import build  # noqa: PLC0415  (networkx costs more than a run that asks for no graph)
 
         return build(self.packages)
+
+
+T = TypeVar("T")
+
+
+def per_workspace(function: Callable[[Workspace], T]) -> Callable[[Workspace], T]:
+    """Make a pure function of a workspace remember what it says, for several rules ask the same."""
+
+    @wraps(function)
+    def remembering(workspace: Workspace) -> T:
+        if function not in workspace.said:
+            workspace.said[function] = function(workspace)
+        said: T = workspace.said[function]
+        return said
+
+    return remembering
+
+
+def per_package(function: Callable[[Package, Workspace], T]) -> Callable[[Package, Workspace], T]:
+    """Make a pure function of a package and its workspace remember what it says, for several rules ask the same."""
+
+    @wraps(function)
+    def remembering(package: Package, workspace: Workspace) -> T:
+        key = (function, id(package))
+        found = workspace.said.get(key)
+        if found is None:
+            # The package is kept, so that its id goes on meaning it.
+            found = workspace.said[key] = (package, function(package, workspace))
+        said: T = found[1]
+        return said
+
+    return remembering

@@ -61,6 +61,8 @@ class World:
             for name, installed in underlay.packages.items():
                 self._installed.setdefault(name, installed)
         self._remembered: dict[tuple[str, str], Providers] = {}
+        self._meant: dict[tuple[str, bool], Meant | None] = {}
+        self._near: dict[tuple[str, bool], tuple[str, ...]] = {}
         self._is: dict[str, tuple[bool, bool]] = {}
         self._reach = Reach(self._brings)
 
@@ -245,11 +247,17 @@ class World:
 
         ``python`` says whether it is needed to run Python code.
         """
-        return providers.meant(self, name, python=python)
+        key = (name, python)
+        if key not in self._meant:
+            self._meant[key] = providers.meant(self, name, python=python)
+        return self._meant[key]
 
     def suggest(self, name: str, *, python: bool = False) -> tuple[str, ...]:
         """Return packages and keys that resemble an unknown name, nearest first, at most three."""
-        return providers.near(self, name, python=python)
+        key = (name, python)
+        if key not in self._near:
+            self._near[key] = providers.near(self, name, python=python)
+        return self._near[key]
 
     @cached_property
     def spelling(self) -> Spelling:

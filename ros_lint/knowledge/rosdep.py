@@ -78,6 +78,7 @@ class Rosdep:
     def __init__(self, table: Table, path: str = "") -> None:
         self._table = table
         self._path = path
+        self._asked: dict[str, tuple[str, ...]] = {}
 
     def __len__(self) -> int:
         return len(self._table)
@@ -106,19 +107,31 @@ class Rosdep:
             return None
         return not set(platforms).isdisjoint(key.platforms)
 
-    @cached_property
-    def by_installed(self) -> Mapping[str, tuple[str, ...]]:
-        """Return the keys by the names of the apt and pip packages that they install; pip names in lower case."""
-        found: dict[str, list[str]] = {}
-        for name in self._table.names():
-            key = self.get(name)
-            for installed in {*key.apt, *(_pip_name(pip) for pip in key.pip)} if key else ():
-                found.setdefault(installed, []).append(name)
-        return {name: tuple(keys) for name, keys in found.items()}
-
     def installing(self, name: str) -> tuple[str, ...]:
-        """Return the keys that install a package which apt or pip call so."""
-        return self.by_installed.get(name) or self.by_installed.get(_pip_name(name), ())
+        """Return the keys that install a package which apt or pip call so, sorted."""
+        if name not in self._asked:
+            self._asked[name] = self._installing(name) or self._installing(_pip_name(name))
+        return self._asked[name]
+
+    def _installing(self, name: str) -> tuple[str, ...]:
+        # Names of pip are spelt in many ways; the longest word of one stands in all of them.
+        word = max(re.findall(r"[a-z0-9]+", name.lower()), key=len, default="\n").encode()
+        text, lower = self._text
+        found = []
+        at = lower.find(word)
+        while at >= 0:
+            start, end = lower.rfind(b"\n", 0, at) + 1, lower.find(b"\n", at)
+            key = parse(text[start:end].decode().split("\t"))
+            if name in key.apt or any(_pip_name(pip) == name for pip in key.pip):
+                found.append(key.name)
+            at = lower.find(word, end + 1)
+        return tuple(found)
+
+    @cached_property
+    def _text(self) -> tuple[bytes, bytes]:
+        """All lines, and the same in lower case, which for bytes does not change the length."""
+        text = "".join(f"{line}\n" for line in self._table.lines()).encode()
+        return text, text.lower()
 
 
 def _pip_name(requirement: str) -> str:

@@ -7,6 +7,7 @@ hint.
 from __future__ import annotations
 
 import re
+import string
 from bisect import bisect_left
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -25,6 +26,7 @@ class Spelling:
 
     def __init__(self, names: Iterable[str]) -> None:
         self._names = sorted(set(names))
+        self._by_word: dict[str, list[str]] = {}
 
     def same(self, name: str) -> tuple[str, ...]:
         """Return the names that differ only by dashes, underscores and capitals, sorted."""
@@ -39,40 +41,58 @@ class Spelling:
             return ()
         half = len(name) // 2
         near = set(_beginning(self._names, name[: half - 1]))
-        near.update(found[::-1] for found in _beginning(self._backwards, name[half + 1 :][::-1]))
-        return tuple(sorted(other for other in near if _is_slip(name, other)))
+        near.update([found[::-1] for found in _beginning(self._backwards, name[half + 1 :][::-1])])
+        return tuple(sorted([other for other in near if -2 < len(other) - len(name) < 2 and _is_slip(name, other)]))
 
     def near(self, name: str, most: int = 3) -> tuple[str, ...]:
         """Return names that resemble a name, nearest first."""
         import difflib  # noqa: PLC0415  (only unknown names need it)
 
         words = _words(name)
-        having = (self._by_word.get(word, ()) for word in words)
-        # A word of hundreds of names tells nothing, and comparing with all of them takes long.
-        alike = {other for others in having if len(others) <= _COMMON for other in others}
+        alike = {other for word in words for other in self._having(word)}
         scored = [(-_overlap(words, _words(other)), other) for other in alike]
         candidates = [other for _, other in sorted(scored)[:30]]
         candidates += self.one_slip(name)
         return tuple(difflib.get_close_matches(name, dict.fromkeys(candidates), most, 0.8))
 
+    def _having(self, word: str) -> list[str]:
+        """Return the names that have a word. None for a word of very many: it tells nothing, and comparing takes long."""
+        known = self._by_word.get(word)
+        if known is not None:
+            return known
+        text, same = self._lower, string.ascii_lowercase if word.isalpha() else string.digits
+        found: list[str] = []
+        at = text.find(word)
+        while at >= 0 and len(found) <= _COMMON:
+            end = at + len(word)
+            if text[at - 1] not in same and text[end] not in same:
+                start, end = text.rfind("\n", 0, at) + 1, text.find("\n", end)
+                found += self._by_lower[text[start:end]]
+            at = text.find(word, end)
+        self._by_word[word] = found if len(found) <= _COMMON else []
+        return self._by_word[word]
+
+    @cached_property
+    def _lower(self) -> str:
+        return "\n".join(["", *self._by_lower, ""])
+
+    @cached_property
+    def _by_lower(self) -> Mapping[str, list[str]]:
+        found: dict[str, list[str]] = {}
+        for name in self._names:
+            found.setdefault(name.lower(), []).append(name)
+        return found
+
     @cached_property
     def _plain(self) -> Mapping[str, list[str]]:
         found: dict[str, list[str]] = {}
-        for name in self._names:
-            found.setdefault(plain(name), []).append(name)
+        for name, same in zip(self._names, plain("\n".join(self._names)).split("\n"), strict=True):
+            found.setdefault(same, []).append(name)
         return found
 
     @cached_property
     def _backwards(self) -> list[str]:
-        return sorted(name[::-1] for name in self._names)
-
-    @cached_property
-    def _by_word(self) -> Mapping[str, list[str]]:
-        found: dict[str, list[str]] = {}
-        for name in self._names:
-            for word in _words(name):
-                found.setdefault(word, []).append(name)
-        return found
+        return sorted("\n".join(self._names)[::-1].split("\n"))
 
 
 def plain(name: str) -> str:

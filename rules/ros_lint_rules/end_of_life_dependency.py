@@ -23,26 +23,27 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Confidence, Finding, Rule, Severity, Workspace, declared_names
+from ros_lint.api import Confidence, Finding, Rule, Severity, Workspace, declared_names, strangers
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
     world = workspace.world
     names = world.knowledge.names
-    for stranger in declared_names(workspace):
-        if world.standing(stranger.name) != "end-of-life":
+    for name, packages in declared_names(workspace).items():
+        if world.standing(name) != "end-of-life":
             continue
-        successor = names.successor(stranger.name)
+        successor = names.successor(name)
         successor = successor if world.is_package(successor) else ""
         way_out = f"use {successor}" if successor else "replace it, or add its sources to the workspace"
-        last = names.end_of_life(stranger.name)[0]
-        yield Finding(
-            f"{stranger.name} was last released for {last} (as of {world.knowledge.date}): {way_out}",
-            stranger.declared.depend.name_span,
-            stranger.name,
-            confidence=Confidence.HIGH if successor else Confidence.MEDIUM,
-            package=stranger.package.name,
-        )
+        last = names.end_of_life(name)[0]
+        for stranger in strangers(name, packages):
+            yield Finding(
+                f"{name} was last released for {last} (as of {world.knowledge.date}): {way_out}",
+                stranger.declared.depend.name_span,
+                name,
+                confidence=Confidence.HIGH if successor else Confidence.MEDIUM,
+                package=stranger.package.name,
+            )
 
 
 RULE = Rule(

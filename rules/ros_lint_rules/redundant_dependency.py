@@ -32,9 +32,14 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     manifest = package.manifest
     if manifest is None or manifest.problems:
         return
+    by_name: dict[str, list[Depend]] = {}
+    for depend in manifest.depends:
+        by_name.setdefault(depend.name, []).append(depend)
+    if len(by_name) == len(manifest.depends):
+        return
     gone: set[Depend] = set()
     for depend in manifest.depends:
-        holder = next((other for other in manifest.depends if other not in gone and _holds(other, depend)), None)
+        holder = next((other for other in by_name[depend.name] if other not in gone and _holds(other, depend)), None)
         if holder is None:
             continue
         gone.add(depend)
@@ -49,8 +54,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _holds(one: Depend, other: Depend) -> bool:
-    """Whether the first of two tags says all that the second does."""
-    if one is other or (one.name, one.condition) != (other.name, other.condition):
+    """Whether the first of two tags with one name says all that the second does."""
+    if one is other or one.condition != other.condition:
         return False
     if one.tag == other.tag:
         if one.versions == other.versions:

@@ -50,8 +50,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if need.declared or not need.brought or all(use.via == "macro" for use in need.uses):
             continue
         best, *others = need.uses
-        name = next((name for name in best.providers if workspace.world.path(declared, name)), need.name)
-        way = workspace.world.path(declared, name)
+        ways = (workspace.world.path(declared, name) for name in best.providers)
+        way = next((way for way in ways if way), (need.name,))
+        name = way[-1]
         tag = tag_for(package, workspace, name, need.role)
         yield Finding(
             f"{name} is used here, but comes along only by way of {' > '.join(way[:-1])}: add <{tag}>{name}</{tag}>",

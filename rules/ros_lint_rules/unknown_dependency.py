@@ -39,6 +39,7 @@ from ros_lint.api import (
     Workspace,
     declared_names,
     remove_dependency,
+    strangers,
 )
 
 _CALLED_SO_BY = {"cmake": "find_package", "python": "Python", "system": "the system's package manager"}
@@ -48,10 +49,10 @@ _MOST_KEYS = 3
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
-    for stranger in declared_names(workspace):
-        if workspace.world.standing(stranger.name) != "unknown":
-            continue
-        yield _build_type(stranger) if stranger.name == _PYTHON_BUILD else _unknown(stranger, workspace)
+    for name, packages in declared_names(workspace).items():
+        if workspace.world.standing(name) == "unknown":
+            for stranger in strangers(name, packages):
+                yield _build_type(stranger) if name == _PYTHON_BUILD else _unknown(stranger, workspace)
 
 
 def _build_type(stranger: Stranger) -> Finding:

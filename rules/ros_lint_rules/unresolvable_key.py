@@ -25,31 +25,33 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Confidence, Finding, Rule, Severity, Stranger, Workspace, declared_names
+from ros_lint.api import Confidence, Finding, Rule, Severity, Stranger, Workspace, declared_names, strangers
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
     world = workspace.world
-    for stranger in declared_names(workspace):
-        if world.is_package(stranger.name):
+    for name, packages in declared_names(workspace).items():
+        if world.is_package(name):
             continue
-        if world.is_key(stranger.name):
-            yield from _key(stranger, workspace)
-        elif workspace.target.told and world.standing(stranger.name) == "elsewhere":
-            yield _package(stranger, workspace)
+        if world.is_key(name):
+            if _lacks_rule(workspace, name):
+                yield from (_key(stranger, workspace) for stranger in strangers(name, packages))
+        elif workspace.target.told and world.standing(name) == "elsewhere":
+            yield from (_package(stranger, workspace) for stranger in strangers(name, packages))
 
 
-def _key(stranger: Stranger, workspace: Workspace) -> Iterator[Finding]:
+def _lacks_rule(workspace: Workspace, name: str) -> bool:
+    knowledge = workspace.world.knowledge
+    return knowledge.resolves(name) is False and (workspace.target.told or not knowledge.resolving(name))
+
+
+def _key(stranger: Stranger, workspace: Workspace) -> Finding:
     name, knowledge, distro = stranger.name, workspace.world.knowledge, workspace.target.distro
-    if knowledge.resolves(name) is not False:
-        return
     anywhere = knowledge.resolving(name)
-    if anywhere and not workspace.target.told:
-        return
     meant = workspace.world.meant(name, python=stranger.runs_python)
     place = f"{knowledge.platform}, where {distro} runs" if anywhere else "any Ubuntu that ROS 2 runs on"
     better = f"use {meant.name}" if meant else "use another key, or add a rule to rosdistro"
-    yield Finding(
+    return Finding(
         f"rosdep key {name} has no rule for {place}: {better}",
         stranger.declared.depend.name_span,
         name,

@@ -58,6 +58,9 @@ _BUILT = ("include", "cmake", "interface", "macro", "target")
 _RUN = ("import", "package")
 _SEEN = ("include", "interface")
 _ASKED = (Role.BUILD, Role.EXEC, Role.EXPORT)
+_TEST = Role.TEST
+_TO_BUILD = Role.BUILD | Role.TOOL
+_AFTERWARDS = Role.EXEC | Role.EXPORT
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -67,22 +70,27 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if _TESTS.search(package.name):
         return
     unguarded = unguarded_tests(package)
+    said: set[str] = set()
+    by_name: dict[str, list[Declared]] = {}
+    for declared in package.declared:
+        by_name.setdefault(declared.name, []).append(declared)
     for need in needs(package, workspace):
-        tags = [declared for declared in package.declared if declared.name in need.declared]
-        if not tags or any(declared.depend.condition for declared in tags):
+        tags = [declared for name in need.declared for declared in by_name[name]]
+        if not tags or any(declared.depend.tag == "depend" or declared.depend.condition for declared in tags):
             continue
         if comes_with_launching(package, need.uses):
             continue
-        lacking = next(_lacks(package, workspace, need, tags), None)
+        lacking = _lacks(package, workspace, need, tags)
         if lacking is None:
             continue
         role, why = lacking
         uses = [use for use in need.uses if use.sure and _is_about(use, role)]
         name = next((name for name in uses[0].providers if name in need.declared), need.declared[0])
-        if name in unguarded:
+        if name in said or name in unguarded:
             continue  # unguarded-test tells where to put it
+        said.add(name)
         mine = [declared.depend for declared in tags if declared.name == name]
-        tag = tag_for(package, workspace, name, need.role | (_given(tags, name) & ~Role.TEST))
+        tag = tag_for(package, workspace, name, need.role | (_given(tags, name) & ~_TEST))
         written = " and ".join(dict.fromkeys(f"<{depend.tag}>" for depend in mine))
         yield Finding(
             f"{name} is declared as {written} only, {why}: make it <{tag}>{name}</{tag}>",
@@ -102,40 +110,39 @@ def _given(tags: Sequence[Declared], name: str = "") -> Role:
     return role
 
 
-def _lacks(package: Package, workspace: Workspace, need: Need, tags: Sequence[Declared]) -> Iterator[tuple[Role, str]]:
-    """Yield what the tags of a need do not give, and no other dependency either."""
+def _lacks(package: Package, workspace: Workspace, need: Need, tags: Sequence[Declared]) -> tuple[Role, str] | None:
+    """Return the first thing that the tags of a need do not give, and no other dependency either."""
     given = _given(tags)
-    names = tuple(dict.fromkeys(name for use in need.uses for name in use.providers))
-    asked = {role: any(use.sure and _is_about(use, role) for use in need.uses) for role in _ASKED}
+
+    def asked(role: Role) -> bool:
+        return any(use.sure and _is_about(use, role) for use in need.uses)
+
+    def comes_along(enough: Role) -> bool:
+        return covered(package, workspace, {name for use in need.uses for name in use.providers}, enough)
 
     def missing(role: Role, enough: Role) -> bool:
-        return asked[role] and not given & enough and not covered(package, workspace, names, enough)
+        return not given & enough and asked(role) and not comes_along(enough)
 
-    if _is_tests_only(given):
-        if not covered(package, workspace, names, ~Role.TEST):
-            for role in _ASKED:
-                if asked[role]:
-                    yield role, "but it is used outside tests"
-        return
-    if not given & Role.TEST and missing(Role.BUILD, Role.BUILD | Role.TOOL):
-        yield Role.BUILD, "but it is needed to build this package"
-    if not any(is_unseen_by_name(workspace, name) for name in need.declared):
-        if missing(Role.EXEC, Role.EXEC | Role.EXPORT):
-            yield Role.EXEC, "but it is needed at run time"
-        if missing(Role.EXPORT, Role.EXEC | Role.EXPORT):
-            yield Role.EXPORT, "but public headers include it, and whoever includes these needs it"
+    if given is _TEST:
+        role = next((role for role in _ASKED if asked(role)), None)
+        return None if role is None or comes_along(~_TEST) else (role, "but it is used outside tests")
+    if not given & _TEST and missing(Role.BUILD, _TO_BUILD):
+        return Role.BUILD, "but it is needed to build this package"
+    if any(is_unseen_by_name(workspace, name) for name in need.declared):
+        return None
+    if missing(Role.EXEC, _AFTERWARDS):
+        return Role.EXEC, "but it is needed at run time"
+    if missing(Role.EXPORT, _AFTERWARDS):
+        return Role.EXPORT, "but public headers include it, and whoever includes these needs it"
+    return None
 
 
 def _is_about(use: Use, role: Role) -> bool:
     if role is Role.BUILD:
-        return use.via in _BUILT and bool(use.role & (Role.BUILD | Role.TOOL))
+        return use.via in _BUILT and bool(use.role & _TO_BUILD)
     if role is Role.EXEC:
         return use.via in _RUN and bool(use.role & Role.EXEC)
     return use.via in _SEEN and bool(use.role & Role.EXPORT)
-
-
-def _is_tests_only(role: Role) -> bool:
-    return role == Role.TEST
 
 
 RULE = Rule(
