@@ -493,7 +493,8 @@ class LaunchAction(NamedTuple):
     name: LaunchValue | None = None
     namespace: LaunchValue | None = None
     arguments: tuple[tuple[str, LaunchValue], ...] = ()
-    """What is passed to an included file by name; what a process or node is given otherwise, under ""."""
+    """What is passed to an included file by name; the words that a process or node is given, under "", and what else it is
+    given by name: ``$VARIABLE`` of its environment, ``cwd``, ``prefix``."""
     choices: tuple[str, ...] = ()
     parameters: tuple[tuple[str, LaunchValue], ...] = ()
     """By name; a file under ""."""

@@ -102,7 +102,7 @@ def _append_environment(reader: Reader, entity: Entity) -> LaunchAction:
     action = _assignment("environment")(reader, entity)
     _needs_truth(reader, entity, "prepend")
     reader.optional(entity, "separator")
-    return action
+    return action._replace(name=LaunchValue(("append",), entity.span))
 
 
 def _needs_truth(reader: Reader, entity: Entity, name: str) -> None:
@@ -205,7 +205,7 @@ def _process(reader: Reader, entity: Entity, kind: str) -> LaunchAction:
     for attribute in ("cwd", "launch-prefix", "output", "respawn"):
         value = reader.optional(entity, attribute)
         if value is not None and attribute in ("cwd", "launch-prefix"):
-            given.append(("", value))
+            given.append((attribute, value))
     name = reader.optional(entity, "name")
     if entity.get("on_exit") not in (None, "shutdown"):
         raise Rejected("on-exit", f"on_exit of <{entity.tag}> can only be shutdown", entity.place("on_exit"))
@@ -216,7 +216,7 @@ def _process(reader: Reader, entity: Entity, kind: str) -> LaunchAction:
             raise Rejected("wrong-type", f"{limit} of <{entity.tag}> is no number from 0 on", entity.place(limit))
     entity.get("shell", "bool")
     entity.get("emulate_tty", "bool")
-    given += [("", value) for _, value in _named(reader, entity, "env")]
+    given += [(f"${variable}", value) for variable, value in _named(reader, entity, "env")]
     return LaunchAction(
         kind,
         entity.span,

@@ -170,6 +170,11 @@ def _assigns(kind: str, *names: tuple[str, ...]) -> Rule:
     return rule
 
 
+def _append(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    (action,) = _assigns("environment", ("name",), ("value",))(walker, made, conditions)
+    return [action._replace(name=LaunchValue(("append",), _span(made)))]
+
+
 def _one_value(kind: str, *names: str) -> Rule:
     def rule(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
         value = walker.value(made, 0, *names)
@@ -284,8 +289,12 @@ def _given(walker: Walker, made: Made, *names: str) -> tuple[tuple[str, LaunchVa
             continue
         given = plain(made.keywords[name])
         node = made.written(-1, name)
-        values = list(given.values()) if isinstance(given, dict) else items(walker.machine, given) or [given]
-        found += [("", walker.text(plain(value), node, made.source)) for value in values]
+        if isinstance(given, dict):
+            found += [(f"${_key(key)}", walker.text(plain(value), node, made.source)) for key, value in given.items()]
+            continue
+        word = "" if name in ("arguments", "ros_arguments") else name
+        values = items(walker.machine, given) or [given]
+        found += [(word, walker.text(plain(value), node, made.source)) for value in values]
     return tuple(found)
 
 
@@ -312,7 +321,14 @@ def _parameter(walker: Walker, value: Value, node: ast.expr, made: Made, found: 
         elif isinstance(one, (list, tuple)) and not name:
             waiting = [*[("", plain(inner)) for inner in one], *waiting]
         else:
-            found.append((name, walker.text(one, node, made.source)))
+            found.append((name, walker.text(_list(one) if name else one, node, made.source)))
+
+
+def _list(value: Value) -> Value:
+    """Return a list of texts as YAML has it, and anything else as it is."""
+    if not isinstance(value, (list, tuple)) or not all(isinstance(one, (str, int, float)) for one in value):
+        return value
+    return f"[{', '.join(map(str, value))}]"
 
 
 def _key(key: Value) -> str:
@@ -399,7 +415,7 @@ _RULES: Mapping[str, Rule] = {
     "DeclareLaunchArgument": _declare,
     "SetLaunchConfiguration": _assigns("set", ("name",), ("value",)),
     "SetEnvironmentVariable": _assigns("environment", ("name",), ("value",)),
-    "AppendEnvironmentVariable": _assigns("environment", ("name",), ("value",)),
+    "AppendEnvironmentVariable": _append,
     "SetParameter": _assigns("parameter", ("name",), ("value",)),
     "SetRemap": _assigns("remap", ("src",), ("dst",)),
     "SetParametersFromFile": _one_value("parameter", "filename"),

@@ -242,9 +242,11 @@ class _Run:
         names = self.texts(action.target, scope) or ("",)
         if action.kind == "remap":
             return scope._replace(remappings=(*scope.remappings, (names, texts)))
-        pairs = tuple((name, texts) for name in names)
         if action.kind == "parameter":
-            return scope._replace(parameters=(*scope.parameters, *pairs))
+            return scope._replace(parameters=(*scope.parameters, *((name, texts) for name in names)))
+        before = dict(scope.environment)
+        added = action.name is not None
+        pairs = tuple((name, joined([before.get(name, (UNKNOWN,)), texts], ":".join) if added else texts) for name in names)
         return scope._replace(environment=(*(one for one in scope.environment if one[0] not in names), *pairs))
 
     def _group(self, action: LaunchAction, scope: _Scope) -> _Scope:
@@ -291,6 +293,7 @@ class _Run:
         command = [value for name, value in action.arguments if not name] if action.kind == "process" else []
         self._unknown.clear()
         is_node = action.kind in ("node", "component")
+        named = [(name, self.texts(value, scope)) for name, value in action.arguments if name]
         started = Started(
             action.kind,
             self.texts(action.package, scope),
@@ -305,12 +308,15 @@ class _Run:
                 *(scope.remappings if is_node else ()),
                 *((self.texts(a, scope), self.texts(b, scope)) for a, b in action.remappings),
             ),
-            tuple((name, self.texts(value, scope)) for name, value in action.arguments if name),
+            tuple(one for one in named if not one[0].startswith("$")),
             scope.certain,
             action.span,
             self._depth,
             scope.container if action.kind == "component" else (),
-            scope.environment if action.kind in ("node", "process") else (),
+            (
+                *(scope.environment if action.kind in ("node", "process") else ()),
+                *((name[1:], texts) for name, texts in named if name.startswith("$")),
+            ),
             unknown=tuple(self._unknown),
             when=scope.when,
         )
