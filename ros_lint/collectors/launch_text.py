@@ -43,8 +43,8 @@ _ANY_MARK = re.compile("[\ue000-\ue017]")
 _PREFIX = re.compile(rf"/{_ROOT}([^/\s]*)((?:/[^/\s'\":;,\ue012-\ue015]*)*)")
 _INNERMOST = re.compile("\ue010([^\ue010\ue011]*)\ue011")
 _INNER_EXPRESSION = re.compile("\ue012([^\ue012\ue013]*)\ue013")
-_INNERMOST_ENDS = re.compile("[\ue010-\ue015]")
-_SHOWN = {"\ue010": "$(var ", "\ue011": ")", "\ue012": "$(eval ", "\ue013": ")", "\ue014": "$(command ", "\ue015": ")"}
+_ENDS = re.compile("\ue010\\$|[\ue010-\ue015]")
+_SHOWN = {"\ue010$": "$(env ", "\ue010": "$(var ", "\ue012": "$(eval ", "\ue014": "$(command "}
 _ROOTED = re.compile(rf"/{_ROOT}([^/]*)/share/([^\s'\":;,]*)")
 _TWICE_ROOTED = re.compile(rf".*/(?=/(?:{_ROOT}|\ue002))", re.DOTALL)
 
@@ -138,7 +138,7 @@ def configurations(text: str) -> Iterator[tuple[str, bool]]:
 
 def readable(text: str) -> str:
     """Return a text for people, with the substitutions of XML launch files for what is not known, and ? for any text."""
-    text = _INNERMOST_ENDS.sub(lambda match: _SHOWN[match[0]], text.replace(f"{OWN_FOLDER}/", "$(dirname)/"))
+    text = _ENDS.sub(lambda match: _SHOWN.get(match[0], ")"), text.replace(f"{OWN_FOLDER}/", "$(dirname)/"))
     text = text.replace(OWN_FOLDER, "$(dirname)").replace(_PRESENT, "").replace(_DEFAULT, " ")
     return _ROOTED.sub(_readable_root, text).replace(UNKNOWN, "?")
 
