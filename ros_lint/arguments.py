@@ -116,6 +116,14 @@ def _explain_package(made: argparse.ArgumentParser) -> None:
     _graph_like(made)
 
 
+def _launch(made: argparse.ArgumentParser) -> None:
+    made.usage = "%(prog)s [options] FILE [name:=value ...]\n       %(prog)s [options] PACKAGE FILE [name:=value ...]"
+    text = "a launch file, or a package and the name of a launch file that it installs"
+    made.add_argument("words", nargs="+", metavar="FILE", help=text)
+    made.add_argument("--format", choices=("tree", "json", "mermaid"), default="tree", help="how to write it")
+    _graph_like(made)
+
+
 def _index(made: argparse.ArgumentParser) -> None:
     actions = made.add_subparsers(dest="action", required=True, metavar="ACTION")
     refresh = actions.add_parser("refresh", help="rebuild the data of distributions from rosdistro's index", allow_abbrev=False)
@@ -151,6 +159,7 @@ _SHAPES: dict[str, Callable[[argparse.ArgumentParser], None]] = {
     "graph": _graph,
     "why": _why,
     "explain-package": _explain_package,
+    "launch": _launch,
     "index": _index,
     "rules": _rules,
     "rule": _rule,

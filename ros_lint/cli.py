@@ -71,6 +71,10 @@ def _run(command: str, options: dict[str, object]) -> int:
         from ros_lint.commands import check  # noqa: PLC0415
 
         return check.run(options)
+    if command == "launch":
+        from ros_lint.commands import launch  # noqa: PLC0415
+
+        return launch.run(options)
     from ros_lint.commands import graphs  # noqa: PLC0415
 
     return graphs.run(command, options)

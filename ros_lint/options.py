@@ -82,6 +82,7 @@ COMMANDS = {
     "why": "say how one package comes to need another",
     "graph": "print the dependency graph",
     "explain-package": "say what a package declares, uses, provides and installs",
+    "launch": "say what a launch file would start, without starting it",
     "overlay": "say which layer each package name resolves to",
     "rules": "list the rules",
     "rule": "explain a rule",

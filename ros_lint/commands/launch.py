@@ -1,0 +1,164 @@
+"""``ros-lint launch FILE [name:=value ...]``: what a launch file would start, without starting it.
+
+The exit code is 0 when launching would go through, as far as can be seen; 1 when it would stop, with the reasons on
+standard error; 2 when the question makes no sense: no such file, package or argument, no launch file.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from ros_lint.collectors.launch_text import readable
+from ros_lint.commands import launch_formats
+from ros_lint.commands.launch_lookup import LookUp
+from ros_lint.config import ConfigError
+from ros_lint.interpret.launch_expand import Expansion, expand
+from ros_lint.knowledge import KnowledgeError
+from ros_lint.opening import UsageError, open_workspace
+from ros_lint.progress import Progress
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping, Sequence
+
+    from ros_lint.facts import LaunchFile
+    from ros_lint.workspace import Workspace
+
+
+class Asked(NamedTuple):
+    """What the words of the command line mean."""
+
+    package: str
+    """"" when the file is named by its path."""
+    file: str
+    given: Mapping[str, str]
+
+
+def run(said: Mapping[str, Any]) -> int:
+    """Answer the question, print the answer, return the exit code."""
+    progress = Progress(sys.stderr, wanted=said.get("progress", True))
+    try:
+        asked = understood(said["words"], os.path.isfile)
+        paths = said.get("paths") or (["."] if asked.package else [enclosing_workspace(asked.file)])
+        with progress:
+            opened = open_workspace({**said, "paths": paths}, os.environ, progress.tell)
+            workspace = opened.loader.load()
+        path = "" if asked.package else os.path.relpath(os.path.realpath(asked.file), opened.base).replace(os.sep, "/")
+        out, err, code = answer(workspace, LookUp(workspace, opened.loader.tree), asked, path, said["format"])
+    except (UsageError, ConfigError, KnowledgeError) as error:
+        print(f"ros-lint: {error}", file=sys.stderr)
+        return 2
+    for warning in opened.warnings:
+        print(f"ros-lint: {warning}", file=sys.stderr)
+    sys.stdout.write(out)
+    sys.stdout.flush()
+    sys.stderr.write(err)
+    return code
+
+
+def understood(words: Sequence[str], is_file: Any = os.path.isfile) -> Asked:
+    """Return what the words mean: FILE or PACKAGE FILE, and arguments, as ``ros2 launch`` takes them. Raises UsageError."""
+    places = [word for word in words if ":=" not in word]
+    given: dict[str, str] = {}
+    for word in words:
+        name, mark, value = word.partition(":=")
+        if mark and not name:
+            raise UsageError(f"{word}: an argument has a name: name:=value")
+        if mark:
+            given[name] = value
+    if not places:
+        raise UsageError("which launch file? ros-lint launch FILE, or ros-lint launch PACKAGE FILE")
+    if len(places) > 2 or (len(places) == 2 and is_file(places[0])):
+        raise UsageError(f"{places[-1]}: an argument of a launch file is given as name:=value")
+    if len(places) == 2:
+        return Asked(places[0], places[1], given)
+    if not is_file(places[0]):
+        raise UsageError(f"{places[0]}: no such file; the launch file of a package is named by ros-lint launch PACKAGE FILE")
+    return Asked("", places[0], given)
+
+
+def enclosing_workspace(file: str) -> str:
+    """Return the workspace that a file lies in.
+
+    That is the folder whose ``src`` holds the file's package, if the repository goes so far up or colcon has built there;
+    else the repository; else the current folder, if the file is below it; else the package, or the folder of the file.
+    """
+    folders = list(_above(os.path.dirname(os.path.realpath(file))))
+    repository = next((folder for folder in folders if os.path.exists(os.path.join(folder, ".git"))), "")
+    inside = folders[: folders.index(repository) + 1] if repository else folders
+    # The outermost: colcon looks into no package for further ones.
+    packages = [folder for folder in inside if os.path.isfile(os.path.join(folder, "package.xml"))]
+    start = packages[-1] if packages else folders[0]
+    for folder in folders[folders.index(start) + 1 :]:
+        above = os.path.dirname(folder)
+        built = any(os.path.isdir(os.path.join(above, name)) for name in ("build", "install", "log"))
+        if os.path.basename(folder) == "src" and (built or (repository and above in inside)):
+            return above
+    here = os.path.realpath(os.curdir)
+    return repository or (here if here in folders else start)
+
+
+def _above(folder: str) -> Iterator[str]:
+    """Yield a folder and those that it lies in, innermost first."""
+    while True:
+        yield folder
+        if os.path.dirname(folder) == folder:
+            return
+        folder = os.path.dirname(folder)
+
+
+def answer(workspace: Workspace, look_up: LookUp, asked: Asked, path: str, form: str) -> tuple[str, str, int]:
+    """Return what goes to standard output and to standard error, and the exit code.
+
+    ``path`` is that of the file, relative to the base of the workspace, if no package is named. Raises UsageError.
+    """
+    if asked.package:
+        file, place = look_up.installed_file(asked.package, asked.file)
+    else:
+        file, place = look_up.source_file(path), path
+    expansion = expand(file._replace(path=place), asked.given, look_up.included, workspace.target.distro)
+    doubts = list(_doubts(file, look_up, expansion, asked.given))
+    problems = list(dict.fromkeys(_problems(file, look_up, expansion)))
+    err = "".join(f"ros-lint: {line}\n" for line in (*doubts, *problems))
+    found = launch_formats.Found(file, expansion, look_up)
+    return launch_formats.FORMATS[form](found), err, 1 if problems else 0
+
+
+def _doubts(file: LaunchFile, look_up: LookUp, expansion: Expansion, given: Mapping[str, str]) -> Iterator[str]:
+    """Yield doubts about arguments that nothing seems to take. Raises UsageError where there is hardly any."""
+    takes = look_up.takes(file)
+    declared = list(dict.fromkeys(argument.name for argument in expansion.arguments))
+    known = {*takes.known, *declared, *look_up.used(file)}
+    for name in given:
+        if name in known:
+            continue
+        from difflib import get_close_matches  # noqa: PLC0415  (only where something is mistyped)
+
+        near = get_close_matches(name, declared, 1, 0.75)
+        hint = f"did you mean {near[0]}?" if near else f"there are {', '.join(declared)}" if declared else "it takes none"
+        if takes.complete or near:
+            raise UsageError(f"{file.path} takes no argument {name}; {hint}")
+        yield f"nothing that can be read takes the argument {name}; {hint}"
+
+
+def _problems(file: LaunchFile, look_up: LookUp, expansion: Expansion) -> Iterator[str]:
+    """Yield why launching stops."""
+    for one in (file, *look_up.followed):
+        for problem in one.problems:
+            yield f"{problem.span}: {problem.message}"
+    for missing in expansion.missing:
+        if missing.include is None:
+            yield f"{missing.span}: the argument {missing.name} has no default: give {missing.name}:=VALUE"
+        else:
+            yield f"{missing.include}: the argument {missing.name} is not given here, and has no default at {missing.span}"
+    for refused in expansion.refused:
+        value = refused.value or "the empty text"
+        yield f"{refused.span}: {value} is no choice of the argument {refused.name}: choose {', '.join(refused.choices)}"
+    for circle in expansion.circles:
+        yield f"{circle.span}: this includes {circle.path} from within itself: it never ends"
+    for started in expansion.started:
+        if started.kind == "include" and started.certain and not started.file and len(started.target) == 1:
+            absent = look_up.absent(started.target[0])
+            if absent is not None and absent.surely:
+                yield f"{started.span}: {readable(started.target[0])}: {absent.reason}"

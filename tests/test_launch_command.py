@@ -1,0 +1,360 @@
+"""``ros-lint launch``."""
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+
+import pytest
+
+from ros_lint import cli
+from ros_lint.commands.launch import Asked, answer, enclosing_workspace, understood
+from ros_lint.commands.launch_lookup import LookUp
+from ros_lint.load import Loader
+from ros_lint.opening import UsageError
+from ros_lint.tree import MemoryTree
+from ros_lint.underlay import in_tree
+from ros_lint.workspace import Target
+from tests.packages import manifest_text
+
+INSTALLS = "project({0})\nfind_package(ament_cmake REQUIRED)\ninstall(DIRECTORY {1} DESTINATION share/{0})\nament_package()\n"
+
+
+def package(name: str, files: Mapping[str, str], folders: str = "launch") -> dict[str, str]:
+    return {
+        f"{name}/package.xml": manifest_text(name),
+        f"{name}/CMakeLists.txt": INSTALLS.format(name, folders),
+        **{f"{name}/{path}": content for path, content in files.items()},
+    }
+
+
+def xml(body: str) -> str:
+    return f"<launch>\n{body}\n</launch>\n"
+
+
+def ask(
+    files: Mapping[str, str], *words: str, form: str = "tree", underlay: Mapping[str, str] | None = None
+) -> tuple[str, str, int]:
+    """Return what the command says about a workspace in memory."""
+    tree = MemoryTree(files)
+    below = MemoryTree({f"opt/{path}": content for path, content in (underlay or {}).items()})
+    underlays = (in_tree(below, "opt", "jazzy"),) if underlay else ()
+    loader = Loader(tree, ("",), Target("jazzy", "--distro"), underlays=underlays)
+    asked = understood(words, lambda path: path in files)
+    workspace = loader.load()
+    return answer(workspace, LookUp(workspace, tree), asked, "" if asked.package else asked.file, form)
+
+
+def launch(body: str, *given: str) -> list[str]:
+    """Return the lines about one launch file, without its name and the count."""
+    out, err, code = ask(package("p", {"launch/a.launch.xml": xml(body)}), "p", "a.launch.xml", *given)
+    assert (err, code) == ("", 0)
+    return [line.strip() for line in out.splitlines()[1:-2]]
+
+
+def test_words() -> None:
+    assert understood(["a.py", "x:=1", "y:=", "z:=a:=b"], lambda _: True) == Asked(
+        "", "a.py", {"x": "1", "y": "", "z": "a:=b"}
+    )
+    assert understood(["p", "x:=1", "a.py"], lambda _: False) == Asked("p", "a.py", {"x": "1"})
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["x:=1"], "which launch file?"),
+        (["nowhere.py"], "nowhere.py: no such file"),
+        (["there.py", "x=1"], "x=1: an argument of a launch file is given as name:=value"),
+        (["p", "a.py", "x"], "x: an argument of a launch file is given as name:=value"),
+        (["there.py", ":=1"], ":=1: an argument has a name"),
+    ],
+)
+def test_words_without_sense(words: list[str], message: str) -> None:
+    with pytest.raises(UsageError, match=message.replace("?", r"\?")):
+        understood(words, lambda path: path == "there.py")
+
+
+def test_what_groups_set_holds_for_the_nodes_in_them() -> None:
+    assert launch(
+        '<group><push_ros_namespace namespace="left"/><set_parameter name="rate" value="5"/><set_remap from="a" to="b"/>'
+        '<set_env name="X" value="1"/><node pkg="p" exec="x" name="n"><param name="own" value="2"/><env name="Y" value="3"/>'
+        '<remap from="c" to="d"/></node></group><node pkg="p" exec="y"/>'
+    ) == [
+        "node p x as /left/n",
+        "parameter rate = 5",
+        "parameter own = 2",
+        "remap a to b",
+        "remap c to d",
+        "environment X = 1",
+        "environment Y = 3",
+        "node p y",
+    ]
+
+
+def test_what_an_unscoped_group_sets_goes_on() -> None:
+    assert launch('<group scoped="false"><set_env name="X" value="1"/></group><executable cmd="ls -l" cwd="/tmp"/>') == [
+        "process ls -l",
+        "environment X = 1",
+        "cwd = /tmp",
+    ]
+
+
+def test_what_is_appended_to_a_variable() -> None:
+    assert launch(
+        '<set_env name="X" value="1"/><append_env name="X" value="2"/><append_env name="Y" value="3"/><executable cmd="ls"/>'
+    ) == ["process ls", "environment X = 1:2", "environment Y = ?:3"]
+
+
+def test_a_variable_that_is_set_is_known() -> None:
+    assert launch('<set_env name="X" value="1"/><node pkg="p" exec="x$(env X)"/><node pkg="p" exec="y$(env Z 2)"/>') == [
+        "node p x1",
+        "environment X = 1",
+        "node p y2",
+        "environment X = 1",
+    ]
+
+
+def test_what_it_depends_on() -> None:
+    assert launch('<node pkg="p" exec="x" if="$(env SIM)"/>') == ["node p x", "if $(env SIM)"]
+    assert launch('<node pkg="p" exec="x" unless="$(env SIM)"/>') == ["node p x", "unless $(env SIM)"]
+
+
+def test_components_and_their_containers() -> None:
+    assert launch(
+        '<node_container pkg="rclcpp_components" exec="component_container" name="c" namespace="n">'
+        '<composable_node pkg="p" plugin="p::A" name="a"/></node_container>'
+        '<load_composable_node target="other"><composable_node pkg="p" plugin="p::B" name="b"/></load_composable_node>'
+    ) == [
+        "node rclcpp_components component_container as /n/c",
+        "component p p::A as /a",
+        "in /n/c",
+        "component p p::B as /b",
+        "in /other",
+    ]
+
+
+def test_why_something_is_not_known() -> None:
+    lines = launch('<node pkg="p" exec="$(env WHICH)"/><node pkg="p" exec="$(var nobody)"/>')
+    assert lines == [
+        "node p ?",
+        "? the environment variable WHICH is not known here",
+        "node p ?",
+        "? nothing sets the launch configuration nobody",
+    ]
+
+
+INNER = xml(
+    '<arg name="robot"/><arg name="mode" default="a"><choice value="a"/><choice value="b"/></arg><node pkg="p" exec="x"/>'
+)
+
+
+def included(body: str, *given: str) -> tuple[str, str, int]:
+    outer = xml(f'<include file="$(find-pkg-share p)/launch/inner.launch.xml">{body}</include>')
+    files = package("p", {"launch/a.launch.xml": outer, "launch/inner.launch.xml": INNER})
+    return ask(files, "p/launch/a.launch.xml", *given)
+
+
+def test_an_include_is_followed() -> None:
+    out, err, code = included('<arg name="robot" value="r"/>')
+    assert (err, code) == ("", 0)
+    assert out.splitlines() == [
+        "p/launch/a.launch.xml",
+        "  include $(find-pkg-share p)/launch/inner.launch.xml",
+        "    argument robot = r",
+        "    node p x",
+        "",
+        "1 node, 1 include",
+    ]
+
+
+def test_an_include_without_a_required_argument() -> None:
+    _, err, code = included("")
+    assert (err, code) == (
+        "ros-lint: p/launch/a.launch.xml:2:2: the argument robot is not given here, and has no default at "
+        "p/launch/inner.launch.xml:2:2\n",
+        1,
+    )
+    assert included("", "robot:=r")[1:] == ("", 0)
+
+
+def test_a_value_that_is_no_choice() -> None:
+    _, err, code = included('<arg name="robot" value="r"/><arg name="mode" value="c"/>')
+    assert (err, code) == ("ros-lint: p/launch/inner.launch.xml:2:21: c is no choice of the argument mode: choose a, b\n", 1)
+    assert included('<arg name="robot" value="r"/><arg name="mode" value="b"/>')[1:] == ("", 0)
+
+
+def test_a_required_argument_of_the_file_itself() -> None:
+    files = package("p", {"launch/a.launch.xml": INNER})
+    _, err, code = ask(files, "p", "a.launch.xml")
+    assert (err, code) == ("ros-lint: p/launch/a.launch.xml:2:2: the argument robot has no default: give robot:=VALUE\n", 1)
+    assert ask(files, "p", "a.launch.xml", "robot:=r")[1:] == ("", 0)
+
+
+def test_an_argument_that_nobody_takes() -> None:
+    files = package("p", {"launch/a.launch.xml": INNER})
+    with pytest.raises(UsageError, match=r"a.launch.xml takes no argument robt; did you mean robot\?"):
+        ask(files, "p", "a.launch.xml", "robt:=r")
+    with pytest.raises(UsageError, match=r"takes no argument colour; there are robot, mode"):
+        ask(files, "p", "a.launch.xml", "colour:=r", "robot:=r")
+
+
+def test_an_argument_that_a_file_out_of_sight_may_take() -> None:
+    body = '<include file="$(find-pkg-share nav2_bringup)/launch/bringup_launch.py"/>'
+    _, err, code = ask(package("p", {"launch/a.launch.xml": xml(body)}), "p", "a.launch.xml", "map:=m")
+    assert (err, code) == ("ros-lint: nothing that can be read takes the argument map; it takes none\n", 0)
+
+
+def test_an_argument_that_is_used_but_not_declared() -> None:
+    assert launch('<node pkg="p" exec="$(var which)"/>', "which:=w") == ["node p w"]
+
+
+def test_includes_in_a_circle() -> None:
+    a = xml('<include file="$(dirname)/b.launch.xml"/>')
+    b = xml('<include file="$(find-pkg-share p)/launch/a.launch.xml"/>')
+    files = package("p", {"launch/a.launch.xml": a, "launch/b.launch.xml": b})
+    _, err, code = ask(files, "p", "a.launch.xml")
+    assert (err, code) == (
+        "ros-lint: p/launch/b.launch.xml:2:2: this includes p/launch/a.launch.xml from within itself: it never ends\n",
+        1,
+    )
+
+
+def test_a_file_that_includes_itself_until_a_condition_ends_it() -> None:
+    body = (
+        '<arg name="n" default="2"/><node pkg="p" exec="x$(var n)"/>'
+        '<include file="$(dirname)/a.launch.xml" if="$(eval \'$(var n) > 0\')">'
+        '<arg name="n" value="$(eval \'$(var n) - 1\')"/></include>'
+    )
+    out, err, code = ask(package("p", {"launch/a.launch.xml": xml(body)}), "p", "a.launch.xml")
+    assert (err, code) == ("", 0)
+    assert [line.split()[-1] for line in out.splitlines() if "node" in line and "include" not in line] == ["x2", "x1", "x0"]
+
+
+def test_a_file_that_is_refused() -> None:
+    files = package("p", {"launch/a.launch.xml": xml('<nod pkg="p" exec="x"/>')})
+    _, err, code = ask(files, "p", "a.launch.xml")
+    assert (err, code) == ("ros-lint: p/launch/a.launch.xml:2:2: there is no tag <nod>\n", 1)
+
+
+def test_an_include_that_is_not_there() -> None:
+    files = package("p", {"launch/a.launch.xml": xml('<include file="$(find-pkg-share p)/launch/b.launch.xml"/>')})
+    out, err, code = ask(files, "p", "a.launch.xml")
+    assert "not followed: p installs no launch/b.launch.xml" in out
+    assert code == 1
+    assert err.endswith("$(find-pkg-share p)/launch/b.launch.xml: p installs no launch/b.launch.xml\n")
+
+
+def test_includes_of_an_underlay_are_followed() -> None:
+    underlay = {
+        "share/ament_index/resource_index/packages/below": "",
+        "share/below/package.xml": manifest_text("below"),
+        "share/below/launch/b.launch.xml": xml('<node pkg="below" exec="x"/>'),
+    }
+    files = package("p", {"launch/a.launch.xml": xml('<include file="$(find-pkg-share below)/launch/b.launch.xml"/>')})
+    out, err, code = ask(files, "p", "a.launch.xml", underlay=underlay)
+    assert (err, code) == ("", 0)
+    assert "    node below x" in out.splitlines()
+    out, _, code = ask(files, "below", "b.launch.xml", underlay=underlay)
+    assert (out.splitlines()[0], out.splitlines()[1], code) == ("opt/share/below/launch/b.launch.xml", "  node below x", 0)
+
+
+def test_an_include_of_a_released_package_is_not_followed() -> None:
+    body = '<include file="$(find-pkg-share nav2_bringup)/launch/bringup_launch.py"/>'
+    out, err, code = ask(package("p", {"launch/a.launch.xml": xml(body)}), "p", "a.launch.xml")
+    assert (err, code) == ("", 0)
+    assert "not followed: nav2_bringup is neither in the workspace nor in an underlay" in out
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("q", "a.launch.xml"), "there is no package q"),
+        (("p", "c.launch.xml"), r"p installs no launch file c.launch.xml; did you mean a.launch.xml\?"),
+        (("p", "forgotten.launch.xml"), r"p has other/forgotten.launch.xml, but does not install it"),
+        (("p", "twice.launch.xml"), r"p installs twice.launch.xml more than once, .*: launch/twice.launch.xml, more/twice"),
+        (("nav2_bringup", "bringup_launch.py"), "nav2_bringup is neither in the workspace nor in an underlay"),
+        (("p/package.xml",), "p/package.xml: it is no launch file of ROS 2"),
+        (("p/launch/helper.py",), r"p/launch/helper.py: no launch file: it has no generate_launch_description\(\)"),
+    ],
+)
+def test_a_launch_file_that_cannot_be_found(words: tuple[str, ...], message: str) -> None:
+    files = package(
+        "p",
+        {
+            "launch/a.launch.xml": xml(""),
+            "launch/twice.launch.xml": xml(""),
+            "more/twice.launch.xml": xml(""),
+            "other/forgotten.launch.xml": xml(""),
+            "launch/helper.py": "from launch_ros.actions import Node\ndef make():\n    return Node(package='p')\n",
+        },
+        "launch more",
+    )
+    with pytest.raises(UsageError, match=message):
+        ask(files, *words)
+
+
+def test_json_holds_the_same() -> None:
+    inner = xml('<node pkg="p" exec="x" if="$(env SIM)"/>')
+    include = '<include file="$(dirname)/inner.launch.xml"/>'
+    outer = xml(f'<arg name="v" default="1"/>{include}<node pkg="p" exec="y$(var v)" name="n"/>')
+    files = package("p", {"launch/a.launch.xml": outer, "launch/inner.launch.xml": inner})
+    out, _, code = ask(files, "p", "a.launch.xml", "v:=2", form="json")
+    document = json.loads(out)
+    assert (code, document["schema_version"], document["file"]) == (0, 1, "p/launch/a.launch.xml")
+    assert [(one["name"], one["values"], one["given"]) for one in document["arguments"]] == [("v", ["2"], True)]
+    inside, node = document["starts"]
+    assert (inside["kind"], inside["follows"]) == ("include", "p/launch/inner.launch.xml")
+    assert [(one["target"], one["certain"], one["when"]) for one in inside["starts"]] == [(["x"], False, ["if $(env SIM)"])]
+    assert (node["target"], node["name"], node["namespace"], node["line"]) == (["y2"], ["n"], ["/"], 2)
+
+
+def test_mermaid_has_every_file_and_node() -> None:
+    inner = xml('<node pkg="p" exec="x" if="$(env SIM)"/>')
+    files = package(
+        "p", {"launch/a.launch.xml": xml('<include file="$(dirname)/inner.launch.xml"/>'), "launch/inner.launch.xml": inner}
+    )
+    out, _, _ = ask(files, "p", "a.launch.xml", form="mermaid")
+    assert out.splitlines() == [
+        "flowchart LR",
+        '  n0["a.launch.xml"]',
+        '  n1["inner.launch.xml"]',
+        "  n0 --> n1",
+        '  n2("p x")',
+        '  n1 -.->|"if #36;#40;env SIM#41;"| n2',
+    ]
+
+
+def test_the_workspace_that_encloses_a_file(tmp_path: Path) -> None:
+    launch_file = tmp_path / "ws" / "src" / "repo" / "p" / "launch" / "a.launch.py"
+    launch_file.parent.mkdir(parents=True)
+    launch_file.touch()
+    package_folder = launch_file.parent.parent
+    (package_folder / "package.xml").touch()
+    assert enclosing_workspace(str(launch_file)) == str(package_folder)
+    (tmp_path / "ws" / "install").mkdir()
+    assert enclosing_workspace(str(launch_file)) == str(tmp_path / "ws")
+    (package_folder.parent / ".git").mkdir()
+    assert enclosing_workspace(str(launch_file)) == str(tmp_path / "ws")
+    (tmp_path / "ws" / "install").rmdir()
+    assert enclosing_workspace(str(launch_file)) == str(package_folder.parent)
+    (package_folder.parent / ".git").rmdir()
+    (tmp_path / "ws" / ".git").mkdir()
+    assert enclosing_workspace(str(launch_file)) == str(tmp_path / "ws")
+
+
+def test_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    for path, content in package("p", {"launch/a.launch.xml": INNER}).items():
+        place = tmp_path / "src" / path
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_text(content, "utf-8")
+    (tmp_path / ".git").mkdir()
+    monkeypatch.chdir(tmp_path / "src" / "p")
+    common = ["--distro", "jazzy", "--no-cache", "--isolated"]
+    assert cli.main(["launch", "launch/a.launch.xml", "robot:=r", *common]) == 0
+    by_file = capsys.readouterr().out
+    assert by_file.splitlines()[0] == "src/p/launch/a.launch.xml"
+    assert cli.main(["launch", "p", "a.launch.xml", "robot:=r", "-C", str(tmp_path), *common]) == 0
+    assert capsys.readouterr().out == by_file
+    assert cli.main(["launch", "launch/a.launch.xml", *common]) == 1
+    assert "give robot:=VALUE" in capsys.readouterr().err
+    assert cli.main(["launch", "p", "b.launch.xml", *common]) == 2
+    assert "did you mean a.launch.xml?" in capsys.readouterr().err
