@@ -45,7 +45,7 @@ _INNERMOST = re.compile("\ue010([^\ue010\ue011]*)\ue011")
 _INNER_EXPRESSION = re.compile("\ue012([^\ue012\ue013]*)\ue013")
 _ENDS = re.compile("\ue010\\$|[\ue010-\ue015]")
 _SHOWN = {"\ue010$": "$(env ", "\ue010": "$(var ", "\ue012": "$(eval ", "\ue014": "$(command "}
-_ROOTED = re.compile(rf"/{_ROOT}([^/]*)/share/([^\s'\":;,]*)")
+_ROOTED = re.compile(rf"/{_ROOT}([^/:;,'\"]*)(?:/share/([^\s'\":;,]*))?")
 _TWICE_ROOTED = re.compile(rf".*/(?=/(?:{_ROOT}|\ue002))", re.DOTALL)
 
 
@@ -145,6 +145,8 @@ def readable(text: str) -> str:
 
 def _readable_root(match: re.Match[str]) -> str:
     package, path = match[1], match[2]
+    if path is None:
+        return f"$(find-pkg-prefix {package})"
     if path == package or path.startswith(f"{package}/"):
         return f"$(find-pkg-share {package}){path[len(package):]}"
     return f"$(find-pkg-prefix {package})/share/{path}"

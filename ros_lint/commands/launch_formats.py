@@ -118,7 +118,7 @@ def tree(found: Found) -> str:
 
 
 def _argument(argument: Argument) -> str:
-    return f"argument {argument.name} = {_value(argument.texts)}{' (given)' if argument.given else ''}"
+    return f"argument {readable(argument.name)} = {_value(argument.texts)}{' (given)' if argument.given else ''}"
 
 
 def _details(started: Started, found: Found) -> Iterator[str]:
@@ -127,13 +127,13 @@ def _details(started: Started, found: Found) -> Iterator[str]:
     if started.container:
         yield f"in {_text(name if name.startswith('/') else f'/{name}' for name in started.container)}"
     for name, texts in started.parameters:
-        yield f"parameter {name} = {_value(texts)}" if name else f"parameters {_text(texts)}"
+        yield f"parameter {readable(name)} = {_value(texts)}" if name else f"parameters {_text(texts)}"
     for before, after in started.remappings:
         yield f"remap {_text(before)} to {_text(after)}"
     for name, texts in started.environment:
-        yield f"environment {name} = {_value(texts)}"
+        yield f"environment {readable(name)} = {_value(texts)}"
     for name, texts in started.arguments:
-        yield f"{'argument ' if started.kind == 'include' else ''}{name} = {_value(texts)}"
+        yield f"{'argument ' if started.kind == 'include' else ''}{readable(name)} = {_value(texts)}"
     if started.kind == "include" and not started.file:
         yield f"not followed: {_why_not_followed(started, found.look_up)}"
     yield from (f"? {reason}" for reason in started.unknown)
@@ -167,8 +167,7 @@ def json(found: Found) -> str:
         "file": found.file.path,
         "arguments": [
             {
-                "name": one.name,
-                "values": _list(one.texts),
+                **_named([(one.name, one.texts)])[0],
                 "given": one.given,
                 "included": one.depth > 0,
                 **_place(one.span),
@@ -209,15 +208,19 @@ def _item(one: Started) -> dict[str, Any]:
         "name": _list(one.name),
         "namespace": [f"/{space.strip('/')}" for space in _list(one.namespace)],
         "container": _list(one.container),
-        "parameters": [{"name": name, "values": _list(texts)} for name, texts in one.parameters],
+        "parameters": _named(one.parameters),
         "remappings": [{"from": _list(before), "to": _list(after)} for before, after in one.remappings],
-        "environment": [{"name": name, "values": _list(texts)} for name, texts in one.environment],
-        "arguments": [{"name": name, "values": _list(texts)} for name, texts in one.arguments],
+        "environment": _named(one.environment),
+        "arguments": _named(one.arguments),
         "certain": one.certain,
         "when": _when(one),
         "unknown": list(one.unknown),
         **_place(one.span),
     }
+
+
+def _named(pairs: Iterable[tuple[str, Iterable[str]]]) -> list[dict[str, Any]]:
+    return [{"name": readable(name), "values": _list(texts)} for name, texts in pairs]
 
 
 def _list(texts: Iterable[str]) -> list[str]:
