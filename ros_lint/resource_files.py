@@ -25,12 +25,14 @@ def uninstalled(files: Iterable[str], sources: Iterable[str]) -> dict[str, list[
 
     ``files`` are those of the package, ``sources`` those that it installs; both relative to it.
     """
-    occupied = {folder for source in sources for folder in _above(source)}
+    # Few folders have many files: each is looked at once.
+    used = {source.rpartition("/")[0] for source in sources}
+    occupied = used.union(*[_above(folder) for folder in used])
     found: dict[str, list[str]] = {}
     for file in files:
         top, _, rest = file.partition("/")
         top = top.lower()
-        if not rest or not (top in _FOLDERS or (top == "launch" and file.endswith(".launch"))):
+        if not (top in _FOLDERS or (top == "launch" and file.endswith(".launch"))) or not rest:
             continue
         if not (_FILES.search(file) or file.endswith(".launch")) or is_apart(file):
             continue

@@ -74,7 +74,7 @@ def _sources(tree: Tree, parts: Parts) -> Sources:
     from ros_lint.interpret.cmake import Sources  # noqa: PLC0415
 
     found, depends = parts.found, parts.depends
-    built = tuple(dict.fromkeys(name for kind in "bt" for name in depends.get(kind, ())))
+    built = tuple(dict.fromkeys((*depends.get("b", ()), *depends.get("t", ()))))
     version = found.manifest.version if found.manifest else ""
     executables = _Executables(tree, found)
     unseen = tuple(skipped.path for skipped in found.unseen)

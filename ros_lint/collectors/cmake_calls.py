@@ -32,22 +32,29 @@ _OPEN = frozenset({"if", "foreach", "while", "function", "macro"})
 def collect(path: str, parsed: Parsed) -> Iterator[Call]:
     """Yield the wanted commands of a CMake file, in order. ``path`` is that of the file, relative to the base."""
     blocks: list[tuple[str, bool]] = []
-    test = False
+    around: tuple[str, ...] = ()
+    test = asked = False
     for command in parsed.commands:
         name = command.name
         if name in _OPEN:
             blocks.append((name, name == "if" and _asks_for_tests(command)))
+            around, asked = _place(blocks)
         elif name[:3] == "end" and blocks and name[3:] in _OPEN:
             blocks.pop()
+            around, asked = _place(blocks)
         elif name in ("else", "elseif") and blocks:
             blocks[-1] = ("if", blocks[-1][1] or (name == "elseif" and _asks_for_tests(command)))
-        elif name == "return" and any(asked for _, asked in blocks):
+            around, asked = _place(blocks)
+        elif name == "return" and asked:
             test = True  # if(NOT BUILD_TESTING) return() endif(): the rest is for tests
         elif name in WANTED and (name != "set" or (command.args and command.args[0][0] in _SET)):
             _, _, args, start, end, line, column, breaks = command
-            around = tuple([block for block, _ in blocks])
-            asked = test or any(asked for _, asked in blocks)
-            yield Call(name, path, args, start, end, line, column, breaks, around, asked)
+            yield Call(name, path, args, start, end, line, column, breaks, around, test or asked)
+
+
+def _place(blocks: list[tuple[str, bool]]) -> tuple[tuple[str, ...], bool]:
+    """Return the names of blocks, and whether one of them asks if tests are wanted."""
+    return tuple([block for block, _ in blocks]), any(asked for _, asked in blocks)
 
 
 def _asks_for_tests(command: Command) -> bool:

@@ -102,7 +102,7 @@ def _result(run: Run, path: str) -> BuildScript:
         (),
         tuple(sorted(run.python_packages)),
         tuple(sorted(run.interfaces)),
-        tuple(sorted(call for call in run.calls if not call.startswith("ros_lint_"))),
+        tuple(sorted([call for call in run.calls if not call.startswith("ros_lint_")])),
         tuple(opaques),
         tuple(problems),
         run.end,
@@ -123,9 +123,9 @@ def _installed_files(run: Run) -> list[Provided]:
 
 def _mentions(run: Run) -> tuple[Mention, ...]:
     """Return the mentions; a package that is not required and asked for with X_FOUND is optional (section C2.2)."""
-    if not run.loose:
+    guarded = {span for name in run.loose if f"{name}_FOUND" in run.tested for span in run.loose[name]}
+    if not guarded:
         return tuple(run.mentions)
-    guarded = {span for name, spans in run.loose.items() if f"{name}_FOUND" in run.tested for span in spans}
     return tuple(
         mention._replace(optional=True) if mention.via == "cmake" and mention.span in guarded else mention
         for mention in run.mentions

@@ -3,48 +3,61 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from functools import lru_cache
 
 from ros_lint.interpret.cmake_values import HOLE, MAYBE, join, split
+
+_FLAG, _SINGLE, _LIST, _MAYBE = 1, 2, 3, 4
+
+
+@lru_cache(maxsize=512)
+def _keywords(prefix: str, options: str, ones: str, multis: str) -> tuple[dict[str, int], dict[str, str | None]]:
+    """Return what kind each keyword is of, and what is set when nothing is given."""
+    flags, singles, lists = split(options), split(ones), split(multis)
+    kinds = {**dict.fromkeys(lists, _LIST), **dict.fromkeys(singles, _SINGLE), **dict.fromkeys(flags, _FLAG)}
+    initial: dict[str, str | None] = {f"{prefix}_{name}": "FALSE" for name in flags}
+    unset = (*singles, *lists, "UNPARSED_ARGUMENTS", "KEYWORDS_MISSING_VALUES")
+    initial.update({f"{prefix}_{name}": None for name in unset})
+    return kinds, initial
 
 
 def parse_keywords(prefix: str, options: str, ones: str, multis: str, args: Sequence[str]) -> dict[str, str | None]:
     """Return the variables that cmake_parse_arguments() sets; None unsets one."""
-    flags, singles, lists = split(options), split(ones), split(multis)
-    values: dict[str, str | None] = {f"{prefix}_{name}": "FALSE" for name in flags}
-    values.update({f"{prefix}_{name}": None for name in (*singles, *lists)})
-    found: dict[str, list[str]] = {name: [] for name in lists}
-    given: dict[str, None] = {}
+    kinds, initial = _keywords(prefix, options, ones, multis)
+    values = initial.copy()
+    given: dict[str, list[str]] = {}
     unparsed: list[str] = []
     state = ""
-    kind = ""
+    taking = 0
     for arg in args:
-        if arg in flags:
+        kind = kinds.get(arg)
+        if kind == _FLAG:
             values[f"{prefix}_{arg}"] = "TRUE"
-            kind = ""
-        elif arg in singles:
-            state, kind = arg, "single"
-            given[arg] = None
-        elif arg in found:
-            state, kind = arg, "list"
-            given[arg] = None
-        elif kind == "single":
+            taking = 0
+        elif kind is not None:
+            state, taking = arg, kind
+            given.setdefault(arg, [])
+        elif taking == _SINGLE:
             values[f"{prefix}_{state}"] = arg
-            kind = "maybe" if arg == HOLE or arg.startswith(MAYBE) else ""
-        elif kind == "maybe" and arg.startswith(MAYBE):
+            taking = _MAYBE if arg == HOLE or arg.startswith(MAYBE) else 0
+        elif taking == _LIST:
+            given[state].append(arg)
+        elif taking == _MAYBE and arg.startswith(MAYBE):
             values[f"{prefix}_{state}"] = HOLE
-        elif kind == "list":
-            found[state].append(arg)
         else:
-            kind = ""
+            taking = 0
             unparsed.append(arg)
-        if arg.startswith(MAYBE) and (arg[1:] in flags or arg[1:] in singles or arg[1:] in found):
-            values.update(dict.fromkeys(values, HOLE))
-            return values
-    values.update({f"{prefix}_{name}": join(items) if name in given else None for name, items in found.items()})
-    missing = [name for name in given if name in found and not found[name]]
-    missing += [name for name in given if name in singles and values[f"{prefix}_{name}"] is None]
-    values[f"{prefix}_UNPARSED_ARGUMENTS"] = join(unparsed) if unparsed else None
-    values[f"{prefix}_KEYWORDS_MISSING_VALUES"] = join(missing) if missing else None
+        if arg[:1] == MAYBE and arg[1:] in kinds:
+            return dict.fromkeys(values, HOLE)
+    if given:
+        lists = [name for name in given if kinds[name] == _LIST]
+        values.update({f"{prefix}_{name}": join(given[name]) for name in lists})
+        missing = [name for name in lists if not given[name]]
+        missing += [name for name in given if kinds[name] == _SINGLE and values[f"{prefix}_{name}"] is None]
+        if missing:
+            values[f"{prefix}_KEYWORDS_MISSING_VALUES"] = join(missing)
+    if unparsed:
+        values[f"{prefix}_UNPARSED_ARGUMENTS"] = join(unparsed)
     return values
 
 

@@ -144,11 +144,7 @@ def _project(run: Run, args: list[str]) -> None:
         values[f"PROJECT_VERSION_{part}"] = values[f"{name}_VERSION_{part}"] = parts[index] if index < len(parts) else ""
     if name == HOLE:
         values = {variable: value for variable, value in values.items() if HOLE not in variable}
-    if run.log is None:
-        run.scopes[-1].update(values)
-    else:
-        for variable, value in values.items():
-            run.set(variable, value)
+    run.set_all(values)
 
 
 def _parse_arguments(run: Run, args: list[str]) -> None:
@@ -158,11 +154,14 @@ def _parse_arguments(run: Run, args: list[str]) -> None:
         given = [arg.replace(";", "\\;") for arg in _rest_of_call(run, args[1])]
     else:
         prefix, options, ones, multis = (*args[:4], "", "", "", "")[:4]
-        given = [element for arg in args[4:] for element in split(arg)]
-    if not is_known(prefix) or not all(map(is_known, (options, ones, multis))):
+        given = args[4:]
+        if ";" in "".join(given):
+            given = [element for arg in given for element in split(arg)]
+        elif "" in given:
+            given = [arg for arg in given if arg]
+    if not is_known(f"{prefix}{options}{ones}{multis}"):
         return
-    for name, value in parse_keywords(prefix, options, ones, multis, given).items():
-        run.set(name, value)
+    run.set_all(parse_keywords(prefix, options, ones, multis, given))
 
 
 def _rest_of_call(run: Run, first: str) -> list[str]:

@@ -23,6 +23,8 @@ class _Way(NamedTuple):
 
 
 def _run_if(run: Run, node: If) -> Exit:
+    if len(node.branches) == 1:
+        return _run_single(run, node)
     ways: list[_Way] = []
     open_end = True  # whether what was passed so far may all be false by default
     testing = run.testing
@@ -53,6 +55,24 @@ def _run_if(run: Run, node: If) -> Exit:
         # What is done by default stays as it is when the other way does nothing.
         return _run_way(run, ways[0]) | NEXT
     return _run_ways(run, ways)
+
+
+def _run_single(run: Run, node: If) -> Exit:
+    """Run an if() without further branches, as most are."""
+    ((command, body),) = node.branches
+    assert command is not None
+    run.frames[-1].command = command
+    truth = condition(run, command)
+    if truth.value == FALSE:
+        return NEXT
+    testing = run.testing
+    way = _Way(body, truth.value >= LIKELY, testing or truth.test_if_true)
+    if truth.value == TRUE:
+        return _run_way(run, way)
+    if truth.value == LIKELY:
+        # What is done by default stays as it is, for the other way does nothing.
+        return _run_way(run, way) | NEXT
+    return _run_ways(run, [way, _Way((), truth.value == UNLIKELY, testing or truth.test_if_false)])
 
 
 def _run_way(run: Run, way: _Way) -> Exit:

@@ -7,9 +7,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import TYPE_CHECKING, Final
 
-from ros_lint.collectors.cmake_syntax import BRACKET, LITERAL, QUOTED, UNQUOTED, Command
+from ros_lint.collectors.cmake_syntax import BRACKET, LITERAL, PLAIN, QUOTED, UNQUOTED, Command
 from ros_lint.interpret.cmake_tests import BINARY, UNARY
 from ros_lint.interpret.cmake_truth import (
     FALSE,
@@ -43,8 +44,10 @@ _REFERENCE = re.compile(r"\$\{([A-Za-z0-9_./+-]+)\}")
 
 def condition(run: Run, command: Command) -> Truth:
     """Return what a condition evaluates to."""
-    if len(command.args) == 1 and command.args[0][0] == "BUILD_TESTING":
-        return _TESTS_WANTED  # by far the most frequent condition
+    if len(command.args) == 1:
+        text, kind, _, _ = command.args[0]
+        if kind == PLAIN:  # by far the most frequent conditions
+            return _word(run, Token(text, False, False))
     tokens: list[Token] = []
     for text, kind, _, _ in command.args:
         if kind == UNQUOTED:
@@ -174,6 +177,8 @@ def _in_pairs(truths: Sequence[Truth], signs: Sequence[str]) -> Truth:
 def _word(run: Run, token: Token) -> Truth:
     """A constant, a variable or a string."""
     text = token.text
+    if text == "BUILD_TESTING" and not token.quoted:
+        return _TESTS_WANTED
     if not is_fixed(text):
         return Truth(UNKNOWN)
     known = constant(text)
@@ -181,7 +186,7 @@ def _word(run: Run, token: Token) -> Truth:
         return Truth(softened(TRUE if known else FALSE) if token.soft else (TRUE if known else FALSE))
     if token.quoted:
         return Truth(UNLIKELY if token.soft else FALSE)
-    if _TEST_VARIABLE.search(text):
+    if _asks_for_tests(text):
         return _tests_enabled(run, text)
     value = run.get(text)
     if text.endswith("_FOUND"):
@@ -195,10 +200,13 @@ def _word(run: Run, token: Token) -> Truth:
     return Truth(softened(answer) if token.soft or run.is_soft(text) else answer)
 
 
+@lru_cache(maxsize=1024)
+def _asks_for_tests(name: str) -> bool:
+    return _TEST_VARIABLE.search(name) is not None
+
+
 def _tests_enabled(run: Run, name: str) -> Truth:
     """Tests are enabled unless the user says otherwise (ament_cmake_test; reference, section C1.5)."""
-    if name == "BUILD_TESTING":
-        return _TESTS_WANTED
     value = run.get(name)
     if value is None or not is_fixed(value):
         return Truth(UNLIKELY, test_if_true=True)

@@ -27,21 +27,22 @@ class ExpansionError(Exception):
     """CMake refuses the argument: an unclosed reference, a bad escape or a bad character in a name."""
 
 
-_templates: dict[str, Compiled] = {}
+templates: Final[dict[str, Compiled]] = {}
+"""Arguments that :func:`template` has taken apart."""
 
 
 def template(text: str) -> Compiled:
     """Return an argument taken apart. Raises ExpansionError when CMake would refuse it."""
-    found = _templates.get(text)
+    found = templates.get(text)
     if found is None:
-        if len(_templates) > _MOST_TEMPLATES:
-            _templates.clear()
+        if len(templates) > _MOST_TEMPLATES:
+            templates.clear()
         found = parts = _compile(text)
         if len(parts) == 1 and isinstance(parts[0], tuple):
             where, name = parts[0]
             if not where and len(name) == 1 and isinstance(name[0], str) and not _MARKS.search(name[0]):
                 found = name[0]
-        _templates[text] = found
+        templates[text] = found
     return found
 
 
@@ -97,7 +98,17 @@ def expand(parts: Template, lookup: Lookup) -> str:
         if isinstance(part, str):
             return part
         return _reference(part, lookup)
-    pieces = [part if isinstance(part, str) else _reference(part, lookup) for part in parts]
+    pieces = []
+    for part in parts:
+        if isinstance(part, str):
+            pieces.append(part)
+            continue
+        where, inner = part
+        name = inner[0]
+        if len(inner) == 1 and isinstance(name, str) and HOLE not in name and MAYBE not in name:
+            pieces.append(lookup(name, where))
+        else:
+            pieces.append(_reference(part, lookup))
     text = "".join(pieces)
     if MAYBE in text:
         text = "".join(_stands_alone(pieces, index) for index in range(len(pieces)))

@@ -33,9 +33,25 @@ BLOCKS: Final[dict[type, Callable[[Run, Any], Exit]]] = {}
 
 def run_body(run: Run, body: Sequence[Node], start: int = 0) -> Exit:
     """Run commands one after the other, and return how that can end."""
+    run.steps += len(body) - start + 1
+    if run.steps > MOST_STEPS:
+        raise BudgetError
+    frame = run.frames[-1]
+    procedures = run.procedures
     for index in range(start, len(body)):
         node = body[index]
-        ended = run_command(run, node) if type(node) is Command else _run_block(run, node)
+        if type(node) is Command:
+            frame.command = node
+            name = node.name
+            if name in procedures:
+                ended = run_named(run, name, run.arguments(node))
+            else:
+                run.calls.add(name)
+                handler = HANDLERS.get(name)
+                args = run.arguments(node)
+                ended = (handler(run, args) if handler is not None else run.foreign(run, name, args)) or NEXT
+        else:
+            ended = BLOCKS[type(node)](run, node)
         if ended == NEXT:
             continue
         if not ended & NEXT:
@@ -59,20 +75,6 @@ def perhaps(run: Run, piece: Callable[[], Exit], reached: Exit = NEXT) -> tuple[
         run.unsure, run.testing = unsure, testing
 
 
-def run_command(run: Run, command: Command) -> Exit:
-    """Run a command that opens no block."""
-    run.steps += 1
-    if run.steps > MOST_STEPS:
-        raise BudgetError
-    run.frames[-1].command = command
-    name = command.name
-    if name in run.procedures:
-        return run_named(run, name, run.arguments(command))
-    run.calls.add(name)
-    handler = HANDLERS.get(name)
-    return (handler(run, run.arguments(command)) if handler else run.foreign(run, name, run.arguments(command))) or NEXT
-
-
 def run_named(run: Run, name: str, args: list[str]) -> Exit:
     """Run a command given by its name in lower case and its evaluated arguments."""
     run.calls.add(name)
@@ -83,11 +85,6 @@ def run_named(run: Run, name: str, args: list[str]) -> Exit:
     if handler is not None:
         return handler(run, args) or NEXT
     return run.foreign(run, name, args) or NEXT
-
-
-def _run_block(run: Run, node: Node) -> Exit:
-    count_step(run)
-    return BLOCKS[type(node)](run, node)
 
 
 def count_step(run: Run) -> None:
@@ -105,45 +102,51 @@ def _without(run: Run, name: str, args: list[str]) -> Exit:
 
 def call(run: Run, procedure: Procedure | Choice, args: list[str]) -> Exit:
     """Call a function or macro."""
-    if isinstance(procedure, Choice):
-        name = next(option.name for option in procedure.procedures if option is not None).lower()
-        ended: Exit = 0
-        branches: list[Changes] = []
-        for number, option in enumerate(procedure.procedures):
-            piece = partial(call, run, option, args) if option is not None else partial(_without, run, name, args)
-            one, changes = perhaps(run, piece, USUAL if number == procedure.usual else NEXT)
-            ended |= one
-            branches.append(changes)
-        run.join(branches, procedure.usual)
-        return ended
-    if not procedure.body:
+    if type(procedure) is Choice:
+        return _call_one_of(run, procedure, args)
+    assert type(procedure) is Procedure
+    body = procedure.body
+    if not body:
         return NEXT
-    if len(run.frames) > DEEPEST:
+    frames = run.frames
+    if len(frames) > DEEPEST:
         raise BudgetError
-    frame = Frame(procedure.own, procedure.path, procedure.folder, procedure)
-    firm = None
-    command = run.frames[-1].command
+    firm = len(args)
+    command = frames[-1].command
     given = "".join(args)
-    if command is not None and (HOLE in given or MAYBE in given):
-        firm = run.firm_arguments(command)
-        if firm is not None:  # cmake_language(CALL) takes two words more than the command itself
-            firm = max(0, firm - (len(run.arguments(command)) - len(args)))
-    values = _call_values(procedure, args, len(args) if firm is None else firm)
+    if (HOLE in given or MAYBE in given) and command is not None:
+        index = run.firm_arguments(command)
+        if index is not None:  # cmake_language(CALL) takes two words more than the command itself
+            firm = max(0, index - (len(run.arguments(command)) - len(args)))
+    values = _call_values(procedure, args, firm)
+    frame = Frame(procedure.own, procedure.path, procedure.folder, procedure)
+    frames.append(frame)
     if procedure.macro:
         frame.given = values
-        run.frames.append(frame)
         try:
-            return run_body(run, procedure.body)
+            return run_body(run, body)
         finally:
-            run.frames.pop()
+            frames.pop()
     run.scopes.append(Variables(values))
-    run.frames.append(frame)
     try:
-        ended = run_body(run, procedure.body)
+        ended = run_body(run, body)
     finally:
-        run.frames.pop()
+        frames.pop()
         run.scopes.pop()
     return NEXT if ended & (NEXT | RETURN) else ended
+
+
+def _call_one_of(run: Run, choice: Choice, args: list[str]) -> Exit:
+    name = next(option.name for option in choice.procedures if option is not None).lower()
+    ended: Exit = 0
+    branches: list[Changes] = []
+    for number, option in enumerate(choice.procedures):
+        piece = partial(call, run, option, args) if option is not None else partial(_without, run, name, args)
+        one, changes = perhaps(run, piece, USUAL if number == choice.usual else NEXT)
+        ended |= one
+        branches.append(changes)
+    run.join(branches, choice.usual)
+    return ended
 
 
 def _call_values(procedure: Procedure, args: list[str], firm: int) -> dict[str, str]:

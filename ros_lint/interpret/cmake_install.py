@@ -40,6 +40,9 @@ _DIRECTORY_WORDS: Final = {
 }  # fmt: skip
 
 
+_NOTHING: Final = frozenset({"ARCHIVE", "LIBRARY", "RUNTIME", "DESTINATION"})
+"""What follows ``install(TARGETS`` and the like when there is nothing to install."""
+
 _WRITES = re.compile(
     r"\bfile\s*\(|symlink|\bcopy|\binstall|\b(?:ln|cp|mv)\b|configure_file|rename|\btar\b|\bmake\b", re.IGNORECASE
 )
@@ -63,6 +66,8 @@ def facet_of(run: Run, destination: str | None) -> Facet:
 
 def _install(run: Run, args: list[str]) -> None:
     mode = args[0] if args else ""
+    if args[1:2] and args[1] in _NOTHING:
+        return  # the list was empty, which CMake allows
     if mode == "TARGETS":
         _install_targets(run, args[1:])
     elif mode in ("FILES", "PROGRAMS"):
@@ -241,7 +246,8 @@ def _install_directory(run: Run, value: str, source: str, target: str, rule: _Ru
     if source in run.files:
         run.problem("directory-is-file", f"install(DIRECTORY) of {source}, which is a file", span)
         return
-    if run.is_unseen(source) or any(folder.startswith(f"{source}/" if source else "") for folder in run.sources.unseen):
+    unseen = run.sources.unseen
+    if unseen and (run.is_unseen(source) or any(folder.startswith(f"{source}/" if source else "") for folder in unseen)):
         run.hide(facet_of(run, target), "install(DIRECTORY) of a folder whose files are not listed", span)
     if not run.is_folder(source):
         if not rule.optional:
@@ -249,14 +255,16 @@ def _install_directory(run: Run, value: str, source: str, target: str, rule: _Ru
         return
     skip = len(source) + 1 if source else 0
     top = plain.rstrip("/") if plain.startswith("/") else f"/{join_path(run.directory, plain)}".rstrip("/")
+    start = f"{target}/" if target else ""
+    chosen = bool(rule.patterns or rule.only)
     for file in run.below(source):
         program = file in run.sources.executables if rule.executable is None else rule.executable
-        if rule.patterns or rule.only:
-            chosen, given = _chosen(file[skip:], top, rule)
-            if not chosen:
+        if chosen:
+            wanted, given = _chosen(file[skip:], top, rule)
+            if not wanted:
                 continue
             program = program if given is None else given
-        run.installed.append(Provided(join_path(target, file[skip:]), file, program, conditional, span))
+        run.installed.append(Provided(f"{start}{file[skip:]}", file, program, conditional, span))
 
 
 def _chosen(file: str, top: str, rule: _Rule) -> tuple[bool, bool | None]:

@@ -4,20 +4,16 @@ from __future__ import annotations
 
 import posixpath
 import re
-from functools import cache
-from typing import Final, NamedTuple
+from typing import Final
 
-from ros_lint.collectors.cmake_syntax import Command
 from ros_lint.facts import ANYTHING, Component, Facet, Provided
 from ros_lint.interpret.cmake_arguments import sections
-from ros_lint.interpret.cmake_blocks import Definition, blocks
-from ros_lint.interpret.cmake_definitions import counts
-from ros_lint.interpret.cmake_flow import HANDLERS, call
+from ros_lint.interpret.cmake_flow import HANDLERS
+from ros_lint.interpret.cmake_released import released, run_released
 from ros_lint.interpret.cmake_run import Handler, Run
-from ros_lint.interpret.cmake_state import Procedure, Properties
+from ros_lint.interpret.cmake_state import Properties
 from ros_lint.interpret.cmake_targets import generate
 from ros_lint.interpret.cmake_values import HOLE, elements, is_known, sure
-from ros_lint.knowledge.cmake_commands import macros
 from ros_lint.tree import join as join_path
 
 _PRODUCER = re.compile(r"install|program|executable|node|script|package|component|launch|resource|share|deploy|xacro|module")
@@ -30,16 +26,13 @@ _TESTER = re.compile(
 
 def foreign(run: Run, name: str, args: list[str]) -> int | None:
     """Carry out a command that neither CMake nor the package defines."""
-    macro = macros().get(name)
+    macro = released(name)
     if macro is not None:
         frame = run.frames[-1]
-        if frame.own and macro.package and frame.command is not None:
-            run.mention(macro.package, "macro", frame.command.place(frame.path), f"{name}()")
-        released = _released(name)
-        if released.direct is not None and not any(";" in arg for arg in args):
-            primitive, words = released.direct
-            return HANDLERS[primitive](run, [*words, *args])
-        return call(run, released.procedure, args)
+        provider = macro.procedure.provider
+        if frame.own and provider and frame.command is not None:
+            run.mention(provider, "macro", frame.command.place(frame.path), f"{name}()")
+        return run_released(run, macro, args)
     if name.startswith("_") and name[1:] in HANDLERS and name[1:] in run.procedures:
         return HANDLERS[name[1:]](run, args)  # the original of an overridden command
     run.open_world = True
@@ -50,30 +43,6 @@ def foreign(run: Run, name: str, args: list[str]) -> int | None:
             hidden = ANYTHING
     run.hide(hidden, f"what {name}() does is not known")
     return None
-
-
-class _Released(NamedTuple):
-    procedure: Procedure
-    direct: tuple[str, list[str]] | None
-    """A primitive and its first arguments, when the macro does nothing but hand all that it is given to it."""
-
-
-@cache
-def _released(name: str) -> _Released:
-    macro = macros()[name]
-    (node,) = blocks(macro.definition)
-    assert isinstance(node, Definition)
-    _, *parameters = [argument[0] for argument in node.command.args]
-    macro_like = node.command.name == "macro"
-    procedure = Procedure(name, macro_like, tuple(parameters), node.body, False, "", "", macro.package, counts(node.body))
-    direct = None
-    if len(node.body) == 1 and isinstance(only := node.body[0], Command) and only.name.startswith("ros_lint_"):
-        words = [argument[0] for argument in only.args]
-        handed = [f"${{{parameter}}}" for parameter in (*parameters, "ARGN")]
-        first = len(words) - len(handed)
-        if words[first:] == handed and not any("$" in word for word in words[:first]):
-            direct = only.name, words[:first]
-    return _Released(procedure, direct)
 
 
 def _component(run: Run, args: list[str]) -> None:

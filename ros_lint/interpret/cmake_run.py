@@ -11,7 +11,7 @@ from typing import Final, NamedTuple
 
 from ros_lint.collectors.cmake_syntax import LITERAL, OPEN, PLAIN, QUOTED, UNQUOTED, Argument, Command
 from ros_lint.facts import Component, Facet, Mention, Opaque, Problem, Provided, Via
-from ros_lint.interpret.cmake_expand import ExpansionError, expand, template
+from ros_lint.interpret.cmake_expand import ExpansionError, expand, template, templates
 from ros_lint.interpret.cmake_sources import Helper, Sources
 from ros_lint.interpret.cmake_state import MISSING, Frame, Properties, State
 from ros_lint.interpret.cmake_values import ATOM, BINARY, HOLE, MAYBE, PREFIX, SOURCE, split
@@ -41,6 +41,37 @@ class InstalledTarget(NamedTuple):
 def folded(name: str) -> str:
     """Return a name as it is compared with others that are spelt a little differently."""
     return name.replace("_", "").replace("-", "").lower()
+
+
+@lru_cache(maxsize=4096)
+def _source(directory: str, value: str) -> str | None:
+    """Return a path relative to the package, given the folder whose script names it."""
+    if HOLE in value:
+        return None
+    if value.startswith(SOURCE):
+        rest = value[len(SOURCE) :]
+        if rest and not rest.startswith("/"):
+            return None
+        path = rest.lstrip("/")
+    elif value.startswith(("/", "$<")) or not value:
+        return None
+    else:
+        path = join_path(directory, value)
+    path = posixpath.normpath(path)
+    if path.startswith("../") or path == ".." or "\1" in path:
+        return None
+    return "" if path == "." else path
+
+
+@lru_cache(maxsize=1024)
+def _destination(value: str) -> str | None:
+    """Return an install destination relative to the prefix."""
+    if value.startswith(PREFIX):
+        value = value[len(PREFIX) :].lstrip("/")
+    if HOLE in value or "\1" in value or value.startswith("/") or "$<" in value:
+        return None
+    path = posixpath.normpath(value) if value else ""
+    return "" if path == "." else path
 
 
 _SIMPLE = re.compile(r"\$\{(\w+)\}")
@@ -207,18 +238,15 @@ class Run(State):
     def arguments(self, command: Command) -> list[str]:
         """Return the arguments of a command, evaluated and split."""
         values: list[str] = []
-        evaluated = self.evaluated
         for text, kind, _, _ in command.args:
             if kind == UNQUOTED:
-                value = evaluated(text)
+                value = self.evaluated(text)
                 if ";" in value:
                     values += split(value)
                 elif value:
                     values.append(value)
-            elif kind == QUOTED:
-                values.append(evaluated(text))
             else:
-                values.append(text)
+                values.append(self.evaluated(text) if kind == QUOTED else text)
         return values
 
     def firm_arguments(self, command: Command) -> int | None:
@@ -241,8 +269,8 @@ class Run(State):
         """Return the value of an argument before it is split."""
         given = self.frames[-1].given
         try:
-            parts = template(text)
-            if isinstance(parts, str):  # the name of a variable, by far the most frequent case
+            parts = templates.get(text) or template(text)
+            if type(parts) is str:  # the name of a variable, by far the most frequent case
                 if given is None or parts not in given:
                     return self.get(parts) or ""
                 text = given[parts]
@@ -268,9 +296,10 @@ class Run(State):
             command = frame.command
             if not frame.own or command is None:
                 continue
-            own = own or frame
-            if not value:
-                break
+            if own is None:
+                own = frame
+                if not value:
+                    break
             for argument in command.args:
                 if argument[0] == value and argument[1] < OPEN:
                     return _inside(frame.path, command, argument)
@@ -309,30 +338,11 @@ class Run(State):
 
     def source(self, value: str) -> str | None:
         """Return a path relative to the package, or None for one that lies elsewhere or is not known."""
-        if HOLE in value:
-            return None
-        if value.startswith(SOURCE):
-            rest = value[len(SOURCE) :]
-            if rest and not rest.startswith("/"):
-                return None
-            path = rest.lstrip("/")
-        elif value.startswith(("/", "$<")) or not value:
-            return None
-        else:
-            path = join_path(self.directory, value)
-        path = posixpath.normpath(path)
-        if path.startswith("../") or path == ".." or "\1" in path:
-            return None
-        return "" if path == "." else path
+        return _source(self.directories[-1], value)
 
     def destination(self, value: str) -> str | None:
         """Return an install destination relative to the prefix, or None when it is not known or lies elsewhere."""
-        if value.startswith(PREFIX):
-            value = value[len(PREFIX) :].lstrip("/")
-        if HOLE in value or "\1" in value or value.startswith("/") or "$<" in value:
-            return None
-        path = posixpath.normpath(value) if value else ""
-        return "" if path == "." else path
+        return _destination(value)
 
     def is_folder(self, path: str) -> bool:
         """Return whether the package has such a folder, with a file in it."""

@@ -109,6 +109,13 @@ class State:
         """Set a variable of the innermost scope, or unset it."""
         self.put(self.scopes[-1], name, value)
 
+    def set_all(self, values: Mapping[str, str | None]) -> None:
+        """Set several variables of the innermost scope; None unsets one."""
+        scope = self.scopes[-1]
+        if self.log is not None:
+            self.log += [(scope, name, scope.get(name, MISSING)) for name in values]
+        scope.update(values)
+
     def set_outer(self, name: str, value: str | None) -> None:
         """Set a variable of the scope around the innermost (PARENT_SCOPE)."""
         if len(self.scopes) > 1:
@@ -121,7 +128,10 @@ class State:
 
     def normal(self, name: str) -> str | None:
         """Return a variable as the scopes hold it, without the cache."""
-        return next((scope[name] for scope in reversed(self.scopes) if name in scope), None)
+        for scope in reversed(self.scopes):
+            if name in scope:
+                return scope[name]
+        return None
 
     def found(self, name: str, depth: int | None = None) -> Any:
         """Return a variable as scopes and cache hold it, or MISSING. ``depth`` leaves inner scopes out."""
@@ -227,7 +237,7 @@ class Frame:
         self.own = own
         self.path = path
         self.file = file
-        self.folder = file.rpartition("/")[0]
+        self.folder = "" if procedure else file.rpartition("/")[0]
         self.procedure = procedure
         self.provider = provider
         self.given: dict[str, str] | None = None

@@ -196,9 +196,9 @@ def targets(run: Run) -> tuple[Target, ...]:
         kind = target["KIND"]
         if kind == "imported":
             continue
-        sources = tuple(dict.fromkeys(sure(path)[0] for path in elements(target["SOURCES"]) if HOLE not in path))
+        sources = tuple(dict.fromkeys([sure(path)[0] for path in elements(target["SOURCES"]) if HOLE not in path]))
         found.append(Target(name, _KINDS.get(kind, "library"), sources, "TEST" in target, span))
-    return tuple(dict.fromkeys(found))
+    return tuple(dict.fromkeys(found)) if len(found) > 1 else tuple(found)
 
 
 _KINDS: Final[dict[str, Literal["executable", "interface"]]] = {"executable": "executable", "interface": "interface"}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 if TYPE_CHECKING:
@@ -77,6 +78,7 @@ def is_off(text: str) -> bool:
     return text.upper() in _FALSE_WORDS or text == "NOTFOUND" or text.endswith("-NOTFOUND")
 
 
+@lru_cache(maxsize=1024)
 def constant(text: str) -> bool | None:
     """Return what a word means as a condition, or None when it is neither a true nor a false constant nor a number."""
     if text.upper() in _TRUE_WORDS:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import ast
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Sequence
-from pathlib import PurePosixPath
 from typing import Any, Final
 
 from ros_lint.interpret.setup_py_files import ROOT, Files
@@ -23,6 +22,7 @@ from ros_lint.interpret.setup_py_values import (
     Word,
     certain,
     either,
+    is_path,
     located,
     unknown_in,
 )
@@ -89,7 +89,7 @@ class Expressions(ABC):
         elif isinstance(value, dict):
             for key in list(value):
                 yield Unknown(f"not all keys of {at(node)} are known", node) if key is REST else key
-        elif isinstance(value, (Module, Native, Function, Class, PurePosixPath)):
+        elif isinstance(value, (Module, Native, Function, Class)) or is_path(value):
             yield Unknown(f"{at(node)} cannot be iterated over", node)
         else:
             for item in value:

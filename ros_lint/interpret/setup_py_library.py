@@ -8,14 +8,28 @@ import posixpath
 from collections.abc import Callable
 from itertools import product
 from math import prod
-from pathlib import PurePosixPath
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ros_lint.interpret.setup_py_expressions import Expressions
 from ros_lint.interpret.setup_py_files import ROOT
 from ros_lint.interpret.setup_py_operators import LONGEST, binary, check_format, check_size
 from ros_lint.interpret.setup_py_state import LeaveError
-from ros_lint.interpret.setup_py_values import Globbed, Maybe, Module, Native, Unknown, Value, certain, located, unknown_in
+from ros_lint.interpret.setup_py_values import (
+    Globbed,
+    Maybe,
+    Module,
+    Native,
+    Unknown,
+    Value,
+    certain,
+    is_path,
+    located,
+    path_of,
+    unknown_in,
+)
+
+if TYPE_CHECKING:
+    from pathlib import PurePosixPath
 
 CONSTANTS: dict[str, Value] = {
     "os.sep": "/",
@@ -64,7 +78,7 @@ def builtin(name: str) -> Value | None:
 
 def method(owner: Value, name: str, node: ast.AST) -> Value:
     """Return an attribute of a value that is no module."""
-    if isinstance(owner, PurePosixPath):
+    if is_path(owner):
         if name in _PATH_PROPERTIES:
             found = getattr(owner, name)
             return located(list(found) if name == "parents" else found, node)
@@ -212,7 +226,7 @@ def _path_glob(program: Expressions, _: ast.Call, owner: PurePosixPath, pattern:
     whole = str(owner / pattern)
     paths = program.files.glob(whole, recursive=True, hidden=True)
     folders = pattern.endswith("**")
-    return _globbed(whole, [PurePosixPath(path) for path in paths if not folders or program.files.is_folder(path)])
+    return _globbed(whole, [path_of(path) for path in paths if not folders or program.files.is_folder(path)])
 
 
 def _globbed(pattern: str, paths: list[Value]) -> Globbed:
@@ -350,8 +364,8 @@ FUNCTIONS: dict[str, Callable[..., Value]] = {
     "glob.glob": _glob,
     "fnmatch.fnmatch": _on_texts(fnmatch.fnmatchcase),
     "fnmatch.filter": lambda _, __, names, pattern: [name for name in names if fnmatch.fnmatchcase(name, pattern)],
-    "pathlib.Path": lambda _, __, *parts: PurePosixPath(*parts),
-    "pathlib.Path.cwd": lambda *_: PurePosixPath(ROOT),
+    "pathlib.Path": lambda _, __, *parts: path_of(*parts),
+    "pathlib.Path.cwd": lambda *_: path_of(ROOT),
     "path.glob": _path_glob,
     "path.rglob": lambda program, node, owner, pattern: _path_glob(program, node, owner / "**", pattern),
     "path.iterdir": lambda program, _, owner: [owner / name for name in program.files.names(str(owner)) or ()],
@@ -359,8 +373,8 @@ FUNCTIONS: dict[str, Callable[..., Value]] = {
     "path.is_file": lambda program, _, owner: program.files.is_file(str(owner)),
     "path.is_dir": lambda program, _, owner: program.files.is_folder(str(owner)),
     "path.as_posix": lambda _, __, owner: str(owner),
-    "path.resolve": lambda *args: PurePosixPath(posixpath.normpath(posixpath.join(ROOT, str(args[2])))),
-    "path.absolute": lambda _, __, owner: PurePosixPath(ROOT) / owner,
+    "path.resolve": lambda *args: path_of(posixpath.normpath(posixpath.join(ROOT, str(args[2])))),
+    "path.absolute": lambda _, __, owner: path_of(ROOT) / owner,
     "path.joinpath": lambda _, __, owner, *parts: owner.joinpath(*parts),
     "path.relative_to": lambda _, __, owner, *parts: owner.relative_to(*parts),
     "path.with_suffix": lambda _, __, owner, suffix: owner.with_suffix(suffix),

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterable
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeGuard
 
 from ros_lint.text import Span
+
+if TYPE_CHECKING:
+    from pathlib import PurePosixPath
 
 Value = Any
 """A str, int, float, bool, None, list, tuple, dict, set or PurePosixPath as in Python, or one of the classes below."""
@@ -146,3 +149,15 @@ def merged(left: list[Value], right: list[Value]) -> list[Value]:
         shared += 1
     rest = [*left[shared:], *right[shared:]]
     return [*left[:shared], *(item if isinstance(item, (Maybe, Unknown)) else Maybe(item) for item in rest)]
+
+
+def path_of(*parts: Value) -> PurePosixPath:
+    """Return a path as pathlib.Path() makes it. Raises TypeError as that does."""
+    from pathlib import PurePosixPath  # noqa: PLC0415  (it is slow to import, and few scripts want it)
+
+    return PurePosixPath(*parts)
+
+
+def is_path(value: Value) -> TypeGuard[PurePosixPath]:
+    """Return whether a value is a path of pathlib's."""
+    return type(value).__name__ == "PurePosixPath"
