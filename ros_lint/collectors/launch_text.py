@@ -45,7 +45,7 @@ _INNERMOST = re.compile("\ue010([^\ue010\ue011]*)\ue011")
 _INNER_EXPRESSION = re.compile("\ue012([^\ue012\ue013]*)\ue013")
 _ENDS = re.compile("\ue010\\$|[\ue010-\ue015]")
 _SHOWN = {"\ue010$": "$(env ", "\ue010": "$(var ", "\ue012": "$(eval ", "\ue014": "$(command "}
-_ROOTED = re.compile(rf"/{_ROOT}([^/:;,'\"]*)(?:/share/([^\s'\":;,]*))?")
+_ROOTED = re.compile(rf"/{_ROOT}([^/:;,'\"]*)(?:/share/([^\s'\":;,{_ROOT}]*))?")
 _TWICE_ROOTED = re.compile(rf".*/(?=/(?:{_ROOT}|\ue002))", re.DOTALL)
 
 
