@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import operator
 from typing import TYPE_CHECKING
 
-from ros_lint.collectors.cpp_includes import includes
+from ros_lint.collectors.cpp_includes import Include, mentions
 from ros_lint.collectors.cpp_look_ups import look_ups
 from ros_lint.collectors.cpp_registrations import registrations
-from ros_lint.facts import Facet, FileFacts, Mention, Opaque
+from ros_lint.facts import Facet, FileFacts, Opaque
 
 if TYPE_CHECKING:
     from ros_lint.text import Text
+
+_LOADERS = ("pluginlib/", "class_loader/")
+_place = operator.attrgetter("span")
 
 
 def collect(source: Text) -> FileFacts:
@@ -19,24 +23,21 @@ def collect(source: Text) -> FileFacts:
     An include is a mention ``via="include"`` whose ``what`` tells ``#include "a"`` from ``#include <a>``.
     Look-ups by ament_index_cpp and pluginlib with a literal are ``via="package"`` (reference, section E2, rows 23 and 24).
     """
-    found = includes(source.text)
-    named = [item for item in found if item.quote]
-    spans = source.spans([(start, start + len(name)) for start, name, _, _ in named])
-    mentions = [
-        Mention(name, "include", span, f"#include <{name}>" if quote == "<" else f'#include "{name}"', optional)
-        for (_, name, quote, optional), span in zip(named, spans, strict=True)
-    ]
-    loads_plugins = any(name.startswith(("pluginlib/", "class_loader/")) for _, name, _, _ in named)
-    packages, files = look_ups(source, loads_plugins)
+    included, code, computed = mentions(source)
+    loads_plugins = any([mention[0].startswith(_LOADERS) for mention in included])  # noqa: C419  (half the time)
+    packages, files = look_ups(source, loads_plugins, code)
     if packages:
-        mentions = sorted([*mentions, *packages], key=lambda mention: mention.span)
-    opaque = [
+        included = sorted([*included, *packages], key=_place)
+    opaque = _opaque(source, computed) if computed else ()
+    return FileFacts(source.path, tuple(included), opaque, (), registrations(source, code), files)
+
+
+def _opaque(source: Text, computed: list[Include]) -> tuple[Opaque, ...]:
+    return tuple(
         Opaque(
             Facet.USES,
             f"only the preprocessor knows which header #include {item.name} names",
             source.span(item.start, item.start + len(item.name)),
         )
-        for item in found
-        if not item.quote
-    ]
-    return FileFacts(source.path, tuple(mentions), tuple(opaque), registrations=registrations(source), look_ups=files)
+        for item in computed
+    )

@@ -8,19 +8,28 @@ raw strings are blanked out first, and the same scan is run again.
 from __future__ import annotations
 
 import re
+from bisect import bisect_left, bisect_right
+from functools import cache
 from typing import TYPE_CHECKING, NamedTuple
 
+from ros_lint.facts import Mention
+from ros_lint.text import Span
+
 if TYPE_CHECKING:
-    from collections.abc import Set
+    from collections.abc import Sequence, Set
+
+    from ros_lint.text import Text
 
 # "#" first: the regular expression engine looks for a literal much faster than for the start of a line.
-# Groups: 1 quote and 2 name of an include, 3 the macro that gives the name; 4 word and 5 condition of a conditional.
+# Groups: 1 an empty one if "#" is not just the first of a line that continues none; 2 quote and 3 name of an include,
+# 4 the macro that gives the name; 5 word and 6 condition of a conditional.
 _DIRECTIVE = re.compile(
-    r"""\#[ \t]*(?:(?:include(?:_next)?|import)\b[ \t]*(?:([<"])([^>"\n]+)[>"]|([A-Za-z_][^\n]*))
+    r"""\#(?:(?<=[^\\\r]\n\#)|())[ \t]*
+    (?:(?:include(?:_next)?|import)\b[ \t]*(?:([<"])([^>"\n]+)[>"]|([A-Za-z_][^\n]*))
     |(if(?:n?def)?|el(?:if(?:n?def)?|se)|endif)\b([^\n]*))""",
     re.VERBOSE,
 )
-_NAMED, _COMPUTED, _CONDITIONAL = 2, 3, 5  # the last group that takes part
+_NAMED, _COMPUTED, _CONDITIONAL = 3, 4, 6  # the last group that takes part
 
 _HIDING = re.compile(
     r"""//(?:[^\\\n]|\\\r?\n|\\.)*
@@ -32,6 +41,9 @@ _HIDING = re.compile(
     |\\\r?\n""",
     re.VERBOSE | re.DOTALL | re.MULTILINE,
 )
+# The rarer character first, for the same reason.
+_RAW = re.compile(r'"(?<=R")([^()\\\s]{0,16})\(')
+_COMMENT = re.compile(r"\*(?<=/\*)")
 _DEFINE = re.compile(r"#[ \t]*define[ \t]+(\w+)")
 _DEFINED = re.compile(r"(!?)\s*defined\s*\(?\s*(\w+)\s*\)?")
 
@@ -58,6 +70,7 @@ STANDARD = frozenset(_STANDARD.split())
 
 
 _NONE: frozenset[int] = frozenset()
+_make = tuple.__new__
 
 
 class Include(NamedTuple):
@@ -72,28 +85,114 @@ class Include(NamedTuple):
     optional: bool
 
 
-def includes(text: str) -> list[Include]:
-    """Return the includes of a C or C++ text in order, without those of standard headers and those in ``#if 0``.
+def mentions(source: Text) -> tuple[list[Mention], list[int], list[Include]]:
+    """Return the includes of a C or C++ source in order, their offsets, and those that a macro names.
 
-    Optional are those in a conditional, unless each of its branches includes the same folder; conditions that hold
-    in every build, include guards above all, are none. Reference, section E3.9.
+    Those of standard headers and those in ``#if 0`` are left out. Optional are those in a conditional, unless each of
+    its branches includes the same folder; conditions that hold in every build, include guards above all, are none.
+    Reference, section E3.9.
     """
-    directives = _directives(text)
-    simple = directives is not None and _is_simple(text, directives)
-    if directives is None or _may_hide(text, directives, simple):
-        text = blanked(text)
-        directives = [match for match in _DIRECTIVE.finditer(text) if not _before(text, match.start()).strip()]
-        simple = _is_simple(text, directives)
-    skipped, optional = (_NONE, _NONE) if simple else _conditional(text, directives)
+    plain = _plain(source)
+    if plain is not None:
+        return *plain, []
+    found = includes(source.text)
+    named = [item for item in found if item.quote]
+    spans = source.spans([(item.start, item.start + len(item.name)) for item in named])
+    return (
+        [_mention(item.name, span, item.quote, item.optional) for item, span in zip(named, spans, strict=True)],
+        [item.start for item in named],
+        [item for item in found if not item.quote],
+    )
+
+
+def _mention(name: str, span: Span, quote: str, optional: bool) -> Mention:
+    what = f"#include <{name}>" if quote == "<" else f'#include "{name}"'
+    return _make(Mention, (name, "include", span, what, optional, False))
+
+
+def _plain(source: Text) -> tuple[list[Mention], list[int]] | None:
+    """Return the includes and their offsets in one go, None where something may hide one or a macro names one."""
+    text, path = source.text, source.path
+    if "\r" in text and text.count("\r") != text.count("\r\n"):
+        return None
+    count = text.count
+    found: list[Mention] = []
+    starts: list[int] = []
+    directives: list[re.Match[str]] = []
+    conditional = False
+    line, at = 1, 0
+    for match in _DIRECTIVE.finditer(text):
+        sharp = match.start()
+        odd = match[1] is not None
+        if odd and not (stands := _stands(text, sharp)):
+            if stands is None:
+                return None
+            continue
+        directives.append(match)
+        if match.lastindex == _NAMED:
+            name, what, lead, width = _told(match[0])
+            if name:
+                line += count("\n", at, sharp)
+                at = sharp
+                column = lead + (len(_before(text, sharp)) if odd else 0)
+                span = _make(Span, (path, line, column, line, column + width))
+                found.append(_make(Mention, (name, "include", span, what, False, False)))
+                starts.append(sharp)
+        elif match.lastindex == _CONDITIONAL:
+            conditional = True
+        else:
+            return None
+    if conditional and starts and not _is_guarded(text, directives):
+        if _may_hide(text, [match.start() for match in directives]):
+            return None
+        return _sorted_out(text, directives, found, starts)
+    return None if _may_hide(text, starts) else (found, starts)
+
+
+@cache
+def _told(directive: str) -> tuple[str, str, int, int]:
+    """Return the name in an include directive, how to quote it, its column and its length; no name for standard headers.
+
+    Packages include the same headers again and again: their names are held once.
+    """
+    match = _DIRECTIVE.match(directive)
+    assert match is not None
+    name = match[_NAMED]
+    if name in STANDARD:
+        return "", "", 0, 0
+    what = f"#include <{name}>" if match[2] == "<" else f'#include "{name}"'
+    return name, what, match.start(_NAMED) + 1, len(name)
+
+
+def _sorted_out(
+    text: str, directives: list[re.Match[str]], found: list[Mention], starts: list[int]
+) -> tuple[list[Mention], list[int]]:
+    """Return the includes, and their offsets, that are reached at all, with those marked that are optional."""
+    skipped, optional = _conditional(text, directives)
+    rows = [
+        (mention._replace(optional=True) if start in optional else mention, start)
+        for mention, start in zip(found, starts, strict=True)
+        if start not in skipped
+    ]
+    return [mention for mention, _ in rows], [start for _, start in rows]
+
+
+def includes(text: str) -> list[Include]:
+    """Return what :func:`mentions` does, in the way that is right for every text."""
+    text = blanked(text)
+    directives = [match for match in _DIRECTIVE.finditer(text) if not _before(text, match.start()).strip()]
+    skipped, optional = (_NONE, _NONE) if _is_guarded(text, directives) else _conditional(text, directives)
     found = []
     for match in directives:
-        kind = match.lastindex
-        if kind == _NAMED:
-            name = match[2]
-            if name not in STANDARD and (simple or match.start() not in skipped):
-                found.append(Include(match.start(2), name, match[1], match.start() in optional))
-        elif kind == _COMPUTED and match.start() not in skipped:
-            found.append(Include(match.start(3), _bare(match[3]), "", match.start() in optional))
+        at = match.start()
+        if match[_NAMED]:
+            start, name, quote = match.start(_NAMED), match[_NAMED], match[2]
+        elif match[_COMPUTED]:
+            start, name, quote = match.start(_COMPUTED), _bare(match[_COMPUTED]), ""
+        else:
+            continue
+        if name not in STANDARD and at not in skipped:
+            found.append(Include(start, name, quote, at in optional))
     return found
 
 
@@ -102,10 +201,16 @@ def blanked(text: str) -> str:
     return _HIDING.sub(_blank, text)
 
 
-def in_doubt(text: str, at: int) -> bool:
-    """Return whether a comment or a raw string may hide an offset."""
+def in_doubt(text: str, at: int, code: Sequence[int] = ()) -> bool:
+    """Return whether a comment or a raw string may hide an offset. ``code`` are offsets known to be code, sorted."""
     line = text.rfind("\n", 0, at) + 1
-    return text.find("//", line, at) >= 0 or text.find('R"', 0, at) >= 0 or text.rfind("/*", 0, at) > text.rfind("*/", 0, at)
+    before = bisect_left(code, at)
+    clear = code[before - 1] if before else 0
+    return (
+        text.find("//", line, at) >= 0
+        or text.find('R"', clear, at) >= 0
+        or text.rfind("/*", clear, at) > text.rfind("*/", clear, at)
+    )
 
 
 def _blank(match: re.Match[str]) -> str:
@@ -126,51 +231,51 @@ def _bare(line: str) -> str:
     return line.partition("//")[0].partition("/*")[0].strip()
 
 
-def _directives(text: str) -> list[re.Match[str]] | None:
-    """Return what looks like directives, or None when a comment before one or a continued line is in the way."""
-    found = []
-    for match in _DIRECTIVE.finditer(text):
-        line = match.start()
-        if line and text[line - 1] != "\n":
-            before = _before(text, line)
-            if not before.isspace():
-                if before.rstrip().endswith("*/"):
-                    return None
-                continue
-            line -= len(before)
-        if line > 1 and text[line - 2] in "\\\r" and text[line - 3 : line - 1].endswith(("\\", "\\\r")):
-            return None
-        found.append(match)
-    return found
+def _stands(text: str, at: int) -> bool | None:
+    """Return whether a directive can be at an offset, None when a comment before it or a continued line is in the way."""
+    before = _before(text, at)
+    if before and not before.isspace():
+        return None if before.rstrip().endswith("*/") else False
+    line = at - len(before)
+    continued = line > 1 and text[line - 2] in "\\\r" and text[line - 3 : line - 1].endswith(("\\", "\\\r"))
+    return None if continued else True
 
 
-def _is_simple(text: str, directives: list[re.Match[str]]) -> bool:
+def _is_guarded(text: str, directives: list[re.Match[str]]) -> bool:
     """Return whether there are no conditionals but an include guard."""
-    words = [match for match in directives if match.lastindex == _CONDITIONAL]
-    return not words or (len(words) == 2 and words[1][4] == "endif" and _value(text, words[0], first=True) is True)
+    conditionals = [match for match in directives if match.lastindex == _CONDITIONAL]
+    if len(conditionals) != 2:
+        return not conditionals
+    begin, end = conditionals
+    return end[5] == "endif" and (
+        text.startswith(f"\n#define{begin[6]}", begin.end()) or _value(text, begin, first=True) is True
+    )
 
 
-def _may_hide(text: str, directives: list[re.Match[str]], simple: bool) -> bool:
-    """Return whether a comment or a raw string may hide one of the directives that matter."""
-    if simple:  # the guard does not
-        directives = [match for match in directives if match.lastindex != _CONDITIONAL]
-    if not directives:
+def _may_hide(text: str, starts: Sequence[int]) -> bool:
+    """Return whether a comment or a raw string may hide one of the offsets."""
+    if not starts:
         return False
-    last = directives[-1].start()
-    if text.find('R"', 0, last) >= 0:
-        return True
-    starts = iter(directives)
-    start = next(starts).start()
-    opened = text.find("/*", 0, last)
-    while opened >= 0:
-        closed = text.find("*/", opened + 2)
-        while start < opened:
-            start = next(starts).start()
-        if start < closed or closed < 0:
+    last = starts[-1]
+    raw = _RAW.search(text, 0, last)
+    while raw:
+        if _any_between(starts, raw.start(), text.find(f'){raw[1]}"', raw.end())):
             return True
-        # Not past the end: what looks like one comment may be none, and then "*/*" opens the next.
-        opened = text.find("/*", closed + 1, last)
+        # Not past the end, here and below: what looks like a string or a comment may be none, and hide no other.
+        raw = _RAW.search(text, raw.start() + 1, last)
+    opened = _COMMENT.search(text, 0, last)
+    while opened:
+        closed = text.find("*/", opened.end())
+        if _any_between(starts, opened.start(), closed):
+            return True
+        opened = _COMMENT.search(text, closed + 1, last)
     return False
+
+
+def _any_between(starts: Sequence[int], begin: int, end: int) -> bool:
+    """Return whether one of the starts, which are sorted, lies behind ``begin`` and before ``end``, -1 for no end."""
+    at = bisect_right(starts, begin)
+    return at < len(starts) and (end < 0 or starts[at] < end)
 
 
 class _Conditional:
@@ -218,18 +323,19 @@ def _conditional(text: str, directives: list[re.Match[str]]) -> tuple[Set[int], 
 
     for match in directives:
         if match.lastindex != _CONDITIONAL:
+            start = match.start()
             if not all(conditional.live for conditional in stack):
-                skipped.add(match.start())
+                skipped.add(start)
             elif stack:
-                folder = (match[2] or "").partition("/")[0]
-                stack[-1].includes.append((match.start(), folder))
+                folder = (match[_NAMED] or "").partition("/")[0]
+                stack[-1].includes.append((start, folder))
                 stack[-1].folders.add(folder)
-        elif match[4].startswith("if"):
+        elif match[5].startswith("if"):
             stack.append(_Conditional(_value(text, match, first=match is directives[0])))
-        elif stack and match[4] == "endif":
+        elif stack and match[5] == "endif":
             end()
         elif stack:
-            stack[-1].branch(True if match[4] == "else" else _value(text, match, first=False))
+            stack[-1].branch(True if match[5] == "else" else _value(text, match, first=False))
     while stack:
         end()
     return skipped, optional
@@ -237,7 +343,7 @@ def _conditional(text: str, directives: list[re.Match[str]]) -> tuple[Set[int], 
 
 def _value(text: str, match: re.Match[str], *, first: bool) -> bool | None:
     """Return whether a condition is true, None when that depends on the build. ``first``: no directive before it."""
-    word, condition = match[4], _bare(match[5])
+    word, condition = match[5], _bare(match[6])
     if word in ("if", "elif"):
         bare = condition.strip("() ")
         if bare in ("0", "false"):

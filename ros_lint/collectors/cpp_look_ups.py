@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import posixpath
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.cpp_includes import blanked, in_doubt
@@ -25,15 +25,18 @@ _FARTHEST = 200
 """How far before a look-up the variable is looked for that gets what it gives."""
 
 
-def look_ups(source: Text, loads_plugins: bool) -> tuple[list[Mention], tuple[LookUp, ...]]:
+def look_ups(source: Text, loads_plugins: bool, code: Sequence[int] = ()) -> tuple[list[Mention], tuple[LookUp, ...]]:
     """Return the packages that a source names in look-ups and to plugin loaders, and the files that it looks up.
 
-    ``loads_plugins`` says whether the source includes what declares the loaders. Reference, section E2, rows 23 and 24.
+    ``loads_plugins`` says whether the source includes what declares the loaders. ``code`` are offsets known to be
+    code, sorted. Reference, section E2, rows 23 and 24.
     """
     text = source.text
     patterns = [_LOOK_UP] if "get_package_" in text else []
     patterns += [_LOADER] if loads_plugins else []
-    if any(in_doubt(text, match.start()) for pattern in patterns for match in pattern.finditer(text)):
+    if not patterns:
+        return [], ()
+    if any(in_doubt(text, match.start(), code) for pattern in patterns for match in pattern.finditer(text)):
         text = blanked(text)
     calls = list(_LOOK_UP.finditer(text)) if _LOOK_UP in patterns else []
     named = [(match.span(2), match[2], f'{match[1]}("{match[2]}")') for match in calls]
@@ -60,13 +63,19 @@ def _files(text: str, calls: list[re.Match[str]]) -> Iterator[tuple[tuple[int, i
         added = _ADDED.match(text, closed.end())
         if added:
             yield from _path(added, call[2])
-        elif assigned := _ASSIGNED.search(text, max(0, call.start() - _FARTHEST), call.start()):
+        elif assigned := _ASSIGNED.search(text, _statement(text, call.start()), call.start()):
             variables.setdefault(assigned[1], set()).add(call[2])
     for name, packages in variables.items():
         if len(packages) == 1:
             for end in _uses(text, name):
                 if added := _ADDED.match(text, end):
                     yield from _path(added, *packages)
+
+
+def _statement(text: str, at: int) -> int:
+    """Return where the statement begins, or where to stop looking for that."""
+    farthest = max(0, at - _FARTHEST)
+    return max(farthest, text.rfind(";", farthest, at) + 1)
 
 
 def _uses(text: str, name: str) -> Iterator[int]:

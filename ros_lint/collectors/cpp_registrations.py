@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.cpp_includes import blanked, in_doubt
@@ -16,20 +16,20 @@ _NAMES = ("RCLCPP_COMPONENTS_REGISTER_NODE", "PLUGINLIB_EXPORT_CLASS", "CLASS_LO
 _MACRO = re.compile(rf"({'|'.join(_NAMES)})\s*\(([^;{{}}()#]*)\)")
 
 
-def registrations(source: Text) -> tuple[Registration, ...]:
-    """Return the classes that a C++ file makes loadable, in order."""
+def registrations(source: Text, code: Sequence[int] = ()) -> tuple[Registration, ...]:
+    """Return the classes that a C++ file makes loadable, in order. ``code`` are offsets known to be code, sorted."""
     text = source.text
-    if "_REGISTER_" not in text and "PLUGINLIB_EXPORT_CLASS" not in text:
+    if not ("_REGISTER_" in text or "PLUGINLIB_EXPORT_CLASS" in text):
         return ()
     matches = list(_matches(text))
-    if any(in_doubt(text, match.start()) for match in matches):
+    if any(in_doubt(text, match.start(), code) for match in matches):
         matches = list(_matches(blanked(text)))
+    spans = source.spans([match.span(1) for match in matches])
     found = []
-    for match in matches:
+    for match, span in zip(matches, spans, strict=True):
         name, _, base = (part.strip() for part in match[2].partition(","))
         kind = "component" if match[1].startswith("RCLCPP") else "plugin"
         if name and (base or kind == "component"):
-            span = source.span(match.start(1), match.end(1))
             found.append(Registration("component" if kind == "component" else "plugin", _plain(name), _plain(base), span))
     return tuple(found)
 
@@ -51,4 +51,4 @@ def _places(text: str, name: str) -> Iterator[int]:
 
 
 def _plain(name: str) -> str:
-    return re.sub(r"\s+", "", name).removeprefix("::")
+    return "".join(name.split()).removeprefix("::")
