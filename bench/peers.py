@@ -26,7 +26,7 @@ Pair = tuple[str, str]
 """A package, and a dependency that it is said to lack."""
 
 _MARKS = ("<!-- made by bench/peers.py: begin -->", "<!-- end -->")
-_RULES = frozenset({"undeclared-dependency", "launch-outside-closure"})
+_RULES = frozenset({"undeclared-dependency", "launch-outside-closure", "launch-unknown-package"})
 _MISSING = re.compile(r"\tMissing (?:<\w+> |test )?dependencies in ([\w.-]+)/package\.xml(?:: (?P<here>.*)| compared)")
 
 
