@@ -144,6 +144,17 @@ class LookUp(NamedTuple):
     span: Span
 
 
+class ParameterFile(NamedTuple):
+    """A YAML file, as far as it is one of parameters (rcl_yaml_param_parser)."""
+
+    path: str
+    nodes: tuple[tuple[str, Span], ...]
+    """Full names of the nodes that it has parameters for, with a leading slash; ``*`` and ``**`` stand for any part. Empty:
+    it has no ``ros__parameters`` at all."""
+    first: Span
+    """Of its first key."""
+
+
 class FileFacts(NamedTuple):
     """What one source file says about other packages."""
 
@@ -153,6 +164,7 @@ class FileFacts(NamedTuple):
     problems: tuple[Problem, ...] = ()
     registrations: tuple[Registration, ...] = ()
     look_ups: tuple[LookUp, ...] = ()
+    parameters: ParameterFile | None = None
 
 
 class Role(Flag):
@@ -539,3 +551,6 @@ class LaunchFile(NamedTuple):
     helper: bool = False
     """Whether it cannot be launched itself: a Python module without generate_launch_description() that builds actions."""
     actions: tuple[LaunchAction, ...] = ()
+    imports: tuple[tuple[str, Span], ...] = ()
+    """Modules that a Python launch file imports whenever it is loaded, dotted as written; none if it changes where Python
+    looks for them."""

@@ -192,6 +192,7 @@ class Loader:
                 opaque=evidence.opaque_of(source),
                 registrations=tuple([made for facts in done.facts.values() for made in facts.registrations]),
                 look_ups=tuple([look_up for facts in done.facts.values() for look_up in facts.look_ups]),
+                parameter_files=tuple([f.parameters for f in done.facts.values() if f.parameters is not None]),
             )
 
     def _traces(

@@ -16,6 +16,7 @@ from ros_lint.facts import (
     LookUp,
     Manifest,
     Opaque,
+    ParameterFile,
     Registration,
     Role,
     Use,
@@ -91,6 +92,8 @@ class Package(NamedTuple):
     """Classes that its C++ sources make loadable."""
     look_ups: tuple[LookUp, ...] = ()
     """Files that its models, displays and parameters look up in packages."""
+    parameter_files: tuple[ParameterFile, ...] = ()
+    """Its YAML files."""
 
     @property
     def place(self) -> Span:

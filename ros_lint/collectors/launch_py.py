@@ -14,12 +14,13 @@ from ros_lint.collectors.launch import entries
 from ros_lint.collectors.launch_py_actions import LAUNCHED, walker
 from ros_lint.collectors.launch_py_objects import PERHAPS, Frame, Function, OutOfBudget, Raised, Source
 from ros_lint.collectors.launch_py_run import Machine, Modules
+from ros_lint.collectors.launch_py_walk import span_of
 from ros_lint.collectors.launch_references import References
 from ros_lint.facts import Facet, LaunchAction, LaunchFile, Opaque, Problem
 from ros_lint.text import Span, Text
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
 
 def collect(
@@ -59,7 +60,20 @@ def collect(
         test,
         helper,
         tuple(reading.actions),
+        tuple(_imports(source, tree)),
     )
+
+
+def _imports(text: Text, tree: ast.Module) -> Iterator[tuple[str, Span]]:
+    """Yield the modules that are imported first of all, under no condition."""
+    if "sys.path" in text.text:
+        return
+    source = Source(text)
+    for statement in tree.body:
+        if isinstance(statement, ast.Import):
+            yield from ((alias.name, span_of(alias, source)) for alias in statement.names)
+        elif isinstance(statement, ast.ImportFrom):
+            yield "." * statement.level + (statement.module or ""), span_of(statement, source)
 
 
 def _clamped(source: Text, line: int, column: int) -> Span:

@@ -343,6 +343,8 @@ def _remappings(walker: Walker, made: Made) -> tuple[tuple[LaunchValue, LaunchVa
             parts = items(walker.machine, pair)
             if parts is not None and len(parts) == 2:
                 found.append((walker.text(parts[0], node, made.source), walker.text(parts[1], node, made.source)))
+            elif parts is not None or isinstance(plain(pair), str):
+                walker.problems.append(Problem("remapping", "a remapping is a pair of names", span_of(node, made.source)))
     return tuple(found)
 
 

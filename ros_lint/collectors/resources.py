@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from ros_lint.collectors import parameter_files
 from ros_lint.facts import FileFacts, LookUp, Mention
 
 if TYPE_CHECKING:
@@ -36,6 +37,14 @@ _HABITS = tuple(
 
 
 def collect(source: Text) -> FileFacts:
+    """Return what a resource file says of packages and nodes."""
+    facts = _packages(source)
+    if source.path.endswith((".yaml", ".yml")):
+        return facts._replace(parameters=parameter_files.collect(source))
+    return facts
+
+
+def _packages(source: Text) -> FileFacts:
     """Return the packages that a resource file names, each once. Names by habit only are marked optional."""
     text = source.text
     found: dict[str, tuple[int, int]] = {}
