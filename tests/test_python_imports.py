@@ -12,10 +12,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ros_lint.collectors import python
+from ros_lint.collectors.python_excerpt import excerpt
 from ros_lint.collectors.python_imports import scan, walk
-from ros_lint.collectors.python_look_ups import literals, look_ups
+from ros_lint.collectors.python_look_ups import in_excerpt, literals, look_ups
 from ros_lint.collectors.python_syntax import NotPythonError, parse
-from ros_lint.facts import Facet
+from ros_lint.facts import Facet, FileFacts
 from ros_lint.text import Text, read
 
 
@@ -319,7 +320,7 @@ def test_files_that_are_looked_up(text: str, expected: list[tuple[str, str]]) ->
     facts = python.collect(Text("a.py", text))
     assert [(found.package, found.path) for found in facts.look_ups] == expected
     assert {mention.name for mention in facts.mentions} == {"p"}
-    assert python.collect(Text("a.py", text), launch=True)[1:] == ((), (), (), (), ())
+    assert python.collect(Text("a.py", text), launch=True) == FileFacts("a.py")
 
 
 CALLS = st.sampled_from(
@@ -349,3 +350,53 @@ def test_look_ups_with_and_without_a_parser_agree(lines: list[str]) -> None:
         return
     found = literals(source)
     assert found is None or found == look_ups(source, tree)
+
+
+def _functions(lines: list[str]) -> str:
+    """Return the lines, every other one of which stands in a function that is long enough to be left out."""
+    filling = "    pass  # something long enough\n" * 8
+    return "".join(
+        f"def f{number}(a=0):\n{filling}    {line}\n" if number % 2 else f"{line}\n" for number, line in enumerate(lines)
+    )
+
+
+NAMED = st.sampled_from(
+    [
+        "S = get_package_share_directory('p')",
+        "S = 'q'",
+        "x = open(S + '/a.yaml')",
+        "x = open(S / T / 'b.yaml')",
+        "T = os.path.join(S, 'c')",
+        "x = open(f'{T}/d.yaml')",
+        "get_package_share_directory(S)",
+        "S = T",
+        "'''",
+        "x = '''S'''; y = (",
+        ")",
+        "class S: T = get_package_prefix('r')",
+        "global S",
+        "try: get_package_prefix(T)\nexcept KeyError: pass",
+        "# (",
+    ]
+)
+
+
+@given(st.lists(NAMED, max_size=9))
+@settings(max_examples=600, deadline=None)
+def test_what_is_left_out_says_nothing(lines: list[str]) -> None:
+    source = Text("a.py", _functions(lines))
+    try:
+        tree = parse(source)
+    except NotPythonError:
+        return
+    assert in_excerpt(source) == look_ups(source, tree)
+
+
+def test_functions_without_the_words_are_left_out() -> None:
+    long = "        x = 1\n" * 40
+    text = f"@d\ndef f(\n    a,\n):\n{long}\n\nclass C:\n    async def g(self):\n{long}\ndef h():\n        word()\n{long}"
+    found = excerpt(text, {"word"})
+    assert [part.split("(")[0].strip() for part in found.omitted] == ["def f", "async def g"]
+    assert found.text.count("\n") == text.count("\n")
+    assert found.text.startswith("@d\ndef f(): pass\n\n")
+    assert found.text.endswith(f"def h():\n        word()\n{long}")

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.python_imports import scan, walk
-from ros_lint.collectors.python_look_ups import Found, literals, look_ups
+from ros_lint.collectors.python_look_ups import Found, in_excerpt, literals, look_ups
 from ros_lint.collectors.python_syntax import NotPythonError, parse, syntax_problem
 from ros_lint.facts import Facet, FileFacts, Mention, Opaque
 
@@ -29,6 +30,9 @@ def collect(source: Text, *, launch: bool = False) -> FileFacts:
     """
     found = scan(source.text)
     looked_up = Found() if launch else literals(source)
+    if found is not None and looked_up is None:
+        with suppress(NotPythonError):
+            looked_up = in_excerpt(source)
     if found is None or looked_up is None:
         try:
             tree = parse(source)

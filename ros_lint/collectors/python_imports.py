@@ -10,6 +10,7 @@ import ast
 import re
 from typing import TYPE_CHECKING, NamedTuple
 
+from ros_lint.collectors.python_excerpt import block_end, is_whole
 from ros_lint.collectors.python_syntax import NotPythonError, parse, start_of
 from ros_lint.text import Text
 
@@ -85,9 +86,9 @@ def scan(text: str) -> list[Import] | None:
             places += [block.head for block in around]
             guard = next((block for block in around if block.guards), None)
             if guard:
-                end = _statement_end(text, guard)
+                end = block_end(text, guard.width, guard.head)
                 statement = text[guard.start : end]
-                if not _is_whole(statement):
+                if not is_whole(statement):
                     return None
                 if _DECIDES.search(statement):
                     done = end
@@ -164,25 +165,6 @@ class _Blocks:
         start = left.start if left and continues else line
         guards = head[2] is not None or ":" not in head[0] or _GUARD.search(head[0]) is not None
         self._stack.append(_Block(width, line, start, guards))
-
-
-def _statement_end(text: str, block: _Block) -> int:
-    """Return where the statement ends that a block belongs to."""
-    further = rf"[ \t]{{{block.width + 1}}}|[ \t]*(?:[#\r\n)\]}}]|(?:except|elif|else|finally)\b)"
-    match = re.compile(rf"^(?!{further})", re.MULTILINE).search(text, text.find("\n", block.head) + 1)
-    return match.start() if match else len(text)
-
-
-def _is_whole(statement: str) -> bool:
-    """Return whether no bracket or string goes on behind the text of a statement, as far as counting tells."""
-    count = statement.count
-    return (
-        count("(") == count(")")
-        and count("[") == count("]")
-        and count("{") == count("}")
-        and count('"""') % 2 == count("'''") % 2 == 0
-        and statement.rstrip()[-1] != "\\"
-    )
 
 
 def _fragment(text: str, start: int) -> list[Import] | None:

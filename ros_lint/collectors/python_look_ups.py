@@ -4,24 +4,23 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
 
 from ros_lint.collectors.launch_text import installed
+from ros_lint.collectors.python_excerpt import excerpt
 from ros_lint.collectors.python_imports import outside_strings
 from ros_lint.collectors.python_scopes import Expression, Where, nodes, scan
-from ros_lint.collectors.python_syntax import span_of
+from ros_lint.collectors.python_syntax import parse, span_of
 from ros_lint.collectors.python_values import LOOK_UPS, Evaluator, argument, callee
 from ros_lint.facts import Facet, LookUp, Mention, Opaque
-
-if TYPE_CHECKING:
-    from ros_lint.text import Text
+from ros_lint.text import Text
 
 _NAMED = re.compile(rf"\b({'|'.join(sorted(LOOK_UPS))})\b(?:[ \t]*\()?")
 _LITERAL = re.compile(r"\s*(?:package(?:_name)?[ \t]*=[ \t]*)?([\"'])([\w.-]+)\1\s*[,)]")
-_FILE_NAME = re.compile(r"""[\w)}]\.[A-Za-z]\w{1,9}["']""")
+_FILE_NAME = re.compile(r"""\.(?<=[\w)}]\.)[A-Za-z]\w{1,9}["']""")
 _NOT_FOUND = frozenset({"PackageNotFoundError", "LookupError", "KeyError", "Exception", "BaseException"})
-_CATCHES = re.compile(rf"\bexcept[ \t]*(?:[(:]|[^\n]*\b(?:{'|'.join(sorted(_NOT_FOUND))})\b)")
+_CATCHES = re.compile(rf"except[ \t]*(?:[(:]|[^\n]*\b(?:{'|'.join(sorted(_NOT_FOUND))})\b)")
 
 
 class Found(NamedTuple):
@@ -57,18 +56,38 @@ def literals(source: Text) -> Found | None:
     )
 
 
+def in_excerpt(source: Text) -> Found:
+    """Return what :func:`look_ups` does, reading no function that has nothing to do with it.
+
+    Raises :class:`NotPythonError`.
+    """
+    words = LOOK_UPS
+    while True:
+        text, omitted = excerpt(source.text, words)
+        tree = parse(Text(source.path, text))
+        telling = list(_telling(scan(tree)))
+        given = {name for expression, _ in telling if expression.where.scope.shared for name in _bound(expression)}
+        if words.issuperset(given) or not any(name in body for name in given for body in omitted):
+            return _found(source, tree, telling)
+        words |= given
+
+
 def look_ups(source: Text, tree: ast.Module) -> Found:
     """Return the packages that a source looks up, and the files in their share folders that it makes paths of.
 
     Opaque are packages whose name is computed. Optional are look-ups in a try statement that catches the error
     (reference, section E2, row 17).
     """
+    return _found(source, tree, _telling(scan(tree)))
+
+
+def _found(source: Text, tree: ast.Module, telling: Iterable[tuple[Expression, list[tuple[ast.Call, ast.expr]]]]) -> Found:
     evaluator = Evaluator()
     mentions: list[Mention] = []
     opaque: list[Opaque] = []
     files: list[LookUp] = []
     guarded = _guarded(tree) if _CATCHES.search(source.text) else []
-    for expression, calls in _telling(scan(tree)):
+    for expression, calls in telling:
         for call, given in calls:
             span = span_of(source, given)
             for package in evaluator.values(given, expression.where):
@@ -89,27 +108,28 @@ def look_ups(source: Text, tree: ast.Module) -> Found:
 
 def _telling(expressions: list[Expression]) -> Iterator[tuple[Expression, list[tuple[ast.Call, ast.expr]]]]:
     """Yield the expressions in which packages are looked up, and those that use what such an expression gives."""
-    rows = [(expression, nodes(expression.node)) for expression in expressions]
-    calls = {id(expression): list(_calls(inner)) for expression, inner in rows}
+    calls = [list(_calls(expression.inner)) for expression in expressions]
+    names = [{node.id for node in expression.inner if node.__class__ is ast.Name} for expression in expressions]
     given: set[str] = set()
     told: set[int] = set()
     grown = True
     while grown:
         grown = False
-        for expression, inner in rows:
-            if id(expression) in told:
-                continue
-            if calls[id(expression)] or any(isinstance(node, ast.Name) and node.id in given for node in inner):
-                told.add(id(expression))
-                for target in expression.targets:
-                    given.update(node.id for node in nodes(target) if isinstance(node, ast.Name))
+        for index, expression in enumerate(expressions):
+            if index not in told and (calls[index] or not given.isdisjoint(names[index])):
+                told.add(index)
+                given |= _bound(expression)
                 grown = True
-    return ((expression, calls[id(expression)]) for expression in expressions if id(expression) in told)
+    return ((expressions[index], calls[index]) for index in sorted(told))
+
+
+def _bound(expression: Expression) -> set[str]:
+    return {node.id for target in expression.targets for node in nodes(target) if isinstance(node, ast.Name)}
 
 
 def _calls(inner: list[ast.AST]) -> Iterator[tuple[ast.Call, ast.expr]]:
     for node in inner:
-        if isinstance(node, ast.Call) and callee(node) in LOOK_UPS:
+        if node.__class__ is ast.Call and callee(node) in LOOK_UPS:
             given = argument(node, 0, "package", "package_name")
             if given is not None:
                 yield node, given

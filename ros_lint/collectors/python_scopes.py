@@ -13,6 +13,11 @@ Step = Union[int, None]  # noqa: UP007  (evaluated on 3.10)
 """How a target takes its part of a value: an index, or None for each element in turn."""
 
 
+_COMPREHENSIONS = (ast.ListComp, ast.SetComp, ast.GeneratorExp, ast.DictComp)
+_BINDING = frozenset({ast.NamedExpr, ast.Lambda, *_COMPREHENSIONS})
+"""Expressions that bind names."""
+
+
 class Where(NamedTuple):
     """A point in the program."""
 
@@ -35,17 +40,23 @@ class Expression(NamedTuple):
 
     node: ast.expr
     where: Where
+    inner: list[ast.AST]
+    """The node and all below it."""
     targets: tuple[ast.expr, ...] = ()
     """What the statement assigns its value to, or the elements of its value."""
 
 
 class Scope:
-    """A module, a function or a class."""
+    """A module, a function or a class.
 
-    __slots__ = ("bindings", "parent")
+    ``shared`` are the names of modules and classes, which functions in them may use; of a function, only inner ones.
+    """
 
-    def __init__(self, parent: Scope | None) -> None:
+    __slots__ = ("bindings", "parent", "shared")
+
+    def __init__(self, parent: Scope | None, *, shared: bool = True) -> None:
         self.parent = parent
+        self.shared = shared
         self.bindings: dict[str, list[Binding]] = {}
 
     def bind(self, name: str, value: ast.expr | None, where: Where, steps: tuple[Step, ...] = ()) -> None:
@@ -146,7 +157,7 @@ class _Scanner:
 
     def _function(self, node: ast.FunctionDef | ast.AsyncFunctionDef, scope: Scope, where: Where) -> None:
         scope.bind(node.name, None, where)
-        inner = Scope(scope)
+        inner = Scope(scope, shared=False)
         given = node.args
         for default in (*given.defaults, *given.kw_defaults, *node.decorator_list):
             if default is not None:
@@ -157,14 +168,17 @@ class _Scanner:
         self.block(node.body, inner, ())
 
     def _expression(self, node: ast.expr, where: Where, targets: tuple[ast.expr, ...] = ()) -> None:
-        self.expressions.append(Expression(node, where, targets))
-        for inner in nodes(node):
+        found = nodes(node)
+        self.expressions.append(Expression(node, where, found, targets))
+        for inner in found:
+            if inner.__class__ not in _BINDING:
+                continue
             if isinstance(inner, ast.NamedExpr):
                 self._bind(inner.target, inner.value, where)
             elif isinstance(inner, ast.Lambda):
                 for argument in (*inner.args.args, *inner.args.kwonlyargs):
                     where.scope.bind(argument.arg, None, where)
-            elif isinstance(inner, (ast.ListComp, ast.SetComp, ast.GeneratorExp, ast.DictComp)):
+            elif isinstance(inner, _COMPREHENSIONS):
                 for generator in inner.generators:
                     self._bind(generator.target, generator.iter, where, (None,))
 
