@@ -1,5 +1,7 @@
 """Everything a rule may import."""
 
+from typing import TYPE_CHECKING
+
 from ros_lint import cmake_edits, conditions, manifest_edits, setup_edits
 from ros_lint.apart import is_apart
 from ros_lint.build_scripts import (
@@ -18,6 +20,7 @@ from ros_lint.declare import (
     add_dependency,
     builds_something,
     change_dependency,
+    is_seen_whole,
     is_unseen_by_name,
     remove_dependency,
     tag_for,
@@ -57,6 +60,7 @@ from ros_lint.graph import Edge, Graph, Reason
 from ros_lint.graph_cut import Knot, knots
 from ros_lint.launch_files import Launchable, Programs, launchable, programs
 from ros_lint.launch_links import Links, everything
+from ros_lint.launch_runs import launched
 from ros_lint.needs import Need, comes_with_launching, covered, declared_closure, may_bring, needs, undeclared
 from ros_lint.resource_files import uninstalled as uninstalled_resources
 from ros_lint.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
@@ -65,6 +69,9 @@ from ros_lint.suppress import Outcome
 from ros_lint.text import Span
 from ros_lint.workspace import Declared, Package, Target, Workspace
 from ros_lint.world import Meant
+
+if TYPE_CHECKING:  # made only where it is asked for
+    from ros_lint.interpret.launch_expand import Started as Started  # noqa: PLC0414
 
 __all__ = [
     "ANYTHING",
@@ -135,9 +142,11 @@ __all__ = [
     "hidden",
     "is_apart",
     "is_plain",
+    "is_seen_whole",
     "is_unseen_by_name",
     "knots",
     "launchable",
+    "launched",
     "manifest_edits",
     "may_bring",
     "missing_path",

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from ros_lint import manifest_edits
-from ros_lint.facts import Depend, Role
+from ros_lint.facts import Depend, Facet, Role
 from ros_lint.rule import Edit
 from ros_lint.workspace import Package, Workspace
+
+if TYPE_CHECKING:
+    from ros_lint.world import World
 
 
 def tag_for(package: Package, workspace: Workspace, name: str, role: Role) -> str:
@@ -64,9 +68,8 @@ def remove_dependency(package: Package, depend: Depend) -> tuple[Edit, ...]:
     return (manifest_edits.remove(package.manifest, depend),)
 
 
-def is_unseen_by_name(workspace: Workspace, name: str) -> bool:
+def is_unseen_by_name(world: World, name: str) -> bool:
     """Whether a name alone says that it may do its work unseen: it is no package that is known, or a linter, a generator ..."""
-    world = workspace.world
     if not world.is_package(name) or world.is_key(name):
         return True
     return world.knowledge.names.works_unseen(name)
@@ -80,7 +83,7 @@ def works_unseen(package: Package, workspace: Workspace, name: str) -> bool:
     generated interfaces need.
     """
     world = workspace.world
-    if is_unseen_by_name(workspace, name):
+    if is_unseen_by_name(workspace.world, name):
         return True
     if package.script and package.script.interfaces and name in _IN_INTERFACES:
         return True
@@ -95,6 +98,14 @@ def works_unseen(package: Package, workspace: Workspace, name: str) -> bool:
 
 _IN_INTERFACES = frozenset({"action_msgs", "service_msgs", "builtin_interfaces", "unique_identifier_msgs"})
 """What the generated code of actions and services includes; which of these must be declared has changed with time."""
+
+
+def is_seen_whole(package: Package) -> bool:
+    """Whether so much is seen of a package that nothing more can be used in it than what is found."""
+    manifest, script = package.manifest, package.script
+    if manifest is None or manifest.problems or script is None or script.problems or package.hidden(Facet.USES):
+        return False
+    return package.builds_with in ("ament_cmake", "ament_python") and builds_something(package)
 
 
 def makes_something(package: Package) -> bool:

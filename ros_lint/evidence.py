@@ -6,7 +6,10 @@ spaces (reference, sections C2b, D6, E3.8). This module is the only one that goe
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+import re
+from bisect import bisect_right
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import accumulate
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from ros_lint.facts import BuildScript, FileFacts, LaunchFile, Mention, Opaque, Role, Use, Via
@@ -26,6 +29,10 @@ class Names(Protocol):
     def is_package(self, name: str) -> bool: ...
 
 
+_make = tuple.__new__
+"""Makes a named tuple in half the time that its class takes."""
+
+
 class Source(NamedTuple):
     """What evidence needs to know of one package."""
 
@@ -43,83 +50,64 @@ class Source(NamedTuple):
 _BUILD_MODULES = frozenset({"setuptools", "distutils", "pkg_resources", "pip"})
 """Whoever builds a Python package has these (reference, section D1.9)."""
 
+_TEST = Role.TEST
 _LOOKED_UP = Role.EXEC
 """A package whose files are looked up at run time is not compiled against (reference, section E2, rows 17 and 24)."""
 
 
-def resolve(source: Source, names: Names, headers: Mapping[str, tuple[str, ...]]) -> tuple[Use, ...]:
-    """Return every use of another package, sorted by place.
+class Answer(NamedTuple):
+    """Whose name a mention is."""
 
-    ``headers`` maps the include path of each header that the workspace has below an include folder to its packages.
-    """
-    launched = frozenset(_relative(source, launch.path) for launch in source.launch)
-    tests = frozenset(_relative(source, launch.path) for launch in source.launch if launch.test)
-    own = Liveness(source.name, source.files, source.script, source.facts, launched)
-    uses: list[Use] = []
-    if source.script is not None:
-        for mention in source.script.mentions:
-            role = Role.TEST if mention.test else _script_role(source, mention)
-            only_named = mention.what.startswith(_BY_NAME_ONLY)
-            uses += _use(
-                source, own, names, headers, mention._replace(optional=True) if only_named else mention, role, sure=True
-            )
-        uses += _unspoken(source, names)
-    for path, facts in source.facts.items():
-        role, sure = own.place(path)
-        role = Role.TEST if path in tests else role
-        for mention in facts.mentions:
-            if mention.via == "package" and path in launched:
-                continue  # the launch collector has it, too
-            needed = Role.TEST if mention.test else _LOOKED_UP if mention.via == "package" and role != Role.TEST else role
-            uses += _use(source, own, names, headers, mention, needed, sure)
-    for launch in source.launch:
-        uses += _launch_uses(source, own, names, launch)
-    return tuple(sorted({(use.span, use.package, use.via): use for use in uses}.values(), key=_order))
+    providers: tuple[str, ...]
+    """Every name that satisfies it when it is declared, the best first: empty when it is nobody's."""
+    sure: bool = True
+    what: str = ""
+    """How a message quotes it."""
 
 
-def _order(use: Use) -> tuple[object, ...]:
-    return (use.span, use.package, use.via)
+_NOBODY = Answer(())
 
 
-def _unspoken(source: Source, names: Names) -> Iterator[Use]:
-    """Yield what generated code needs without being told: actions are made of it (reference, section C4.4)."""
-    script = source.script
-    assert script is not None
-    if source.name == _ACTIONS or not any(each.startswith("action/") for each in script.interfaces):
-        return
-    for mention in script.mentions:
-        if mention.via == "macro" and mention.what == "rosidl_generate_interfaces()" and names.is_package(_ACTIONS):
-            role = Role.TEST if mention.test else Role.BUILD | Role.EXPORT | Role.EXEC
-            yield Use(_ACTIONS, (_ACTIONS,), role, "an action", "interface", mention.optional, mention.span)
+class Resolver:
+    """Says whose a name is, once for all packages of a workspace."""
+
+    def __init__(self, sources: Sequence[Source], names: Names) -> None:
+        self.names = names
+        self._headers = include_index(sources)
+        self._ask: Mapping[Via, Callable[[str], Answer]] = {
+            "include": self._include,
+            "import": lambda name: _told(self.names.by_import(name)),
+            "cmake": lambda name: _told(self.names.by_cmake(name)),
+            "target": lambda name: _told(self.names.by_cmake(name.partition("::")[0])),
+            "macro": lambda name: _told(self.names.by_cmake(name.partition("::")[0])),
+            "interface": lambda name: self._package(name.partition("/")[0]),
+            "package": self._package,
+            "launch": self._package,
+            "key": lambda name: Answer((name,)),
+        }
+        self._said: Mapping[Via, dict[str, Answer]] = {via: {} for via in self._ask}
+
+    def answer(self, via: Via, name: str) -> Answer:
+        """Return whose a name is, if not the package's own that mentions it."""
+        said = self._said[via]
+        found = said.get(name)
+        if found is None:
+            found = said[name] = self._ask[via](name)._replace(what=_WHAT[via].format(name))
+        return found
+
+    def _include(self, header: str) -> Answer:
+        found = self._headers.get(header)
+        if not found:
+            return _told(self.names.by_include(header))
+        first = header.partition("/")[0]
+        return Answer(tuple(sorted(found, key=lambda package: package != first)))
+
+    def _package(self, name: str) -> Answer:
+        return Answer((name,)) if self.names.is_package(name) else _NOBODY
 
 
-_ACTIONS = "action_msgs"
-
-
-def _script_role(source: Source, mention: Mention) -> Role:
-    if source.builds_with == "ament_python" or mention.via == "macro":
-        return Role.TOOL
-    return Role.EXPORT if mention.what.startswith("ament_export_dependencies") else Role.BUILD
-
-
-_BY_NAME_ONLY = "plugins for "
-"""Names the package that loads the plugin, which may as well be one that need not be there."""
-
-
-def _use(
-    source: Source,
-    own: Liveness,
-    names: Names,
-    headers: Mapping[str, tuple[str, ...]],
-    mention: Mention,
-    role: Role,
-    sure: bool,
-) -> Iterator[Use]:
-    providers, known = _providers(source, own, names, headers, mention)
-    if not providers or source.name in providers:
-        return
-    what = mention.what or _WHAT[mention.via].format(mention.name)
-    yield Use(providers[0], providers, role, what, mention.via, mention.optional, mention.span, sure and known)
+def _told(providers: Providers) -> Answer:
+    return Answer(providers.names, providers.sure)
 
 
 _WHAT: Mapping[Via, str] = {
@@ -135,57 +123,107 @@ _WHAT: Mapping[Via, str] = {
 }
 
 
-def _providers(
-    source: Source, own: Liveness, names: Names, headers: Mapping[str, tuple[str, ...]], mention: Mention
-) -> tuple[tuple[str, ...], bool]:
-    """Return whose name a mention is, and whether that is sure."""
-    name = mention.name
-    match mention.via:
-        case "include":
-            if own.has_header(name, _relative(source, mention.span.path)):
-                return _NOBODY
-            if found := headers.get(name):
-                first = name.partition("/")[0]
-                return tuple(sorted(found, key=lambda package: package != first)), True
-            return _told(names.by_include(name))
-        case "import":
-            top = name.partition(".")[0]
-            if own.has_module(top) or (top in _BUILD_MODULES and mention.span.path.endswith("setup.py")):
-                return _NOBODY
-            return _told(names.by_import(name))
-        case "cmake":
-            return _told(names.by_cmake(name))
-        case "target" | "macro":
-            return _told(names.by_cmake(name.partition("::")[0]))
-        case "interface":
-            package = name.partition("/")[0]
-            return ((package,), True) if names.is_package(package) else _NOBODY
-        case "package" | "launch":
-            return ((name,), True) if names.is_package(name) else _NOBODY
-        case "key":
-            return (name,), True
+def resolve(source: Source, resolver: Resolver) -> tuple[Use, ...]:
+    """Return every use of another package, sorted by place."""
+    launched = frozenset(_relative(source, launch.path) for launch in source.launch)
+    tests = frozenset(_relative(source, launch.path) for launch in source.launch if launch.test)
+    own = Liveness(source.name, source.files, source.script, source.facts, launched)
+    uses = _Uses(source.name, own, resolver)
+    if source.script is not None:
+        by_role: dict[tuple[str, Role], list[Mention]] = {}
+        for mention in source.script.mentions:
+            role = _TEST if mention.test else _script_role(source, mention)
+            only_named = mention.what.startswith(_BY_NAME_ONLY)
+            ours = by_role.setdefault((mention.span.path, role), [])
+            ours.append(mention._replace(optional=True) if only_named else mention)
+        for (path, role), mentions in by_role.items():
+            uses.add(_relative(source, path), mentions, role, role, sure=True)
+        _unspoken(source, uses)
+    for path, facts in source.facts.items():
+        if not facts.mentions:
+            continue
+        role, sure = own.place(path)
+        role = _TEST if path in tests else role
+        mentions = list(facts.mentions)
+        if path in launched:  # the launch collector has the packages, too
+            mentions = [mention for mention in mentions if mention.via != "package"]
+        uses.add(path, mentions, role, _TEST if role is _TEST else _LOOKED_UP, sure)
+    for launch in source.launch:
+        role, sure = own.place(_relative(source, launch.path))
+        _launch_uses(launch, _TEST if launch.test else role, uses, sure)
+    return uses.sorted()
 
 
-_NOBODY: tuple[tuple[str, ...], bool] = ((), True)
+class _Uses:
+    """The uses found in a package so far. Of two of one package in one place by one way the last counts."""
+
+    def __init__(self, package: str, own: Liveness, resolver: Resolver) -> None:
+        self.package = package
+        self.resolver = resolver
+        self._own = own
+        self._found: dict[tuple[Span, str, Via], Use] = {}
+
+    def put(self, use: Use) -> None:
+        self._found[use.span, use.package, use.via] = use
+
+    def sorted(self) -> tuple[Use, ...]:
+        return tuple([use for _, use in sorted(self._found.items())])
+
+    def add(self, path: str, mentions: Iterable[Mention], role: Role, looked_up: Role, sure: bool) -> None:
+        """Add what the mentions in a file come to. ``looked_up`` is what packages are for whose files are looked up."""
+        package, answer, found = self.package, self.resolver.answer, self._found
+        own = self._own.own_includes(path)
+        for name, via, span, what, optional, test in mentions:
+            if (via == "include" and name in own) or (via == "import" and self._is_own_module(name, path)):
+                continue
+            providers, known, usual = answer(via, name)
+            if not providers or package in providers:
+                continue
+            needed = _TEST if test else looked_up if via == "package" else role
+            found[span, providers[0], via] = _make(
+                Use, (providers[0], providers, needed, what or usual, via, optional, span, sure and known)
+            )
+
+    def _is_own_module(self, name: str, path: str) -> bool:
+        top = name.partition(".")[0]
+        return self._own.has_module(top) or (top in _BUILD_MODULES and path.endswith("setup.py"))
 
 
-def _told(providers: Providers) -> tuple[tuple[str, ...], bool]:
-    return providers.names, providers.sure
+def _unspoken(source: Source, uses: _Uses) -> None:
+    """Add what generated code needs without being told: actions are made of it (reference, section C4.4)."""
+    script = source.script
+    assert script is not None
+    if source.name == _ACTIONS or not any(each.startswith("action/") for each in script.interfaces):
+        return
+    for mention in script.mentions:
+        if mention.via == "macro" and mention.what == "rosidl_generate_interfaces()" and uses.resolver.names.is_package(_ACTIONS):
+            role = _TEST if mention.test else Role.BUILD | Role.EXPORT | Role.EXEC
+            uses.put(Use(_ACTIONS, (_ACTIONS,), role, "an action", "interface", mention.optional, mention.span))
+
+
+_ACTIONS = "action_msgs"
+
+
+def _script_role(source: Source, mention: Mention) -> Role:
+    if source.builds_with == "ament_python" or mention.via == "macro":
+        return Role.TOOL
+    return Role.EXPORT if mention.what.startswith("ament_export_dependencies") else Role.BUILD
+
+
+_BY_NAME_ONLY = "plugins for "
+"""Names the package that loads the plugin, which may as well be one that need not be there."""
 
 
 def _relative(source: Source, path: str) -> str:
     return path.removeprefix(f"{source.path}/") if source.path else path
 
 
-def _launch_uses(source: Source, own: Liveness, names: Names, launch: LaunchFile) -> Iterator[Use]:
-    role, sure = own.place(_relative(source, launch.path))
-    role = Role.TEST if launch.test else role
+def _launch_uses(launch: LaunchFile, role: Role, uses: _Uses, sure: bool) -> None:
     for reference in launch.references:
         package = reference.package
-        if package == source.name or not names.is_package(package):
-            continue
-        what = package if reference.kind == "package" else f"{reference.kind} {reference.name}"
-        yield Use(package, (package,), role, what, "launch", False, reference.package_span, sure)
+        if package != uses.package and uses.resolver.names.is_package(package):
+            what = package if reference.kind == "package" else f"{reference.kind} {reference.name}"
+            uses.put(Use(package, (package,), role, what, "launch", False, reference.package_span, sure))
 
 
 def include_index(sources: Iterable[Source]) -> dict[str, tuple[str, ...]]:
@@ -233,21 +271,38 @@ def used_names(declared: Iterable[str], uses: Iterable[Use]) -> frozenset[str]:
 def traces(names: Sequence[str], files: Iterable[tuple[str, bytes]]) -> dict[str, Span]:
     """Return a place for every name that stands as a word in one of the files, dashes and underscores taken as equal.
 
-    ``files`` are paths with contents, which are searched as they are: few of them have a name in question.
+    ``files`` are paths with contents. They are searched all at once and as they are: few of them have a name in question.
     """
-    spellings = {name: _spellings(name) for name in names}
+    listed = list(files)
+    data = b"\n".join([content for _, content in listed])
+    starts = list(accumulate([len(content) + 1 for _, content in listed], initial=0))
     found: dict[str, Span] = {}
-    for path, data in files:
-        for name in [name for name in spellings if name not in found]:
-            for spelling in spellings[name]:
-                if (start := _find_word(data, spelling.encode())) >= 0:
-                    line = data.count(b"\n", 0, start) + 1
-                    column = len(data[data.rfind(b"\n", 0, start) + 1 : start].decode("utf-8", "replace")) + 1
-                    found[name] = Span(path, line, column, line, column + len(spelling))
-                    break
-        if len(found) == len(spellings):
-            break
+    for name in names:
+        places = ((_find_word(data, spelling), spelling) for spelling in _written(name, data))
+        start, spelling = next((place for place in places if place[0] >= 0), (-1, b""))
+        if start < 0:
+            continue
+        file = bisect_right(starts, start) - 1
+        line_start = max(data.rfind(b"\n", 0, start) + 1, starts[file])
+        line = data.count(b"\n", starts[file], start) + 1
+        column = len(data[line_start:start].decode("utf-8", "replace")) + 1
+        found[name] = Span(listed[file][0], line, column, line, column + len(spelling))
     return found
+
+
+def _written(name: str, data: bytes) -> Iterator[bytes]:
+    """Yield those spellings of a name whose end stands somewhere: names begin alike, and what few have is found faster."""
+    there: dict[bytes, bool] = {}
+    for spelling in _spellings(name):
+        written = spelling.encode()
+        end = _SEPARATOR.split(written, maxsplit=1)[-1]
+        if end not in there:
+            there[end] = end in data
+        if there[end]:
+            yield written
+
+
+_SEPARATOR = re.compile(rb"[-_/]|::")
 
 
 def _spellings(name: str) -> tuple[str, ...]:
@@ -255,8 +310,8 @@ def _spellings(name: str) -> tuple[str, ...]:
 
     Conversions of tf2 are found by the types of their arguments, and bear no name but tf2.
     """
-    found = {name, name.replace("-", "_"), name.replace("_", "-"), name.replace("_", "::", 1), name.replace("_", "/", 1)}
-    return tuple(sorted(found | {"tf2"} if name.startswith("tf2_") else found))
+    found = [name, name.replace("-", "_"), name.replace("_", "-"), name.replace("_", "::", 1), name.replace("_", "/", 1)]
+    return tuple(dict.fromkeys([*found, "tf2"] if name.startswith("tf2_") else found))
 
 
 def _find_word(data: bytes, word: bytes) -> int:

@@ -45,7 +45,7 @@ class Liveness:
         self._script = script
         self._facts = facts
         self._launched = launched
-        self._resolved: dict[tuple[str, str], tuple[str, ...]] = {}
+        self._included: dict[str, tuple[set[str], list[str]]] = {}
         hidden = Facet(0)
         for opaque in script.opaque if script else ():
             hidden |= opaque.hides
@@ -88,39 +88,24 @@ class Liveness:
         """Whether an import can mean a file of the package."""
         return module in self._modules
 
-    def own_headers(self, header: str, includer: str) -> tuple[str, ...]:
-        """Return the files of the package that an include can mean."""
-        folder = includer.rpartition("/")[0]
-        key = (header, folder)
-        if key not in self._resolved:
-            self._resolved[key] = self._resolve(header, folder)
-        return self._resolved[key]
+    def own_includes(self, path: str) -> Container[str]:
+        """Return the headers that a file includes and that are of the package, generated ones included."""
+        return self._includes(path)[0]
 
-    def _resolve(self, header: str, folder: str) -> tuple[str, ...]:
+    def _own_headers(self, header: str, folder: str) -> tuple[str, ...]:
+        """Return the files of the package that an include in a file of a folder can mean."""
         candidates = self._by_name.get(header.rpartition("/")[2])
         if candidates is None:
             return ()
+        end = f"/{header}"
+        if len(candidates) == 1 and f"/{candidates[0]}".endswith(end):
+            return candidates
         beside = f"{folder}/{header}" if folder else header
         if "." in header[:2]:
             beside = posixpath.normpath(beside)
         if beside in candidates:
             return (beside,)
-        end = f"/{header}"
         return tuple([file for file in candidates if file == header or file.endswith(end)])
-
-    def has_header(self, header: str, includer: str) -> bool:
-        """Whether an include can mean a file of the package, generated ones included."""
-        first, slash, _ = header.partition("/")
-        if slash and first in (self._name, ".", ".."):
-            return True
-        if self.own_headers(header, includer):
-            return True
-        name = header.rpartition("/")[2]
-        return any(
-            bool(self.own_headers(f"{header}{suffix}", includer))
-            for suffix in (".in", ".em")
-            if f"{name}{suffix}" in self._by_name
-        )
 
     @cached_property
     def _runs_python_tests(self) -> bool:
@@ -139,8 +124,16 @@ class Liveness:
         found: dict[str, tuple[str, ...]] = {}
         for file in self._files:
             name = file.rpartition("/")[2]
-            found[name] = (*found.get(name, ()), file)
+            found[name] = (*found[name], file) if name in found else (file,)
         return found
+
+    def _is_made(self, header: str, folder: str) -> bool:
+        return any(self._own_headers(f"{header}{suffix}", folder) for suffix in (".in", ".em"))
+
+    @cached_property
+    def _templates(self) -> frozenset[str]:
+        """Names of files that are made of others."""
+        return frozenset([name[:-3] for name in self._by_name if name.endswith((".in", ".em"))])
 
     @cached_property
     def _modules(self) -> frozenset[str]:
@@ -178,10 +171,11 @@ class Liveness:
         if self._script is None:
             return frozenset()
         found = {p.source for p in self._script.provides if p.source and p.path.startswith(_PROGRAMS)}
-        packages = tuple(name.replace(".", "/") for name in self._script.python_packages)
-        for file in self._files:
-            if any(file.startswith(f"{package}/") or file in (f"{package}.py", f"{package}.py.in") for package in packages):
-                found.add(file)
+        packages = [name.replace(".", "/") for name in self._script.python_packages]
+        inside = tuple(f"{package}/" for package in packages)
+        modules = {f"{package}{suffix}" for package in packages for suffix in (".py", ".py.in")}
+        if packages:
+            found.update([file for file in self._files if file in modules or file.startswith(inside)])
         return frozenset(found)
 
     def _reached(self, roots: Iterable[str]) -> frozenset[str]:
@@ -189,14 +183,32 @@ class Liveness:
         waiting = [root for root in roots if root in self._facts]
         while waiting:
             path = waiting.pop()
-            if path in reached:
-                continue
-            reached.add(path)
-            facts = self._facts.get(path)
-            for mention in facts.mentions if facts else ():
-                if mention.via == "include":
-                    waiting += self.own_headers(mention.name, path)
+            if path not in reached:
+                reached.add(path)
+                waiting += self._includes(path)[1]
         return frozenset(reached)
+
+    def _includes(self, path: str) -> tuple[set[str], list[str]]:
+        """Return what a file includes of the package: headers as it names them, and the files that these can be."""
+        found = self._included.get(path)
+        if found is not None:
+            return found
+        folder, by_name, templates = path.rpartition("/")[0], self._by_name, self._templates
+        own = (self._name, ".", "..")
+        headers: set[str] = set()
+        files: list[str] = []
+        for mention in self._facts[path].mentions if path in self._facts else ():
+            if mention.via != "include":
+                continue
+            header = mention.name
+            first, slash, _ = header.partition("/")
+            name = header.rpartition("/")[2]
+            means = self._own_headers(header, folder) if name in by_name else ()
+            if means or (slash and first in own) or (name in templates and self._is_made(header, folder)):
+                headers.add(header)
+                files += means
+        self._included[path] = (headers, files)
+        return headers, files
 
 
 def _is_test(name: str) -> bool:

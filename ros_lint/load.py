@@ -12,6 +12,7 @@ from typing import NamedTuple
 from ros_lint import conditions, evidence, scripts, source_lists
 from ros_lint.cache import Cache
 from ros_lint.collect import FAILED, Collected, collect_all, kind_of
+from ros_lint.declare import is_seen_whole, is_unseen_by_name
 from ros_lint.discover import Found, Skipped, discover
 from ros_lint.facts import ROLES, BuildScript, FileFacts, LaunchFile, Manifest, Role, Use
 from ros_lint.knowledge import Knowledge
@@ -167,13 +168,13 @@ class Loader:
             )
             for r in reads
         ]
-        headers = evidence.include_index(sources)
+        resolver = evidence.Resolver(sources, world)
         for number, (done, source) in enumerate(zip(reads, sources, strict=True)):
             self._progress("joining", number, len(reads))
             found = done.found
-            uses = evidence.resolve(source, world, headers)
+            uses = evidence.resolve(source, resolver)
             declared = done.declared
-            yield Package(
+            package = Package(
                 name=found.name,
                 path=found.path,
                 type=found.type,
@@ -188,22 +189,22 @@ class Loader:
                 script=done.script,
                 launch=done.launch,
                 uses=uses,
-                traces=self._traces(tree, found, declared, uses, world) if search else {},
+                traces={},
                 opaque=evidence.opaque_of(source),
                 registrations=tuple([made for facts in done.facts.values() for made in facts.registrations]),
                 look_ups=tuple([look_up for facts in done.facts.values() for look_up in facts.look_ups]),
                 parameter_files=tuple([f.parameters for f in done.facts.values() if f.parameters is not None]),
             )
+            yield package._replace(traces=self._traces(tree, package, world)) if search else package
 
-    def _traces(
-        self, tree: Tree, found: Found, declared: Sequence[Declared], uses: Sequence[Use], world: World
-    ) -> Mapping[str, Span]:
+    def _traces(self, tree: Tree, package: Package, world: World) -> Mapping[str, Span]:
         """Look for the names of what seems unused in every text of the package (reference, section F3, condition 7)."""
-        built = [d.name for d in declared if d.depend.tag in ("depend", "build_depend") and not d.depend.condition]
-        wanted = [name for name in evidence.unused_names(built, uses) if world.is_package(name) and not world.is_key(name)]
-        if not wanted:
+        if not is_seen_whole(package):
             return {}
-        return evidence.traces(wanted, _contents(tree, found))
+        built = [d.name for d in package.declared if d.depend.tag in ("depend", "build_depend") and not d.depend.condition]
+        unused = evidence.unused_names(built, package.uses)
+        wanted = [name for name in unused if not is_unseen_by_name(world, name)]
+        return evidence.traces(wanted, _contents(tree, package)) if wanted else {}
 
     def _declared(self, manifest: Manifest | None) -> tuple[Declared, ...]:
         """Return every dependency element whose condition is not false, groups, conflicts and replaces included."""
@@ -273,13 +274,13 @@ def _failed(reads: Sequence[_Read]) -> Iterator[NotChecked]:
                 yield NotChecked(opaque.span.path, opaque.reason, opaque.span)
 
 
-def _contents(tree: Tree, found: Found) -> Iterator[tuple[str, bytes]]:
+def _contents(tree: Tree, package: Package) -> Iterator[tuple[str, bytes]]:
     """Yield the files of a package that may say that it uses something: no prose, and not the manifest itself."""
-    for file in found.files:
+    for file in package.files:
         name = file.rpartition("/")[2].lower()
         if name == "package.xml" or name.startswith(_NO_TRACE) or name.endswith(_NO_TEXT):
             continue
-        path = join(found.path, file)
+        path = join(package.path, file)
         try:
             data = tree.read(path)
         except OSError:

@@ -70,6 +70,8 @@ def by_include(world: World, header: str) -> Providers:
     """Return who provides a header."""
     names = world.knowledge.names
     first, slash, rest = header.partition("/")
+    if slash and not world.underlays and not names.maps(first):
+        return world.by_folder(first)
     shared = names.shares(first)
     second = f"{first}_{rest.partition('/')[0]}" if shared and "/" in rest else ""
     mapped = names.header(header)
@@ -86,6 +88,11 @@ def by_include(world: World, header: str) -> Providers:
         return _gone(world, first) if slash else found
     by_map = found.names[0] in found.keys or (found.names[0] != by_folder and not owners)
     return found._replace(sure=names.header_sure(header)) if by_map else found
+
+
+def by_folder(world: World, folder: str) -> Providers:
+    """Return who provides the headers below a folder that tells its package by its name."""
+    return _of(world, (folder,)) if world.is_package(folder) else _gone(world, folder)
 
 
 def by_import(world: World, module: str) -> Providers:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.declare import builds_something, works_unseen
+from ros_lint.declare import builds_something, is_seen_whole, works_unseen
 from ros_lint.facts import Facet, Role, Use
-from ros_lint.needs import all_declared, may_bring
+from ros_lint.needs import all_declared, may_bring, only_launched
 from ros_lint.workspace import Package, Workspace
 
 _MOST = 5
@@ -59,7 +59,7 @@ def _not_undeclared(package: Package, workspace: Workspace, name: str, uses: lis
         if other in closure:
             way = workspace.world.path(starts, other)
             return f"silent, for it comes along: {' > '.join(way or (other,))}; see transitive-dependency"
-    if all(use.via == "launch" for use in uses):
+    if only_launched(uses):
         return "silent, for only launch files name it; see launch-outside-closure"
     if not any(use.sure for use in uses):
         return "less than certain, for no use is sure; shown with --pedantic"
@@ -82,6 +82,8 @@ def _not_unused(package: Package, workspace: Workspace, name: str, uses: list[Us
         return f"silent{hidden}"
     if not builds_something(package):
         return "silent, for the package builds and installs no code of its own"
+    if not is_seen_whole(package):
+        return "silent, for its manifest or build script cannot be followed"
     if works_unseen(package, workspace, name):
         return "silent, for it may do its work without being named"
     if not any(depend.tag in ("depend", "build_depend") for depend in tags):

@@ -223,6 +223,13 @@ class World:
             self._remembered[key] = providers.by_include(self, header)
         return self._remembered[key]
 
+    def by_folder(self, folder: str) -> Providers:
+        """Return who provides the headers below a folder that tells its package by its name alone."""
+        key = ("folder", folder)
+        if key not in self._remembered:
+            self._remembered[key] = providers.by_folder(self, folder)
+        return self._remembered[key]
+
     def by_import(self, module: str) -> Providers:
         """Return who provides a Python module, which may be dotted (reference, section D6)."""
         key = ("import", module)

@@ -77,15 +77,20 @@ class Names:
         """
         if path in CXX_HEADERS or path.partition("/")[0] in SYSTEM_HEADER_FOLDERS:
             return (NOTHING_NEEDED,)
-        ros, system = self._include_ros, self._include_system
-        for prefix in _prefixes(path):
-            if prefix in ros or prefix in system:
-                return (*ros.get(prefix, ()), *system.get(prefix, ()))
+        if path.partition("/")[0] in self._mapped_folders:
+            ros, system = self._include_ros, self._include_system
+            for prefix in _prefixes(path):
+                if prefix in ros or prefix in system:
+                    return (*ros.get(prefix, ()), *system.get(prefix, ()))
         if "/" not in path and path.endswith(".h"):
             for beginning in sorted(self._beginnings, reverse=True):
                 if path.startswith(beginning):
                     return self._beginnings[beginning]
         return ()
+
+    def maps(self, folder: str) -> bool:
+        """Return whether anything but the folder's own name may tell whose the headers below it are."""
+        return folder in self._mapped_folders or folder in SYSTEM_HEADER_FOLDERS or folder in self._shared_folders
 
     def shares(self, folder: str) -> bool:
         """Return whether several packages install headers below a folder, so that its name tells no package."""
@@ -159,6 +164,11 @@ class Names:
     @cached_property
     def _beginnings(self) -> Mapping[str, tuple[str, ...]]:
         return {name.partition("*")[0]: keys for name, keys in self._include_system.items() if "*" in name}
+
+    @cached_property
+    def _mapped_folders(self) -> frozenset[str]:
+        """First folders, and lone files, of which a map says something."""
+        return frozenset([prefix.partition("/")[0] for names in (self._include_ros, self._include_system) for prefix in names])
 
     @cached_property
     def _shared_folders(self) -> frozenset[str]:

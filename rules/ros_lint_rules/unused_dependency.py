@@ -27,14 +27,13 @@ from collections.abc import Iterator
 
 from ros_lint.api import (
     BuildScript,
-    Facet,
     Finding,
     Fix,
     Package,
     Rule,
     Severity,
     Workspace,
-    builds_something,
+    is_seen_whole,
     is_unseen_by_name,
     remove_dependency,
     used_names,
@@ -46,16 +45,14 @@ _NO_TEST = ("enable_testing", "ament_lint_auto_find_test_dependencies", "ament_a
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    manifest, script = package.manifest, package.script
-    if manifest is None or manifest.problems or script is None or script.problems or package.hidden(Facet.USES):
-        return
-    if package.builds_with not in ("ament_cmake", "ament_python") or not builds_something(package):
+    script = package.script
+    if script is None or not is_seen_whole(package):
         return
     built = [each.name for each in package.declared if each.depend.tag in _TAGS and not each.depend.condition]
     used = used_names(built, package.uses)
     for declared in package.declared:
         depend = declared.depend
-        if depend.condition or depend.name in used or is_unseen_by_name(workspace, depend.name):
+        if depend.condition or depend.name in used or is_unseen_by_name(workspace.world, depend.name):
             continue
         if depend.tag in _TAGS:
             if depend.name in package.traces or works_unseen(package, workspace, depend.name):

@@ -128,7 +128,7 @@ def _lacks(package: Package, workspace: Workspace, need: Need, tags: Sequence[De
         return None if role is None or comes_along(~_TEST) else (role, "but it is used outside tests")
     if not given & _TEST and missing(Role.BUILD, _TO_BUILD):
         return Role.BUILD, "but it is needed to build this package"
-    if any(is_unseen_by_name(workspace, name) for name in need.declared):
+    if any(is_unseen_by_name(workspace.world, name) for name in need.declared):
         return None
     if missing(Role.EXEC, _AFTERWARDS):
         return Role.EXEC, "but it is needed at run time"
