@@ -133,15 +133,21 @@ def covered(package: Package, workspace: Workspace, names: Iterable[str], role: 
 def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool], ...]:
     """Return the needs that nothing declared brings along, and whether that is sure.
 
-    What only launch files name, to start, include or look it up, is left out: it has a rule of its own.
+    What only launch files name, to start, include or look it up, is left out, unless these are tests: it has a rule of its
+    own.
     """
     unknown = all_declared(package, workspace).unknown
     found = []
     for need in needs(package, workspace):
-        if need.declared or need.brought or all(use.via == "launch" for use in need.uses):
+        if need.declared or need.brought or only_launched(need.uses):
             continue
         found.append((need, need.sure and not (unknown and may_bring(unknown, need.name, workspace))))
     return tuple(found)
+
+
+def only_launched(uses: Sequence[Use]) -> bool:
+    """Whether only launch files name a package, and not for tests alone."""
+    return all(use.via == "launch" for use in uses) and any(use.role is not _TEST for use in uses)
 
 
 _LAUNCH = frozenset({"launch", "launch_ros", "ament_index_python"})

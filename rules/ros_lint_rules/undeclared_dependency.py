@@ -24,7 +24,8 @@ needed at run time, `<exec_depend>` for what is needed at run time only, `<test_
 - All evidence is in files that are perhaps not built or installed: then, too, the confidence is medium.
 - The package needs this one itself, so that declaring it would close a cycle: then, too, the confidence is medium.
 - Modules of launch itself that only launch files import come with `ros2 launch`: then the severity is info.
-- Only launch files name it, for what they start, include or look up: that is the business of `launch-outside-closure`.
+- Only launch files that are no tests name it, for what they start, include or look up: that is the business of
+  `launch-outside-closure`.
 """
 
 from __future__ import annotations
