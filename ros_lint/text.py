@@ -67,7 +67,7 @@ class Text:
 
     def span(self, start: int, end: int) -> Span:
         """Return the span between two offsets, each from 0 to the length of the text."""
-        starts = self._line_starts()
+        starts = self._starts or self._line_starts()
         line = bisect_right(starts, start)
         before = starts[line - 1] - 1
         if line < len(starts) and end >= starts[line]:
@@ -84,13 +84,14 @@ class Text:
         if "\r" in text:
             yield from (self.span(start, end) for start, end in ranges)
             return
-        line, at, begin = 1, 0, 0
+        count, rfind = text.count, text.rfind
+        line, at, before = 1, 0, -1
         for start, end in ranges:
-            if passed := text.count("\n", at, start):
+            if passed := count("\n", at, start):
                 line += passed
-                begin = text.rfind("\n", at, start) + 1
+                before = rfind("\n", at, start)
             at = start
-            yield Span(path, line, start - begin + 1, line, end - begin + 1)
+            yield _make(Span, (path, line, start - before, line, end - before))
 
     def offset(self, line: int, column: int) -> int:
         """Return the offset of a place. Raises IndexError when there is no such line."""
