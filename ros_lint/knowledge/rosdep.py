@@ -115,7 +115,8 @@ class Rosdep:
 
     def _installing(self, name: str) -> tuple[str, ...]:
         # Names of pip are spelt in many ways; the longest word of one stands in all of them.
-        word = max(re.findall(r"[a-z0-9]+", name.lower()), key=len, default="\n").encode()
+        words = [word for word in re.findall(r"[a-z0-9]+", name.lower()) if not word.startswith("python")]
+        word = max(words, key=len, default="python" if name else "\n").encode()
         text, lower = self._text
         found = []
         at = lower.find(word)
