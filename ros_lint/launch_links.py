@@ -70,6 +70,18 @@ class Links:
         found = self._by_path.get(key, [])
         return found[0] if len(found) == 1 else None
 
+    def place(self, file: LaunchFile) -> Linked | None:
+        """Return where a launch file is installed, None when it is not."""
+        return self._places.get(file.path)
+
+    def included(self, path: str) -> LaunchFile | None:
+        """Return the launch file at an install place, such as includes name."""
+        places = list(installed(path))
+        if len(places) != 1 or not places[0].share:
+            return None
+        found = self._by_path.get((places[0].package, places[0].share), [])
+        return found[0].file if len(found) == 1 else None
+
     def takes(self, file: LaunchFile) -> Takes:
         """Return what a file does with launch configurations."""
         return self._find(file, ())

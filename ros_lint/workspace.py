@@ -25,6 +25,7 @@ from ros_lint.text import Span
 
 if TYPE_CHECKING:
     from ros_lint.graph import Graph
+    from ros_lint.launch_links import Links
     from ros_lint.world import World
 
 
@@ -182,6 +183,13 @@ class Workspace:
                     if reference.kind == "component":
                         found[reference.package] = found.get(reference.package, frozenset()) | {reference.name}
         return found
+
+    @cached_property
+    def links(self) -> Links:
+        """Which launch file means which other one."""
+        from ros_lint.launch_links import Links  # noqa: PLC0415  (it looks at packages itself)
+
+        return Links(self.packages)
 
     @cached_property
     def looked_up(self) -> Mapping[str, Sequence[LookUp]]:

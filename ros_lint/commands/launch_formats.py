@@ -6,7 +6,8 @@ The JSON has ``schema_version`` 1, ``file``, and
   (whether an included file declares it), ``path``, ``line`` and ``column``;
 - ``starts``: in order, each with ``kind`` (node, component, process, include), ``package``, ``target`` (executable, class,
   command or file), ``name``, ``namespace``, ``container``, ``parameters``, ``remappings``, ``environment``, ``arguments``,
-  ``certain``, ``when`` (what it depends on), ``unknown`` (why something is not known), ``path``, ``line`` and ``column``;
+  ``words`` (what a node is given on its command line), ``later`` (whether a timer or an event starts it), ``certain``,
+  ``when`` (what it depends on), ``unknown`` (why something is not known), ``path``, ``line`` and ``column``;
   for an include ``follows`` (the file that was read, or null) and ``starts`` again;
 - ``unknown``: what could not be seen through in these files, each with ``reason``, ``path``, ``line`` and ``column``.
 
@@ -83,12 +84,13 @@ def _why_not_followed(started: Started, look_up: LookUp) -> str:
 def _head(started: Started) -> str:
     target = _text(started.target) or "?"
     if started.kind == "process":
-        return f"process {target}"
+        return f"process {target}{' (later)' if started.later else ''}"
     if started.kind == "include":
         return f"include {target}"
     name = _full_name(started)
+    later = " (later)" if started.later else ""
     package = f"{_text(started.package)} " if started.package else ""
-    return f"{started.kind} {package}{target}{f' as {name}' if name else ''}"
+    return f"{started.kind} {package}{target}{f' as {name}' if name else ''}{later}"
 
 
 def _unknown(found: Found) -> list[tuple[str, Span]]:
@@ -126,6 +128,8 @@ def _details(started: Started, found: Found) -> Iterator[str]:
         yield " and ".join(_when(started)) or "perhaps: the condition is not known"
     if started.container:
         yield f"in {_text(name if name.startswith('/') else f'/{name}' for name in started.container)}"
+    if started.words:
+        yield f"given {' '.join(map(_value, started.words))}"
     for name, texts in started.parameters:
         yield f"parameter {readable(name)} = {_value(texts)}" if name else f"parameters {_text(texts)}"
     for before, after in started.remappings:
@@ -208,6 +212,8 @@ def _item(one: Started) -> dict[str, Any]:
         "name": _list(one.name),
         "namespace": [f"/{space.strip('/')}" for space in _list(one.namespace)],
         "container": _list(one.container),
+        "words": [_list(texts) for texts in one.words],
+        "later": one.later,
         "parameters": _named(one.parameters),
         "remappings": [{"from": _list(before), "to": _list(after)} for before, after in one.remappings],
         "environment": _named(one.environment),

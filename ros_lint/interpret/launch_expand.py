@@ -51,7 +51,11 @@ class Started(NamedTuple):
     unknown: tuple[str, ...] = ()
     """Why something in the texts is not known."""
     when: tuple[LaunchCondition, ...] = ()
-    """The conditions that it depends on, with what is known filled in; empty when ``certain``."""
+    """The conditions that it depends on and that are not known; empty when ``certain``."""
+    later: bool = False
+    """Whether it starts only when a timer or an event comes."""
+    words: tuple[Texts, ...] = ()
+    """What a node is given on its command line."""
 
 
 class Argument(NamedTuple):
@@ -139,6 +143,7 @@ class _Scope(NamedTuple):
     environment: tuple[tuple[str, Texts], ...] = ()
     container: Texts = ()
     when: tuple[LaunchCondition, ...] = ()
+    later: bool = False
     include: Span | None = None
     """By which the file came that is being followed."""
 
@@ -196,7 +201,7 @@ class _Run:
             case "group":
                 return outer.after(self._group(action, scope))
             case "later":
-                self._actions(action.children, scope._replace(values=dict(scope.values)))
+                self._actions(action.children, scope._replace(values=dict(scope.values), later=True))
             case "include":
                 return outer.after(self._include(action, scope))
             case "node" | "component" | "process":
@@ -290,14 +295,15 @@ class _Run:
         return len(self._open) - 1
 
     def _start(self, action: LaunchAction, scope: _Scope) -> Started:
-        command = [value for name, value in action.arguments if not name] if action.kind == "process" else []
+        is_process = action.kind == "process"
         self._unknown.clear()
         is_node = action.kind in ("node", "component")
+        words = tuple([self.texts(value, scope) for name, value in action.arguments if not name])
         named = [(name, self.texts(value, scope)) for name, value in action.arguments if name]
         started = Started(
             action.kind,
             self.texts(action.package, scope),
-            joined([self.texts(word, scope) for word in command], " ".join) if command else self.texts(action.target, scope),
+            joined(words, " ".join) if words and is_process else self.texts(action.target, scope),
             self.texts(action.name, scope),
             _joined_namespaces(scope.namespace, self.texts(action.namespace, scope) or ("",)),
             (
@@ -319,6 +325,8 @@ class _Run:
             ),
             unknown=tuple(self._unknown),
             when=scope.when,
+            later=scope.later,
+            words=() if is_process else words,
         )
         self.started.append(started)
         return started

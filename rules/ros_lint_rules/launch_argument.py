@@ -47,7 +47,7 @@ _MOST_RELATED = 4
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
-    links = Links(workspace.packages)
+    links = workspace.links
     for package in workspace.packages:
         for launch in launchable(package):
             for action in everything(launch.file.actions):

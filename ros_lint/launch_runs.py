@@ -1,0 +1,22 @@
+"""What a launch file of the workspace starts when it is launched without arguments."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros_lint.collectors.launch_text import share
+
+if TYPE_CHECKING:
+    from ros_lint.facts import LaunchFile
+    from ros_lint.interpret.launch_expand import Expansion
+    from ros_lint.workspace import Workspace
+
+
+def launched(file: LaunchFile, workspace: Workspace, *, follow: bool) -> Expansion:
+    """Return what a launch file starts by itself, and with ``follow`` what those files start that it includes."""
+    from ros_lint.interpret.launch_expand import expand  # noqa: PLC0415  (most runs need nothing of it)
+
+    place = workspace.links.place(file)
+    if place is not None:
+        file = file._replace(path=f"{share(place.package.name)}/{place.path}")
+    return expand(file, {}, workspace.links.included if follow else lambda path: None, workspace.target.distro)

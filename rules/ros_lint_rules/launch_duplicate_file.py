@@ -1,0 +1,90 @@
+"""
+## What it finds
+
+Two launch files of one name that a package installs into different folders, or one that it installs twice.
+
+## Why it matters
+
+`ros2 launch package file` looks for the name in every folder of the package, and refuses when it finds two: `file 'x' was
+found more than once in the share directory of package`.
+
+## How to fix it
+
+Rename one, or install it once. Including works all the same, since an include names the folder.
+
+## When it keeps silent
+
+- The files are installed under conditions that are not known, or are not called like launch files.
+- Each of them is included by another launch file of the workspace: then they are parts, which nobody launches by name.
+- Launch files of tests and examples.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from ros_lint.api import Finding, Package, Provided, Related, Rule, Severity, Span, Workspace, everything, launchable
+
+_LAUNCH = re.compile(r"launch\.(?:py|xml|ya?ml)\Z|\.launch\Z")
+
+
+def check(workspace: Workspace) -> Iterator[Finding]:
+    included: frozenset[str] | None = None
+    for package in workspace.packages:
+        for name, places in _twice(package).items():
+            base = f"{package.path}/" if package.path else ""
+            sources = [f"{base}{place.source}" for place in places]
+            if included is None:
+                included = _included(workspace)
+            if len(set(sources)) > 1 and included.issuperset(sources):
+                continue
+            paths = ", ".join(place.path.partition(f"share/{package.name}/")[2] for place in places)
+            yield Finding(
+                f"{package.name} installs {name} more than once ({paths}), so ros2 launch {package.name} {name} refuses",
+                Span(sources[0], 1, 1, 1, 1),
+                name,
+                tuple(
+                    Related("installed by this", place.span)
+                    if source == sources[0]
+                    else Related("the other file", Span(source, 1, 1, 1, 1))
+                    for place, source in zip(places[1:], sources[1:], strict=True)
+                ),
+                package=package.name,
+            )
+
+
+def _twice(package: Package) -> dict[str, list[Provided]]:
+    """Return the launch files that a package installs at several places, by their names."""
+    files = {launch.path for launch in launchable(package)}
+    names: dict[str, dict[str, Provided]] = {}
+    for provided in package.script.provides if package.script and files else ():
+        name = provided.path.rpartition("/")[2]
+        if provided.source not in files or provided.conditional or not _LAUNCH.search(name):
+            continue
+        if provided.path.startswith(f"share/{package.name}/"):
+            names.setdefault(name, {}).setdefault(provided.path, provided)
+    return {name: list(places.values()) for name, places in names.items() if len(places) > 1}
+
+
+def _included(workspace: Workspace) -> frozenset[str]:
+    """Return the paths of the launch files that others include."""
+    found: set[str] = set()
+    for package in workspace.packages:
+        for file in package.launch:
+            for action in everything(file.actions):
+                target = workspace.links.target(action.target, file) if action.kind == "include" else None
+                if target is not None:
+                    found.add(target.file.path)
+    return frozenset(found)
+
+
+RULE = Rule(
+    name="launch-duplicate-file",
+    code="ROS509",
+    summary="the launch files of a package must have different names",
+    severity=Severity.WARNING,
+    since="0.1",
+    doc=__doc__,
+    workspace=check,
+)
