@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Container, Iterator, Mapping, Sequence, Set
+from functools import partial
 from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint import resource_files
 from ros_lint.collect import FAILED
 from ros_lint.collectors import cmake_calls, plugin_xml, python_names, setup_layout
-from ros_lint.collectors.cmake_syntax import Parsed
+from ros_lint.collectors.cmake_syntax import Parsed, parse
 from ros_lint.discover import Found
 from ros_lint.facts import ANYTHING, BuildScript, Facet, Opaque, PythonModule, ScriptFile
 from ros_lint.text import Span, Text, read
@@ -23,6 +24,7 @@ _PLUGIN_FILE = re.compile(r"plugin.*\.xml\Z", re.IGNORECASE)
 _SCRIPTS = re.compile(r"(?:scripts|nodes|bin|script)/[^/]+\Z")
 _MOST_RESOURCES = 40
 """Of a folder: a tree of models has thousands of files, and one that is named is enough."""
+_MOST_UNSEEN = 5_000
 _PYTHON = ("setup.py", "setup.cfg", "pyproject.toml")
 
 
@@ -84,14 +86,58 @@ def _sources(tree: Tree, parts: Parts) -> Sources:
         found.name,
         found.path,
         found.files,
-        parts.commands,
+        _Scripts(tree, found, parts.commands),
         executables,
         version,
         built,
         depends.get("s", ()),
         unseen,
         texts,
+        partial(_look, tree, found),
     )
+
+
+class _Scripts(Mapping[str, Parsed]):
+    """The CMake files of a package. Others are read when they are asked for: a script may have any name."""
+
+    def __init__(self, tree: Tree, found: Found, parsed: Mapping[str, Parsed]) -> None:
+        self._tree = tree
+        self._found = found
+        self._parsed = dict(parsed)
+
+    def __contains__(self, path: object) -> bool:
+        return path in self._parsed or path in self._found.files
+
+    def __getitem__(self, path: str) -> Parsed:
+        if path not in self._parsed:
+            text = _text(self._tree, self._found, path)
+            if text is None:
+                raise KeyError(path)
+            self._parsed[path] = parse(text)
+        return self._parsed[path]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._parsed)
+
+    def __len__(self) -> int:
+        return len(self._parsed)
+
+
+def _look(tree: Tree, found: Found, folder: str) -> list[str]:
+    """Return the files below a folder that was not looked into, nothing when it cannot be read or has too many."""
+    files: list[str] = []
+    todo = [folder]
+    if any(skipped.path == folder and "link" in skipped.reason for skipped in found.unseen):
+        return files
+    while todo and len(files) < _MOST_UNSEEN:
+        place = todo.pop()
+        try:
+            entries = tree.list(join(found.path, place))
+        except OSError:
+            return []
+        files += [join(place, entry.name) for entry in entries if entry.kind == "file"]
+        todo += [join(place, entry.name) for entry in entries if entry.kind == "directory" and not entry.link]
+    return [] if todo else sorted(files)
 
 
 def _python(tree: Tree, found: Found) -> BuildScript | None:

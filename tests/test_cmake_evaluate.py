@@ -93,7 +93,7 @@ def test_mentions_stand_where_the_name_is_written() -> None:
         ("if(WIN32)\nfind_package(a REQUIRED)\nendif()", True, False),
         ("if(FALSE)\nfind_package(a REQUIRED)\nendif()", None, False),
         ("if($ENV{ROS_DISTRO} STREQUAL jazzy)\nfind_package(a REQUIRED)\nendif()", False, False),
-        ("if($ENV{ROS_DISTRO} STREQUAL humble)\nfind_package(a REQUIRED)\nendif()", None, False),
+        ("if($ENV{ROS_DISTRO} STREQUAL humble)\nfind_package(a REQUIRED)\nendif()", True, False),
         ("if(\"$ENV{ROS_VERSION}\" EQUAL 1)\nfind_package(a REQUIRED)\nendif()", None, False),
         ("if(\"$ENV{HOME}\" STREQUAL \"\")\nfind_package(a REQUIRED)\nendif()", True, False),
         ("return()\nfind_package(a REQUIRED)", None, False),
@@ -360,3 +360,79 @@ def test_macros_of_the_workspace_are_followed() -> None:
         hidden(evaluate(found))
         == Facet.USES | Facet.EXECUTABLES | Facet.SHARE | Facet.PYTHON | Facet.LIBRARIES | Facet.INTERFACES | Facet.COMPONENTS
     )
+
+
+def test_code_for_other_distributions_counts_as_possible() -> None:
+    text = "if($ENV{ROS_DISTRO} MATCHES humble)\nfind_package(a REQUIRED)\nelse()\nfind_package(b REQUIRED)\nendif()\n"
+    found = mentioned(run(text))
+    assert found["cmake", "a"].optional
+    assert not found["cmake", "b"].optional
+
+
+def test_the_name_of_components_until_dashing() -> None:
+    script = run('add_library(c SHARED c.cpp)\nrclcpp_register_node_plugins(c "pkg::A" "pkg::B")\n', ("c.cpp",))
+    assert [component.name for component in script.components] == ["pkg::A", "pkg::B"]
+
+
+def test_what_another_system_has() -> None:
+    text = "if(WIN32)\nfind_package(xa REQUIRED)\nelse()\nfind_package(xb REQUIRED)\nendif()\n"
+    script = run(f"{text}if(MSVC OR APPLE)\nx_install()\nendif()\n")
+    assert mentioned(script)["cmake", "xa"].optional
+    assert not mentioned(script)["cmake", "xb"].optional
+    assert hidden(script) == Facet.USES
+
+
+def test_a_target_that_nobody_defines_hides_nothing_else() -> None:
+    script = run("add_executable(a a.cpp)\ninstall(TARGETS a b DESTINATION lib/pkg)\n", ("a.cpp",))
+    assert paths(script)["lib/pkg/a"] is False
+    assert paths(script)["lib/pkg/b"] is True
+    assert not hidden(script)
+    assert [problem.kind for problem in script.problems] == ["undefined-target"]
+    script = run("find_package(x)\nx_make(b)\ninstall(TARGETS b DESTINATION lib/pkg)\n")
+    assert hidden(script) & Facet.EXECUTABLES
+
+
+def test_lists_that_are_empty_install_nothing() -> None:
+    script = run("install(TARGETS ${none} DESTINATION lib)\ninstall(DIRECTORY ${none} DESTINATION share/pkg)\n")
+    assert paths(script).keys() <= {"share/pkg/package.xml"}
+    assert not hidden(script)
+    assert not script.problems
+
+
+def test_properties_of_a_target_from_a_branch() -> None:
+    branch = "add_library(a SHARED a.cpp)\nset_target_properties(a PROPERTIES VERSION 1.2)\ninstall(TARGETS a DESTINATION lib)\n"
+    script = run(f"find_package(x)\nif(x_FOUND)\n{branch}endif()\n", ("a.cpp",))
+    assert paths(script) == {"lib/liba.so": True, "lib/liba.so.1.2": True}
+
+
+def test_modules_in_c_plus_plus() -> None:
+    text = "pybind11_add_module(_core core.cpp)\ninstall(TARGETS _core DESTINATION ${PYTHON_INSTALL_DIR}/pkg)\n"
+    script = run(text, ("core.cpp",))
+    assert paths(script) == {"lib/python/site-packages/pkg/_core.so": False}
+    assert script.python_packages == ("pkg._core",)
+    assert not hidden(script)
+
+
+def test_folders_that_are_not_looked_into_are_installed_all_the_same() -> None:
+    text = HEAD + "install(DIRECTORY share/ DESTINATION share/pkg)\n"
+    listed = {"share/build": ["share/build/a.txt", "share/build/b/c.txt"], "gone": []}
+    given = sources(text, ("share/a",), unseen=("share/build", "gone"), look=lambda folder: listed[folder])
+    script = evaluate(given)
+    assert paths(script) == {"share/pkg/a": False, "share/pkg/build/a.txt": False, "share/pkg/build/b/c.txt": False}
+    assert not hidden(script)
+    script = evaluate(given._replace(look=lambda folder: ()))
+    assert hidden(script) & Facet.SHARE
+
+
+def test_headers_of_ament_auto_package() -> None:
+    text = HEAD + "ament_auto_package({})\n"
+    given = sources(text.format(""), ("include/pkg/a.hpp",))
+    assert "include/pkg/a.hpp" in paths(evaluate(given, "jazzy"))
+    assert "include/pkg/pkg/a.hpp" in paths(evaluate(given, "kilted"))
+    given = sources(text.format("USE_SCOPED_HEADER_INSTALL_DIR"), ("include/pkg/a.hpp",))
+    assert "include/pkg/pkg/a.hpp" in paths(evaluate(given, "humble"))
+
+
+def test_version_header() -> None:
+    text = "ament_generate_version_header(a)\nament_generate_version_header(b HEADER_PATH b.h INSTALL_PATH include)\n"
+    assert paths(run(text)) == {"include/pkg/pkg/version.h": False, "include/b.h": False}

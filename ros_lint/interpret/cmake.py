@@ -82,8 +82,10 @@ def evaluate(sources: Sources, distro: str = "", helpers: Mapping[str, Helper] =
 
 def _result(run: Run, path: str) -> BuildScript:
     provides = [*_installed_files(run), *cmake_install.installed_targets(run)]
-    problems = [*run.problems, *_missing(run), *_undefined(run)]
-    opaques = list(run.opaques)
+    undefined = _undefined(run)
+    problems = [*run.problems, *_missing(run), *undefined]
+    nowhere = {problem.span for problem in undefined}  # these are mistakes, and hide nothing
+    opaques = [opaque for opaque in run.opaques if opaque.span not in nowhere or not cmake_install.is_undefined(opaque)]
     for file, parsed in run.sources.scripts.items():
         if parsed.problems and not file.endswith(".in"):
             problems += parsed.problems
@@ -141,10 +143,10 @@ def _missing(run: Run) -> list[Problem]:
 
 
 def _undefined(run: Run) -> list[Problem]:
-    if run.wild:
+    if run.wild or any(opaque.hides & Facet.LIBRARIES and not cmake_install.is_undefined(opaque) for opaque in run.opaques):
         return []
-    undefined = [(name, span) for name, span, conditional in run.undefined if not conditional and "__rosidl" not in name]
-    places = {span for _, span in undefined}
-    if any(opaque.hides & Facet.LIBRARIES and opaque.span not in places for opaque in run.opaques):
-        return []
-    return [Problem("undefined-target", f"install() of {name}, which is no target", span) for name, span in undefined]
+    return [
+        Problem("undefined-target", f"install() of {name}, which is no target", span)
+        for name, span, conditional in run.undefined
+        if not conditional and "__rosidl" not in name
+    ]

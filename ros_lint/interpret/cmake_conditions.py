@@ -68,7 +68,8 @@ def condition(run: Run, command: Command) -> Truth:
 
 
 def _is_soft(run: Run, text: str) -> bool:
-    return any(run.may_be_set(name) for name in _REFERENCE.findall(text))
+    # The packages of a repository are built for more distributions than the one that is asked about.
+    return "$ENV{ROS_DISTRO}" in text or any(run.may_be_set(name) for name in _REFERENCE.findall(text))
 
 
 class _Parser:

@@ -13,6 +13,8 @@ from ros_lint.interpret.cmake_glob import glob_regex
 from ros_lint.interpret.cmake_run import Handler, InstalledTarget, Run
 from ros_lint.interpret.cmake_targets import output_name, real_target
 from ros_lint.interpret.cmake_values import HOLE, is_fixed, is_known, sure
+from ros_lint.knowledge.cmake_commands import VARIABLES
+from ros_lint.text import Span
 from ros_lint.tree import join as join_path
 
 _ANYWHERE: Final = Facet.EXECUTABLES | Facet.SHARE | Facet.LIBRARIES | Facet.PYTHON
@@ -40,9 +42,6 @@ _DIRECTORY_WORDS: Final = {
 }  # fmt: skip
 
 
-_NOTHING: Final = frozenset({"ARCHIVE", "LIBRARY", "RUNTIME", "DESTINATION"})
-"""What follows ``install(TARGETS`` and the like when there is nothing to install."""
-
 _WRITES = re.compile(
     r"\bfile\s*\(|symlink|\bcopy|\binstall|\b(?:ln|cp|mv)\b|configure_file|rename|\btar\b|\bmake\b", re.IGNORECASE
 )
@@ -66,7 +65,7 @@ def facet_of(run: Run, destination: str | None) -> Facet:
 
 def _install(run: Run, args: list[str]) -> None:
     mode = args[0] if args else ""
-    if args[1:2] and args[1] in _NOTHING:
+    if args[1:2] and (args[1] == "DESTINATION" or (mode == "TARGETS" and args[1] in _ARTIFACTS)):
         return  # the list was empty, which CMake allows
     if mode == "TARGETS":
         _install_targets(run, args[1:])
@@ -115,6 +114,15 @@ def _install_targets(run: Run, args: list[str]) -> None:
             run.installed_targets.append(InstalledTarget(plain, runtime, library, archive, conditional, run.where(name)))
 
 
+_PYTHON: Final = f"{VARIABLES['PYTHON_INSTALL_DIR']}/"
+_UNDEFINED = re.compile(r"what the target .+ is, is not known\Z", re.DOTALL)
+
+
+def is_undefined(opaque: Opaque) -> bool:
+    """Return whether something is hidden because a target that is installed is not defined in sight."""
+    return _UNDEFINED.match(opaque.reason) is not None
+
+
 def installed_targets(run: Run) -> Iterator[Provided]:
     """Return the files of the targets that were installed, after the whole script has run."""
     for name, executables, libraries, archives, conditional, span in run.installed_targets:
@@ -124,6 +132,8 @@ def installed_targets(run: Run) -> Iterator[Provided]:
                 run.undefined.append((name, span, conditional))
             reason = f"what the target {name} is, is not known"
             run.opaques.setdefault(Opaque(Facet.EXECUTABLES | Facet.LIBRARIES, reason, span))
+            if executables is not None:  # should it be there after all, it is most likely a program
+                yield Provided(join_path(executables, name), "", True, True, span, name)
             continue
         kind = target["KIND"]
         if kind in ("interface", "object", "other", "imported"):
@@ -135,7 +145,10 @@ def installed_targets(run: Run) -> Iterator[Provided]:
             run.opaques.setdefault(Opaque(facet, f"where the target {name} is installed is not known", span))
             continue
         unsure = conditional or "CONDITIONAL" in target or "TEST" in target
-        yield Provided(join_path(where, file), "", kind == "executable", unsure, span, name)
+        path = join_path(where, file)
+        yield Provided(path, "", kind == "executable", unsure, span, name)
+        if path.startswith(_PYTHON) and not file.startswith("lib"):
+            run.python_packages[path[len(_PYTHON) :].partition(".")[0].replace("/", ".")] = None
         if kind == "shared":
             for number in {target.get("VERSION", ""), target.get("SOVERSION", "")} - {""}:
                 if is_known(number):
@@ -246,9 +259,7 @@ def _install_directory(run: Run, value: str, source: str, target: str, rule: _Ru
     if source in run.files:
         run.problem("directory-is-file", f"install(DIRECTORY) of {source}, which is a file", span)
         return
-    unseen = run.sources.unseen
-    if unseen and (run.is_unseen(source) or any(folder.startswith(f"{source}/" if source else "") for folder in unseen)):
-        run.hide(facet_of(run, target), "install(DIRECTORY) of a folder whose files are not listed", span)
+    more = unlisted(run, source, facet_of(run, target), span) if run.sources.unseen else []
     if not run.is_folder(source):
         if not rule.optional:
             run.missing.append((source, span, conditional))
@@ -257,14 +268,30 @@ def _install_directory(run: Run, value: str, source: str, target: str, rule: _Ru
     top = plain.rstrip("/") if plain.startswith("/") else f"/{join_path(run.directory, plain)}".rstrip("/")
     start = f"{target}/" if target else ""
     chosen = bool(rule.patterns or rule.only)
-    for file in run.below(source):
+    for file in (*run.below(source), *more):
         program = file in run.sources.executables if rule.executable is None else rule.executable
         if chosen:
             wanted, given = _chosen(file[skip:], top, rule)
             if not wanted:
                 continue
             program = program if given is None else given
-        run.installed.append(Provided(f"{start}{file[skip:]}", file, program, conditional, span))
+        run.installed.append(Provided(f"{start}{file[skip:]}", file if file in run.files else "", program, conditional, span))
+
+
+def unlisted(run: Run, source: str, facet: Facet, span: Span) -> list[str]:
+    """Return the files below a folder that are none of the package's own, but are installed with them all the same.
+
+    These are those of nested packages, and of folders that colcon is told to ignore.
+    """
+    found: list[str] = []
+    for folder in run.sources.unseen:
+        inside = source == folder or source.startswith(f"{folder}/")
+        if inside or not source or folder.startswith(f"{source}/"):
+            files = run.sources.look(folder)
+            if not files:
+                run.hide(facet, "install(DIRECTORY) of a folder whose files are not listed", span)
+            found += [file for file in files if not source or file.startswith(f"{source}/")]
+    return found
 
 
 def _chosen(file: str, top: str, rule: _Rule) -> tuple[bool, bool | None]:

@@ -139,7 +139,8 @@ def clear(run: Run) -> None:
     for index in range(int(last or 0) + 1 if is_known(last) else 10):
         if run.get(f"CMAKE_MATCH_{index}"):
             run.set(f"CMAKE_MATCH_{index}", "")
-    run.set("CMAKE_MATCH_COUNT", "0" if is_known(last) else HOLE)
+    # Where it is empty it may also be unset, and then it stays so.
+    run.set("CMAKE_MATCH_COUNT", "0" if last and is_known(last) else HOLE)
 
 
 def store(run: Run, groups: tuple[str, ...]) -> None:

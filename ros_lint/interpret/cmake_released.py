@@ -87,6 +87,8 @@ def _steps(body: Body, prefix: str, conditions: _Conditions) -> Iterator[_Step |
     """Yield the commands of a body, None for what cannot be compiled."""
     for node in body:
         if isinstance(node, Command):
+            if node.name == "set" and prefix and node.args[0][0].startswith(f"{prefix}_"):
+                yield None  # what is given by keywords stays as it is
             yield node.name, tuple([_argument(text, kind) for text, kind, _, _ in node.args]), conditions
         elif isinstance(node, If) and len(node.branches) <= 2 and node.branches[-1][0] in (None, node.command):
             words = [argument[0] for argument in node.command.args]

@@ -9,6 +9,7 @@ from typing import Final
 from ros_lint.facts import ANYTHING, Component, Facet, Provided
 from ros_lint.interpret.cmake_arguments import sections
 from ros_lint.interpret.cmake_flow import HANDLERS
+from ros_lint.interpret.cmake_install import unlisted
 from ros_lint.interpret.cmake_released import released, run_released
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_state import Properties
@@ -103,14 +104,15 @@ def _python(run: Run, args: list[str]) -> None:
     base = run.get("PYTHON_INSTALL_DIR") or ""
     skip = len(folder) + 1 if folder else 0
     conditional = run.conditional or run.testing
-    for file in run.below(folder):
+    more = unlisted(run, folder, Facet.PYTHON, span) if run.sources.unseen else []
+    for file in (*run.below(folder), *more):
         if file.endswith(".py"):
             inner = posixpath.dirname(file[skip:])
             if inner:
                 run.python_packages[f"{name}.{inner.replace('/', '.')}"] = None
         path = join_path(join_path(base, args[0]), file[skip:])
         if is_known(path) and not file.endswith((".pyc", ".pyo")):
-            run.installed.append(Provided(path, file, False, conditional, span))
+            run.installed.append(Provided(path, file if file in run.files else "", False, conditional, span))
 
 
 def _scripts(run: Run, args: list[str]) -> None:
@@ -144,6 +146,16 @@ def _provide(run: Run, args: list[str]) -> None:
     if path is not None and not run.muted:
         program = "program" in args[1:]
         run.installed.append(Provided(path, "", program, run.conditional or run.testing, run.here()))
+
+
+def _headers(run: Run, args: list[str]) -> None:
+    """``ros_lint_headers(scoped)``: the headers of ament_auto_package() (reference, section H13)."""
+    scoped = args[:1] == ["TRUE"] or run.distro in _SCOPED
+    folder = f"include/{run.get('PROJECT_NAME') or ''}" if scoped else "include"
+    run_handler(run, "install", ["DIRECTORY", "include/", "DESTINATION", folder, "OPTIONAL"])
+
+
+_SCOPED: Final = frozenset({"kilted", "lyrical", "rolling"})
 
 
 def _generate(run: Run, args: list[str]) -> None:
@@ -238,6 +250,7 @@ COMMANDS: Final[dict[str, Handler]] = {
     "ros_lint_python": _python,
     "ros_lint_console_scripts": _scripts,
     "ros_lint_provide": _provide,
+    "ros_lint_headers": _headers,
     "ros_lint_generate": _generate,
     "ros_lint_package": _package,
     "ros_lint_unknown": _unknown,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from typing import NamedTuple
 
@@ -32,6 +32,8 @@ class Sources(NamedTuple):
     """Folders below the package, relative to it, that exist and whose files are not listed."""
     texts: Mapping[str, str] = {}
     """What files hold that are read while CMake runs, such as setup.cfg, by path relative to the folder."""
+    look: Callable[[str], Sequence[str]] = lambda folder: ()
+    """Lists the files below one of the unseen folders, relative to the package; none when that is not possible."""
 
 
 class Helper(NamedTuple):

@@ -180,7 +180,11 @@ class State:
                     self.put(change.mapping, change.key, change.value)
             return
         slots = {slot: change for changes in alternatives for slot, change in changes.items()}
-        for slot, (mapping, key, _) in slots.items():
+        fresh = {id(change.value) for change in slots.values() if isinstance(change.value, Properties)}
+        for slot, (mapping, key, value) in slots.items():
+            if id(mapping) in fresh and value is not MISSING:
+                self.put(mapping, key, value)  # of a target that one branch has made, which no other has seen
+                continue
             before = self._held(mapping, key)
             values = [changes[slot].value if slot in changes else before for changes in alternatives]
             merged = _merged(mapping, values, default)

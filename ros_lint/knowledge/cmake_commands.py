@@ -38,6 +38,7 @@ VARIABLES: Final[Mapping[str, str]] = {
     "CMAKE_INSTALL_FULL_INCLUDEDIR": "/\1prefix/include",
     "CMAKE_INSTALL_FULL_DATADIR": "/\1prefix/share",
     "PYTHON_INSTALL_DIR": "lib/python/site-packages",
+    "PYTHON_MODULE_EXTENSION": ".so",
     "UNIX": "1",
     "LINUX": "1",
     "CMAKE_SYSTEM_NAME": "Linux",
@@ -55,7 +56,8 @@ VARIABLES: Final[Mapping[str, str]] = {
     "CMAKE_FILES_DIRECTORY": "/CMakeFiles",
 }
 """What variables hold in a build by colcon on Linux, as far as it is the same on every machine. GNUInstallDirs gives
-``lib`` on Debian and its kin, and PYTHON_INSTALL_DIR stands for ``lib/pythonX.Y/site-packages``. Of the marked folders see
+``lib`` on Debian and its kin, and PYTHON_INSTALL_DIR stands for ``lib/pythonX.Y/site-packages``,
+PYTHON_MODULE_EXTENSION for ``.cpython-XY-<machine>.so``. Of the marked folders see
 :mod:`ros_lint.interpret.cmake_values`."""
 
 SOFT_VARIABLES: Final = frozenset({

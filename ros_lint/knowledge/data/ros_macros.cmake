@@ -10,6 +10,7 @@
 #   ros_lint_python(name folder)             a Python package or module is installed
 #   ros_lint_console_scripts(dir setup.cfg)  console_scripts of a setup.cfg become programs
 #   ros_lint_provide(path [program])         a generated file is installed
+#   ros_lint_headers(scoped)                 include/ is installed, to include/<package> if scoped or as of Kilted
 #   ros_lint_generate(paths...)              files come into being during the build
 #   ros_lint_unknown(variables...)           variables hold something that cannot be known here
 #   ros_lint_extras(files...)                CMake code for packages that find this one
@@ -156,6 +157,16 @@ endfunction()
 
 package(ament_cmake_gen_version_h)
 function(ament_generate_version_header target)
+  cmake_parse_arguments(_ARG_VERSION "SKIP_INSTALL" "HEADER_PATH;INSTALL_PATH" "" ${ARGN})
+  if(NOT _ARG_VERSION_HEADER_PATH)
+    set(_ARG_VERSION_HEADER_PATH ${PROJECT_NAME}/version.h)
+  endif()
+  if(NOT _ARG_VERSION_INSTALL_PATH)
+    set(_ARG_VERSION_INSTALL_PATH include/${PROJECT_NAME})
+  endif()
+  if(NOT _ARG_VERSION_SKIP_INSTALL)
+    ros_lint_provide(${_ARG_VERSION_INSTALL_PATH}/${_ARG_VERSION_HEADER_PATH})
+  endif()
 endfunction()
 function(ament_cmake_gen_version_h)
 endfunction()
@@ -256,7 +267,7 @@ endmacro()
 
 macro(ament_auto_package)
   cmake_parse_arguments(_ARG_AUTO "INSTALL_TO_PATH;USE_SCOPED_HEADER_INSTALL_DIR" "" "INSTALL_TO_SHARE" ${ARGN})
-  install(DIRECTORY include/ DESTINATION include OPTIONAL)
+  ros_lint_headers(${_ARG_AUTO_USE_SCOPED_HEADER_INSTALL_DIR})
   install(TARGETS ${${PROJECT_NAME}_LIBRARIES} ARCHIVE DESTINATION lib LIBRARY DESTINATION lib RUNTIME DESTINATION bin)
   if(_ARG_AUTO_INSTALL_TO_PATH)
     install(TARGETS ${${PROJECT_NAME}_EXECUTABLES} DESTINATION bin)
@@ -505,6 +516,11 @@ macro(rclcpp_components_register_nodes target)
   ros_lint_provide(share/ament_index/resource_index/rclcpp_components/${PROJECT_NAME})
 endmacro()
 
+# The name until Dashing.
+macro(rclcpp_register_node_plugins target)
+  rclcpp_components_register_nodes(${target} ${ARGN})
+endmacro()
+
 package(pluginlib)
 
 macro(pluginlib_export_plugin_description_file category file)
@@ -576,8 +592,7 @@ package(pybind11_vendor)
 function(pybind11_add_module target)
   cmake_parse_arguments(ARG "MODULE;SHARED;EXCLUDE_FROM_ALL;NO_EXTRAS;SYSTEM;THIN_LTO;OPT_SIZE;WITHOUT_SOABI" "" "" ${ARGN})
   add_library(${target} MODULE ${ARG_UNPARSED_ARGUMENTS})
-  ros_lint_unknown(suffix)
-  set_target_properties(${target} PROPERTIES PREFIX "" SUFFIX "${suffix}")
+  set_target_properties(${target} PROPERTIES PREFIX "" SUFFIX "${PYTHON_MODULE_EXTENSION}")
 endfunction()
 
 package(xacro)
@@ -648,8 +663,7 @@ endmacro()
 function(python_add_library target)
   cmake_parse_arguments(ARG "STATIC;SHARED;MODULE;WITH_SOABI" "" "" ${ARGN})
   add_library(${target} MODULE ${ARG_UNPARSED_ARGUMENTS})
-  ros_lint_unknown(suffix)
-  set_target_properties(${target} PROPERTIES PREFIX "" SUFFIX "${suffix}")
+  set_target_properties(${target} PROPERTIES PREFIX "" SUFFIX "${PYTHON_MODULE_EXTENSION}")
 endfunction()
 function(add_jar target)
   add_custom_target(${target})
@@ -715,8 +729,7 @@ endfunction()
 function(python3_add_library target)
   cmake_parse_arguments(ARG "STATIC;SHARED;MODULE;WITH_SOABI" "" "" ${ARGN})
   add_library(${target} MODULE ${ARG_UNPARSED_ARGUMENTS})
-  ros_lint_unknown(suffix)
-  set_target_properties(${target} PROPERTIES PREFIX "" SUFFIX "${suffix}")
+  set_target_properties(${target} PROPERTIES PREFIX "" SUFFIX "${PYTHON_MODULE_EXTENSION}")
 endfunction()
 function(cuda_add_library target)
   cmake_parse_arguments(ARG "STATIC;SHARED;MODULE" "" "OPTIONS" ${ARGN})

@@ -1,0 +1,41 @@
+"""Build scripts as the workspace sees them: with files that are read only when a script asks for them."""
+
+from __future__ import annotations
+
+from ros_lint.load import Loader
+from ros_lint.tree import MemoryTree
+from ros_lint.workspace import Target, Workspace
+
+XML = '<package format="3"><name>{}</name><version>1.0.0</version><description>d</description><maintainer email="a@b.c">a'
+XML += "</maintainer><license>MIT</license><buildtool_depend>ament_cmake</buildtool_depend><export><build_type>ament_cmake"
+XML += "</build_type></export></package>"
+HEAD = "cmake_minimum_required(VERSION 3.8)\nproject(p)\nfind_package(ament_cmake REQUIRED)\n"
+
+
+def load(script: str, **files: str) -> Workspace:
+    texts = {"p/package.xml": XML.format("p"), "p/CMakeLists.txt": HEAD + script}
+    texts.update({name.replace("__", "/").replace("_dot_", "."): text for name, text in files.items()})
+    return Loader(MemoryTree(texts), ("",), Target("jazzy", "test")).load()
+
+
+def installed(workspace: Workspace) -> set[str]:
+    script = workspace.by_name["p"][0].script
+    assert script is not None
+    assert not script.opaque
+    return {provided.path for provided in script.provides}
+
+
+def test_an_included_file_may_have_any_name() -> None:
+    own = "install(FILES a.yaml DESTINATION share/p)\n"
+    assert "share/p/a.yaml" in installed(load("include(more.txt)\n", p__more_dot_txt=own, p__a_dot_yaml=""))
+
+
+def test_a_package_within_the_package_is_installed_with_it() -> None:
+    files = {"p__x__q__package_dot_xml": XML.format("q"), "p__x__q__CMakeLists_dot_txt": "", "p__x__a_dot_txt": ""}
+    paths = installed(load("install(DIRECTORY x DESTINATION share/p)\n", **files))
+    assert paths == {"share/p/x/a.txt", "share/p/x/q/package.xml", "share/p/x/q/CMakeLists.txt"}
+
+
+def test_an_ignored_folder_is_installed_when_it_is_asked_for() -> None:
+    files = {"p__x__COLCON_IGNORE": "", "p__x__sub__a_dot_txt": ""}
+    assert "share/p/x/sub/a.txt" in installed(load("install(DIRECTORY x DESTINATION share/p)\n", **files))
