@@ -19,6 +19,7 @@ _PYTHON = re.compile(r"generate_(launch|test)_description\b")
 _DEFINED = re.compile(r"(?:async[ \t]+)?def[ \t]+\Z")
 _HELPER = re.compile(r"^[ \t]*(?:from|import)[ \t]+launch(?:_ros)?\b", re.MULTILINE)
 _ACTION = re.compile(r"\b(?:\w*Node|\w*LaunchDescription|ComposableNodeContainer)\(")
+_SPACE = re.compile(r"\s*")
 _ROOT = re.compile(r"<launch(?=[\s/>])")
 # What only ROS 1 understands, and what only ROS 2 does. A file with both is ROS 2 with leftovers.
 _ROS1 = re.compile(
@@ -30,6 +31,7 @@ _ROS2 = re.compile(
     r"\sexec\s*=|\$\((?:var|find-pkg-share|find-pkg-prefix|exec-in-pkg|command)\s"
     r"|<(?:let|executable|node_container|load_composable_node|push[-_]ros[-_]namespace|set_parameter|set_env)\b"
 )
+_ROS2_WORDS = ("$(var ", "$(find-pkg-share ", " exec=")
 _YAML_ROOT = re.compile(r"^(?:launch|'launch'|\"launch\")[ \t]*:", re.MULTILINE)
 _YAML_OTHER = re.compile(r"^(?=[^\n])(?![ \t\r#%-]|launch[ \t]*:|['\"]launch['\"][ \t]*:|\.\.\.)", re.MULTILINE)
 
@@ -79,16 +81,17 @@ def collect(source: Text, language: Language) -> LaunchFile:
 
 
 def _is_xml(text: str) -> bool:
-    at = _after_prolog(text)
-    return bool(_ROOT.match(text, at)) and (not _ROS1.search(text) or bool(_ROS2.search(text)))
+    if not _ROOT.match(text, _after_prolog(text)):
+        return False
+    # The plain words first: to search for the others takes as long as to read the file.
+    return any(word in text for word in _ROS2_WORDS) or not _ROS1.search(text) or bool(_ROS2.search(text))
 
 
 def _after_prolog(text: str) -> int:
     """Return the offset of the first element: behind declaration, comments and document type."""
     at = 0
     while True:
-        while at < len(text) and text[at].isspace():
-            at += 1
+        at = _SPACE.match(text, at).end()  # type: ignore[union-attr]
         for opening, closing in (("<?", "?>"), ("<!--", "-->"), ("<!", ">")):
             if text.startswith(opening, at):
                 end = text.find(closing, at + len(opening))

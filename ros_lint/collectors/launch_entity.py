@@ -6,7 +6,10 @@ checks them (reference, section G3.2).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple
+import re
+from typing import TYPE_CHECKING, Any, Final, Literal
+
+from ros_lint.collectors.xml_tree import Element, attribute_places
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -30,15 +33,6 @@ class Rejected(Exception):  # noqa: N818
         self.span: Final = span
 
 
-class Attribute(NamedTuple):
-    """An attribute as it is written, ``start`` and ``end`` being the offsets of its value."""
-
-    value: Any
-    """A text in XML; in YAML a text, number, truth, None, list of these, or :data:`NO_VALUE` for anything else."""
-    start: int
-    end: int
-
-
 NO_VALUE: Final = object()
 """A value of YAML that no attribute takes: a mapping, a date, nested lists."""
 
@@ -47,13 +41,15 @@ class Entity:
     """An element with attributes and children. ``start`` and ``end`` are the offsets of its tag."""
 
     __slots__ = (
-        "_read_attributes",
         "_read_children",
         "_source",
+        "_spots",
         "attributes",
         "children",
         "end",
         "form",
+        "read",
+        "simple",
         "start",
         "tag",
     )
@@ -62,55 +58,100 @@ class Entity:
         self,
         source: Text,
         tag: str,
-        attributes: dict[str, Attribute],
+        attributes: Mapping[str, Any],
         children: list[Entity],
         start: int,
         end: int,
         form: Literal["element", "mapping", "list", "other"],
+        spots: dict[str, tuple[int, int]] | None,
+        simple: bool,
     ) -> None:
+        """Make an entity. ``spots`` are the offsets of the values of its attributes; in XML they are found when wanted."""
         self._source = source
         self.tag = tag
         self.attributes = attributes
+        """In XML texts; in YAML texts, numbers, truths, None, lists of these, or :data:`NO_VALUE` for anything else."""
         self.children = children
         """In YAML those below ``children`` and those of lists of mappings under other keys, which are their tags."""
         self.start = start
         self.end = end
         self.form = form
         """``element`` in XML; in YAML what stands behind the key."""
-        self._read_attributes: set[str] = set()
-        self._read_children: set[str] = set()
+        self._spots = spots
+        self.simple = simple
+        """Whether each attribute is the text that is written: in XML, and without separators."""
+        self.read: set[str] = set()
+        """The attributes that were asked for."""
+        self._read_children: set[str] | None = set()
 
     @property
     def span(self) -> Span:
         """The place of the tag."""
         return self._source.span(self.start, self.end)
 
+    def spot(self, name: str) -> tuple[int, int]:
+        """Return the offsets of the value of an attribute that is there."""
+        spots = self._spots
+        if spots is None:
+            spots = self._spots = self._find_spots(self._source.text)
+        return spots.get(name) or (self.start - 1, self.start - 1)
+
+    def _find_spots(self, text: str) -> dict[str, tuple[int, int]]:
+        """Return the offsets of the values of the attributes of an element."""
+        found: dict[str, tuple[int, int]] = {}
+        at = self.end
+        for name, value in self.attributes.items():
+            # Nearly all are written plainly, in the order in which the parser reports them.
+            written = f'{name}="{value}"'
+            start = at + 1
+            if not (text.startswith(written, start) and text[at] in " \n"):
+                start = text.find(name, at)
+                if not (text.startswith(written, start) and text[at:start].isspace()):
+                    return attribute_places(text, Element(self.tag, {}, self.start - 1))
+            start += len(name) + 2
+            at = start + len(value)
+            found[name] = (start, at)
+            at += 1
+        return found
+
     def place(self, name: str) -> Span:
         """Return the place of the value of an attribute."""
-        found = self.attributes.get(name)
-        return self.span if found is None else self._source.span(found.start, found.end)
+        return self._source.span(*self.spot(name)) if name in self.attributes else self.span
+
+    def lacks(self, names: frozenset[str]) -> bool:
+        """Return whether none of some names is an attribute, and asking for them could not raise."""
+        return self.form == "element" and names.isdisjoint(self.attributes)
 
     def get(self, name: str, kind: Type = "str") -> Any:
         """Return the value of an attribute, None when it is not there. Raises Rejected when it is of another type."""
+        attributes = self.attributes
+        if self.form == "element":
+            if name not in attributes:
+                return None
+            self.read.add(name)
+            if kind == "str" and (self.simple or f"{name}-sep" not in attributes):
+                return attributes[name]
+            return self._converted(name, kind)
         if self.form == "other":
             raise Rejected("wrong-type", f"<{self.tag}> is neither a mapping nor a list", self.span)
-        found = self.attributes.get(name)
-        if found is None:
+        if name not in attributes:
             if self.form == "mapping" and any(child.tag == name for child in self.children):
                 raise Rejected("wrong-type", f"{name} of <{self.tag}> is a list", self.span)
             return None
-        self._read_attributes.add(name)
-        if self.form != "element":
-            if not _is_instance(found.value, kind):
-                raise Rejected("wrong-type", f"{name} of <{self.tag}> is no {_NAMES[kind]}", self.place(name))
-            return found.value
-        value: str | list[str] = found.value
+        self.read.add(name)
+        if not _is_instance(attributes[name], kind):
+            raise Rejected("wrong-type", f"{name} of <{self.tag}> is no {_NAMES[kind]}", self.place(name))
+        return attributes[name]
+
+    def _converted(self, name: str, kind: Type) -> Any:
+        """Return a text of XML as what is asked for, split first if there is a separator for it."""
+        value: str | list[str] = self.attributes[name]
         separator = self.attributes.get(f"{name}-sep")
         if separator is not None:
-            self._read_attributes.add(f"{name}-sep")
-            if not separator.value:
+            self.read.add(f"{name}-sep")
+            if not separator:
                 raise Rejected("wrong-type", f"{name}-sep of <{self.tag}> is empty", self.place(name))
-            value = found.value.split(separator.value)
+            value = self.attributes[name].split(separator)
         try:
             return _coerced(value, kind)
         except ValueError:
@@ -131,41 +172,45 @@ class Entity:
             return []
         if self.form == "mapping" and tag in self.attributes:
             raise Rejected("wrong-type", f"{tag} of <{self.tag}> is no list of mappings", self.place(tag))
-        found = [child for child in self.children if child.tag == tag]
-        self._read_children.add(tag)
-        return found
+        if not self.children:
+            return []
+        if self._read_children is not None:
+            self._read_children.add(tag)
+        return [child for child in self.children if child.tag == tag]
 
     def actions(self) -> list[Entity]:
         """Return the children that are actions. Raises Rejected when in YAML there is no list of them."""
         if self.form == "element":
-            self._read_children.update(child.tag for child in self.children)
+            self._read_children = None
             return self.children
         if self.form == "mapping":
             if "children" in self.attributes:
                 raise Rejected("wrong-type", f"children of <{self.tag}> is no list of mappings", self.place("children"))
+            self._read_children = (self._read_children or set()) | {CHILDREN}
             for child in self.children:
                 if child.tag == CHILDREN:
-                    self._read_children.add(CHILDREN)
                     return [_only(inner) for inner in child.children]
             raise Rejected("missing-attribute", f"<{self.tag}> needs children", self.span)
         if self.form == "list":
-            self._read_children.add(CHILDREN)
+            self._read_children = None
             return [_only(inner) for inner in self.children]
         raise Rejected("wrong-type", f"<{self.tag}> is neither a mapping nor a list", self.span)
 
     def finish(self) -> None:
         """Raise Rejected when there is an attribute or a child that nobody asked for."""
+        known = self._read_children
         if self.form == "list":
-            if CHILDREN not in self._read_children:
+            if known is not None:
                 raise Rejected("unexpected-child", f"<{self.tag}> takes no list", self.span)
             return
         for child in self.children:
-            if child.tag not in self._read_children:
+            if known is not None and child.tag not in known:
                 name = "children" if child.tag == CHILDREN else child.tag
                 raise Rejected("unexpected-child", f"<{self.tag}> has no <{name}> in it", child.span)
-        for name in self.attributes:
-            if name not in self._read_attributes:
-                raise Rejected("unexpected-attribute", f"<{self.tag}> has no attribute {name}", self.place(name))
+        if len(self.read) != len(self.attributes):
+            for name in self.attributes:
+                if name not in self.read:
+                    raise Rejected("unexpected-attribute", f"<{self.tag}> has no attribute {name}", self.place(name))
 
 
 CHILDREN: Final = "\0children"
@@ -245,7 +290,16 @@ def _as_yaml(value: str) -> Any:
         raise ValueError(value)
     if not value or not _is_suspicious(value):
         return value
-    import yaml  # noqa: PLC0415  (takes 20 ms to import, and most values are plain)
+    if _INTEGER.fullmatch(value):
+        return int(value)
+    if _DECIMAL.fullmatch(value):
+        return float(value)
+    if _SIMPLE_LIST.fullmatch(value):
+        found = [_as_yaml(one.strip(" ")) for one in value[1:-1].split(",")]
+        if not _is_valid(found):
+            raise ValueError(value)
+        return found
+    import yaml  # noqa: PLC0415
 
     loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     try:
@@ -263,6 +317,12 @@ _WORDS: Mapping[str, bool] = {
     for plain in words
     for word in (plain, plain.capitalize(), plain.upper())
 }
+
+# What YAML makes of these is plain, and it takes 20 ms to import.
+_INTEGER = re.compile(r"[-+]?(?:0|[1-9][0-9]{0,17})", re.ASCII)
+_DECIMAL = re.compile(r"[-+]?[0-9]+\.[0-9]*", re.ASCII)
+_ITEM = r" *(?:[-+]?(?:0|[1-9][0-9]{0,17})|[-+]?[0-9]+\.[0-9]*|[A-Za-z/$][\w/.$()-]*(?: [\w/.$()-]+)*) *"
+_SIMPLE_LIST = re.compile(rf"\[{_ITEM}(?:,{_ITEM})*\]", re.ASCII)
 
 
 def _is_suspicious(value: str) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import operator
 from collections.abc import Callable, Mapping
+from functools import lru_cache
 from typing import Any
 
 from ros_lint.collectors.launch_text import UNKNOWN
@@ -17,6 +18,7 @@ class _Unknown(Exception):  # noqa: N818
     """The value is not known."""
 
 
+@lru_cache(maxsize=1_024)
 def evaluate(text: str) -> str:
     """Return str() of the value of an expression, UNKNOWN if it has none or needs more than constants."""
     if len(text) > _LONGEST:

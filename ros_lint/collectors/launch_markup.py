@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from operator import attrgetter
 from typing import NamedTuple
 
 from ros_lint.collectors.launch_entity import Entity, Rejected, Type
@@ -41,7 +42,7 @@ def read(source: Text, root: Entity) -> Found:
         actions = reader.actions(children)
     references = References(actions)
     return Found(
-        tuple(sorted(references.found, key=lambda reference: reference.span)),
+        tuple(sorted(references.found, key=attrgetter("span"))),
         tuple(references.opaque),
         tuple(reader.problems),
         tuple(actions),
@@ -70,8 +71,8 @@ def _argument(reader: Reader, entity: Entity) -> LaunchAction:
 
 def _plain(entity: Entity, name: str) -> LaunchValue:
     """Return an attribute that is no substitution, whatever it looks like."""
-    value = _unescaped(entity.attributes[name].value)
-    return LaunchValue((value,), entity.place(name), exact=value == entity.attributes[name].value)
+    value = _unescaped(entity.attributes[name])
+    return LaunchValue((value,), entity.place(name), value == entity.attributes[name])
 
 
 def _unescaped(value: str) -> str:
@@ -188,9 +189,10 @@ def _named(
     found: list[tuple[str, LaunchValue]] = []
     children = entity.entities(tag)
     for child in children:
-        given = reader.text(child, value) if child.need(name) is not None else None
-        names = reader.text(child, name)
-        found += [(one, given) for one in names.texts if given is not None]
+        if not child.simple or name not in child.attributes:
+            child.need(name)
+        given = reader.text(child, value)
+        found += [(one, given) for one in reader.text(child, name).texts]
     for child in children:
         child.finish()
     return tuple(found)
@@ -202,18 +204,15 @@ def _process(reader: Reader, entity: Entity, kind: str) -> LaunchAction:
     given: list[tuple[str, LaunchValue]] = []
     if kind == "process":
         given += reader.words(entity, "cmd", entity.need("cmd"))
-    for attribute in ("cwd", "launch-prefix", "output", "respawn"):
+    for attribute in () if entity.lacks(_SURROUNDINGS) else ("cwd", "launch-prefix", "output", "respawn"):
         value = reader.optional(entity, attribute)
         if value is not None and attribute in ("cwd", "launch-prefix"):
             given.append((attribute, value))
     name = reader.optional(entity, "name")
     if entity.get("on_exit") not in (None, "shutdown"):
         raise Rejected("on-exit", f"on_exit of <{entity.tag}> can only be shutdown", entity.place("on_exit"))
-    entity.get("respawn_max_retries", "int")
-    for limit in ("respawn_delay", "sigkill_timeout", "sigterm_timeout"):
-        seconds = entity.get(limit, "float")
-        if seconds is not None and (isinstance(seconds, str) or seconds < 0):
-            raise Rejected("wrong-type", f"{limit} of <{entity.tag}> is no number from 0 on", entity.place(limit))
+    if not entity.lacks(_LIMITS):
+        _limits(entity)
     entity.get("shell", "bool")
     entity.get("emulate_tty", "bool")
     given += [(f"${variable}", value) for variable, value in _named(reader, entity, "env")]
@@ -226,6 +225,18 @@ def _process(reader: Reader, entity: Entity, kind: str) -> LaunchAction:
         package_span=reader.package_span(entity, "cmd", "launch-prefix"),
         conditions=conditions,
     )
+
+
+_SURROUNDINGS = frozenset({"cwd", "launch-prefix", "output", "respawn"})
+_LIMITS = frozenset({"respawn_max_retries", "respawn_delay", "sigkill_timeout", "sigterm_timeout"})
+
+
+def _limits(entity: Entity) -> None:
+    entity.get("respawn_max_retries", "int")
+    for limit in ("respawn_delay", "sigkill_timeout", "sigterm_timeout"):
+        seconds = entity.get(limit, "float")
+        if seconds is not None and (isinstance(seconds, str) or seconds < 0):
+            raise Rejected("wrong-type", f"{limit} of <{entity.tag}> is no number from 0 on", entity.place(limit))
 
 
 def _executable(reader: Reader, entity: Entity) -> LaunchAction:

@@ -6,23 +6,27 @@ refused here exactly when the real front end refuses it.
 
 from __future__ import annotations
 
-import shlex
+import re
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any
+from functools import lru_cache
+from typing import Any, NamedTuple, NoReturn
 
 from ros_lint.collectors.launch_entity import Entity, Rejected, Type
-from ros_lint.collectors.launch_markup_texts import Pieces, package_of, texts
+from ros_lint.collectors.launch_markup_texts import Pieces, package_of, simple_text, texts
 from ros_lint.collectors.launch_tags import EXTENSIONS, SUBSTITUTIONS
 from ros_lint.collectors.substitution import Literal, Substitution, SubstitutionError, parse
 from ros_lint.facts import LaunchAction, LaunchCondition, LaunchValue, Problem
 from ros_lint.text import Span, Text
+
+_make = tuple.__new__  # half of what the constructor takes
 
 
 class Reader:
     """Reads entities by rules, one to a tag, and notes what is refused."""
 
     def __init__(self, source: Text, rules: Mapping[str, Rule]) -> None:
-        self._source = source
+        self._text = source.text
+        self._span = source.span
         self._rules = rules
         self.problems: list[Problem] = []
 
@@ -52,54 +56,46 @@ class Reader:
 
     # --- attributes -----------------------------------------------------------------------------------------------
 
-    def pieces(self, entity: Entity, name: str, value: str) -> Pieces:
-        """Return a value as text and substitutions. Raises Rejected."""
-        attribute = entity.attributes[name]
-        exact = self._source.text[attribute.start : attribute.end] == value
-        try:
-            found = parse(value) if value else (Literal("", 0, 0),)
-        except SubstitutionError as error:
-            raise Rejected("substitution", error.message, self._inner(entity, name, exact, error.offset, len(value))) from None
-        for piece in _substitutions(found):
-            span = self._inner(entity, name, exact, piece.start, piece.end)
-            limits = SUBSTITUTIONS.get(piece.name)
-            if limits is None:
-                raise Rejected("unknown-substitution", f"there is no substitution $({piece.name})", span)
-            least, most = limits
-            if not least <= len(piece.arguments) <= most:
-                wanted = str(least) if least == most else f"{least} to {most}"
-                given = len(piece.arguments)
-                message = f"$({piece.name}) takes {wanted} argument{'' if wanted == '1' else 's'}, not {given}"
-                raise Rejected("substitution-arguments", message, span)
-            if piece.name == "eval" and len(piece.arguments) == 2 and isinstance(piece.arguments[1][:1], tuple):
-                first = piece.arguments[1][0] if piece.arguments[1] else None
-                if isinstance(first, Substitution):
-                    raise Rejected("substitution-arguments", "the modules of $(eval) must be written out", span)
-        return found
+    def _texts(self, entity: Entity, name: str, value: str) -> tuple[str, ...]:
+        """Return what a value with substitutions becomes. Raises Rejected."""
+        found = reading(value)
+        return self._refused(entity, name, value, found) if isinstance(found, Mistake) else found
 
-    def _inner(self, entity: Entity, name: str, exact: bool, start: int, end: int) -> Span:
-        attribute = entity.attributes[name]
-        if not exact:
-            return self._source.span(attribute.start, attribute.end)
-        return self._source.span(attribute.start + start, attribute.start + end)
+    def _pieces(self, entity: Entity, name: str, value: str) -> Pieces:
+        """Return a value as text and substitutions. Raises Rejected."""
+        found = _pieces(value)
+        return self._refused(entity, name, value, found) if isinstance(found, Mistake) else found
+
+    def _refused(self, entity: Entity, name: str, value: str, found: Mistake) -> NoReturn:
+        raise Rejected(found.kind, found.message, self._inner(entity, name, value, found.start, found.end))
+
+    def _inner(self, entity: Entity, name: str, value: str, start: int, end: int) -> Span:
+        """Return the place of a part of a value, of all of it where it is not written as it is meant."""
+        first, last = entity.spot(name)
+        if self._text[first:last] != value:
+            return self._span(first, last)
+        return self._span(first + start, first + end)
 
     def text(self, entity: Entity, name: str) -> LaunchValue:
         """Return an attribute that must be there as a text. Raises Rejected."""
-        return self._value(entity, name, entity.need(name))
+        return self.optional(entity, name) or self._value(entity, name, entity.need(name))
 
     def optional(self, entity: Entity, name: str) -> LaunchValue | None:
         """Return an attribute as a text, None when it is not there. Raises Rejected."""
-        value = entity.get(name)
+        if entity.simple:
+            value = entity.attributes.get(name)
+            if value is None:
+                return None
+            entity.read.add(name)
+        else:
+            value = entity.get(name)
         return None if value is None else self._value(entity, name, value)
 
     def _value(self, entity: Entity, name: str, value: str) -> LaunchValue:
-        if "$" not in value and "\\" not in value:
-            attribute = entity.attributes[name]
-            span = self._source.span(attribute.start, attribute.end)
-            return LaunchValue((value,), span, exact=self._source.text[attribute.start : attribute.end] == value)
-        found = texts(self.pieces(entity, name, value))
-        span = entity.place(name)
-        return LaunchValue(found, span, exact=len(found) == 1 and self._source.slice(span) == found[0])
+        texts = (value,) if "$" not in value and "\\" not in value else self._texts(entity, name, value)
+        start, end = entity.spot(name)
+        exact = len(texts) == 1 and self._text[start:end] == texts[0]
+        return _make(LaunchValue, (texts, self._span(start, end), exact))
 
     def typed(self, entity: Entity, name: str, kind: Type) -> Any:
         """Return an attribute that may be a substitution instead of what is asked for, None when it is not there."""
@@ -117,29 +113,31 @@ class Reader:
         """Return the type of a value, None for a text with substitutions."""
         if not isinstance(value, str):
             return type(value)
-        pieces = self.pieces(entity, name, value)
+        pieces = self._pieces(entity, name, value)
         return str if len(pieces) == 1 and isinstance(pieces[0], Literal) else None
 
     def package_span(self, entity: Entity, *names: str) -> Span | None:
         """Return where the package is written that the path in an attribute lies in."""
         for name in names:
-            attribute = entity.attributes.get(name)
-            if attribute is None or not isinstance(attribute.value, str) or "$(" not in attribute.value:
+            value = entity.attributes.get(name)
+            if not isinstance(value, str) or "-pkg" not in value:
                 continue
-            argument = package_of(parse(attribute.value))
-            if argument:
-                exact = self._source.text[attribute.start : attribute.end] == attribute.value
-                return self._inner(entity, name, exact, argument[0].start, argument[-1].end)
+            self._texts(entity, name, value)
+            place = _package_place(value)
+            if place is not None:
+                return self._inner(entity, name, value, *place)
         return None
 
     def words(self, entity: Entity, name: str, value: str) -> tuple[tuple[str, LaunchValue], ...]:
         """Return the words of a command line, as the front end splits it: texts in it by the rules of a shell."""
         row: list[list[Literal | Substitution]] = [[]]
-        for piece in self.pieces(entity, name, value):
+        for piece in self._pieces(entity, name, value):
             if isinstance(piece, Substitution):
                 row[-1].append(piece)
                 continue
             try:
+                import shlex  # noqa: PLC0415  (few files have command lines)
+
                 tokens = shlex.split(piece.text)
             except ValueError:
                 raise Rejected("quotes", f"{name} of <{entity.tag}> has an open quote", entity.place(name)) from None
@@ -156,14 +154,81 @@ class Reader:
 
     def conditions(self, entity: Entity) -> tuple[LaunchCondition, ...]:
         """Return what ``if`` and ``unless`` ask for. Raises Rejected."""
+        if entity.simple and "if" not in entity.attributes and "unless" not in entity.attributes:
+            return ()
         wanted, unwanted = entity.get("if"), entity.get("unless")
         if wanted is not None and unwanted is not None:
             raise Rejected("conditions", f"<{entity.tag}> has both if and unless", entity.place("unless"))
         if wanted is not None:
-            return (LaunchCondition(texts(self.pieces(entity, "if", wanted)), None),)
+            return (LaunchCondition(self._texts(entity, "if", wanted), None),)
         if unwanted is not None:
-            return (LaunchCondition(texts(self.pieces(entity, "unless", unwanted)), None, wanted=False),)
+            return (LaunchCondition(self._texts(entity, "unless", unwanted), None, wanted=False),)
         return ()
+
+
+class Mistake(NamedTuple):
+    """Why a value is refused, and the offsets of what is wrong in it."""
+
+    kind: str
+    message: str
+    start: int
+    end: int
+
+
+@lru_cache(maxsize=4_096)
+def reading(value: str) -> tuple[str, ...] | Mistake:
+    """Return what a value becomes, or why the front end refuses it. Few values are written in one place only."""
+    found = simple_text(value)
+    if found is not None:
+        return (found,)
+    pieces = _pieces(value)
+    return pieces if isinstance(pieces, Mistake) else texts(pieces)
+
+
+@lru_cache(maxsize=4_096)
+def _pieces(value: str) -> Pieces | Mistake:
+    try:
+        pieces = parse(value) if value else (Literal("", 0, 0),)
+    except SubstitutionError as error:
+        return Mistake("substitution", error.message, error.offset, len(value))
+    for piece in _substitutions(pieces):
+        wrong = _wrong(piece)
+        if wrong is not None:
+            return Mistake(*wrong, piece.start, piece.end)
+    return pieces
+
+
+@lru_cache(maxsize=4_096)
+def _package_place(value: str) -> tuple[int, int] | None:
+    """Return the offsets of the package in the first look-up of one, None if a value that is right has none."""
+    if "exec-in-pkg" not in value and simple_text(value) is not None:
+        match = _LOOK_UP.search(value)
+        return match.span(1) if match else None
+    argument = package_of(parse(value))
+    return (argument[0].start, argument[-1].end) if argument else None
+
+
+_LOOK_UP = re.compile(r"\$\(find-pkg-(?:share|prefix) ([^)]*)\)")
+
+
+def _wrong(piece: Substitution) -> tuple[str, str] | None:
+    """Return kind and message of what is wrong with the number of arguments of a substitution."""
+    limits = SUBSTITUTIONS.get(piece.name)
+    if limits is None:
+        return "unknown-substitution", f"there is no substitution $({piece.name})"
+    least, most = limits
+    if not least <= len(piece.arguments) <= most:
+        wanted = str(least) if least == most else f"{least} to {most}"
+        given = len(piece.arguments)
+        message = f"$({piece.name}) takes {wanted} argument{'' if wanted == '1' else 's'}, not {given}"
+        return "substitution-arguments", message
+    if (
+        piece.name == "eval"
+        and len(piece.arguments) == 2
+        and any(isinstance(one, Substitution) for one in piece.arguments[1][:1])
+    ):
+        return "substitution-arguments", "the modules of $(eval) must be written out"
+    return None
 
 
 def _substitutions(pieces: Pieces) -> Iterable[Substitution]:

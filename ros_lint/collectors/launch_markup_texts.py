@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 
 from ros_lint.collectors import launch_text
-from ros_lint.collectors.launch_py_texts import quoted
-from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, joined
+from ros_lint.collectors.launch_tags import SUBSTITUTIONS
+from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, joined, quoted
 from ros_lint.collectors.substitution import Literal, Piece, Substitution
 
 Pieces = tuple[Piece, ...]
@@ -17,7 +18,39 @@ def texts(pieces: Pieces) -> Texts:
     """Return what the pieces make when the launch file runs."""
     if len(pieces) == 1:
         return _one(pieces[0])
-    return joined([_one(piece) for piece in pieces], "".join)
+    rows = [_one(piece) for piece in pieces]
+    if all(len(row) == 1 for row in rows):
+        text = "".join([row[0] for row in rows])
+        return (text if len(text) <= launch_text.LONGEST else UNKNOWN,)
+    return joined(rows, "".join)
+
+
+# Neither quotes nor escapes nor one in another: so nearly all are.
+_SIMPLE = re.compile(r"""\$\(([A-Za-z][A-Za-z0-9_-]*)((?:[ ][^ '"\\$()]+)*)\)""")
+
+
+def simple_text(value: str) -> str | None:
+    """Return what a value becomes when its substitutions are simple and right, None when that must be looked at closely."""
+    if "\\" in value:
+        return None
+    found: list[str] = []
+    parts = _SIMPLE.split(value)
+    for at in range(0, len(parts) - 1, 3):
+        literal, name, rest = parts[at : at + 3]
+        arguments = rest.split(" ")[1:]
+        least, most = SUBSTITUTIONS.get(name, (1, 0))
+        if "$(" in literal or not least <= len(arguments) <= most:
+            return None
+        rule = _RULES.get(name)
+        made = rule([(argument,) for argument in arguments]) if rule is not None else (UNKNOWN,)
+        if len(made) != 1:
+            return None
+        found += (literal, made[0])
+    if "$(" in parts[-1]:
+        return None
+    found.append(parts[-1])
+    text = "".join(found)
+    return text if len(text) <= launch_text.LONGEST or len(found) == 1 else UNKNOWN
 
 
 def package_of(pieces: Pieces) -> Pieces:

@@ -19,7 +19,7 @@ from ros_lint.collectors.launch_py_objects import (
     plain,
     under,
 )
-from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, distinct, joined
+from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, distinct, joined, quoted
 from ros_lint.facts import LaunchCondition
 
 _DEEPEST = 60
@@ -130,11 +130,6 @@ def _logic(name: str) -> Callable[[Made, int], tuple[str, ...]]:
         )
 
     return rule
-
-
-def quoted(text: str) -> str:
-    """Return a text as a literal of Python, marks kept."""
-    return "'" + text.replace("\\", "\\\\").replace("'", "\\'").replace("\n", "\\n") + "'"
 
 
 _RULES: Mapping[str, Callable[[Made, int], tuple[str, ...]]] = {

@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
-import shlex
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 from posixpath import normpath
 from typing import Literal
 
 from ros_lint.collectors.launch_expression import evaluate
-from ros_lint.collectors.launch_text import UNKNOWN, asked_for, fill, installed, is_plain, is_settled, share
+from ros_lint.collectors.launch_text import (
+    UNKNOWN,
+    asked_for,
+    carriers_of_places,
+    fill,
+    installed,
+    is_plain,
+    is_settled,
+    names_places,
+    share,
+)
 from ros_lint.facts import Facet, LaunchAction, LaunchCondition, LaunchReference, LaunchValue, Opaque
 from ros_lint.text import Span
 
@@ -22,15 +31,18 @@ class References:
         self.found: dict[LaunchReference, None] = {}
         self.opaque: dict[Opaque, None] = {}
         actions = tuple(actions)
-        self._defaults = dict(_defaults(actions))
+        self._defaults = _defaults(actions)
+        self._carriers = carriers_of_places(self._defaults)
+        self._known: dict[str, tuple[str, ...]] = {}
         self._optional: tuple[str, ...] = ()
         for action in actions:
             self._action(action, conditional=False)
 
     def _action(self, action: LaunchAction, conditional: bool) -> None:
-        conditional = conditional or bool(action.conditions)
         before = self._optional
-        self._optional = (*before, *_presences(action.conditions))
+        if action.conditions:
+            conditional = True
+            self._optional = (*before, *_presences(action.conditions))
         match action.kind:
             case "node" | "component":
                 self._program(action, conditional)
@@ -38,8 +50,9 @@ class References:
                 self._include(action, conditional)
             case "process":
                 self._process(action, conditional)
-        for value in _texts(action):
-            self._paths(value, action.package_span, conditional)
+        for value in _values(action):
+            if not _is_dull(value.texts, self._carriers):
+                self._paths(value, action.package_span, conditional)
         for child in action.children:
             self._action(child, conditional)
         self._optional = before
@@ -106,14 +119,17 @@ class References:
     def _paths(self, value: LaunchValue, package_span: Span | None, conditional: bool) -> None:
         texts, default = self._filled(value)
         for text in texts:
+            if text.isascii() and not text.startswith("xacro "):
+                continue
             for place in installed(text):
                 if not place.known:
                     self.hide("the package that is looked up is computed", value.span)
                     continue
                 package = LaunchValue((place.package,), package_span or value.span)
                 several = conditional or len(texts) > 1
-                if place.share:
-                    self._add("file", place.package, place.share, value, package, several, default)
+                path = place.share
+                if path:
+                    self._add("file", place.package, path, value, package, several, default)
                 elif place.executable:
                     self._add("node", place.package, place.executable, value, package, several, default)
                 else:
@@ -125,8 +141,16 @@ class References:
         """Return what a value is with the defaults of the launch arguments, and whether it needed them."""
         if all(is_settled(text) for text in value.texts):
             return value.texts, False
-        found = dict.fromkeys(text for one in value.texts for text in fill(one, self._defaults.get, evaluate))
+        if len(value.texts) == 1:
+            return self._fill(value.texts[0]), True
+        found = dict.fromkeys(text for one in value.texts for text in self._fill(one))
         return tuple(found), True
+
+    def _fill(self, text: str) -> tuple[str, ...]:
+        found = self._known.get(text)
+        if found is None:
+            found = self._known[text] = fill(text, self._defaults.get, evaluate)
+        return found
 
     def look_up(self, package: str, value: LaunchValue, conditions: Sequence[LaunchCondition]) -> None:
         """Note a package that is looked up when the file is read."""
@@ -157,13 +181,18 @@ class References:
         self.opaque[Opaque(Facet.USES, reason, span)] = None
 
 
-def _defaults(actions: Iterable[LaunchAction]) -> Iterator[tuple[str, tuple[str, ...]]]:
-    """Yield the launch configurations that have a value when the file is launched as it is."""
-    for action in actions:
-        if action.kind in ("argument", "set") and action.target is not None and action.value is not None:
+def _defaults(actions: Sequence[LaunchAction]) -> dict[str, tuple[str, ...]]:
+    """Return the values that launch configurations have when the file is launched as it is."""
+    found: dict[str, tuple[str, ...]] = {}
+    waiting = list(reversed(actions))
+    while waiting:
+        action = waiting.pop()
+        if action.value is not None and action.target is not None and action.kind in ("argument", "set"):
             for name in action.target.texts:
-                yield name, action.value.texts
-        yield from _defaults(action.children)
+                found[name] = action.value.texts
+        if action.children:
+            waiting += reversed(action.children)
+    return found
 
 
 def _presences(conditions: Iterable[LaunchCondition]) -> Iterator[str]:
@@ -174,15 +203,36 @@ def _presences(conditions: Iterable[LaunchCondition]) -> Iterator[str]:
                 yield package
 
 
-def _texts(action: LaunchAction) -> Iterator[LaunchValue]:
-    for value in (action.value, action.name, action.namespace):
-        if value is not None:
-            yield value
-    for _, value in (*action.arguments, *action.parameters):
-        yield value
+def _values(action: LaunchAction) -> Iterable[LaunchValue]:
+    """Return the values of an action in which a path can be, apart from its target."""
+    found: list[LaunchValue] = []
+    if action.value is not None:
+        found.append(action.value)
+    if action.name is not None:
+        found.append(action.name)
+    if action.namespace is not None:
+        found.append(action.namespace)
+    if action.arguments:
+        found += [value for _, value in action.arguments]
+    if action.parameters:
+        found += [value for _, value in action.parameters]
+    return found
+
+
+def _is_dull(texts: Iterable[str], carriers: Container[str]) -> bool:
+    """Return whether texts name neither an install place nor xacro, ``carriers`` being configurations that do."""
+    for text in texts:
+        if text.isascii():
+            if text.startswith("xacro "):
+                return False
+        elif names_places(text, carriers):
+            return False
+    return True
 
 
 def _words(text: str) -> list[str]:
+    import shlex  # noqa: PLC0415  (few launch files have command lines)
+
     try:
         return shlex.split(text)
     except ValueError:

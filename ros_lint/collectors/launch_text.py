@@ -13,7 +13,7 @@ any others while the file is read, and filled in later:
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from itertools import islice, product
 from typing import NamedTuple
 
@@ -39,9 +39,12 @@ LONGEST = 20_000
 """How many characters of a text are followed."""
 
 _ANY_MARK = re.compile("[\ue000-\ue017]")
+_UNSETTLED = re.compile("[\ue000\ue003-\ue017]")
 # A path ends where a command line or a list of paths goes on; an unknown piece belongs to it.
 _PREFIX = re.compile(rf"/{_ROOT}([^/\s]*)((?:/[^/\s'\":;,\ue012-\ue015]*)*)")
 _INNERMOST = re.compile("\ue010([^\ue010\ue011]*)\ue011")
+# A name that is computed begins with the mark of another one.
+_NAME_OF_CONFIGURATION = re.compile("\ue010([^\ue010\ue011\ue016]*)([\ue010\ue011\ue016])")
 _INNER_EXPRESSION = re.compile("\ue012([^\ue012\ue013]*)\ue013")
 _ENDS = re.compile("\ue010\\$|[\ue010-\ue015]")
 _SHOWN = {"\ue010$": "$(env ", "\ue010": "$(var ", "\ue012": "$(eval ", "\ue014": "$(command "}
@@ -97,6 +100,11 @@ def expression(text: str) -> str:
     return f"{_EXPRESSION[0]}{text}{_EXPRESSION[1]}"
 
 
+def quoted(text: str) -> str:
+    """Return a text as a literal of Python, marks kept."""
+    return "'" + text.replace("\\", "\\\\").replace("'", "\\'").replace("\n", "\\n") + "'"
+
+
 def command(text: str) -> str:
     """Return what stands for the output of a command."""
     return f"{_COMMAND[0]}{text}{_COMMAND[1]}"
@@ -121,12 +129,12 @@ def certain_part(text: str) -> str:
 
 def is_plain(text: str) -> bool:
     """Return whether a text is known whole."""
-    return not _ANY_MARK.search(text)
+    return text.isascii() or not _ANY_MARK.search(text)
 
 
 def is_settled(text: str) -> bool:
     """Return whether a text is known but for the place where packages are installed."""
-    return all(mark in (_ROOT, OWN_FOLDER[1]) for mark in _ANY_MARK.findall(text))
+    return text.isascii() or not _UNSETTLED.search(text)
 
 
 def configurations(text: str) -> Iterator[tuple[str, bool]]:
@@ -150,6 +158,32 @@ def _readable_root(match: re.Match[str]) -> str:
     if path == package or path.startswith(f"{package}/"):
         return f"$(find-pkg-share {package}){path[len(package):]}"
     return f"$(find-pkg-prefix {package})/share/{path}"
+
+
+def names_places(text: str, carriers: Container[str] = ()) -> bool:
+    """Return whether a text can mention an install place, or a command of xacro.
+
+    ``carriers`` are the launch configurations whose values can.
+    """
+    if _ROOT in text or "xacro" in text:
+        return True
+    return any(mark == _CONFIGURATION[0] or name in carriers for name, mark in _NAME_OF_CONFIGURATION.findall(text))
+
+
+def carriers_of_places(values: Mapping[str, tuple[str, ...]]) -> frozenset[str]:
+    """Return the launch configurations whose values can mention an install place, themselves or through others."""
+    found: set[str] = set()
+    left: dict[str, tuple[str, ...]] = {}
+    for name, texts in values.items():
+        for text in texts:
+            if not text.isascii() or "xacro" in text:
+                left[name] = texts
+                break
+    while new := [name for name, texts in left.items() if any(names_places(text, found) for text in texts)]:
+        found.update(new)
+        for name in new:
+            del left[name]
+    return frozenset(found)
 
 
 def installed(text: str) -> Iterator[Installed]:
@@ -231,34 +265,53 @@ def fill(text: str, values: Callable[[str], tuple[str, ...] | None], evaluate: C
     ``values`` returns the alternatives of a configuration, None if nobody set it; ``evaluate`` the value of an
     expression that is known whole, UNKNOWN if it has none.
     """
-    found = _filled(text, values, frozenset())
-    return tuple(dict.fromkeys(_settle(one, evaluate) for one in found))
+    found = _Filling(values).of(text, frozenset()) if _CONFIGURATION[0] in text else (text,)
+    if len(found) == 1:
+        return (_settle(found[0], evaluate),)
+    return tuple(dict.fromkeys([_settle(one, evaluate) for one in found]))
 
 
-def _filled(text: str, values: Callable[[str], tuple[str, ...] | None], busy: frozenset[str]) -> tuple[str, ...]:
-    waiting = [text]
-    done: dict[str, None] = {}
-    while waiting:
-        one = waiting.pop()
-        match = _INNERMOST.search(one)
-        if match is None:
-            done[one] = None
-            continue
-        name, mark, default = match[1].partition(_DEFAULT)
+class _Filling:
+    """Puts values for the configurations in a text, with a bound on the work: values can double at each step."""
+
+    __slots__ = ("_left", "_values")
+
+    def __init__(self, values: Callable[[str], tuple[str, ...] | None]) -> None:
+        self._values = values
+        self._left = _MOST_CHOICES
+
+    def of(self, text: str, busy: frozenset[str]) -> tuple[str, ...]:
+        """Return the alternatives of a text in which the values of ``busy`` are being put already."""
+        waiting = [text]
+        done: dict[str, None] = {}
+        while waiting:
+            one = waiting.pop()
+            match = _INNERMOST.search(one) if _CONFIGURATION[0] in one else None
+            if match is None:
+                done[one] = None
+                continue
+            self._left -= 1
+            found = self._one(match[1], busy)
+            if len(waiting) + len(done) + len(found) > MOST or len(one) > LONGEST or self._left < 0:
+                return (UNKNOWN,)
+            start, end = match.span()
+            waiting += [one[:start] + value + one[end:] for value in reversed(found)]
+        return tuple(done)
+
+    def _one(self, configuration: str, busy: frozenset[str]) -> tuple[str, ...]:
+        name, mark, default = configuration.partition(_DEFAULT)
         # A default that names its own argument is asked for while that has no value yet.
-        given = None if name in busy or len(busy) > _DEEPEST else values(name)
+        given = None if name in busy or len(busy) > _DEEPEST else self._values(name)
         if given is None:
-            found: tuple[str, ...] = (default,) if mark else (UNKNOWN,)
-        else:
-            found = tuple(inner for value in given for inner in _filled(value, values, busy | {name}))
-        if len(waiting) + len(done) + len(found) > MOST or len(one) > LONGEST:
-            return (UNKNOWN,)
-        waiting += [one[: match.start()] + value + one[match.end() :] for value in reversed(found)]
-    return tuple(done)
+            return (default,) if mark else (UNKNOWN,)
+        if len(given) == 1 and _CONFIGURATION[0] not in given[0]:
+            return given
+        busy |= {name}
+        return tuple([inner for value in given for inner in self.of(value, busy)])
 
 
 def _settle(text: str, evaluate: Callable[[str], str]) -> str:
-    while match := _INNER_EXPRESSION.search(text):
+    while _EXPRESSION[0] in text and (match := _INNER_EXPRESSION.search(text)):
         value = evaluate(match[1]) if is_settled(match[1]) else UNKNOWN
         text = text[: match.start()] + value + text[match.end() :]
     # A configuration that holds an absolute path replaces what it was joined to.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ros_lint.collectors import launch_markup
-from ros_lint.collectors.launch_entity import CHILDREN, NO_VALUE, Attribute, Entity
+from ros_lint.collectors.launch_entity import CHILDREN, NO_VALUE, Entity
 from ros_lint.facts import Facet, LaunchFile, Opaque, Problem
 from ros_lint.text import Text
 
@@ -63,15 +63,16 @@ class _Reader:
         import yaml  # noqa: PLC0415
 
         self._left -= 1
-        attributes: dict[str, Attribute] = {}
+        attributes: dict[str, Any] = {}
+        spots: dict[str, tuple[int, int]] = {}
         children: list[Entity] = []
         if depth >= _MAX_DEPTH or self._left <= 0:
-            return Entity(self._source, tag, {}, [], start, end, "other")
+            return Entity(self._source, tag, {}, [], start, end, "other", {}, simple=False)
         if isinstance(value, yaml.SequenceNode):
             children = [self._item(item, depth + 1) for item in value.value]
-            return Entity(self._source, tag, {}, children, start, end, "list")
+            return Entity(self._source, tag, {}, children, start, end, "list", {}, simple=False)
         if not isinstance(value, yaml.MappingNode):
-            return Entity(self._source, tag, {}, [], start, end, "other")
+            return Entity(self._source, tag, {}, [], start, end, "other", {}, simple=False)
         for name_node, content in value.value:
             name = str(name_node.value) if _is_scalar(name_node) else "?"
             attributes.pop(name, None)
@@ -80,12 +81,13 @@ class _Reader:
             if name == "children" and isinstance(content, yaml.SequenceNode):
                 place = (name_node.start_mark.index, name_node.end_mark.index)
                 items = [self._item(item, depth + 1) for item in inner]
-                children.append(Entity(self._source, CHILDREN, {}, items, *place, "list"))
+                children.append(Entity(self._source, CHILDREN, {}, items, *place, "list", {}, simple=False))
             elif inner and isinstance(inner[0], yaml.MappingNode):
                 children += [self._entity(name_node, item, depth + 1) for item in inner]
             else:
-                attributes[name] = self._attribute(content)
-        return Entity(self._source, tag, attributes, children, start, end, "mapping")
+                attributes[name] = _value(content)
+                spots[name] = self._spot(content, attributes[name])
+        return Entity(self._source, tag, attributes, children, start, end, "mapping", spots, simple=False)
 
     def _item(self, item: yaml.Node, depth: int) -> Entity:
         import yaml  # noqa: PLC0415
@@ -94,15 +96,14 @@ class _Reader:
             key, value = item.value[-1]
             return self._entity(key, value, depth)
         start, end = item.start_mark.index, item.end_mark.index
-        return Entity(self._source, CHILDREN, {}, [], start, max(start, min(end, start + 1)), "other")
+        return Entity(self._source, CHILDREN, {}, [], start, max(start, min(end, start + 1)), "other", {}, simple=False)
 
-    def _attribute(self, node: yaml.Node) -> Attribute:
+    def _spot(self, node: yaml.Node, value: Any) -> tuple[int, int]:
         start, end = node.start_mark.index, node.end_mark.index
-        value = _value(node)
         quoted = getattr(node, "style", None) in ("'", '"')
         if quoted and isinstance(value, str) and self._source.text[start + 1 : end - 1] == value:
-            return Attribute(value, start + 1, end - 1)
-        return Attribute(value, start, end)
+            return start + 1, end - 1
+        return start, end
 
 
 def _is_scalar(node: yaml.Node) -> bool:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from typing import Final
+from collections.abc import Callable, Iterator
+from typing import Any, Final, Protocol, TypeVar
 from xml.parsers import expat
 
 
@@ -42,19 +42,32 @@ _ATTRIBUTE = re.compile(r"""\s+([^\s=/>"']+)\s*=\s*("[^"]*"|'[^']*')""")
 _NAME = re.compile(r"<[^\s/>]+")
 
 
+class _Parent(Protocol):
+    @property
+    def children(self) -> list[Any]: ...
+
+
+_E = TypeVar("_E", bound=_Parent)
+
+
 def parse(text: str) -> Element:
     """Return the root element. Raises XmlError, also for a declared entity: it could be a bomb, or read other files."""
+    return parse_as(text, Element)
+
+
+def parse_as(text: str, make: Callable[[str, dict[str, str], int], _E]) -> _E:
+    """Return the root as an element of a kind of its own, made from tag, attributes and offset; else as :func:`parse`."""
     data = text.encode("utf-8", "surrogateescape")
     offset = _Offsets(data).of
     parser = expat.ParserCreate("utf-8")  # the text is decoded already, whatever its declaration says
     parser.buffer_text = True
-    root: list[Element] = []
-    open_elements: list[Element] = []
+    root: list[_E] = []
+    open_elements: list[_E] = []
 
     def start(tag: str, attributes: dict[str, str]) -> None:
         if len(open_elements) > _DEEPEST:
             raise XmlError("elements are nested too deeply", offset(parser.CurrentByteIndex))
-        element = Element(tag, attributes, offset(parser.CurrentByteIndex))
+        element = make(tag, attributes, offset(parser.CurrentByteIndex))
         (open_elements[-1].children if open_elements else root).append(element)
         open_elements.append(element)
 
