@@ -55,10 +55,11 @@ def _not_undeclared(package: Package, workspace: Workspace, name: str, uses: lis
         return "silent, for every use is optional"
     closure = all_declared(package, workspace)
     starts = [each.name for each in package.declared]
-    for other in dict.fromkeys(other for use in uses if not use.optional for other in use.providers):
-        if other in closure:
-            way = workspace.world.path(starts, other)
-            return f"silent, for it comes along: {' > '.join(way or (other,))}; see transitive-dependency"
+    own = [use for use in uses if use.package == name and not use.optional] or uses
+    brought = [next((other for other in use.providers if other in closure), "") for use in own if not use.optional]
+    if all(brought):
+        way = workspace.world.path(starts, brought[0])
+        return f"silent, for it comes along: {' > '.join(way or (brought[0],))}; see transitive-dependency"
     if only_launched(uses):
         return "silent, for only launch files name it; see launch-outside-closure"
     if not any(use.sure for use in uses):
