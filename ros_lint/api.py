@@ -59,7 +59,8 @@ from ros_lint.facts import Target as BuildTarget
 from ros_lint.graph import Edge, Graph, Reason
 from ros_lint.graph_cut import Knot, knots
 from ros_lint.launch_files import Launchable, Programs, launchable, programs
-from ros_lint.launch_links import Links, everything
+from ros_lint.launch_links import Links, defaults_of, everything, filled
+from ros_lint.launch_parameters import Given, ParameterFiles
 from ros_lint.launch_runs import launched
 from ros_lint.needs import Need, comes_with_launching, covered, declared_closure, may_bring, needs, undeclared
 from ros_lint.resource_files import uninstalled as uninstalled_resources
@@ -90,6 +91,7 @@ __all__ = [
     "Facet",
     "Finding",
     "Fix",
+    "Given",
     "Graph",
     "Knot",
     "LaunchAction",
@@ -104,6 +106,7 @@ __all__ = [
     "Opaque",
     "Outcome",
     "Package",
+    "ParameterFiles",
     "PluginClass",
     "PluginFile",
     "PluginLibrary",
@@ -135,8 +138,10 @@ __all__ = [
     "covered",
     "declared_closure",
     "declared_names",
+    "defaults_of",
     "evaluated_name",
     "everything",
+    "filled",
     "found_names",
     "given_to",
     "hidden",

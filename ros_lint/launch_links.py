@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import posixpath
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
-from ros_lint.collectors.launch_text import OWN_FOLDER, configurations, installed, is_plain, is_settled
+from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, configurations, fill, installed, is_plain, is_settled
 from ros_lint.facts import LaunchAction, LaunchFile, LaunchValue
 from ros_lint.workspace import Package
 
@@ -53,22 +53,24 @@ class Links:
 
     def target(self, value: LaunchValue | None, source: LaunchFile) -> Linked | None:
         """Return the one launch file of the workspace that an include in a file means, None when it is not that clear."""
-        if value is None or len(value.texts) != 1 or not is_settled(value.texts[0]):
+        if value is None or len(value.texts) != 1:
             return None
-        text = value.texts[0]
+        place = self.installed_at(value.texts[0], source)
+        found = self._by_path.get(place, []) if place is not None else []
+        return found[0] if len(found) == 1 else None
+
+    def installed_at(self, text: str, source: LaunchFile) -> tuple[str, str] | None:
+        """Return the package, and the place below its share folder, that a path in a launch file means; None if unclear."""
+        if not is_settled(text):
+            return None
         if text.startswith(f"{OWN_FOLDER}/"):
             own = self._places.get(source.path)
             if own is None:
                 return None
             folder = own.path.rpartition("/")[0]
-            key = (own.package.name, posixpath.normpath(posixpath.join(folder, text[len(OWN_FOLDER) + 1 :])))
-        else:
-            places = list(installed(text))
-            if len(places) != 1 or not places[0].share:
-                return None
-            key = (places[0].package, places[0].share)
-        found = self._by_path.get(key, [])
-        return found[0] if len(found) == 1 else None
+            return own.package.name, posixpath.normpath(posixpath.join(folder, text[len(OWN_FOLDER) + 1 :]))
+        places = list(installed(text))
+        return (places[0].package, places[0].share) if len(places) == 1 and places[0].share else None
 
     def place(self, file: LaunchFile) -> Linked | None:
         """Return where a launch file is installed, None when it is not."""
@@ -77,9 +79,7 @@ class Links:
     def included(self, path: str) -> LaunchFile | None:
         """Return the launch file at an install place, such as includes name."""
         places = list(installed(path))
-        if len(places) != 1 or not places[0].share:
-            return None
-        found = self._by_path.get((places[0].package, places[0].share), [])
+        found = self._by_path.get((places[0].package, places[0].share or ""), []) if len(places) == 1 else []
         return found[0].file if len(found) == 1 else None
 
     def takes(self, file: LaunchFile) -> Takes:
@@ -132,6 +132,26 @@ def values(action: LaunchAction) -> Iterator[LaunchValue]:
         yield value
     for pair in action.remappings:
         yield from pair
+
+
+def defaults_of(file: LaunchFile) -> dict[str, tuple[str, ...]]:
+    """Return the launch arguments and configurations that a file sets, each with all values that it gives it."""
+    found: dict[str, tuple[str, ...]] = {}
+    for action in everything(file.actions):
+        if action.kind in ("argument", "set") and action.target is not None and action.value is not None:
+            for name in action.target.texts:
+                found[name] = (*found.get(name, ()), *action.value.texts)
+    return found
+
+
+def filled(value: LaunchValue | None, defaults: Mapping[str, tuple[str, ...]]) -> tuple[str, ...]:
+    """Return what a value can be when launch configurations have some values, () for none."""
+    if value is None:
+        return ()
+    if all(map(is_settled, value.texts)):
+        return value.texts
+    texts = (one for text in value.texts for one in fill(text, defaults.get, lambda expression: UNKNOWN))
+    return tuple(dict.fromkeys(texts))
 
 
 def _required(actions: Iterable[LaunchAction]) -> Iterator[str]:

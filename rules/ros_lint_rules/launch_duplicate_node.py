@@ -36,7 +36,9 @@ from ros_lint.api import (
     Severity,
     Span,
     Workspace,
+    defaults_of,
     everything,
+    filled,
     is_plain,
     launchable,
     launched,
@@ -59,7 +61,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _may_repeat(file: LaunchFile, workspace: Workspace) -> bool:
-    """Whether a name stands twice in a file or what it includes, whatever the conditions. To expand it costs more."""
+    """Whether a name stands twice in a file or what it includes, whatever the conditions. To follow it costs more."""
     seen: set[str] = set()
     for name in _names(file, workspace, 0):
         if name in seen:
@@ -69,9 +71,10 @@ def _may_repeat(file: LaunchFile, workspace: Workspace) -> bool:
 
 
 def _names(file: LaunchFile, workspace: Workspace, depth: int) -> Iterator[str]:
+    defaults = defaults_of(file)
     for action in everything(file.actions):
-        if action.kind in ("node", "component") and action.name is not None:
-            yield from action.name.texts
+        if action.kind in ("node", "component"):
+            yield from filled(action.name, defaults)
         elif action.kind == "include" and depth < _DEEPEST:
             inner = workspace.links.target(action.target, file)
             if inner is not None:
