@@ -82,6 +82,7 @@ class Resolver:
             "macro": lambda name: _told(self.names.by_cmake(name.partition("::")[0])),
             "interface": lambda name: self._package(name.partition("/")[0]),
             "package": self._package,
+            "symbol": self._package,
             "launch": self._package,
             "key": lambda name: Answer((name,)),
         }
@@ -118,6 +119,7 @@ _WHAT: Mapping[Via, str] = {
     "include": "#include <{}>",
     "import": "import {}",
     "interface": "{}",
+    "symbol": "{}",
     "key": "{}",
     "launch": "{}",
 }

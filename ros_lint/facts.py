@@ -116,7 +116,7 @@ class Manifest(NamedTuple):
 
 # --- sources -------------------------------------------------------------------------------------------------------
 
-Via = Literal["package", "cmake", "macro", "target", "include", "import", "interface", "launch", "key"]
+Via = Literal["package", "cmake", "macro", "target", "include", "import", "interface", "symbol", "launch", "key"]
 """In which of the name spaces a mention is to be looked up; they differ (reference, section D6 and E3.8)."""
 
 

@@ -41,7 +41,7 @@ class Need(NamedTuple):
         return role
 
 
-_TELLING: tuple[Via, ...] = ("include", "import", "cmake", "interface", "target", "macro", "package", "key", "launch")
+_TELLING: tuple[Via, ...] = ("include", "import", "cmake", "interface", "symbol", "target", "macro", "package", "key", "launch")
 _RANKS = {via: rank for rank, via in enumerate(_TELLING)}
 _TEST = Role.TEST
 

@@ -9,9 +9,19 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ros_lint.collectors import cpp
-from ros_lint.collectors.cpp_includes import STANDARD, includes
-from ros_lint.collectors.cpp_symbols import symbols
-from ros_lint.text import Text
+from ros_lint.collectors.cpp_includes import STANDARD, Found, exact, mentions
+from ros_lint.facts import Mention
+from ros_lint.text import Span, Text
+
+
+def includes(text: str) -> Found:
+    """Return what both ways to find includes find."""
+    source = Text("a.cpp", text)
+    found = mentions(source)
+    precise = exact(source)
+    assert (found.mentions, found.computed) == (precise.mentions, precise.computed)
+    assert all(text.find(mention.name, at) >= at for mention, at in zip(found.mentions, found.code, strict=True))
+    return found
 
 
 def collected(text: str) -> list[tuple[str, str, bool]]:
@@ -133,11 +143,11 @@ PIECES = st.sampled_from(
 def test_same_includes_as_a_plain_preprocessor(parts: list[tuple[str, str]]) -> None:
     # What follows a condition on its line would be an error, about which both readers may think as they like.
     text = "".join(piece + ("\n" if re.match("#(if|el|endif)", piece) else end) for piece, end in parts)
-    assert [item.name for item in includes(text)] == slow_includes(text)
+    assert [item.name for item in includes(text).mentions] == slow_includes(text)
 
 
 def test_brackets_hide_what_looks_like_a_comment() -> None:
-    assert [item.name for item in includes("#include <a//b>\n#include <c/*d>\n#include <e>\n/* #include <f> */\n")] == [
+    assert [item.name for item in includes("#include <a//b>\n#include <c/*d>\n#include <e>\n/* #include <f> */\n").mentions] == [
         "a//b",
         "c/*d",
         "e",
@@ -177,14 +187,14 @@ def test_any_text_is_read(text: str) -> None:
     ],
 )
 def test_optional(text: str, optional: bool) -> None:
-    found = [item.optional for item in includes(text) if item.name.startswith("p/")]
+    found = [item.optional for item in includes(text).mentions if item.name.startswith("p/")]
     assert found
     assert set(found) == {optional}
 
 
 def test_standard_headers_are_left_out() -> None:
     text = "".join(f"#include <{name}>\n" for name in sorted(STANDARD)) + "#include <armadillo>\n#include <Eigen>\n"
-    assert [item.name for item in includes(text)] == ["armadillo", "Eigen"]
+    assert [item.name for item in includes(text).mentions] == ["armadillo", "Eigen"]
 
 
 # --- places, quotes, look-ups
@@ -269,17 +279,30 @@ def test_computed_include_is_opaque() -> None:
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
-        ("std_msgs::msg::String s;", [("std_msgs/msg", "std_msgs::msg::")]),
-        ("x(const tf2_ros::Buffer & b); tf2_ros::Buffer c;", [("tf2_ros", "tf2_ros::")]),
-        ("a_b::srv::C::Request r;\nd_e::f();", [("a_b/srv", "a_b::srv::"), ("d_e", "d_e::")]),
-        ("::a_b::c(); outer::g_h::i();", [("a_b", "a_b::")]),
-        ("std::chrono::seconds s; Eigen::Vector3d v; filters::x y; rclcpp::Node n;", [("rclcpp", "rclcpp::")]),
-        ('// a_b::c\n/* d_e::f */ /*\ng_h::i */ x = "j_k::l"; m_n::o();', [("m_n", "m_n::")]),
-        ("namespace a_b::c {\n}\nxa_b::d();", [("xa_b", "xa_b::")]),
+        ("std_msgs::msg::String s;", [("std_msgs", "std_msgs::msg::String", False)]),
+        ("f<::a_b::srv::C::Request>();\nd_e::action::F g;", [("a_b", "a_b::srv::C", False), ("d_e", "d_e::action::F", False)]),
+        ("using a_b::msg::C;\nusing namespace d_e::msg;", [("a_b", "a_b::msg::C", False)]),
+        ('#include "a_b/msg/c.hpp"\na_b::msg::D d; g_h::msg::I i;', [("g_h", "g_h::msg::I", False)]),
+        ("outer::a_b::msg::C c; T::msg::D d; MsgT::msg::E e;", []),
+        ('// a_b::msg::C\n/* a_b::msg::C */ /*\na_b::msg::C */ x = "a_b::msg::C";\nR"(\na_b::msg::C)";', []),
+        ("// a_b::msg::C\nvoid f(a_b::msg::C c);", [("a_b", "a_b::msg::C", False)]),
+        ("#define M a_b::msg::C\nnamespace a_b::msg::d {\n}", []),
+        ("#ifdef X\na_b::msg::C c;\n#endif\n", [("a_b", "a_b::msg::C", True)]),
+        ("#ifdef X\na_b::msg::C c;\n#else\na_b::msg::D d;\n#endif\n", [("a_b", "a_b::msg::C", True)]),
+        ("#ifdef X\na_b::msg::C c;\n#endif\na_b::msg::D d;\n", [("a_b", "a_b::msg::D", False)]),
+        ("#ifndef A_H\n#define A_H\na_b::msg::C c;\n#if 0\n#endif\n#endif\n", [("a_b", "a_b::msg::C", False)]),
+        ("#ifndef A_H\n#define A_H\n#if 1\n#else\na_b::msg::C c;\n#endif\n#endif\n", [("a_b", "a_b::msg::C", True)]),
     ],
 )
-def test_symbols(text: str, expected: list[tuple[str, str]]) -> None:
+def test_symbols(text: str, expected: list[tuple[str, str, bool]]) -> None:
     source = Text("a.cpp", text)
-    mentions = symbols(source)
-    assert [(mention.name, mention.what) for mention in mentions] == expected
-    assert all(source.slice(mention.span) == mention.what[:-2] for mention in mentions)
+    found = [mention for mention in cpp.collect(source).mentions if mention.via == "symbol"]
+    assert [(mention.name, mention.what, mention.optional) for mention in found] == expected
+    assert all(source.slice(mention.span) == mention.what for mention in found)
+
+
+def test_facts_are_whole() -> None:
+    # They are made without their constructors, which would give fields that are new their defaults.
+    facts = cpp.collect(Text("a.cpp", '#include "a/b.h"\nc_d::msg::E e;\n'))
+    assert [len(mention) for mention in facts.mentions] == [len(Mention._fields)] * 2
+    assert [len(mention.span) for mention in facts.mentions] == [len(Span._fields)] * 2

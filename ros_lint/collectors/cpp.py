@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING
 from ros_lint.collectors.cpp_includes import Include, mentions
 from ros_lint.collectors.cpp_look_ups import look_ups
 from ros_lint.collectors.cpp_registrations import registrations
+from ros_lint.collectors.cpp_symbols import symbols
 from ros_lint.facts import Facet, FileFacts, Opaque
 
 if TYPE_CHECKING:
     from ros_lint.text import Text
 
-_LOADERS = ("pluginlib/", "class_loader/")
+_LOADERS = ("pluginlib", "class_loader")
 _place = operator.attrgetter("span")
 
 
@@ -21,14 +22,17 @@ def collect(source: Text) -> FileFacts:
     """Return the includes, look-ups and registered classes of a C or C++ file, standard headers left out.
 
     An include is a mention ``via="include"`` whose ``what`` tells ``#include "a"`` from ``#include <a>``.
+    Types of messages whose package is not included are ``via="symbol"``.
     Look-ups by ament_index_cpp and pluginlib with a literal are ``via="package"`` (reference, section E2, rows 23 and 24).
     """
-    included, code, computed = mentions(source)
-    loads_plugins = any([mention[0].startswith(_LOADERS) for mention in included])  # noqa: C419  (half the time)
-    packages, files = look_ups(source, loads_plugins, code)
+    found = mentions(source)
+    included, code = found.mentions, found.code
+    known = {mention[0].partition("/")[0] for mention in included}  # by index: there are ten thousands
+    packages, files = look_ups(source, not known.isdisjoint(_LOADERS), code)
+    packages += symbols(source, known, found)
     if packages:
         included = sorted([*included, *packages], key=_place)
-    opaque = _opaque(source, computed) if computed else ()
+    opaque = _opaque(source, found.computed) if found.computed else ()
     return FileFacts(source.path, tuple(included), opaque, (), registrations(source, code), files)
 
 

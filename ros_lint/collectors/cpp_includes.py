@@ -85,23 +85,42 @@ class Include(NamedTuple):
     optional: bool
 
 
-def mentions(source: Text) -> tuple[list[Mention], list[int], list[Include]]:
-    """Return the includes of a C or C++ source in order, their offsets, and those that a macro names.
+class Found(NamedTuple):
+    """What the directives of a source say."""
+
+    mentions: list[Mention]
+    """Its includes in order."""
+    code: list[int]
+    """Their offsets: places that no comment and no string hides."""
+    computed: list[Include]
+    """Includes that a macro names."""
+    directives: list[re.Match[str]]
+    """All that :func:`branches` needs, empty when nothing but a guard is conditional."""
+
+
+def mentions(source: Text) -> Found:
+    """Return the includes of a C or C++ source.
 
     Those of standard headers and those in ``#if 0`` are left out. Optional are those in a conditional, unless each of
     its branches includes the same folder; conditions that hold in every build, include guards above all, are none.
     Reference, section E3.9.
     """
-    plain = _plain(source)
-    if plain is not None:
-        return *plain, []
-    found = includes(source.text)
+    return _plain(source) or exact(source)
+
+
+def exact(source: Text) -> Found:
+    """Return what :func:`mentions` does, in the way that is right for every text."""
+    text = blanked(source.text)
+    directives = [match for match in _DIRECTIVE.finditer(text) if not _before(text, match.start()).strip()]
+    guarded = _is_guarded(text, directives)
+    found = _includes(text, directives, guarded)
     named = [item for item in found if item.quote]
     spans = source.spans([(item.start, item.start + len(item.name)) for item in named])
-    return (
+    return Found(
         [_mention(item.name, span, item.quote, item.optional) for item, span in zip(named, spans, strict=True)],
         [item.start for item in named],
         [item for item in found if not item.quote],
+        [] if guarded else directives,
     )
 
 
@@ -110,8 +129,8 @@ def _mention(name: str, span: Span, quote: str, optional: bool) -> Mention:
     return _make(Mention, (name, "include", span, what, optional, False))
 
 
-def _plain(source: Text) -> tuple[list[Mention], list[int]] | None:
-    """Return the includes and their offsets in one go, None where something may hide one or a macro names one."""
+def _plain(source: Text) -> Found | None:
+    """Return what is found in one go, None where something may hide one or a macro names one."""
     text, path = source.text, source.path
     if "\r" in text and text.count("\r") != text.count("\r\n"):
         return None
@@ -142,11 +161,14 @@ def _plain(source: Text) -> tuple[list[Mention], list[int]] | None:
             conditional = True
         else:
             return None
-    if conditional and starts and not _is_guarded(text, directives):
+    guarded = not conditional or _is_guarded(text, directives)
+    if starts and not guarded:
         if _may_hide(text, [match.start() for match in directives]):
             return None
-        return _sorted_out(text, directives, found, starts)
-    return None if _may_hide(text, starts) else (found, starts)
+        return Found(*_sorted_out(text, directives, found, starts), [], directives)
+    if _may_hide(text, starts):
+        return None
+    return Found(found, starts, [], [] if guarded else directives)
 
 
 @cache
@@ -177,11 +199,8 @@ def _sorted_out(
     return [mention for mention, _ in rows], [start for _, start in rows]
 
 
-def includes(text: str) -> list[Include]:
-    """Return what :func:`mentions` does, in the way that is right for every text."""
-    text = blanked(text)
-    directives = [match for match in _DIRECTIVE.finditer(text) if not _before(text, match.start()).strip()]
-    skipped, optional = (_NONE, _NONE) if _is_guarded(text, directives) else _conditional(text, directives)
+def _includes(text: str, directives: list[re.Match[str]], guarded: bool) -> list[Include]:
+    skipped, optional = (_NONE, _NONE) if guarded else _conditional(text, directives)
     found = []
     for match in directives:
         at = match.start()
@@ -203,13 +222,13 @@ def blanked(text: str) -> str:
 
 def in_doubt(text: str, at: int, code: Sequence[int] = ()) -> bool:
     """Return whether a comment or a raw string may hide an offset. ``code`` are offsets known to be code, sorted."""
-    line = text.rfind("\n", 0, at) + 1
     before = bisect_left(code, at)
     clear = code[before - 1] if before else 0
+    opened = text.rfind("/*", clear, at)
     return (
-        text.find("//", line, at) >= 0
-        or text.find('R"', clear, at) >= 0
-        or text.rfind("/*", clear, at) > text.rfind("*/", clear, at)
+        text.find("//", text.rfind("\n", 0, at) + 1, at) >= 0
+        or _RAW.search(text, clear, at) is not None
+        or (opened >= 0 and opened > text.rfind("*/", clear, at))
     )
 
 
@@ -339,6 +358,24 @@ def _conditional(text: str, directives: list[re.Match[str]]) -> tuple[Set[int], 
     while stack:
         end()
     return skipped, optional
+
+
+def branches(text: str, directives: list[re.Match[str]]) -> list[range]:
+    """Return the offsets that are compiled in some builds only, or in none."""
+    found = []
+    stack: list[tuple[bool, int]] = []  # whether the branch is always taken, and where it begins
+    for match in directives:
+        if match.lastindex != _CONDITIONAL:
+            continue
+        if match[5].startswith("if"):
+            stack.append((_value(text, match, first=match is directives[0]) is True, match.end()))
+        elif stack:
+            always, begin = stack.pop()
+            if not always:
+                found.append(range(begin, match.start()))
+            if match[5] != "endif":
+                stack.append((False, match.end()))
+    return [*found, *(range(begin, len(text)) for always, begin in stack if not always)]
 
 
 def _value(text: str, match: re.Match[str], *, first: bool) -> bool | None:

@@ -54,9 +54,9 @@ from ros_lint.api import (
 
 _MOST_RELATED = 4
 _TESTS = re.compile(r"(^|_)(tests?|testing)(_|$)")
-_BUILT = ("include", "cmake", "interface", "macro", "target")
+_BUILT = ("include", "cmake", "interface", "symbol", "macro", "target")
 _RUN = ("import", "package")
-_SEEN = ("include", "interface")
+_SEEN = ("include", "interface", "symbol")
 _ASKED = (Role.BUILD, Role.EXEC, Role.EXPORT)
 _TEST = Role.TEST
 _TO_BUILD = Role.BUILD | Role.TOOL
