@@ -131,6 +131,7 @@ def read(path: str) -> int:
 def spend(command: Sequence[str], cache: str) -> Cost:
     """Run a command with the cache folder given, and return what it cost."""
     environment = {**os.environ, "XDG_CACHE_HOME": cache}
+    environment.pop("PYTHONDONTWRITEBYTECODE", None)  # a checkout would be compiled anew in every run
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     process = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     _, _, used = os.wait4(process.pid, 0)
