@@ -462,6 +462,8 @@ class BuildScript(NamedTuple):
     """Resources that it does not install, each with a place where a text of the package names it in its folder."""
     files: tuple[ScriptFile, ...] = ()
     """Scripts that it installs to lib/<package> or bin, and those that lie beside them or in folders for scripts."""
+    inputs: tuple[str, ...] = ()
+    """Resources that it does not install and that its CMake files name all the same: what it is built from."""
 
 
 # --- launch files --------------------------------------------------------------------------------------------------
@@ -554,3 +556,5 @@ class LaunchFile(NamedTuple):
     imports: tuple[tuple[str, Span], ...] = ()
     """Modules that a Python launch file imports whenever it is loaded, dotted as written; none if it changes where Python
     looks for them."""
+    asks: tuple[str, ...] = ()
+    """Launch configurations that a Python launch file asks for, wherever they go, sorted; with UNKNOWN for any other."""
