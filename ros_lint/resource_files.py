@@ -50,7 +50,10 @@ def _above(path: str) -> Iterator[str]:
         folder = folder.rpartition("/")[0]
 
 
-_MAY_NAME = (".py", ".launch", ".xml", ".yaml", ".yml", ".urdf", ".xacro", ".sdf", ".world", ".cpp", ".hpp", ".cc", ".h")
+_MAY_NAME = (
+    ".py", ".launch", ".xml", ".yaml", ".yml", ".urdf", ".xacro", ".sdf", ".world", ".wbt", ".proto", ".cpp", ".hpp", ".cc",
+    ".h",
+)  # fmt: skip
 
 
 def may_name(file: str) -> bool:

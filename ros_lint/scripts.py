@@ -47,9 +47,9 @@ def evaluate(tree: Tree, packages: Sequence[Parts], distro: str) -> list[BuildSc
         parts = packages[number]
         try:
             if "CMakeLists.txt" in parts.commands and parts.found.type != "ros.ament_python":
-                result[number] = _with_files(tree, parts.found, _cmake(tree, parts, distro, helpers))
+                result[number] = _with_files(tree, parts, _cmake(tree, parts, distro, helpers))
             elif script := _python(tree, parts.found):
-                result[number] = _with_files(tree, parts.found, script)
+                result[number] = _with_files(tree, parts, script)
         except Exception as error:  # a mistake of ours in one script must not cost the user all the others
             result[number] = _failed(parts, FAILED.format(f"{type(error).__name__}: {error}"))
     return result
@@ -164,8 +164,9 @@ def _modules(tree: Tree, found: Found, script: BuildScript) -> Iterator[PythonMo
             yield python_names.collect(name, path, text)
 
 
-def _with_files(tree: Tree, found: Found, script: BuildScript) -> BuildScript:
-    """Return a script with what is known of the other files that it installs: plugin descriptions and scripts."""
+def _with_files(tree: Tree, parts: Parts, script: BuildScript) -> BuildScript:
+    """Return a script with what is known of other files of its package: plugin descriptions, scripts, resources."""
+    found = parts.found
     named = {call.texts[1] for call in script.written if call.name.startswith("pluginlib_export") and len(call.args) > 1}
     markup = [file for file in found.files if file.endswith(".xml")]
     candidates = [file for file in markup if file in named or _PLUGIN_FILE.search(file)]
@@ -177,15 +178,30 @@ def _with_files(tree: Tree, found: Found, script: BuildScript) -> BuildScript:
     executables = _Executables(tree, found)
     files = [_script_file(file, text, file in executables) for file in sources if (text := _text(tree, found, file))]
     hidden = any(opaque.hides & Facet.SHARE for opaque in script.opaque)
-    resources = () if hidden else tuple(_named(tree, found, script))
-    if not (plugins or files or resources):
+    missing = {} if hidden else resource_files.uninstalled(found.files, [provided.source for provided in script.provides])
+    if not (plugins or files or missing):
         return script
-    return script._replace(plugins=plugins, files=tuple(files), named=resources)
+    return script._replace(
+        plugins=plugins,
+        files=tuple(files),
+        named=tuple(_named(tree, found, missing)),
+        inputs=tuple(_inputs(parts.commands, missing)),
+    )
 
 
-def _named(tree: Tree, found: Found, script: BuildScript) -> Iterator[tuple[str, Span]]:
+def _inputs(scripts: Mapping[str, Parsed], missing: Mapping[str, Sequence[str]]) -> Iterator[str]:
+    """Yield the resources whose folder or name a command of a CMake file has among its arguments, install() left out."""
+    if not missing:
+        return
+    commands = (command for parsed in scripts.values() for command in parsed.commands if command.name != "install")
+    text = "\n".join([argument[0] for command in commands for argument in command.args])
+    for folder, files in missing.items():
+        named = re.search(rf"(?<![\w.-]){re.escape(folder)}(?:/|$)", text, re.MULTILINE) is not None
+        yield from (file for file in files if named or file.rpartition("/")[2] in text)
+
+
+def _named(tree: Tree, found: Found, missing: Mapping[str, Sequence[str]]) -> Iterator[tuple[str, Span]]:
     """Yield the resources that are not installed and that a text of the package names, with the first place."""
-    missing = resource_files.uninstalled(found.files, [provided.source for provided in script.provides])
     left: dict[str, tuple[bytes, bytes]] = {}
     for file in (file for files in missing.values() for file in files[:_MOST_RESOURCES]):
         folder, _, name = file.encode().rpartition(b"/")

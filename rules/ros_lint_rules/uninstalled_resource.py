@@ -19,7 +19,9 @@ In `CMakeLists.txt` add the folder to `install(DIRECTORY ... DESTINATION share/$
 - A part of the build script that cannot be followed may install the file.
 - Where the file does not exist at all: that is a matter of `launch-missing-include`.
 - Launch files themselves: see `uninstalled-launch`.
-- A folder that nothing in the package names has medium confidence: it may serve the build, or documentation.
+- What a command of the build names, such as the file that `generate_parameter_library()` reads, is taken for its input.
+- A folder that nothing in the package names has medium confidence: it may serve documentation, or be left over. Not so if
+  other folders of the kind are installed and its files serve at run time alone: displays, maps, models, parameters.
 """
 
 from __future__ import annotations
@@ -45,6 +47,13 @@ from ros_lint.api import (
 
 _PLAIN = frozenset({"py", "sh", "txt", "md"})
 _DOCUMENTS = frozenset({"images", "media", "data"})
+_FOR_RUN_TIME = frozenset(
+    {"config", "configs", "launch", "maps", "meshes", "models", "param", "params", "rviz", "urdf", "worlds", "world"}
+)
+_RUN_TIME = (
+    ".dae", ".obj", ".pgm", ".rviz", ".sdf", ".srdf", ".stl", ".urdf", ".wbt", ".world", ".xacro", ".yaml", ".yml",
+)  # fmt: skip
+"""What serves at run time, and nowhere else."""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -108,9 +117,11 @@ def _folders(package: Package, kept: set[str], told: set[str]) -> Iterator[Findi
     assert script is not None
     launches = {launch.path for launch in launchable(package)}
     places = dict(script.named)
+    inputs = frozenset(script.inputs)
+    shared = _shared(package)
     for folder, found in uninstalled_resources(package.files, kept).items():
-        files = [file for file in found if file not in launches]
-        if folder.partition("/")[0] in told or (
+        files = [file for file in found if file not in launches and file not in inputs]
+        if not files or folder.partition("/")[0] in told or (
             folder != "controllers" and all(file.rpartition(".")[2] in _PLAIN for file in files)
         ):
             continue
@@ -123,15 +134,28 @@ def _folders(package: Package, kept: set[str], told: set[str]) -> Iterator[Findi
             f"{folder}/",
             tuple(Related(f"{file.rpartition('/')[2]} is named here", places[file]) for file in looked_up[:4]),
             fix=_fix(package, f"{folder}/") if "/" not in folder else None,
-            confidence=_confidence(folder, looked_up),
+            confidence=_confidence(folder, files, looked_up, shared),
             severity=Severity.WARNING,
         )
 
 
-def _confidence(folder: str, looked_up: list[str]) -> Confidence:
+def _shared(package: Package) -> bool:
+    """Whether a package installs other folders of files for run time, so that this one is forgotten."""
+    script = package.script
+    assert script is not None
+    share = f"share/{package.name}/"
+    return any(
+        provided.path.startswith(share) and provided.source.partition("/")[0] in _FOR_RUN_TIME for provided in script.provides
+    )
+
+
+def _confidence(folder: str, files: list[str], looked_up: list[str], shared: bool) -> Confidence:
     if looked_up:
         return Confidence.HIGH
-    return Confidence.LOW if folder.partition("/")[0] in _DOCUMENTS else Confidence.MEDIUM
+    if folder.partition("/")[0] in _DOCUMENTS:
+        return Confidence.LOW
+    for_run_time = any(file.endswith(_RUN_TIME) and "example" not in file for file in files)
+    return Confidence.HIGH if shared and for_run_time else Confidence.MEDIUM
 
 
 def _fix(package: Package, unit: str) -> Fix | None:
