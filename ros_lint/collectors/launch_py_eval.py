@@ -12,6 +12,7 @@ from ros_lint.collectors.launch_py_objects import (
     Conditions,
     Frame,
     Guarded,
+    Union,
     Unknown,
     Value,
     plain,
@@ -178,7 +179,10 @@ def _choice(machine: Machine, node: ast.IfExp, frame: Frame) -> Value:
 
 
 def _attribute(machine: Machine, node: ast.Attribute, frame: Frame) -> Value:
-    return each(machine.evaluate(node.value, frame), lambda one: attribute(machine, one, node, frame))
+    owner = machine.evaluate(node.value, frame)
+    if not isinstance(owner, (Guarded, Union)):
+        return attribute(machine, owner, node, frame)
+    return each(owner, lambda one: attribute(machine, one, node, frame))
 
 
 def _subscript(machine: Machine, node: ast.Subscript, frame: Frame) -> Value:
@@ -196,14 +200,12 @@ def _subscript(machine: Machine, node: ast.Subscript, frame: Frame) -> Value:
 def _call(machine: Machine, node: ast.Call, frame: Frame) -> Value:
     function = machine.evaluate(node.func, frame)
     arguments: list[Value] = []
-    complete = True
     for argument in node.args:
         if not isinstance(argument, ast.Starred):
             arguments.append(machine.evaluate(argument, frame))
             continue
         value = machine.evaluate(argument.value, frame)
         inner = items(machine, value)
-        complete = complete and inner is not None
         arguments += inner if inner is not None else [value]
     keywords: dict[str, Value] = {}
     for keyword in node.keywords:
@@ -216,6 +218,8 @@ def _call(machine: Machine, node: ast.Call, frame: Frame) -> Value:
             keywords.update({str(name): one for name, one in inner_value.items()})
         else:
             machine.lose(value)
+    if not isinstance(function, (Guarded, Union)):
+        return machine.call(function, arguments, keywords, node, frame)
     return each(function, lambda one: machine.call(one, arguments, keywords, node, frame))
 
 

@@ -131,11 +131,13 @@ class Made:
 
     def written(self, position: int, *names: str) -> ast.expr:
         """Return the expression of an argument, or the whole call."""
-        for keyword in self.node.keywords:
+        node = self.node
+        for keyword in node.keywords:
             if keyword.arg in names:
                 return keyword.value
-        plain = not any(isinstance(argument, ast.Starred) for argument in self.node.args)
-        return self.node.args[position] if plain and 0 <= position < len(self.node.args) else self.node
+        if not 0 <= position < len(node.args) or any(isinstance(argument, ast.Starred) for argument in node.args):
+            return node
+        return node.args[position]
 
 
 class Function:

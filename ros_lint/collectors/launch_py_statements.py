@@ -352,9 +352,7 @@ def _import_from(machine: Machine, node: ast.ImportFrom, frame: Frame) -> int:
             continue
         inner = found.names.get(alias.name) if found is not None else None
         if inner is None:
-            inner = machine.module(
-                f"{name}.{alias.name}".replace("..", ".") if node.level else f"{name}.{alias.name}", frame.source
-            )
+            inner = machine.module(f"{name}.{alias.name}" if node.module else f"{name}{alias.name}", frame.source)
         frame.names[alias.asname or alias.name] = inner if inner is not None else Api(f"{name}.{alias.name}")
     return NEXT
 

@@ -11,8 +11,10 @@ from ros_lint.collectors.launch_py_objects import (
     PERHAPS,
     Conditions,
     FilePath,
+    Guarded,
     Instance,
     Made,
+    Union,
     Value,
     alternatives,
     environment,
@@ -31,6 +33,10 @@ def texts(value: Value, depth: int = 0) -> tuple[str, ...]:
         return (str(value),)  # facts keep nothing of the program
     if depth > _DEEPEST:
         return (UNKNOWN,)
+    if not isinstance(value, (Union, Guarded)):
+        only = _one(value, depth)
+        if len(only) == 1:
+            return only
     found = distinct(text for one in alternatives(value) for text in under(_one(one.value, depth), one.conditions))
     return found if 0 < len(found) <= launch_text.MOST else (UNKNOWN,)
 

@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING
 from ros_lint.collectors.launch_py_objects import (
     Conditions,
     Frame,
+    Guarded,
     Instance,
     Made,
     Raised,
+    Union,
     Unknown,
     Value,
     Written,
@@ -49,7 +51,16 @@ def _offset(source: Source, line: int, column: int) -> int:
 
 def span_of(node: ast.AST, source: Source) -> Span:
     """Return the span of an expression."""
-    return source.text.span(*place(node, source))
+    if not source.ascii:
+        return source.text.span(*place(node, source))
+    # The columns of the syntax tree count bytes, which are characters here.
+    return Span(
+        source.text.path,
+        node.lineno,  # type: ignore[attr-defined]
+        node.col_offset + 1,  # type: ignore[attr-defined]
+        node.end_lineno,  # type: ignore[attr-defined]
+        node.end_col_offset + 1,  # type: ignore[attr-defined]
+    )
 
 
 class Walker:
@@ -75,6 +86,8 @@ class Walker:
             return found
         self._depth += 1
         try:
+            if not isinstance(value, (Union, Guarded)):
+                return self._one(value, conditions, at)
             for one in alternatives(value, conditions):
                 found += self._one(one.value, one.conditions, at)
         finally:
@@ -125,7 +138,7 @@ class Walker:
 
     def text(self, given: Value, node: ast.expr, source: Source) -> LaunchValue:
         """Return a value as a text with the place where it is written."""
-        found = tuple(map(str, texts(given)))
+        found = (str(given),) if isinstance(given, str) else tuple(map(str, texts(given)))
         origin = plain(given)
         while isinstance(origin, Made) and origin.name in ("TextSubstitution", "ParameterFile", "ParameterValue"):
             origin = plain(origin.get(0, "text", "param_file", "value"))
@@ -133,16 +146,22 @@ class Walker:
             origin = plain(origin[0])
         if isinstance(origin, Written):
             node, source = origin.node, origin.source
-        start, end = place(node, source)
-        if isinstance(node, ast.Constant) and len(found) == 1 and found[0]:
-            at = source.text.text.find(found[0], start, end)
-            if at >= 0 and node.value == found[0]:
-                return LaunchValue(found, source.text.span(at, at + len(found[0])), exact=True)
-        return LaunchValue(found, source.text.span(start, end))
+        span = span_of(node, source)
+        if not isinstance(node, ast.Constant) or len(found) != 1 or not found[0] or node.value != found[0]:
+            return LaunchValue(found, span)
+        path, line, column, last, end = span
+        if line == last and end - column == len(found[0]) + 2:  # between quotes as it is meant
+            return LaunchValue(found, Span(path, line, column + 1, last, end - 1), exact=True)
+        at = source.text.text.find(found[0], *place(node, source))
+        if at < 0:
+            return LaunchValue(found, span)
+        return LaunchValue(found, source.text.span(at, at + len(found[0])), exact=True)
 
     def package_span(self, value: LaunchValue | None) -> Span | None:
         """Return where the package is written that a path lies in."""
         for text in value.texts if value is not None else ():
+            if text.isascii():
+                continue
             for found in installed(text):
                 named = self.machine.named.get(found.package)
                 if named is not None:

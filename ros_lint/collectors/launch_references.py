@@ -231,7 +231,9 @@ def _is_dull(texts: Iterable[str], carriers: Container[str]) -> bool:
 
 
 def _words(text: str) -> list[str]:
-    import shlex  # noqa: PLC0415  (few launch files have command lines)
+    if not any(quote in text for quote in "'\"\\"):
+        return text.split()
+    import shlex  # noqa: PLC0415  (few launch files have such command lines)
 
     try:
         return shlex.split(text)

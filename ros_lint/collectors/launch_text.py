@@ -249,6 +249,10 @@ def distinct(texts: Iterable[str]) -> tuple[str, ...]:
 
 def joined(rows: Iterable[tuple[str, ...]], function: Callable[[tuple[str, ...]], str]) -> tuple[str, ...]:
     """Return what a function makes of one alternative of each row, for every choice whose conditions agree."""
+    rows = tuple(rows)
+    if all(len(row) == 1 and not isinstance(row[0], Conditional) for row in rows):
+        choice = tuple([row[0] for row in rows])
+        return (function(choice) if sum(map(len, choice)) <= LONGEST else UNKNOWN,)
     found: list[str] = []
     for choice in islice(product(*rows), _MOST_CHOICES):
         conditions = tuple(dict.fromkeys(condition for text in choice for condition in conditions_of(text)))
