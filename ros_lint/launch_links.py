@@ -92,8 +92,8 @@ class Links:
             return done
         if file.path in open_files or len(open_files) > _DEEPEST:
             return Takes((), frozenset(), complete=False)
-        known: set[str] = set()
-        complete = not file.problems and not file.opaque
+        known = set(file.asks)
+        complete = not file.problems and not file.opaque and all(map(is_plain, file.asks))
         for action in everything(file.actions):
             for value in values(action):
                 for text in value.texts:

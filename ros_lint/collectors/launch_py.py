@@ -14,8 +14,10 @@ from ros_lint.collectors.launch import entries
 from ros_lint.collectors.launch_py_actions import LAUNCHED, walker
 from ros_lint.collectors.launch_py_objects import PERHAPS, Frame, Function, OutOfBudget, Raised, Source
 from ros_lint.collectors.launch_py_run import Machine, Modules
+from ros_lint.collectors.launch_py_texts import texts
 from ros_lint.collectors.launch_py_walk import span_of
 from ros_lint.collectors.launch_references import References
+from ros_lint.collectors.launch_text import UNKNOWN
 from ros_lint.facts import Facet, LaunchAction, LaunchFile, Opaque, Problem
 from ros_lint.text import Span, Text
 
@@ -61,6 +63,7 @@ def collect(
         helper,
         tuple(reading.actions),
         tuple(_imports(source, tree)),
+        reading.asks(),
     )
 
 
@@ -117,6 +120,18 @@ class _Reading:
         except Raised:
             self.stopped(f"{name}() raises an exception")
             return None
+
+    def asks(self) -> tuple[str, ...]:
+        """Return the launch configurations that are asked for, UNKNOWN among them when others may be."""
+        found = {
+            str(name)
+            for made in self._machine.made
+            if made.name.startswith("LaunchConfiguration")
+            for name in texts(made.get(0, "variable_name", "launch_configuration_name"))
+        }
+        if ".launch_configurations" in self._source.text.text:
+            found.add(UNKNOWN)
+        return tuple(sorted(found))
 
     def stopped(self, reason: str) -> None:
         """Note that the file could not be followed to its end: anything that it makes may be launched."""

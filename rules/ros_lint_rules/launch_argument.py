@@ -18,17 +18,18 @@ Give the argument, or give it a default where it is declared; correct the name, 
 - Which file is included, or which arguments it gets, is not known from the launch files alone.
 - A file that is included further down is not in the workspace: it may take the argument.
 - Arguments that are declared under a condition or in a group.
-- An argument that nobody takes is also set for what this file includes later, so the confidence is medium, unless it
-  resembles an argument that is not given.
+- A file asks for arguments by names that it computes.
+
+An argument that nobody takes is an info, since it is also set for what is included later; a warning if it resembles an
+argument that is not given.
 """
 
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
 from ros_lint.api import (
-    Confidence,
     Finding,
     Launchable,
     LaunchAction,
@@ -42,8 +43,6 @@ from ros_lint.api import (
     is_plain,
     launchable,
 )
-
-_MOST_RELATED = 4
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
@@ -75,29 +74,24 @@ def _of_include(action: LaunchAction, launch: Launchable, links: Links) -> Itera
             yield Finding(
                 f"{file} requires the argument {name}, which is not given here",
                 span,
-                name,
+                f"{file}:{name}",
                 (Related("declared here, without default", declared[name]),) if name in declared else (),
                 severity=Severity.ERROR,
             )
-    if not takes.complete:
-        return
-    useless = {name: value for name, value in given.items() if name not in takes.known}
-    if useless:
-        yield _useless(file, useless, takes.known - given.keys())
+    left = takes.known - given.keys()
+    for name, value in given.items() if takes.complete else ():
+        if name not in takes.known:
+            yield _useless(file, name, value, left)
 
 
-def _useless(file: str, given: Mapping[str, LaunchValue], left: frozenset[str]) -> Finding:
-    """Return the finding for arguments that nobody takes. What resembles one that is left was renamed."""
-    first, *others = given
-    near = [found[0] for name in given if (found := difflib.get_close_matches(name, left, 1, 0.85))]
-    names = ", ".join(given)
-    hint = f"; did you mean {', '.join(near)}?" if near else ""
+def _useless(file: str, name: str, value: LaunchValue, left: frozenset[str]) -> Finding:
+    """Return the finding for an argument that nobody takes. One that resembles an argument not given was renamed."""
+    near = difflib.get_close_matches(name, left, 1, 0.85)
     return Finding(
-        f"{file} takes no argument {names}: it does nothing there{hint}",
-        given[first].span,
-        first,
-        tuple(Related(f"the argument {name}", given[name].span) for name in others[:_MOST_RELATED]),
-        confidence=Confidence.HIGH if near else Confidence.MEDIUM,
+        f"{file} takes no argument {name}: it does nothing there{f'; did you mean {near[0]}?' if near else ''}",
+        value.span,
+        f"{file}:{name}",
+        severity=None if near else Severity.INFO,
     )
 
 
