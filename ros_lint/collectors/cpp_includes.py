@@ -224,11 +224,10 @@ def in_doubt(text: str, at: int, code: Sequence[int] = ()) -> bool:
     """Return whether a comment or a raw string may hide an offset. ``code`` are offsets known to be code, sorted."""
     before = bisect_left(code, at)
     clear = code[before - 1] if before else 0
-    opened = text.rfind("/*", clear, at)
     return (
         text.find("//", text.rfind("\n", 0, at) + 1, at) >= 0
         or _RAW.search(text, clear, at) is not None
-        or (opened >= 0 and opened > text.rfind("*/", clear, at))
+        or (_COMMENT.search(text, clear, at) is not None and text.rfind("/*", clear, at) > text.rfind("*/", clear, at))
     )
 
 
@@ -266,9 +265,7 @@ def _is_guarded(text: str, directives: list[re.Match[str]]) -> bool:
     if len(conditionals) != 2:
         return not conditionals
     begin, end = conditionals
-    return end[5] == "endif" and (
-        text.startswith(f"\n#define{begin[6]}", begin.end()) or _value(text, begin, first=True) is True
-    )
+    return end[5] == "endif" and (text.startswith(f"\n#define{begin[6]}", begin.end()) or _value(text, begin, first=True) is True)
 
 
 def _may_hide(text: str, starts: Sequence[int]) -> bool:

@@ -18,11 +18,11 @@ if TYPE_CHECKING:
     from ros_lint.text import Text
 
 _KIND = re.compile("::(?:msg|srv|action)::")
+_TYPE = re.compile(r"::(?:msg|srv|action)::\w+")
 _WORD = string.ascii_letters + string.digits + "_"
 _INSIDE = frozenset(_WORD)
 _LONGEST = 64
 """How many characters of a name are looked at."""
-_NAME = re.compile(r"\w+")
 
 
 def symbols(source: Text, known: Collection[str], directives: Found) -> list[Mention]:
@@ -32,18 +32,12 @@ def symbols(source: Text, known: Collection[str], directives: Found) -> list[Men
     are ``via="symbol"``, of the package.
     """
     text = source.text
-    names = set()
-    for match in _KIND.finditer(text):
-        at = match.start()
-        piece = text[at - _LONGEST if at > _LONGEST else 0 : at]
-        names.add((piece[len(piece.rstrip(_WORD)) :], match[0]))
-    names = {(package, kind) for package, kind in names if package.islower() and package not in known}
+    ends = {text[max(match.start() - _LONGEST, 0) : match.start()] for match in _KIND.finditer(text)}
+    names = {end[len(end.rstrip(_WORD)) :] for end in ends}.difference(known)
     if not names:
         return []
     conditional = branches(text, directives.directives) if directives.directives else []
-    found = sorted(
-        place for package, kind in names if (place := _first(text, package + kind, directives.code, conditional))
-    )
+    found = sorted(place for name in names if name.islower() and (place := _first(text, name, directives.code, conditional)))
     spans = source.spans([(start, end) for start, end, _ in found])
     return [
         Mention(text[start:end].partition("::")[0], "symbol", span, text[start:end], optional)
@@ -51,29 +45,27 @@ def symbols(source: Text, known: Collection[str], directives: Found) -> list[Men
     ]
 
 
-def _first(
-    text: str, written: str, code: Sequence[int], conditional: Sequence[range]
-) -> tuple[int, int, bool] | None:
-    """Return start and end of the first place in plain code of a qualified name, and whether it depends on the build.
+def _first(text: str, package: str, code: Sequence[int], conditional: Sequence[range]) -> tuple[int, int, bool] | None:
+    """Return start and end of the first type of a package in plain code, and whether it depends on the build.
 
     Lines that may be comments, strings or directives are passed over: what a source needs it mostly names more than once.
     """
     optional = None
+    written = f"{package}::"
     start = text.find(written)
     while start >= 0:
-        before = text[text.rfind("\n", 0, start) + 1 : start]
-        if _is_code(before.removesuffix("::")) and not in_doubt(text, start, code):
-            name = _NAME.match(text, start + len(written))
-            end = name.end() if name else start + len(written) - 2
+        name = _TYPE.match(text, start + len(package))
+        if name and _is_code(text, start) and not in_doubt(text, start, code):
             if not conditional or not any(start in each for each in conditional):
-                return start, end, False
-            optional = optional or (start, end, True)
+                return start, name.end(), False
+            optional = optional or (start, name.end(), True)
         start = text.find(written, start + 1)
     return optional
 
 
-def _is_code(before: str) -> bool:
-    """Return whether a qualified name may begin behind that part of a line."""
+def _is_code(text: str, at: int) -> bool:
+    """Return whether a qualified name may begin at an offset, going by what stands before it in its line."""
+    before = text[text.rfind("\n", 0, at) + 1 : at].removesuffix("::")  # of no namespace: ::pkg::msg::Type
     if before[-1:] in _INSIDE or before.count('"') % 2:
         return False
     bare = before.strip()
