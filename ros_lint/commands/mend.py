@@ -6,6 +6,7 @@ not there before: so none that closes a cycle, names an unknown key or makes a m
 
 from __future__ import annotations
 
+import gc
 import sys
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -34,6 +35,7 @@ class Mended(NamedTuple):
 
 def run(opened: Opened, selection: engine.Selection) -> tuple[Report, int]:
     """Show or make the fixes. Returns the report of what is left, and 2 when files could not be written."""
+    gc.enable()  # the workspace is loaded again and again, and what is left of the last time has to go
     mended = mend(opened, selection)
     for issue, reason in mended.withheld:
         print(f"ros-lint: {issue.finding.span}: not mended, {reason} [{issue.rule.name}]", file=sys.stderr)
@@ -62,24 +64,22 @@ def mend(opened: Opened, selection: engine.Selection) -> Mended:
     proof = _Proof(opened, selection)
     changed: dict[str, bytes] = {}
     made: list[Issue] = []
-    withheld: dict[Issue, str] = {}
+    withheld: dict[str, tuple[Issue, str]] = {}
     for _ in range(_MOST_ROUNDS):
         before = proof.issues(changed)
-        wanted = [issue for issue in proof.fixable(before) if issue not in withheld]
+        wanted = [issue for issue in proof.fixable(before) if issue.identity not in withheld]
         chosen = edits.choose(issue.finding.fix for issue in wanted if issue.finding.fix)
         group = [issue for issue in wanted if issue.finding.fix in chosen]
-        if group and proof.complaint(changed, before, group):
-            # Something in the group is to blame, so each is tried alone; if none is, they are at odds with each other.
-            alone = {issue: complaint for issue in group if (complaint := proof.complaint(changed, before, [issue]))}
-            withheld.update(alone)
+        if group and (alone := proof.culprits(changed, before, group)) is not None:
+            withheld.update((issue.identity, (issue, reason)) for issue, reason in alone.items())
             group = [issue for issue in group if issue not in alone]
-            if proof.complaint(changed, before, group):
-                group = group[:1]
+            while len(group) > 1 and proof.complaint(changed, before, group):
+                group = group[: len(group) // 2]  # fixes that are at odds with each other; the rest has its turn next
         if not group:
             break
         changed = proof.applied(changed, group)
         made += group
-    return Mended(changed, tuple(made), tuple(withheld.items()))
+    return Mended(changed, tuple(made), tuple(withheld.values()))
 
 
 def diff(opened: Opened, changed: Mapping[str, bytes]) -> str:
@@ -134,6 +134,22 @@ class _Proof:
         if any(has[issue.identity] >= had[issue.identity] for issue in group):
             return "because the fix does not help"
         return ""
+
+    def culprits(
+        self, changed: Mapping[str, bytes], before: Sequence[Issue], group: Sequence[Issue]
+    ) -> dict[Issue, str] | None:
+        """Return the issues whose fixes are to blame for a complaint, each with its own; None when there is none.
+
+        Halves are tried before single fixes: most groups are large, and few of their fixes to blame.
+        """
+        complaint = self.complaint(changed, before, group)
+        if not complaint:
+            return None
+        if len(group) == 1:
+            return {group[0]: complaint}
+        middle = len(group) // 2
+        halves = (self.culprits(changed, before, group[:middle]), self.culprits(changed, before, group[middle:]))
+        return {issue: reason for half in halves if half for issue, reason in half.items()}
 
     def _text(self, changed: Mapping[str, bytes], path: str) -> Text:
         if path in changed:
