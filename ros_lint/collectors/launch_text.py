@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping
+from functools import lru_cache
 from itertools import islice, product
 from typing import NamedTuple
 
@@ -93,6 +94,13 @@ def configuration(name: str, default: str | None = None) -> str:
     """Return what stands for the value of a launch configuration; ``default`` is what it is when nobody set it."""
     inner = name if default is None else f"{name}{_DEFAULT}{default}"
     return f"{_CONFIGURATION[0]}{inner}{_CONFIGURATION[1]}"
+
+
+@lru_cache(maxsize=8_192)
+def named_in(text: str) -> tuple[str, ...] | None:
+    """Return the names of the launch configurations in a text, None where a name is computed."""
+    found = _NAME_OF_CONFIGURATION.findall(text)
+    return None if any(mark == _CONFIGURATION[0] for _, mark in found) else tuple([name for name, _ in found])
 
 
 def expression(text: str) -> str:

@@ -6,10 +6,20 @@ filled in. Conditions have three values: what is taken only perhaps is kept, and
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.collectors.launch_expression import evaluate, means_true
-from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, asked_for, configurations, fill, is_settled, joined
+from ros_lint.collectors.launch_text import (
+    OWN_FOLDER,
+    UNKNOWN,
+    asked_for,
+    configurations,
+    fill,
+    is_settled,
+    joined,
+    named_in,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -21,6 +31,7 @@ Texts = tuple[str, ...]
 
 _DEEPEST = 20
 _MOST = 5_000
+_MOST_ACTIONS = 100_000
 
 
 class Started(NamedTuple):
@@ -169,6 +180,7 @@ class _Run:
         self.refused: list[Refused] = []
         self.circles: list[Circle] = []
         self.complete = True
+        self._left = _MOST_ACTIONS
 
     def file(self, file: LaunchFile, given: dict[str, Texts]) -> None:
         folder = file.path.rpartition("/")[0]
@@ -181,7 +193,8 @@ class _Run:
         return scope
 
     def _action(self, action: LaunchAction, scope: _Scope) -> _Scope:
-        if len(self.started) > _MOST:
+        self._left -= 1
+        if len(self.started) > _MOST or self._left < 0:
             self.complete = False
             return scope
         truth, when = self._truth(action.conditions, scope)
@@ -284,9 +297,7 @@ class _Run:
             return scope
         self._open.append((path, dict(scope.values)))
         # What is included shares the configurations and the namespace, but not the place that it stands in.
-        after = self._actions(
-            file.actions, scope._replace(folder=(path.rpartition("/")[0],), include=action.span, container=())
-        )
+        after = self._actions(file.actions, scope._replace(folder=(path.rpartition("/")[0],), include=action.span, container=()))
         self._open.pop()
         return after
 
@@ -336,16 +347,27 @@ class _Run:
         return () if value is None else self._filled(value.texts, scope)
 
     def _filled(self, texts: Texts, scope: _Scope) -> Texts:
+        if len(texts) == 1 and is_settled(texts[0]) and OWN_FOLDER not in texts[0]:
+            return texts
         found: dict[str, None] = {}
         for text in texts:
             if is_settled(text) and OWN_FOLDER not in text:
                 found[text] = None
                 continue
-            for one in fill(text, lambda name: self._value(name, scope), evaluate):
-                found.update(dict.fromkeys(one.replace(OWN_FOLDER, folder) for folder in scope.folder))
+            for one in self._put(text, scope):
+                if OWN_FOLDER in one:
+                    found.update(dict.fromkeys([one.replace(OWN_FOLDER, folder) for folder in scope.folder]))
+                else:
+                    found[one] = None
                 if UNKNOWN in one:
                     self._unknown.update(dict.fromkeys(self._reasons(text, scope)))
         return tuple(found)
+
+    def _put(self, text: str, scope: _Scope) -> Texts:
+        names = named_in(text)
+        if names is None:
+            return fill(text, lambda name: self._value(name, scope), evaluate)
+        return _filled_with(text, names, tuple([self._value(name, scope) for name in names]))
 
     def _value(self, name: str, scope: _Scope) -> Texts | None:
         if not name.startswith("$"):
@@ -366,9 +388,7 @@ class _Run:
         if UNKNOWN in text:
             yield "it is computed in a way that cannot be followed"
 
-    def _truth(
-        self, conditions: Iterable[LaunchCondition], scope: _Scope
-    ) -> tuple[bool | None, tuple[LaunchCondition, ...]]:
+    def _truth(self, conditions: Iterable[LaunchCondition], scope: _Scope) -> tuple[bool | None, tuple[LaunchCondition, ...]]:
         """Return whether all conditions hold, and those of which that is not known."""
         open_: list[LaunchCondition] = []
         for condition in conditions:
@@ -394,6 +414,12 @@ class _Run:
             return None
         answer = answers.pop()
         return None if answer is None else answer is condition.wanted
+
+
+@lru_cache(maxsize=8_192)
+def _filled_with(text: str, names: Texts, values: tuple[Texts | None, ...]) -> Texts:
+    """Return what a text becomes with some values. A file that many include says the same many times over."""
+    return fill(text, dict(zip(names, values, strict=True)).get, evaluate)
 
 
 def _joined_namespaces(outer: Texts, inner: Texts) -> Texts:
