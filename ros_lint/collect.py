@@ -17,7 +17,7 @@ from ros_lint.suppress import Suppression
 from ros_lint.text import Text, read
 from ros_lint.tree import DiskTree, Tree
 
-Kind = Literal["manifest", "cpp", "python", "cmake", "interface", "xml", "yaml", "resource"]
+Kind = Literal["manifest", "cpp", "python", "cmake", "interface", "xml", "yaml", "resource", "java", "rust", "cargo", "matlab"]
 
 MOST_BYTES = 4 << 20
 """A larger file is not read: it is generated data, and no source."""
@@ -27,7 +27,7 @@ FAILED = "ros-lint failed on it ({}); please report this"
 _FILES_A_PROCESS = 500
 """Below this many files a further process costs more than it saves."""
 
-_SUFFIXES: dict[str, Kind] = {"py": "python", "cmake": "cmake"}
+_SUFFIXES: dict[str, Kind] = {"py": "python", "cmake": "cmake", "java": "java", "rs": "rust", "m": "matlab"}
 _SUFFIXES.update(dict.fromkeys(("c", "cc", "cpp", "cxx", "cu", "h", "hh", "hpp", "hxx", "inl", "ipp", "tpp", "cuh"), "cpp"))
 _SUFFIXES.update(dict.fromkeys(("msg", "srv", "action", "idl"), "interface"))
 _SUFFIXES.update(dict.fromkeys(("xml", "launch"), "xml"))
@@ -53,6 +53,8 @@ def kind_of(path: str) -> Kind | None:
         return "cmake"
     if name == "package.xml":
         return "manifest"  # discovery has read it; here for its comments
+    if name == "Cargo.toml":
+        return "cargo"
     stem, _, suffix = name.rpartition(".")
     if suffix in ("in", "em") and stem:  # configured by CMake, expanded by empy
         inner = _SUFFIXES.get(stem.rpartition(".")[2])
@@ -87,6 +89,10 @@ def collect(text: Text, kind: Kind) -> Collected:
         from ros_lint.collectors import interfaces  # noqa: PLC0415
 
         facts = interfaces.collect(text)
+    elif kind in ("java", "rust", "cargo", "matlab"):
+        from ros_lint.collectors.foreign import COLLECTORS  # noqa: PLC0415
+
+        facts = COLLECTORS[kind](text)
     elif launch is None and kind != "manifest":
         from ros_lint.collectors import resources  # noqa: PLC0415
 
