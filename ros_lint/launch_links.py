@@ -10,8 +10,6 @@ from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, configurations,
 from ros_lint.facts import LaunchAction, LaunchFile, LaunchValue
 from ros_lint.workspace import Package
 
-_DEEPEST = 20
-
 
 class Linked(NamedTuple):
     """A launch file of the workspace, where it is installed."""
@@ -33,6 +31,15 @@ class Takes(NamedTuple):
     """Whether every include could be followed, so that no other name can matter."""
 
 
+class _Own(NamedTuple):
+    """The same of one file, and the files that it includes."""
+
+    required: tuple[str, ...]
+    known: set[str]
+    complete: bool
+    includes: list[LaunchFile]
+
+
 class Links:
     """All launch files of a workspace by where they are installed."""
 
@@ -40,6 +47,7 @@ class Links:
         self._by_path: dict[tuple[str, str], list[Linked]] = {}
         self._places: dict[str, Linked] = {}
         self._takes: dict[str, Takes] = {}
+        self._owns: dict[str, _Own] = {}
         for package in packages:
             skip = len(package.path) + 1 if package.path else 0
             files = {file.path[skip:]: file for file in package.launch}
@@ -83,17 +91,32 @@ class Links:
         return found[0].file if len(found) == 1 else None
 
     def takes(self, file: LaunchFile) -> Takes:
-        """Return what a file does with launch configurations."""
-        return self._find(file, ())
-
-    def _find(self, file: LaunchFile, open_files: tuple[str, ...]) -> Takes:
+        """Return what a file does with launch configurations, and those that it includes, each read once."""
         done = self._takes.get(file.path)
         if done is not None:
             return done
-        if file.path in open_files or len(open_files) > _DEEPEST:
-            return Takes((), frozenset(), complete=False)
+        own = self._own(file)
+        known, complete = set(own.known), own.complete
+        seen = {file.path}
+        waiting = list(own.includes)
+        while waiting:
+            inner = waiting.pop()
+            if inner.path not in seen:
+                seen.add(inner.path)
+                found = self._own(inner)
+                known |= found.known
+                complete = complete and found.complete
+                waiting += found.includes
+        takes = self._takes[file.path] = Takes(own.required, frozenset(known), complete)
+        return takes
+
+    def _own(self, file: LaunchFile) -> _Own:
+        done = self._owns.get(file.path)
+        if done is not None:
+            return done
         known = set(file.asks)
         complete = not file.problems and not file.opaque and all(map(is_plain, file.asks))
+        includes: list[LaunchFile] = []
         for action in everything(file.actions):
             for value in values(action):
                 for text in value.texts:
@@ -106,14 +129,10 @@ class Links:
                 complete = complete and all(is_plain(text) for text in action.target.texts)
             if action.kind == "include":
                 inner = self.target(action.target, file)
-                takes = None if inner is None else self._find(inner.file, (*open_files, file.path))
-                known |= takes.known if takes is not None else set()
-                complete = complete and takes is not None and takes.complete
-        required = tuple(dict.fromkeys(_required(file.actions)))
-        found = Takes(required, frozenset(known), complete)
-        if not open_files:
-            self._takes[file.path] = found
-        return found
+                complete = complete and inner is not None
+                includes += [inner.file] if inner is not None else []
+        own = self._owns[file.path] = _Own(tuple(dict.fromkeys(_required(file.actions))), known, complete, includes)
+        return own
 
 
 def everything(actions: Iterable[LaunchAction]) -> Iterator[LaunchAction]:
