@@ -26,6 +26,10 @@ def names(text: str) -> dict[str, bool]:
         ('plugin: "nav2_smac_planner::SmacPlanner2D"', {"nav2_smac_planner": False}),
         ("<plugin>mock_components/GenericSystem</plugin>", {"mock_components": False}),
         ('<class type="a_plugins::Thing" base_class_type="nav2_core::Behavior">', {"a_plugins": False, "nav2_core": False}),
+        ('- ros_type_name: "std_msgs/msg/String"\n  gz_type_name: "gz.msgs.StringMsg"', {"std_msgs": False}),
+        ("  type: example_interfaces/msg/String", {"example_interfaces": False}),
+        ("-\n  ros1_package_name: 'a_msgs'\n  ros2_package_name: 'b_msgs'", {"b_msgs": False}),
+        ('<include ros_pkg="trees" path="grasp.xml"/>', {"trees": True}),
         ("frame: base_link\nrate: 10", {}),
         ("# plugin: a/B\nb: 1 # type: a/B\n", {}),
         ("<!-- package://gone/a.stl -->\n<a b='package://here/a.stl'/>", {"here": True}),
@@ -41,3 +45,19 @@ def test_each_package_once_and_the_certain_form_wins() -> None:
     source = Text("r", text)
     (mention,) = resources.collect(source).mentions
     assert (mention.name, mention.optional, mention.span.line) == ("tools", False, 2)
+
+
+def test_trees_that_are_included() -> None:
+    text = """<root BTCPP_format="4">
+  <include ros_pkg="trees" path="trees/grasp.xml"/>
+  <include
+    path="put.xml"
+    ros_pkg='more'/>
+  <include path="own.xml"/> <include path="/x/absolute.xml" ros_pkg="trees"/>
+  <!-- <include ros_pkg="trees" path="gone.xml"/> -->
+</root>
+"""
+    source = Text("tree.xml", text)
+    found = resources.collect(source).look_ups
+    assert [(each.package, each.path) for each in found] == [("trees", "trees/grasp.xml"), ("more", "put.xml")]
+    assert [source.slice(each.span) for each in found] == ["trees/grasp.xml", "put.xml"]

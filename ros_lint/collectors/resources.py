@@ -17,11 +17,22 @@ if TYPE_CHECKING:
     from ros_lint.text import Text
 
 _NAME = r"([A-Za-z][\w-]*)"
-# package://p/meshes/a.stl of descriptions, $(find p) of xacro, $(find-pkg-share p) of parameters: these are looked up.
-# Each pattern starts with fixed letters, which the search runs through at the speed of memory.
-_LOOK_UPS = tuple(map(re.compile, (rf"package://{_NAME}(?=/)", rf"\$\(find(?:-pkg-share|-pkg-prefix)?\s+{_NAME}\s*\)")))
+# package://p/meshes/a.stl of descriptions, $(find p) of xacro, $(find-pkg-share p) of parameters, <include ros_pkg="p"> of
+# behavior trees: these are looked up. Each pattern starts with fixed letters, which the search runs through at the speed of
+# memory.
+_LOOK_UPS = tuple(
+    map(
+        re.compile,
+        (
+            rf"package://{_NAME}(?=/)",
+            rf"\$\(find(?:-pkg-share|-pkg-prefix)?\s+{_NAME}\s*\)",
+            rf"""ros_pkg\s*=\s*["']{_NAME}["']""",
+        ),
+    )
+)
 # model://p/a.stl may be a package or a model, and a class is named after its package by habit only: Class: p/Name of
-# rviz and rqt, type: p/Name of controllers, plugin: "p::Name" of navigation, <plugin>p/Name</plugin>, type="p::Name".
+# rviz and rqt, type: p/Name of controllers, plugin: "p::Name" of navigation, <plugin>p/Name</plugin>, type="p::Name". A bridge
+# has messages of its own accord: ros_type_name: p/msg/Name of ros_gz_bridge, ros2_package_name: p of ros1_bridge.
 _CLASS = r"([a-z]\w*)(?:/|::)[A-Za-z]"
 _HABITS = tuple(
     map(
@@ -30,6 +41,8 @@ _HABITS = tuple(
             rf"model://{_NAME}(?=/)",
             rf"""Class["']?[ \t]*:[ \t]*["']?{_CLASS}""",
             rf"""ype["']?[ \t]*[:=][ \t]*["']?{_CLASS}""",
+            rf"""ros_type_name["']?[ \t]*:[ \t]*["']?{_CLASS}""",
+            rf"""ros2_package_name["']?[ \t]*:[ \t]*["']?{_NAME}""",
             rf"""plugin(?:_name)?["']?[ \t]*[:>]\s*["']?{_CLASS}""",
         ),
     )
@@ -70,6 +83,10 @@ def _packages(source: Text) -> FileFacts:
 # A path that goes on with a reference or a variable is none.
 _FILE = re.compile(rf"(?:package://{_NAME}|\$\(find(?:-pkg-share)?\s+{_NAME}\s*\))/([\w./+-]*[\w+-]\.\w+)(?![\w./${{(@%-])")
 
+# What a behavior tree includes from the share folder of a package (BehaviorTree.CPP, loadDocImpl).
+_TREE = re.compile(rf"""<include\s(?=[^<>]*\bros_pkg\s*=\s*["']{_NAME}["'])[^<>]*>""")
+_TREE_PATH = re.compile(r"""\spath\s*=\s*["'](\w[\w./+-]*\.\w+)["']""")
+
 
 def _files(source: Text) -> Iterator[LookUp]:
     """Yield the files that are looked up in packages, each once."""
@@ -78,8 +95,14 @@ def _files(source: Text) -> Iterator[LookUp]:
         key = (match[1] or match[2], match[3])
         if key not in places and not _in_comment(source.text, match.start()):
             places[key] = match.span()
-    spans = source.spans(places.values())
-    yield from (LookUp(package, path, span) for (package, path), span in zip(places, spans, strict=True))
+    for match in _TREE.finditer(source.text):
+        path = _TREE_PATH.search(match[0])
+        if path and not _in_comment(source.text, match.start()):
+            start = match.start()
+            places.setdefault((match[1], path[1]), (start + path.start(1), start + path.end(1)))
+    names = sorted(places, key=lambda name: places[name])
+    spans = source.spans([places[name] for name in names])
+    yield from (LookUp(package, path, span) for (package, path), span in zip(names, spans, strict=True))
 
 
 def _search(pattern: re.Pattern[str], text: str, found: dict[str, tuple[int, int]]) -> None:
