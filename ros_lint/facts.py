@@ -423,6 +423,8 @@ class Slot(NamedTuple):
     """How many elements there are."""
     variable: str = ""
     """A variable that holds the name of the package, if setup.py has one."""
+    glob: str = ""
+    """By which name setup.py calls glob.glob, "" if it does not import it."""
 
 
 class BuildScript(NamedTuple):

@@ -17,17 +17,22 @@ class Launchable(NamedTuple):
     path: str
     """Relative to the package."""
     installed: bool
+    apart: bool = False
+    """Whether it is a test, an example or a template."""
 
 
-def launchable(package: Package) -> Iterator[Launchable]:
-    """Yield the launch files that are there to be launched: no tests, examples or templates, no mere helpers."""
+def launchable(package: Package, *, apart: bool = False) -> Iterator[Launchable]:
+    """Yield the launch files that are there to be launched: no mere helpers, and tests and examples only if asked for."""
     script = package.script
     installed = {provided.source for provided in script.provides if provided.source} if script else set()
     modules = tuple(f"{module.replace('.', '/')}/" for module in script.python_packages) if script else ()
     for file in package.launch:
         path = file.path[len(package.path) + 1 :] if package.path else file.path
-        if not (file.test or file.helper or is_apart(path)):
-            yield Launchable(file, path, path in installed or path.startswith(modules))
+        if file.helper:
+            continue
+        aside = file.test or is_apart(path)
+        if apart or not aside:
+            yield Launchable(file, path, path in installed or path.startswith(modules), aside)
 
 
 class Programs(NamedTuple):

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import posixpath
+from collections.abc import Sequence
+
 from ros_lint.facts import BuildScript, Slot
 from ros_lint.rule import Edit
 
@@ -15,6 +18,28 @@ def add(place: Slot, element: str) -> Edit:
     """Add an element after the last one: on a line of its own if that has one, and with a comma if that has one."""
     gap = " " if place.indent is None else f"\n{place.indent}"
     return Edit(place.end, f"{gap}{element}," if place.comma else f",{gap}{element}")
+
+
+def files(place: Slot, package: str, paths: Sequence[str], others: Sequence[str]) -> str:
+    """Return an element of data_files that installs files of one folder under the same folder of the share directory.
+
+    They are globbed by their ending, if setup.py globs and no other file of the folder, among ``others``, has it.
+    """
+    folder = posixpath.dirname(paths[0])
+    target = joined(place, package, "share/", f"/{folder}" if folder else "")
+    ending = _ending(paths)
+    pattern = posixpath.join(folder, f"*{ending}")
+    alike = [other for other in others if posixpath.dirname(other) == folder and other.endswith(ending)]
+    if place.glob and ending and sorted(alike) == sorted(paths):
+        return f"({target}, {place.glob}('{pattern}'))"
+    return f"({target}, [{', '.join(repr(path) for path in paths)}])"
+
+
+def _ending(paths: Sequence[str]) -> str:
+    """Return what the names end with, from a dot on: as much as they share, "" if that is nothing."""
+    names = [posixpath.basename(path) for path in paths]
+    shared = posixpath.commonprefix([name[::-1] for name in names])[::-1] if len(names) > 1 else names[0][1:]
+    return shared[shared.find(".") :] if "." in shared else ""
 
 
 def joined(place: Slot, package: str, before: str, after: str = "") -> str:

@@ -33,7 +33,17 @@ def collect(source: Text, package: str) -> tuple[Slot, ...]:
     calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call) and _is_setup(node.func)]
     if len(calls) != 1:
         return ()
-    return tuple(_slot(source, option, found, name) for option, found in _lists(calls[0], variables))
+    glob = next((said for node in tree.body if (said := _glob(node))), "")
+    return tuple(_slot(source, option, found, name)._replace(glob=glob) for option, found in _lists(calls[0], variables))
+
+
+def _glob(node: ast.stmt) -> str:
+    """Return the name that an import gives to glob.glob, "" for any other statement."""
+    if isinstance(node, ast.Import):
+        return next((f"{alias.asname or 'glob'}.glob" for alias in node.names if alias.name == "glob"), "")
+    if isinstance(node, ast.ImportFrom) and node.module == "glob":
+        return next((alias.asname or "glob" for alias in node.names if alias.name == "glob"), "")
+    return ""
 
 
 def _is_setup(function: ast.expr) -> bool:

@@ -17,7 +17,7 @@ Correct the path; the message names files of the same name that the package does
 - The file is in the sources and not installed: that is `uninstalled-resource`.
 - A part of the package's build script that cannot be followed may install it.
 - Files that look as if something writes or downloads them: networks, records, images; folders. Maps, which people make
-  with the robot, have medium confidence.
+  with the robot, have medium confidence, and so have records beside which one of nearly the same name is installed.
 - For a released package: its launch files are not known whole; other files of it are not known at all.
 - The launch file asks first if the package is there.
 """
@@ -53,12 +53,13 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 wanted.setdefault((reference.package, reference.name), []).append(reference)
     for (owner, path), references in wanted.items():
         best, *others = sorted(references, key=lambda one: (one.by_default, one.kind != "include", one.span))
-        if best.kind == "file" and not path.endswith(_WRITTEN):
-            continue
         others_there = _files_without(owner, path, best.kind, workspace)
         if others_there is None:
             continue
-        sure = bool(workspace.by_name.get(owner)) or workspace.target.told
+        written = best.kind == "include" or path.endswith(_WRITTEN)
+        if not written and not _has_twin(path, others_there):
+            continue
+        sure = written and (bool(workspace.by_name.get(owner)) or workspace.target.told)
         yield Finding(
             f"{owner} has no {path}{_hint(path, others_there)}",
             best.span,
@@ -66,6 +67,14 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             tuple(Related("also named here", other.span) for other in others[:_MOST_RELATED]),
             confidence=Confidence.HIGH if sure and not best.by_default and not _is_made(path) else Confidence.MEDIUM,
         )
+
+
+def _has_twin(path: str, names: tuple[str, ...]) -> bool:
+    """Whether a file of nearly the same name, and of the same kind, is installed beside it."""
+    folder, _, base = path.rpartition("/")
+    suffix = base.rpartition(".")[2]
+    twins = [name.rpartition("/")[2] for name in names if name.rpartition("/")[0] == folder and name.endswith(f".{suffix}")]
+    return bool(difflib.get_close_matches(base, twins, 1, 0.8))
 
 
 def _is_made(path: str) -> bool:

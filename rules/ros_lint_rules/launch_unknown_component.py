@@ -61,7 +61,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         yield Finding(
             f"{owner} registers no component {name}{hint}",
             best.span,
-            name,
+            f"{owner}/{name}",
             tuple(Related("also loaded here", other.span) for other in others[:_MOST_RELATED]),
             _fix(meant, references),
             Confidence.HIGH if sure and not best.by_default else Confidence.MEDIUM,

@@ -19,7 +19,7 @@ Correct the name. The usual slips are the suffix (a console script is called `ta
 - A part of the package's build script that cannot be followed may make the executable.
 - For a released package: the sources of its release are not known whole. What is known of another distribution's
   release does not count.
-- Launch files of tests and examples.
+- In launch files of tests and examples, which may not run at all, the confidence is medium.
 """
 
 from __future__ import annotations
@@ -50,7 +50,10 @@ _MOST_RELATED = 4
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     wrong: dict[tuple[str, str], list[LaunchReference]] = {}
-    for launch in launchable(package):
+    apart: set[str] = set()
+    for launch in launchable(package, apart=True):
+        if launch.apart:
+            apart.add(launch.file.path)
         for reference in launch.file.references:
             if reference.kind == "node":
                 wrong.setdefault((reference.package, reference.name), []).append(reference)
@@ -60,7 +63,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         missing = _missing(owner, name, workspace)
         if missing is None:
             continue
-        best, *others = sorted(references, key=lambda reference: (reference.by_default, reference.span))
+        best, *others = sorted(references, key=lambda one: (one.span.path in apart, one.by_default, one.span))
         yield Finding(
             f"{owner} installs no executable {name}{missing.hint}",
             best.span,
@@ -70,7 +73,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 *(Related("also started here", reference.span) for reference in others[:_MOST_RELATED]),
             ),
             _fix(missing.meant, references),
-            Confidence.MEDIUM if best.by_default else missing.confidence,
+            Confidence.MEDIUM if best.by_default or best.span.path in apart else missing.confidence,
         )
 
 

@@ -22,7 +22,8 @@ elsewhere, check with the workspace that holds it as `--underlay`.
 - The name is that of a default which an argument can replace: then the confidence is medium.
 - The name is merely unknown, resembling no other: that may be a driver that its vendor does not release. Then the
   confidence is medium.
-- Launch files of tests and examples.
+- `package.xml` declares the name as well, and it is not clear what is meant: then `unknown-dependency` tells of it, once.
+- In launch files of tests and examples, which may not run at all, the confidence is medium.
 """
 
 from __future__ import annotations
@@ -50,18 +51,20 @@ _MOST_RELATED = 4
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if not workspace.world.knowledge.covered:
         return
+    apart = frozenset(launch.file.path for launch in launchable(package, apart=True) if launch.apart)
+    declared = frozenset(one.name for one in package.declared)
     for name, references in _unknown(package, workspace).items():
         verdict = _verdict(name, workspace)
-        if verdict is None:
+        if verdict is None or (name in declared and not verdict.meant):
             continue
-        best, *others = sorted(references, key=lambda reference: (reference.by_default, reference.span))
+        best, *others = sorted(references, key=lambda one: (one.span.path in apart, one.by_default, one.span))
         yield Finding(
             f"there is no package {name}{verdict.hint}",
             best.package_span,
             name,
             tuple(Related("also named here", other.package_span) for other in others[:_MOST_RELATED]),
             _fix(name, verdict.meant, references),
-            Confidence.MEDIUM if best.by_default else verdict.confidence,
+            Confidence.MEDIUM if best.by_default or best.span.path in apart else verdict.confidence,
         )
 
 
@@ -80,7 +83,7 @@ class _Verdict(NamedTuple):
 
 def _unknown(package: Package, workspace: Workspace) -> Mapping[str, list[LaunchReference]]:
     found: dict[str, list[LaunchReference]] = {}
-    for launch in launchable(package):
+    for launch in launchable(package, apart=True):
         for reference in launch.file.references:
             name = reference.package
             if not workspace.world.is_package(name) and name != package.name and not reference.optional:

@@ -13,7 +13,8 @@ sourced workspace of yesterday they may still find an old copy, and the change o
 
 In `CMakeLists.txt` add `install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})` before `ament_package()`; the fix
 does this. In `setup.py` add to `data_files`:
-`(os.path.join('share', package_name, 'launch'), glob('launch/*'))`.
+`(os.path.join('share', package_name, 'launch'), glob('launch/*.launch.py'))`; the fix does this, too, where `data_files` is
+written out.
 
 ## When it keeps silent
 
@@ -30,7 +31,20 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 
-from ros_lint.api import Edit, Facet, Finding, Fix, Package, Related, Rule, Severity, Span, Workspace, launchable
+from ros_lint.api import (
+    Edit,
+    Facet,
+    Finding,
+    Fix,
+    Package,
+    Related,
+    Rule,
+    Severity,
+    Span,
+    Workspace,
+    launchable,
+    setup_edits,
+)
 
 _MOST_RELATED = 4
 _SUFFIX = re.compile(r"(?:[._-]?launch\.(?:py|xml|ya?ml)|\.launch)$")
@@ -100,11 +114,15 @@ def _finding(package: Package, folder: str, paths: Iterable[str], whole: bool) -
         script.end or Span(script.path, 1, 1, 1, 1),
         folder or paths[0],
         tuple(Related("this launch file", Span(f"{base}{path}", 1, 1, 1, 1)) for path in paths[:_MOST_RELATED]),
-        _fix(script.end, folder, paths, whole),
+        _fix(package, folder, paths, whole),
     )
 
 
-def _fix(end: Span | None, folder: str, paths: Iterable[str], whole: bool) -> Fix | None:
+def _fix(package: Package, folder: str, paths: Iterable[str], whole: bool) -> Fix | None:
+    script = package.script
+    end = script.end if script else None
+    if script is not None and script.path.endswith("setup.py"):
+        return _fix_of_setup(package, folder, paths, whole)
     if end is None or not end.path.endswith("CMakeLists.txt"):
         return None
     if whole:
@@ -115,6 +133,21 @@ def _fix(end: Span | None, folder: str, paths: Iterable[str], whole: bool) -> Fi
     inner = folder.rpartition("/")[2] or "launch"
     line = f"install(FILES {names} DESTINATION share/${{PROJECT_NAME}}/{inner})"
     return Fix(f"install {names}", (Edit(end, f"{line}\n"),))
+
+
+def _fix_of_setup(package: Package, folder: str, paths: Iterable[str], whole: bool) -> Fix | None:
+    slot = setup_edits.slot(package.script, "data_files") if package.script else None
+    if slot is None:
+        return None
+    by_folder: dict[str, list[str]] = {}
+    for path in sorted(paths):
+        by_folder.setdefault(path.rpartition("/")[0], []).append(path)
+    if not all(by_folder):
+        return None  # beside setup.py itself
+    elements = [setup_edits.files(slot, package.name, inner, package.files) for inner in by_folder.values()]
+    gap = " " if slot.indent is None else f"\n{slot.indent}"
+    what = f"{folder}/" if whole else " ".join(sorted(paths))
+    return Fix(f"install {what}", (setup_edits.add(slot, f",{gap}".join(elements)),))
 
 
 RULE = Rule(
