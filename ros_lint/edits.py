@@ -7,7 +7,8 @@ import tempfile
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from ros_lint.rule import Edit, Fix
-from ros_lint.text import Text
+from ros_lint.text import Text, read
+from ros_lint.tree import Tree
 
 
 class EditError(Exception):
@@ -38,6 +39,14 @@ def apply(fixes: Iterable[Fix], texts: Callable[[str], Text]) -> dict[str, str]:
     return {path: _apply_to(texts(path), in_file) for path, in_file in sorted(edits.items())}
 
 
+def text_of(tree: Tree, path: str) -> Text:
+    """Return the text of a file to edit, the empty text for one that an edit creates. Raises OSError otherwise."""
+    try:
+        return read(path, tree.read(path))
+    except FileNotFoundError:
+        return Text(path, "")
+
+
 def encode(changed: Mapping[str, str], texts: Callable[[str], Text]) -> dict[str, bytes]:
     """Return the changed texts as bytes in each file's own encoding. Raises EditError."""
     result = {}
@@ -50,7 +59,10 @@ def encode(changed: Mapping[str, str], texts: Callable[[str], Text]) -> dict[str
 
 
 def write_all(base: str, changed: Mapping[str, bytes]) -> None:
-    """Replace files, each in one step. Raises EditError; when a file is seen to be read-only, nothing is written at all."""
+    """Replace or create files, each in one step.
+
+    Raises EditError; when a file is seen to be read-only, nothing is written at all.
+    """
     for path in changed:
         _ask(path, os.path.realpath(os.path.join(base, path)))
     for path, data in changed.items():
@@ -60,7 +72,7 @@ def write_all(base: str, changed: Mapping[str, bytes]) -> None:
 def _ask(path: str, target: str) -> None:
     # Asked of the permission bits and not of the system, which lets root write everywhere.
     try:
-        for place in (target, os.path.dirname(target)):
+        for place in (target, os.path.dirname(target)) if os.path.lexists(target) else (os.path.dirname(target),):
             if not os.stat(place).st_mode & 0o222:
                 raise EditError(f"{path}: cannot be written: it is read-only; nothing was changed")
     except OSError as error:
@@ -76,12 +88,15 @@ def _write(path: str, target: str, data: bytes) -> None:
             file.write(data)
             file.flush()
             os.fsync(file.fileno())
-        os.chmod(temporary, os.stat(target).st_mode & 0o7777)
+        os.chmod(temporary, os.stat(target).st_mode & 0o7777 if os.path.exists(target) else _NEW_MODE)
         os.replace(temporary, target)
     except OSError as error:
         if temporary and os.path.exists(temporary):
             os.unlink(temporary)
         raise EditError(f"{path}: cannot be written: {error.strerror or error}") from error
+
+
+_NEW_MODE = 0o644
 
 
 def _apply_to(source: Text, edits: Sequence[Edit]) -> str:

@@ -158,7 +158,7 @@ def _block(kind: str) -> re.Pattern[str]:
 def fixed(tree: Tree, issues: tuple[Issue, ...]) -> dict[str, str]:
     """Return the new text of every file that the fixes of the issues change, safe or not."""
     fixes = edits.choose(issue.finding.fix for issue in issues if issue.finding.fix)
-    return edits.apply(fixes, lambda path: _text(tree, path))
+    return edits.apply(fixes, lambda path: edits.text_of(tree, path))
 
 
 def _output(tree: Tree, issues: tuple[Issue, ...]) -> str:
@@ -168,7 +168,14 @@ def _output(tree: Tree, issues: tuple[Issue, ...]) -> str:
 
 
 def _diff(tree: Tree, changed: Mapping[str, str]) -> str:
-    return "".join(unified(path, _text(tree, path).text, after) for path, after in sorted(changed.items()))
+    return "".join(unified(path, _before(tree, path), after) for path, after in sorted(changed.items()))
+
+
+def _before(tree: Tree, path: str) -> str | None:
+    try:
+        return _text(tree, path).text
+    except FileNotFoundError:
+        return None
 
 
 def _text(tree: Tree, path: str) -> Text:

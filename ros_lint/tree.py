@@ -161,22 +161,35 @@ class MemoryTree:
 
 
 class OverlayTree:
-    """A tree in which some files have another content. No file comes and none goes."""
+    """A tree in which some files have another content, or come into being in a directory that is there. None goes."""
 
-    __slots__ = ("_below", "_changed")
+    __slots__ = ("_below", "_changed", "_names")
 
     def __init__(self, below: Tree, changed: Mapping[str, bytes]) -> None:
         self._below = below
         self._changed = changed
+        self._names: dict[str, list[str]] = {}
+        for file in changed:
+            directory, _, name = file.rpartition("/")
+            self._names.setdefault(directory, []).append(name)
 
     def list(self, path: str) -> list[Entry]:
-        return self._below.list(path)
+        entries = self._below.list(path)
+        if path not in self._names:
+            return entries
+        new = set(self._names[path]).difference(entry.name for entry in entries)
+        return sorted([*entries, *(Entry(name, "file") for name in new)], key=_NAME)
 
     def read(self, path: str) -> bytes:
         return self._changed[path] if path in self._changed else self._below.read(path)
 
     def stamp(self, path: str) -> Stamp:
-        return self._below.stamp(path)
+        try:
+            return self._below.stamp(path)
+        except FileNotFoundError:
+            if path not in self._changed:
+                raise
+            return Stamp(0, len(self._changed[path]), 0o644)
 
     def identity(self, path: str) -> str:
         return self._below.identity(path)

@@ -4,8 +4,10 @@ from pathlib import Path
 import pytest
 
 from ros_lint import edits
+from ros_lint.patch import unified
 from ros_lint.rule import Edit, Fix
-from ros_lint.text import Text
+from ros_lint.text import Span, Text
+from ros_lint.tree import DiskTree
 
 SOURCE = Text("f", "one\r\ntwo\nthree")
 
@@ -77,3 +79,12 @@ def test_a_disk_that_fails_leaves_the_file(tmp_path: Path, monkeypatch: pytest.M
         edits.write_all(str(tmp_path), {"a": b"new"})
     assert (tmp_path / "a").read_bytes() == b"old"
     assert os.listdir(tmp_path) == ["a"]
+
+
+def test_a_file_comes_into_being(tmp_path: Path) -> None:
+    text = edits.text_of(DiskTree(str(tmp_path)), "new")
+    changed = edits.apply([Fix("", (Edit(Span("new", 1, 1, 1, 1), "a\n"),))], lambda _: text)
+    edits.write_all(str(tmp_path), edits.encode(changed, lambda _: text))
+    assert (tmp_path / "new").read_bytes() == b"a\n"
+    assert (tmp_path / "new").stat().st_mode & 0o777 == 0o644
+    assert unified("new", None, "a\n") == "--- /dev/null\n+++ b/new\n@@ -0,0 +1 @@\n+a\n"

@@ -55,3 +55,12 @@ def test_an_overlay_changes_content_only() -> None:
     assert tree.read("b.txt") == b"new"
     assert tree.read("a/src/x.cpp") == b"\xff"
     assert tree.list("") == below.list("")
+
+
+def test_an_overlay_may_bring_files() -> None:
+    tree = OverlayTree(MemoryTree(FILES), {"a/new.txt": b"new"})
+    assert [entry.name for entry in tree.list("a")] == sorted(["new.txt", *(e.name for e in MemoryTree(FILES).list("a"))])
+    assert tree.read("a/new.txt") == b"new"
+    assert tree.stamp("a/new.txt").size == 3
+    with pytest.raises(FileNotFoundError):
+        tree.stamp("a/other.txt")

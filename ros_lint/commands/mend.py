@@ -89,7 +89,7 @@ def diff(opened: Opened, changed: Mapping[str, bytes]) -> str:
     parts = []
     for path, data in sorted(changed.items()):
         before = opened.loader.text(path)
-        parts.append(unified(path, before.text if before else "", read(path, data).text))
+        parts.append(unified(path, before.text if before else None, read(path, data).text))
     return "".join(parts)
 
 
@@ -154,4 +154,4 @@ class _Proof:
     def _text(self, changed: Mapping[str, bytes], path: str) -> Text:
         if path in changed:
             return read(path, changed[path])
-        return read(path, self._opened.loader.tree.read(path))
+        return edits.text_of(self._opened.loader.tree, path)

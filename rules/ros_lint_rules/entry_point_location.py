@@ -18,6 +18,8 @@ Write a `setup.cfg`:
     [install]
     install_scripts=$base/lib/<package>
 
+The fix does this where there is none.
+
 ## When it keeps silent
 
 For entry points whose module does not use rclpy, and that no launch file of the workspace starts.
@@ -27,7 +29,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Facet, Finding, Package, Related, Rule, Severity, Span, Workspace, relative
+from ros_lint.api import Edit, Facet, Finding, Fix, Package, Related, Rule, Severity, Span, Workspace, relative
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -58,7 +60,13 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         Span(config, 1, 1, 1, 1) if there else nodes[0].span,
         "setup.cfg",
         tuple(Related("this entry point", entry.span) for entry in nodes[0 if there else 1 :][:4]),
+        None if there else _fix(config, package.name),
     )
+
+
+def _fix(config: str, name: str) -> Fix:
+    text = f"[develop]\nscript_dir=$base/lib/{name}\n[install]\ninstall_scripts=$base/lib/{name}\n"
+    return Fix("add setup.cfg", (Edit(Span(config, 1, 1, 1, 1), text),))
 
 
 RULE = Rule(
@@ -68,5 +76,6 @@ RULE = Rule(
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,
+    fixable=True,
     package=check,
 )
