@@ -560,3 +560,6 @@ class LaunchFile(NamedTuple):
     looks for them."""
     asks: tuple[str, ...] = ()
     """Launch configurations that a Python launch file asks for, wherever they go, sorted; with UNKNOWN for any other."""
+    wants: tuple[str, ...] = ()
+    """What a Python launch file reads besides itself, and that was not at hand when it was followed: modules, dotted, and
+    files by their install path; sorted."""
