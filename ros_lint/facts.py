@@ -427,6 +427,16 @@ class Slot(NamedTuple):
     """By which name setup.py calls glob.glob, "" if it does not import it."""
 
 
+class WrittenText(NamedTuple):
+    """A place in ``setup.py`` that a fix can change a text at."""
+
+    kind: Literal["glob", "gap"]
+    """The pattern of a glob, or what it ends with; or where a comma between two texts is missing, most likely."""
+    text: str
+    span: Span
+    """Of the text without its quotes; of a gap, empty."""
+
+
 class BuildScript(NamedTuple):
     """What the build of a package does: evaluated from CMakeLists.txt and what it includes, or from setup.py and setup.cfg."""
 
@@ -466,6 +476,7 @@ class BuildScript(NamedTuple):
     """Scripts that it installs to lib/<package> or bin, and those that lie beside them or in folders for scripts."""
     inputs: tuple[str, ...] = ()
     """Resources that it does not install and that its CMake files name all the same: what it is built from."""
+    texts: tuple[WrittenText, ...] = ()
 
 
 # --- launch files --------------------------------------------------------------------------------------------------

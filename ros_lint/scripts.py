@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint import resource_files
 from ros_lint.collect import FAILED
-from ros_lint.collectors import cmake_calls, plugin_xml, python_names, setup_layout
+from ros_lint.collectors import cmake_calls, plugin_xml, python_names, setup_layout, setup_texts
 from ros_lint.collectors.cmake_syntax import Parsed, parse
 from ros_lint.discover import Found
 from ros_lint.facts import ANYTHING, BuildScript, Facet, Opaque, PythonModule, ScriptFile
@@ -148,7 +148,8 @@ def _python(tree: Tree, found: Found) -> BuildScript | None:
     setup, config, project = (_text(tree, found, file) for file in _PYTHON)
     script = setup_py.evaluate(found.name, found.path, found.files, setup, config, project, _Executables(tree, found))
     slots = setup_layout.collect(setup, found.name) if setup else ()
-    return script._replace(slots=slots, modules=tuple(_modules(tree, found, script)))
+    texts = setup_texts.collect(setup) if setup else ()
+    return script._replace(slots=slots, texts=texts, modules=tuple(_modules(tree, found, script)))
 
 
 def _modules(tree: Tree, found: Found, script: BuildScript) -> Iterator[PythonModule]:

@@ -10,7 +10,7 @@ Nothing is installed and nothing is said: `glob('launch/*.launch.py')` passes ov
 ## How to fix it
 
 Correct the pattern, or remove the entry. `glob(os.path.join('launch', '*launch.[pxy][yma]*'))` takes all launch files, those
-that are called `a.launch.py` as well as `a_launch.py`.
+that are called `a.launch.py` as well as `a_launch.py`; the fix writes this where launch files are passed over.
 
 ## When it keeps silent
 
@@ -22,7 +22,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ros_lint.api import Confidence, Finding, Package, Rule, Severity, Workspace
+from ros_lint.api import Confidence, Edit, Finding, Fix, Package, Rule, Severity, Workspace
 
 _PATTERN = re.compile(r"no file matches (.+), so nothing is installed to")
 
@@ -43,7 +43,33 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
                 match[1],
                 confidence=Confidence.HIGH if inside else Confidence.MEDIUM,
                 severity=None if inside else Severity.INFO,
+                fix=_fix(package, match[1]),
             )
+
+
+_LAUNCH = re.compile(r"launch\.(?:[pxy][yma]\w*)\Z")
+
+
+def _fix(package: Package, pattern: str) -> Fix | None:
+    """Write a pattern that takes the files of the folder: launch files of any name, or the other ending of YAML."""
+    script = package.script
+    folder, _, name = pattern.rpartition("/")
+    if script is None or not folder or _folder(pattern) != folder:
+        return None
+    names = [file.rpartition("/")[2] for file in package.files if file.rpartition("/")[0] == folder]
+    other = ""
+    if "launch" in name and any(_LAUNCH.search(file) for file in names):
+        other = "*launch.[pxy][yma]*"
+    elif name in _YAML and any(file.endswith(_YAML[name][1:]) for file in names):
+        other = _YAML[name]
+    places = [text for text in script.texts if text.kind == "glob" and pattern.endswith(text.text) and text.text.endswith(name)]
+    if not other or len(places) != 1:
+        return None
+    span = places[0].span
+    return Fix(f"write {folder}/{other}", (Edit(span._replace(column=span.end_column - len(name)), other),), safe=False)
+
+
+_YAML = {"*.yaml": "*.yml", "*.yml": "*.yaml"}
 
 
 def _folder(pattern: str) -> str:
@@ -60,5 +86,6 @@ RULE = Rule(
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,
+    fixable=True,
     package=check,
 )

@@ -12,7 +12,7 @@ glued entries neither is there.
 ## How to fix it
 
 Write `name = package.module:function` with names that exist. Where one module or function has nearly the same name, the
-message says so. The fix takes away the `()`.
+message says so. The fix takes away the `()`, and writes the missing comma.
 
 ## When it keeps silent
 
@@ -50,7 +50,9 @@ def _entry(package: Package, entry: EntryPoint) -> Iterator[Finding]:
     runs = entry.group in ("console_scripts", "gui_scripts")
     if _GLUED.search(entry.target):
         message = f"two entries are glued to one: {entry.name} = {entry.target}; is a comma missing between them?"
-        yield Finding(message, entry.span, entry.name)
+        gaps = [text.span for text in script.texts if text.kind == "gap" and _covers(entry.span, text.span)]
+        fix = Fix("write a comma between them", tuple(Edit(gap, ",") for gap in gaps)) if gaps else None
+        yield Finding(message, entry.span, entry.name, fix=fix)
         return
     if entry.target.rstrip().endswith("()"):
         message = f"the target of {entry.name} ends with (); write {entry.target.rstrip()[:-2]}"
@@ -80,6 +82,11 @@ def _entry(package: Package, entry: EntryPoint) -> Iterator[Finding]:
             entry.name,
             (Related("this module", Span(path, 1, 1, 1, 1)),),
         )
+
+
+def _covers(whole: Span, part: Span) -> bool:
+    """Return whether a place lies within another one of the same file."""
+    return whole.path == part.path and whole[1:3] <= part[1:3] and part[3:5] <= whole[3:5]
 
 
 def _is_submodule(package: Package, module: str, name: str) -> bool:
