@@ -436,3 +436,10 @@ def test_headers_of_ament_auto_package() -> None:
 def test_version_header() -> None:
     text = "ament_generate_version_header(a)\nament_generate_version_header(b HEADER_PATH b.h INSTALL_PATH include)\n"
     assert paths(run(text)) == {"include/pkg/pkg/version.h": False, "include/b.h": False}
+
+
+def test_words_of_install_targets_elsewhere() -> None:
+    text = "install(DIRECTORY launch ARCHIVE DESTINATION lib LIBRARY DESTINATION lib)\n"
+    (problem,) = run(text, ("launch/a.launch.py",)).problems
+    assert problem.message == "install(DIRECTORY) knows no ARCHIVE, that belongs to install(TARGETS)"
+    assert problem.span.column == len("install(DIRECTORY launch ") + 1

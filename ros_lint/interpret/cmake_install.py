@@ -27,6 +27,7 @@ _ARTIFACTS: Final = (
     "ARCHIVE", "LIBRARY", "RUNTIME", "OBJECTS", "FRAMEWORK", "BUNDLE", "PRIVATE_HEADER", "PUBLIC_HEADER", "RESOURCE",
     "INCLUDES", "CXX_MODULES_BMI",
 )  # fmt: skip
+_OF_TARGETS: Final = frozenset({"ARCHIVE", "LIBRARY", "RUNTIME"})
 _TARGET_WORDS: Final = {
     "EXPORT": 1, "DESTINATION": 1, "PERMISSIONS": -1, "CONFIGURATIONS": -1, "COMPONENT": 1, "NAMELINK_COMPONENT": 1,
     "OPTIONAL": 0, "EXCLUDE_FROM_ALL": 0, "NAMELINK_ONLY": 0, "NAMELINK_SKIP": 0, "RUNTIME_DEPENDENCIES": -1,
@@ -67,6 +68,9 @@ def _install(run: Run, args: list[str]) -> None:
     mode = args[0] if args else ""
     if args[1:2] and (args[1] == "DESTINATION" or (mode == "TARGETS" and args[1] in _ARTIFACTS)):
         return  # the list was empty, which CMake allows
+    if mode in ("FILES", "PROGRAMS", "DIRECTORY") and (strange := next((arg for arg in args if arg in _OF_TARGETS), "")):
+        run.problem("cmake-syntax", f"install({mode}) knows no {strange}, that belongs to install(TARGETS)", run.where(strange))
+        args = [arg for arg in args if arg not in _OF_TARGETS]
     if mode == "TARGETS":
         _install_targets(run, args[1:])
     elif mode in ("FILES", "PROGRAMS"):
