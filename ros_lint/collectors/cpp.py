@@ -9,13 +9,13 @@ from ros_lint.collectors.cpp_includes import Include, mentions
 from ros_lint.collectors.cpp_look_ups import look_ups
 from ros_lint.collectors.cpp_registrations import registrations
 from ros_lint.collectors.cpp_symbols import symbols
-from ros_lint.facts import Facet, FileFacts, Opaque
+from ros_lint.facts import Facet, FileFacts, Mention, Opaque
 
 if TYPE_CHECKING:
     from ros_lint.text import Text
 
 _LOADERS = ("pluginlib", "class_loader")
-_place = operator.attrgetter("span")
+_place = operator.itemgetter(Mention._fields.index("span"))
 
 
 def collect(source: Text) -> FileFacts:
@@ -31,7 +31,8 @@ def collect(source: Text) -> FileFacts:
     packages, files = look_ups(source, not known.isdisjoint(_LOADERS), code)
     packages += symbols(source, known, found)
     if packages:
-        included = sorted([*included, *packages], key=_place)
+        included += packages
+        included.sort(key=_place)
     opaque = _opaque(source, found.computed) if found.computed else ()
     return FileFacts(source.path, tuple(included), opaque, (), registrations(source, code), files)
 

@@ -21,6 +21,7 @@ _KIND = re.compile("::(?:msg|srv|action)::")
 _TYPE = re.compile(r"::(?:msg|srv|action)::\w+")
 _WORD = string.ascii_letters + string.digits + "_"
 _INSIDE = frozenset(_WORD)
+_make = tuple.__new__
 _LONGEST = 64
 """How many characters of a name are looked at."""
 
@@ -38,15 +39,15 @@ def symbols(source: Text, known: Collection[str], directives: Found) -> list[Men
         return []
     conditional = branches(text, directives.directives) if directives.directives else []
     found = sorted(place for name in names if name.islower() and (place := _first(text, name, directives.code, conditional)))
-    spans = source.spans([(start, end) for start, end, _ in found])
+    spans = source.spans([place[:2] for place in found])
     return [
-        Mention(text[start:end].partition("::")[0], "symbol", span, text[start:end], optional)
-        for (start, end, optional), span in zip(found, spans, strict=True)
+        _make(Mention, (package, "symbol", span, text[start:end], optional, False))
+        for (start, end, optional, package), span in zip(found, spans, strict=True)
     ]
 
 
-def _first(text: str, package: str, code: Sequence[int], conditional: Sequence[range]) -> tuple[int, int, bool] | None:
-    """Return start and end of the first type of a package in plain code, and whether it depends on the build.
+def _first(text: str, package: str, code: Sequence[int], conditional: Sequence[range]) -> tuple[int, int, bool, str] | None:
+    """Return start and end of the first type of a package in plain code, whether it depends on the build, and the package.
 
     Lines that may be comments, strings or directives are passed over: what a source needs it mostly names more than once.
     """
@@ -57,8 +58,8 @@ def _first(text: str, package: str, code: Sequence[int], conditional: Sequence[r
         name = _TYPE.match(text, start + len(package))
         if name and _is_code(text, start) and not in_doubt(text, start, code):
             if not conditional or not any(start in each for each in conditional):
-                return start, name.end(), False
-            optional = optional or (start, name.end(), True)
+                return start, name.end(), False, package
+            optional = optional or (start, name.end(), True, package)
         start = text.find(written, start + 1)
     return optional
 
