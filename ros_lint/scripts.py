@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Container, Iterator, Mapping, Sequence, Set
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence, Set
 from functools import partial
 from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple
@@ -207,12 +207,10 @@ def _named(tree: Tree, found: Found, missing: Mapping[str, Sequence[str]]) -> It
     for file in (file for files in missing.values() for file in files[:_MOST_RESOURCES]):
         folder, _, name = file.encode().rpartition(b"/")
         left[file] = folder.rpartition(b"/")[2], name
-    for file in filter(resource_files.may_name, found.files if left else ()):
-        path = join(found.path, file)
-        try:
-            data = tree.read(path)
-        except OSError:
-            continue
+    if any(map(_is_picture, left)):  # most pictures are there for the documentation
+        for _, page in _contents(tree, found, (file for file in found.files if file.endswith(".md"))):
+            left = {file: inner for file, inner in left.items() if not (_is_picture(file) and inner[1] in page)}
+    for file, data in _contents(tree, found, filter(resource_files.may_name, found.files if left else ())):
         folders = {folder for folder in {folder for folder, _ in left.values()} if folder in data}
         for resource, (folder, name) in list(left.items()) if folders else ():
             if folder not in folders or resource == file or name not in data:
@@ -221,8 +219,24 @@ def _named(tree: Tree, found: Found, missing: Mapping[str, Sequence[str]]) -> It
             if hit:
                 line = data.count(b"\n", 0, hit.start(1)) + 1
                 column = len(data[data.rfind(b"\n", 0, hit.start(1)) + 1 : hit.start(1)].decode("utf-8", "replace")) + 1
+                path = join(found.path, file)
                 yield resource, Span(path, line, column, line, column + len(resource.rpartition("/")[2]))
                 del left[resource]
+        if not left:
+            return
+
+
+def _contents(tree: Tree, found: Found, files: Iterable[str]) -> Iterator[tuple[str, bytes]]:
+    """Yield the files that can be read, with what they hold."""
+    for file in files:
+        try:
+            yield file, tree.read(join(found.path, file))
+        except OSError:
+            continue
+
+
+def _is_picture(file: str) -> bool:
+    return file.startswith(("images/", "media/")) and file.endswith((".png", ".jpg", ".jpeg"))
 
 
 def _programs(files: Sequence[str], folders: Container[str]) -> Iterator[str]:

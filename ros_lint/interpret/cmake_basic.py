@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 from typing import Final
 
 from ros_lint.collectors.cmake_syntax import parse
@@ -112,9 +113,14 @@ def _policy(run: Run, args: list[str]) -> None:
 
 
 def _policies(run: Run, wanted: str) -> None:
+    run.versions = _version(wanted) or run.versions
+
+
+@lru_cache(maxsize=256)
+def _version(wanted: str) -> tuple[int, int] | None:
+    """Return the version up to which policies are new, given ``3.5`` or ``3.5...3.20``."""
     match = re.match(r"(\d+)(?:\.(\d+))?", wanted.rpartition("...")[2])
-    if is_known(wanted) and match:
-        run.versions = (int(match[1]), int(match[2] or 0))
+    return (int(match[1]), int(match[2] or 0)) if is_known(wanted) and match else None
 
 
 def _project(run: Run, args: list[str]) -> None:

@@ -23,6 +23,7 @@ MOST_STEPS: Final = 50_000
 """Commands that one package may run. The largest real one runs some 3,000."""
 DEEPEST: Final = 60
 """Calls within calls. CMake allows 1,000; real packages need less than 20."""
+_OF_ROS: Final = frozenset({"ROS_DISTRO", "ROS_VERSION", "ROS_PYTHON_VERSION"})
 
 
 class InstalledTarget(NamedTuple):
@@ -132,7 +133,7 @@ class Run(State):
         self.settable: set[str] = set()
         """Variables that the user may set from outside: options and cache entries."""
         self.tested: set[str] = set()
-        """Variables of the form X_FOUND that a condition asks about."""
+        """Variables of the form X_FOUND or ENV{X} that a condition asks about, whether they are set."""
         self.literals: dict[str, tuple[str, Command, Argument]] = {}
         """Where list elements were written first."""
         self.places: dict[str, str] = {}
@@ -216,6 +217,8 @@ class Run(State):
         value = self.environment.get(name)
         if value is not None:
             return value
+        if name in _OF_ROS and self.frames[-1].own:
+            self._use_of_ros(name)
         match name:
             case "ROS_DISTRO":
                 return self.distro or HOLE
@@ -224,6 +227,12 @@ class Run(State):
             case "ROS_PYTHON_VERSION":
                 return "3"
         return HOLE
+
+    def _use_of_ros(self, name: str) -> None:
+        """Note a variable that is set where one package is installed, and nowhere else that can be relied on (F2)."""
+        command = self.frames[-1].command
+        if command is not None and command.name != "message":
+            self.mention("ros_environment", "package", self.here(), f"$ENV{{{name}}}", optional=f"ENV{{{name}}}" in self.tested)
 
     def is_soft(self, name: str) -> bool:
         """Return whether a user, another platform or another compiler may give a variable another value."""
@@ -285,7 +294,7 @@ class Run(State):
 
     # --- places
 
-    def where(self, value: str = "") -> Span:
+    def where(self, value: str) -> Span:
         """Return the place in the package's own files that best stands for a value of the current command.
 
         That is an argument that reads so, from the innermost call outwards, then a list element that reads so, then an
@@ -296,10 +305,7 @@ class Run(State):
             command = frame.command
             if not frame.own or command is None:
                 continue
-            if own is None:
-                own = frame
-                if not value:
-                    break
+            own = own or frame
             for argument in command.args:
                 if argument[0] == value and argument[1] < OPEN:
                     return _inside(frame.path, command, argument)
@@ -324,7 +330,10 @@ class Run(State):
 
     def here(self) -> Span:
         """Return the place of the current command in the package's own files."""
-        return self.where()
+        for frame in reversed(self.frames):
+            if frame.own and frame.command is not None:
+                return frame.command.place(frame.path)
+        raise AssertionError("no command of the package runs")
 
     def at_home(self) -> bool:
         """Return whether the current command stands in a file of the package."""
