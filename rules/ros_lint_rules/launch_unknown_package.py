@@ -22,7 +22,8 @@ elsewhere, check with the workspace that holds it as `--underlay`.
 - The name is that of a default which an argument can replace: then the confidence is medium.
 - The name is merely unknown, resembling no other: that may be a driver that its vendor does not release. Then the
   confidence is medium.
-- `package.xml` declares the name as well, and it is not clear what is meant: then `unknown-dependency` tells of it, once.
+- `package.xml` declares the name as well, and it resembles no other: then `unknown-dependency` or
+  `end-of-life-dependency` tells of it, once.
 - In launch files of tests and examples, which may not run at all, the confidence is medium.
 """
 
@@ -55,7 +56,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     declared = frozenset(one.name for one in package.declared)
     for name, references in _unknown(package, workspace).items():
         verdict = _verdict(name, workspace)
-        if verdict is None or (name in declared and not verdict.meant):
+        if verdict is None or (name in declared and not verdict.resembles):
             continue
         best, *others = sorted(references, key=lambda one: (one.span.path in apart, one.by_default, one.span))
         yield Finding(
@@ -79,6 +80,8 @@ class _Verdict(NamedTuple):
     hint: str
     confidence: Confidence
     meant: str = ""
+    resembles: bool = True
+    """Whether it is a slip, or was renamed, rather than a package that is nowhere to be had."""
 
 
 def _unknown(package: Package, workspace: Workspace) -> Mapping[str, list[LaunchReference]]:
@@ -104,13 +107,15 @@ def _verdict(name: str, workspace: Workspace) -> _Verdict | None:
     if elsewhere:
         if not workspace.target.told:
             return None
-        return _Verdict(f" in {distro}, only in {', '.join(elsewhere)} (data of {date})", Confidence.MEDIUM)
+        return _Verdict(f" in {distro}, only in {', '.join(elsewhere)} (data of {date})", Confidence.MEDIUM, resembles=False)
     ended = world.knowledge.names.end_of_life(name)
     if ended:
-        return _Verdict(f" in {distro}, only in {', '.join(ended)}, which are no longer supported", Confidence.MEDIUM)
+        hint = f" in {distro}, only in {', '.join(ended)}, which are no longer supported"
+        return _Verdict(hint, Confidence.MEDIUM, resembles=False)
     near = [other for other in world.suggest(name) if world.is_package(other)]
     hint = f"; did you mean {' or '.join(near)}?" if near else ""
-    return _Verdict(f" in the workspace, the underlays or {distro} (data of {date}){hint}", Confidence.MEDIUM)
+    nowhere = f" in the workspace, the underlays or {distro} (data of {date})"
+    return _Verdict(f"{nowhere}{hint}", Confidence.MEDIUM, resembles=bool(near))
 
 
 RULE = Rule(
