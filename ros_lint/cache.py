@@ -12,7 +12,7 @@ import os
 import pickle
 import sys
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from ros_lint import __version__
@@ -67,7 +67,9 @@ class Cache:
             handle, temporary = tempfile.mkstemp(dir=os.path.dirname(self._file))
             with os.fdopen(handle, "wb") as file:
                 file.write(_state().encode() + b"\n")
-                pickle.dump(self._kept, file, protocol=5)
+                pickler = pickle.Pickler(file, protocol=5)
+                pickler.dispatch_table = _reducers()
+                pickler.dump(self._kept)
             os.replace(temporary, self._file)
         except OSError:
             if temporary and os.path.exists(temporary):
@@ -90,6 +92,16 @@ def folder(environment: Mapping[str, str]) -> str:
     home = environment.get("HOME") or environment.get("USERPROFILE") or ""
     above = environment.get("XDG_CACHE_HOME") or (os.path.join(home, ".cache") if home else "")
     return os.path.join(above, "ros-lint") if os.path.isabs(above) else ""
+
+
+def _reducers() -> dict[type, Callable[[Any], tuple[type, tuple[Any, ...]]]]:
+    """Return how to take facts apart, which takes the pickler twice as long by itself."""
+    classes = [value for module in _MODULES if module in sys.modules for value in vars(sys.modules[module]).values()]
+    return {each: _parts for each in classes if isinstance(each, type) and issubclass(each, tuple)}
+
+
+def _parts(fact: tuple[Any, ...]) -> tuple[type, tuple[Any, ...]]:
+    return fact.__class__, tuple(fact)
 
 
 def _stamp(tree: Tree, path: str) -> Stamp | None:

@@ -52,7 +52,7 @@ def test_a_changed_file_is_read_again(tmp_path: Path) -> None:
     arguments = ("--format", "concise", "--select", "undeclared-dependency")
     assert b"sensor_msgs" in lint("ws", tmp_path, tmp_path, *arguments)
     source = tmp_path / "ws" / "src" / "rover_driver" / "src" / "driver_node.cpp"
-    source.write_text(source.read_text().replace("sensor_msgs/msg/joint_state.hpp", "nav_msgs/msg/odometry.hpp"))
+    source.write_text(source.read_text().replace("sensor_msgs", "nav_msgs"))
     again = lint("ws", tmp_path, tmp_path, *arguments)
     assert b"nav_msgs" in again
     assert b"sensor_msgs" not in again
