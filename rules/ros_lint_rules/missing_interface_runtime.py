@@ -47,6 +47,8 @@ from ros_lint.api import (
 
 _GROUP = "rosidl_interface_packages"
 _RUNTIME = "rosidl_default_runtime"
+_CORE = "rosidl_core_runtime"
+"""What the messages have that the default runtime itself depends on."""
 _GENERATE = "rosidl_generate_interfaces"
 _BUILT_IN = frozenset({"builtin_interfaces", "service_msgs", "action_msgs", "unique_identifier_msgs"})
 
@@ -86,7 +88,7 @@ def _join(manifest: Manifest) -> tuple[Edit, ...]:
 
 def _runtime(package: Package, workspace: Workspace, place: Span, sure: Confidence) -> Iterator[Finding]:
     starts = [each.name for each in package.declared if each.role & (Role.EXEC | Role.EXPORT)]
-    if _RUNTIME in starts:
+    if _RUNTIME in starts or _CORE in starts:
         return
     closure = workspace.world.closure(starts)
     along = _RUNTIME in closure or bool(closure.unknown)
