@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
-from ros_lint import conditions, evidence, scripts, source_lists
+from ros_lint import conditions, evidence, launch_around, scripts, source_lists
 from ros_lint.cache import Cache
 from ros_lint.collect import FAILED, Collected, collect_all, kind_of
 from ros_lint.declare import is_seen_whole, is_unseen_by_name
@@ -142,15 +142,28 @@ class Loader:
             for found, declared, files in zip(founds, declared_by, of_package, strict=True)
         ]
         built = scripts.evaluate(tree, parts, self.target.distro)
+        launch = launch_around.completed(
+            tree,
+            [
+                launch_around.Around(
+                    found.name,
+                    found.path,
+                    found.files,
+                    script,
+                    tuple([c.launch for c in files.values() if c.launch is not None]),
+                )
+                for found, script, files in zip(founds, built, of_package, strict=True)
+            ],
+        )
         return [
             _Read(
                 found,
                 declared,
                 script,
                 {file: c.facts for file, c in files.items() if c.facts is not None},
-                tuple([c.launch for c in files.values() if c.launch is not None]),
+                followed,
             )
-            for found, declared, script, files in zip(founds, declared_by, built, of_package, strict=True)
+            for found, declared, script, files, followed in zip(founds, declared_by, built, of_package, launch, strict=True)
         ]
 
     def _members(self, reads: Sequence[_Read], rejected: Sequence[Manifest]) -> Iterator[Member]:

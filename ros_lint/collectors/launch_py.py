@@ -64,6 +64,7 @@ def collect(
         tuple(reading.actions),
         tuple(_imports(source, tree)),
         reading.asks(),
+        tuple(sorted(reading.wants)),
     )
 
 
@@ -95,6 +96,10 @@ class _Reading:
         self._walker = walker(machine, self._source)
         self.actions: list[LaunchAction] = []
         self._blind: list[Opaque] = []
+
+    @property
+    def wants(self) -> set[str]:
+        return self._machine.wanted
 
     @property
     def problems(self) -> list[Problem]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ros_lint.collectors import launch_text
 from ros_lint.collectors.launch_py_call import Call, Rule, nothing, unknown, unknown_text
@@ -22,8 +22,11 @@ from ros_lint.collectors.launch_py_objects import (
     Value,
     plain,
 )
-from ros_lint.collectors.launch_py_operations import truth
+from ros_lint.collectors.launch_py_operations import each, truth
 from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN
+
+if TYPE_CHECKING:
+    from ros_lint.collectors.launch_py_run import Machine
 
 
 def _str(call: Call) -> Value:
@@ -201,21 +204,31 @@ def _getattr(call: Call) -> Value:
 
 def _open(call: Call) -> Value:
     found = call.texts(0, "file")
-    return call.machine.open_file(found[0], call.node) if len(found) == 1 else Unknown("a file")
+    return call.machine.open_file(found[0]) if len(found) == 1 else Unknown("a file")
 
 
 def _parsed(call: Call) -> Value:
-    content = plain(call.get(0, "stream", "s"))
-    if not isinstance(content, str) or not launch_text.is_plain(content):
-        call.machine.lose(content)
+    return each(call.get(0, "stream", "s"), partial(_content, call.machine))
+
+
+def _content(machine: Machine, text: Value) -> Value:
+    if not isinstance(text, str) or not launch_text.is_plain(text):
+        machine.lose(text)
+        return text if isinstance(text, Unknown) else Unknown("the content of a file")
+    machine.spend(len(text) // 50)
+    if text.count("<<") > _MOST_MERGES:
         return Unknown("the content of a file")
     import yaml  # noqa: PLC0415  (takes 20 ms to import)
 
     loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     try:
-        return yaml.load(content, Loader=loader)  # noqa: S506  (one of the two safe loaders)
+        return yaml.load(text, Loader=loader)  # noqa: S506  (one of the two safe loaders)
     except (yaml.YAMLError, ValueError, RecursionError):
         raise Raised from None
+
+
+_MOST_MERGES = 5
+"""Each can double what there was."""
 
 
 def _partial(call: Call) -> Value:

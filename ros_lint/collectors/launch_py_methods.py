@@ -48,7 +48,9 @@ def items(machine: Machine, value: Value) -> list[Value] | None:
         found: list[Value] = []
         for one in alternatives(value):
             inner = items(machine, one.value)
-            if inner is None:
+            if inner is None and isinstance(one.value, Unknown):
+                inner = [Unknown("element of what is not known")]
+            elif inner is None:
                 return None
             found += [Guarded(element, one.conditions or (PERHAPS,)) for element in inner]
         return found
@@ -164,6 +166,8 @@ def _of_text(
 ) -> Value:
     if name == "format":
         return _formatted(owner, arguments, keywords, node, frame)
+    if name == "read":
+        return owner  # a file that is open is its text
     if name == "join" and arguments:
         values = items(machine, arguments[0])
         if values is None:
@@ -332,5 +336,5 @@ def _call_of_path(
                 head, tail = posixpath.split(owner.text)
                 return FilePath(posixpath.join(head, given if name == "with_name" else tail.rpartition(".")[0] + given))
         case "open" | "read_text" | "read_bytes":
-            return machine.open_file(owner.text, node)
+            return machine.open_file(owner.text)
     return Unknown(f"{name}() of a path")

@@ -9,9 +9,11 @@ from __future__ import annotations
 
 import ast
 import posixpath
+import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 
+from ros_lint.collectors.launch_expression import evaluate
 from ros_lint.collectors.launch_py_builtins import BUILTINS
 from ros_lint.collectors.launch_py_eval import EVALUATE
 from ros_lint.collectors.launch_py_library import call_library, subscript_library
@@ -42,7 +44,7 @@ from ros_lint.collectors.launch_py_objects import (
 from ros_lint.collectors.launch_py_operations import negated, text_of
 from ros_lint.collectors.launch_py_statements import LEAVE, bind, execute
 from ros_lint.collectors.launch_py_texts import texts
-from ros_lint.collectors.launch_text import UNKNOWN, joined
+from ros_lint.collectors.launch_text import UNKNOWN, fill, is_settled, joined
 from ros_lint.facts import LaunchCondition
 from ros_lint.text import Text
 
@@ -50,6 +52,8 @@ STEPS = 150_000
 _STEPS_A_CALL = 60_000
 _DEEPEST_CALL = 40
 _MOST_TURNS = 2_000
+
+_NEVER_WANTED = sys.stdlib_module_names | {"launch", "launch_ros", "ament_index_python", "yaml", "xacro"}
 
 Modules = Callable[[str, Text], "Text | None"]
 """Finds the text of a module by its dotted name (dots in front for a relative one), for a module that imports it."""
@@ -72,6 +76,8 @@ class Machine:
         """Packages looked up at once, where, and under which conditions."""
         self.unbound: list[tuple[ast.expr, Source]] = []
         """Names that nothing binds."""
+        self.wanted: set[str] = set()
+        """Modules and files that are read and were not at hand."""
         self.named: dict[str, tuple[ast.expr, Source]] = {}
         """Where each package that is looked up is written first."""
 
@@ -144,6 +150,8 @@ class Machine:
         self._sources[key] = None  # while it is followed: modules may import each other
         text = self._modules(name, importer.text)
         if text is None:
+            if name.partition(".")[0] not in _NEVER_WANTED:
+                self.wanted.add(name)
             return None
         found = Source(text)
         try:
@@ -307,10 +315,28 @@ class Machine:
         found = joined(rows, lambda row: posixpath.join("", *row))
         return union(guarded_text(text, FilePath(text)) for text in found)
 
-    def open_file(self, path: str, node: ast.expr) -> Value:  # noqa: ARG002
+    def open_file(self, path: str) -> Value:
         """Return the text of a file of the workspace, or what stands for it."""
-        found = self._files(path)
-        return found if found is not None else Unknown(f"the content of {path.rpartition('/')[2] or 'a file'}")
+        unknown = Unknown(f"the content of {path.rpartition('/')[2] or 'a file'}")
+        paths = fill(path, self._defaults().get, evaluate)
+        if len(paths) != 1 or not is_settled(paths[0]):
+            return unknown
+        found = self._files(paths[0])
+        if found is None:
+            self.wanted.add(paths[0])
+            return unknown
+        # Who launches the file can name another one.
+        return found if paths[0] == path else union([Guarded(found, (PERHAPS,)), Guarded(unknown, (PERHAPS,))])
+
+    def _defaults(self) -> dict[str, tuple[str, ...]]:
+        """Return what is known so far of the values of launch configurations when nobody gives others."""
+        return {
+            str(name): texts(default)
+            for made in self.made
+            if made.name == "DeclareLaunchArgument"
+            if (default := made.get(1, "default_value")) is not None
+            for name in texts(made.get(0, "name"))
+        }
 
     def subscript_of_library(self, owner: Value, key: Value) -> Value:
         """Return an element of something that a library has."""

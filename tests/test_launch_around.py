@@ -1,0 +1,160 @@
+"""Launch files that read helper modules and files of the workspace are followed with these at hand."""
+
+from __future__ import annotations
+
+from ros_lint import launch_around
+from ros_lint.collectors import launch
+from ros_lint.facts import BuildScript, LaunchFile, Provided
+from ros_lint.text import Span, Text
+from ros_lint.tree import MemoryTree
+
+HELPER = """
+from launch_ros.actions import Node
+
+def start(name):
+    return Node(package="driver", executable=name)
+"""
+
+
+def _package(name: str, files: dict[str, str], provides: dict[str, str], modules: tuple[str, ...] = ()) -> launch_around.Around:
+    here = Span(f"{name}/CMakeLists.txt", 1, 1, 1, 1)
+    script = BuildScript(
+        f"{name}/CMakeLists.txt",
+        provides=tuple(Provided(path, source, False, False, here) for path, source in provides.items()),
+        python_packages=modules,
+    )
+    found = []
+    for path, text in files.items():
+        language = launch.is_launch_file(path, text)
+        if language:
+            found.append(launch.collect(Text(f"{name}/{path}", text), language))
+    return launch_around.Around(name, name, tuple(files), script, tuple(found))
+
+
+def _completed(*packages: tuple[launch_around.Around, dict[str, str]]) -> dict[str, LaunchFile]:
+    tree = MemoryTree({f"{package.name}/{path}": text for package, files in packages for path, text in files.items()})
+    done = launch_around.completed(tree, [package for package, _ in packages])
+    return {file.path: file for files in done for file in files}
+
+
+def _named(file: LaunchFile) -> set[tuple[str, str]]:
+    return {(reference.package, reference.name) for reference in file.references if reference.kind != "package"}
+
+
+def test_helper_module_of_the_same_package() -> None:
+    files = {
+        "app/helpers.py": HELPER,
+        "app/__init__.py": "",
+        "launch/a.launch.py": """
+from launch import LaunchDescription
+from app.helpers import start
+
+def generate_launch_description():
+    return LaunchDescription([start("camera")])
+""",
+    }
+    package = _package("app", files, {"share/app/launch/a.launch.py": "launch/a.launch.py"}, ("app", "app.helpers"))
+    (before,) = [file for file in package.launch if not file.helper]
+    assert before.opaque
+    assert before.wants == ("app.helpers", "app.helpers.start")
+    after = _completed((package, files))["app/launch/a.launch.py"]
+    assert not after.opaque
+    assert _named(after) == {("driver", "camera")}
+
+
+def test_what_a_module_of_another_package_starts_is_the_need_of_that_one() -> None:
+    library = {"tools/__init__.py": "", "tools/helpers.py": HELPER}
+    files = {
+        "launch/a.launch.py": """
+from launch import LaunchDescription
+from tools import helpers
+
+def generate_launch_description():
+    return LaunchDescription([helpers.start("camera")])
+""",
+    }
+    after = _completed(
+        (_package("tools", library, {}, ("tools", "tools.helpers")), library), (_package("app", files, {}), files)
+    )["app/launch/a.launch.py"]
+    assert not after.opaque
+    assert after.references == ()
+    assert [action.target and action.target.texts for action in after.actions] == [("camera",)]
+
+
+def test_sibling_by_changed_path() -> None:
+    files = {
+        "launch/common.py": HELPER,
+        "launch/a.launch.py": """
+import os, sys
+from launch import LaunchDescription
+sys.path.append(os.path.dirname(__file__))
+from common import start
+
+def generate_launch_description():
+    return LaunchDescription([start("camera")])
+""",
+    }
+    assert _named(_completed((_package("app", files, {}), files))["app/launch/a.launch.py"]) == {("driver", "camera")}
+
+
+def test_yaml_file_by_install_path() -> None:
+    files = {
+        "config/setup.yaml": "nodes: [left, right]\n",
+        "launch/a.launch.py": """
+import os, yaml
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+def generate_launch_description():
+    with open(os.path.join(get_package_share_directory("app"), "conf", "setup.yaml")) as file:
+        names = yaml.safe_load(file)["nodes"]
+    return LaunchDescription([Node(package="driver", executable=name) for name in names])
+""",
+    }
+    package = _package("app", files, {"share/app/conf/setup.yaml": "config/setup.yaml"})
+    after = _completed((package, files))["app/launch/a.launch.py"]
+    assert _named(after) == {("driver", "left"), ("driver", "right")}
+    assert not after.opaque
+
+
+def test_file_that_an_argument_names_is_only_the_default() -> None:
+    files = {
+        "config/setup.yaml": "executable: left\n",
+        "launch/a.launch.py": """
+import yaml
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, OpaqueFunction
+from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch_ros.actions import Node
+from launch_ros.substitutions import FindPackageShare
+
+def setup(context):
+    with open(LaunchConfiguration("file").perform(context)) as file:
+        name = yaml.safe_load(file)["executable"]
+    return [Node(package="driver", executable=name)]
+
+def generate_launch_description():
+    default = PathJoinSubstitution([FindPackageShare("app"), "config", "setup.yaml"])
+    return LaunchDescription([DeclareLaunchArgument("file", default_value=default), OpaqueFunction(function=setup)])
+""",
+    }
+    package = _package("app", files, {"share/app/config/setup.yaml": "config/setup.yaml"})
+    after = _completed((package, files))["app/launch/a.launch.py"]
+    nodes = [reference for reference in after.references if reference.kind == "node"]
+    assert [(node.name, node.conditional) for node in nodes] == [("left", True)]
+
+
+def test_files_that_are_clear_are_not_followed_again() -> None:
+    files = {
+        "launch/a.launch.py": """
+import rclpy
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+def generate_launch_description():
+    return LaunchDescription([Node(package="driver", executable="camera")])
+""",
+    }
+    package = _package("app", files, {})
+    assert launch_around.completed(MemoryTree({}), [package]) == [package.launch]
