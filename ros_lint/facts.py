@@ -475,7 +475,8 @@ class BuildScript(NamedTuple):
     files: tuple[ScriptFile, ...] = ()
     """Scripts that it installs to lib/<package> or bin, and those that lie beside them or in folders for scripts."""
     inputs: tuple[str, ...] = ()
-    """Resources that it does not install and that its CMake files name all the same: what it is built from."""
+    """Resources that it does not install and that its CMake files name all the same: what it is built from. Folders of
+    them end with a slash."""
     texts: tuple[WrittenText, ...] = ()
 
 

@@ -191,14 +191,15 @@ def _with_files(tree: Tree, parts: Parts, script: BuildScript) -> BuildScript:
 
 
 def _inputs(scripts: Mapping[str, Parsed], missing: Mapping[str, Sequence[str]]) -> Iterator[str]:
-    """Yield the resources whose folder or name a command of a CMake file has among its arguments, install() left out."""
+    """Yield the resources, and folders of them, that a command of a CMake file has among its arguments, install() left out."""
     if not missing:
         return
     commands = (command for parsed in scripts.values() for command in parsed.commands if command.name != "install")
     text = "\n".join([argument[0] for command in commands for argument in command.args])
     for folder, files in missing.items():
-        named = re.search(rf"(?<![\w.-]){re.escape(folder)}(?:/|$)", text, re.MULTILINE) is not None
-        yield from (file for file in files if named or file.rpartition("/")[2] in text)
+        if re.search(rf"(?<![\w.-]){re.escape(folder)}(?:/|$)", text, re.MULTILINE):
+            yield f"{folder}/"
+        yield from (file for file in files if file.rpartition("/")[2] in text)
 
 
 def _named(tree: Tree, found: Found, missing: Mapping[str, Sequence[str]]) -> Iterator[tuple[str, Span]]:

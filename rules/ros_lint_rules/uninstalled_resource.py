@@ -134,7 +134,7 @@ def _folders(package: Package, kept: set[str], told: set[str]) -> Iterator[Findi
             f"{folder}/",
             tuple(Related(f"{file.rpartition('/')[2]} is named here", places[file]) for file in looked_up[:4]),
             fix=_fix(package, f"{folder}/") if "/" not in folder else None,
-            confidence=_confidence(folder, files, looked_up, shared),
+            confidence=_confidence(folder, files, looked_up, shared and f"{folder}/" not in inputs),
             severity=Severity.WARNING,
         )
 
