@@ -29,7 +29,7 @@ def tag_for(package: Package, workspace: Workspace, name: str, role: Role) -> st
         return "run_depend" if form == 1 else habit
     if needed == Role.TOOL or (_has(needed, Role.BUILD) and _is_tool(workspace, name)):
         return "buildtool_depend"
-    return "build_depend" if form == 1 else "depend"
+    return "build_depend" if form == 1 or (needed == Role.BUILD and _is_only_for_building(workspace, name)) else "depend"
 
 
 def _always_depend(package: Package) -> bool:
@@ -131,6 +131,12 @@ def _is_tool(workspace: Workspace, name: str) -> bool:
     """Whether released packages mostly declare a name as a build tool."""
     declared = workspace.world.knowledge.index.declared_as(name)
     return 2 * sum(count for kinds, count in declared.items() if "t" in kinds) > sum(declared.values())
+
+
+def _is_only_for_building(workspace: Workspace, name: str) -> bool:
+    """Whether released packages mostly declare a name for building alone."""
+    declared = workspace.world.knowledge.index.declared_as(name)
+    return 2 * sum(count for kinds, count in declared.items() if set(kinds) <= {"b", "t"}) > sum(declared.values())
 
 
 def _is_run(workspace: Workspace, name: str) -> bool:

@@ -24,6 +24,7 @@ class Names(Protocol):
     """The look-ups of the world that evidence needs."""
 
     def by_cmake(self, name: str) -> Providers: ...
+    def by_macro(self, package: str) -> Providers: ...
     def by_include(self, header: str) -> Providers: ...
     def by_import(self, module: str) -> Providers: ...
     def is_package(self, name: str) -> bool: ...
@@ -79,7 +80,7 @@ class Resolver:
             "import": lambda name: _told(self.names.by_import(name)),
             "cmake": lambda name: _told(self.names.by_cmake(name)),
             "target": lambda name: _told(self.names.by_cmake(name.partition("::")[0])),
-            "macro": lambda name: _told(self.names.by_cmake(name.partition("::")[0])),
+            "macro": lambda name: _told(self.names.by_macro(name.partition("::")[0])),
             "interface": lambda name: self._package(name.partition("/")[0]),
             "package": self._package,
             "symbol": self._package,
@@ -188,7 +189,7 @@ class _Uses:
 
     def _is_own_module(self, name: str, path: str) -> bool:
         top = name.partition(".")[0]
-        return self._own.has_module(top) or (top in _BUILD_MODULES and path.endswith("setup.py"))
+        return self._own.has_module(top, path) or (top in _BUILD_MODULES and path.endswith("setup.py"))
 
 
 def _unspoken(source: Source, uses: _Uses) -> None:

@@ -6,7 +6,7 @@ By target membership first, by include from what is alive second, by folder name
 from __future__ import annotations
 
 import posixpath
-from collections.abc import Container, Iterable, Mapping
+from collections.abc import Collection, Container, Iterable, Mapping
 from functools import cached_property
 
 from ros_lint.facts import BuildScript, Facet, FileFacts, Role
@@ -38,7 +38,7 @@ class Liveness:
         files: Iterable[str],
         script: BuildScript | None,
         facts: Mapping[str, FileFacts],
-        launched: Container[str] = (),
+        launched: Collection[str] = (),
     ) -> None:
         self._name = name
         self._files = tuple(files)
@@ -81,12 +81,21 @@ class Liveness:
         if resource:
             return Role.EXEC, path in self._installed or not (self._sees_share or idle)
         if python:
-            return Role.EXEC, path in self._installed_python or not (self._sees_python or idle)
+            alive = path in self._installed_python or (path in self._installed and path in self._beside_launch_files)
+            return Role.EXEC, alive or not (self._sees_python or idle)
         return PRODUCTION, not (self._sees_targets or idle)
 
-    def has_module(self, module: str) -> bool:
-        """Whether an import can mean a file of the package."""
-        return module in self._modules
+    def has_module(self, module: str, importer: str) -> bool:
+        """Whether an import in a file can mean a file of the package.
+
+        What lies in a Python package is no module of its own, but for scripts beside it that are started where they are.
+        """
+        folders = self._modules.get(module, ())
+        if not folders:
+            return False
+        here, _, name = importer.rpartition("/")
+        beside = here in folders and name != f"{module}.py"
+        return beside or module in self._installed_modules or not folders <= self._python_packages
 
     def own_includes(self, path: str) -> Container[str]:
         """Return the headers that a file includes and that are of the package, generated ones included."""
@@ -136,14 +145,28 @@ class Liveness:
         return frozenset([name[:-3] for name in self._by_name if name.endswith((".in", ".em"))])
 
     @cached_property
-    def _modules(self) -> frozenset[str]:
-        found: set[str] = set()
+    def _modules(self) -> Mapping[str, set[str]]:
+        """Files and folders with Python code, by the name that an import would have, with the folders that they lie in."""
+        found: dict[str, set[str]] = {}
         for file in self._files:
             if file.endswith(".py"):
-                folder, _, name = file.rpartition("/")
-                found.add(name[:-3])
-                found.update(folder.split("/"))
-        return frozenset(found)
+                path = file[:-3]
+                while path:
+                    folder, _, name = path.rpartition("/")
+                    found.setdefault(name, set()).add(folder)
+                    path = folder
+        return found
+
+    @cached_property
+    def _python_packages(self) -> frozenset[str]:
+        """Folders that are Python packages. The top of a package is none, whatever lies there."""
+        found = {file.rpartition("/")[0] for file in self._files if file.endswith("__init__.py")}
+        return frozenset(found - {"", "src"})
+
+    @cached_property
+    def _installed_modules(self) -> frozenset[str]:
+        names = self._script.python_packages if self._script else ()
+        return frozenset([name.partition(".")[0] for name in names])
 
     @cached_property
     def _public(self) -> frozenset[str]:
@@ -165,6 +188,17 @@ class Liveness:
     @cached_property
     def _installed(self) -> frozenset[str]:
         return frozenset(p.source for p in self._script.provides if p.source) if self._script else frozenset()
+
+    @cached_property
+    def _beside_launch_files(self) -> frozenset[str]:
+        """What launch files may import from their own folder, having put it on the path."""
+        found = set()
+        for path in self._launched:
+            folder = path[: path.rfind("/") + 1]
+            for mention in self._facts[path].mentions if path in self._facts else ():
+                if mention.via == "import":
+                    found.add(f"{folder}{mention.name.partition('.')[0]}.py")
+        return frozenset(found)
 
     @cached_property
     def _installed_python(self) -> frozenset[str]:

@@ -5,7 +5,8 @@ The rules about dependencies share this, so that each need is judged once and na
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import re
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from ros_lint.facts import Role, Use, Via
@@ -22,7 +23,7 @@ class Need(NamedTuple):
     uses: tuple[Use, ...]
     """Where it is needed, the surest and most telling place first; never empty."""
     declared: tuple[str, ...]
-    """Those names that satisfy it and are declared, in whatever tag."""
+    """Those names that satisfy it and are declared, in whatever tag. What merely brings the best one is not among them."""
     brought: bool
     """Whether any name that satisfies it comes along with a declared dependency."""
 
@@ -52,7 +53,7 @@ def needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
 
     A package of ROS 1 (build type catkin) has its own ways to get what it needs, and none that are known here.
     """
-    if package.builds_with == "catkin":
+    if package.builds_with == "catkin" and not _is_ament(package):
         return ()
     found: dict[str, list[Use]] = {}
     for use in package.uses:
@@ -63,30 +64,46 @@ def needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
                 found[use.package] = [use]
     declared = frozenset([declared.depend.name for declared in package.declared])
     closure = all_declared(package, workspace)
-    result = [_need(name, uses, declared, closure) for name, uses in found.items()]
+    bring = workspace.world.closure
+    result = [need for name, uses in found.items() for need in _needs(name, uses, declared, closure, bring)]
     result.sort(key=_place)
     return tuple(result)
 
 
-def _need(name: str, uses: list[Use], declared: frozenset[str], closure: Closure) -> Need:
-    """Return what uses of a name amount to; they come sorted by place."""
+def _is_ament(package: Package) -> bool:
+    """Whether CMake takes a package for one of ROS 2, though its manifest says nothing of it."""
+    mentions = package.script.mentions if package.script else ()
+    return any(mention.via == "cmake" and mention.name.startswith("ament_cmake") for mention in mentions)
+
+
+def _needs(
+    name: str, uses: list[Use], declared: frozenset[str], closure: Closure, bring: Callable[[tuple[str, ...]], Closure]
+) -> Iterator[Need]:
+    """Yield what uses of a name amount to; they come sorted by place.
+
+    Each place has to be satisfied: Eigen3 of CMake by its find module, a header of Eigen by the library.
+    """
     if len(uses) > 1:
         uses.sort(key=_rank)
     answers = dict.fromkeys([use.providers for use in uses])
-    direct: list[str] = []
-    left = set()
-    for names in answers:
-        brought = False
-        for each in names:
-            brought = brought or each in closure
-            if each in declared and each not in direct:
-                direct.append(each)
-        if not brought:
-            left.add(names)
-    # Each place has to be satisfied: Eigen3 of CMake by its find module, a header of Eigen by the library.
-    if not left or not direct:
-        return Need(name, tuple(uses), tuple(direct), not left)
-    return Need(name, tuple([use for use in uses if use.providers in left]), (), False)
+    if answers.keys() == {(name,)}:  # nearly always
+        yield Need(name, tuple(uses), (name,) if name in declared else (), name in closure)
+        return
+    found = {names: [each for each in names if each in declared and _is_meant(each, names[0], bring)] for names in answers}
+    lacking = [names for names, direct in found.items() if not direct and not any(each in closure for each in names)]
+    brought = [names for names, direct in found.items() if not direct and names not in lacking]
+    if names := tuple(dict.fromkeys([each for direct in found.values() for each in direct])):
+        others = {*lacking, *brought}
+        yield Need(name, tuple([use for use in uses if use.providers not in others]), names, True)
+    if lacking:
+        yield Need(name, tuple([use for use in uses if not names or use.providers in lacking]), (), False)
+    elif brought:
+        yield Need(name, tuple([use for use in uses if use.providers in brought]), (), True)
+
+
+def _is_meant(name: str, best: str, bring: Callable[[tuple[str, ...]], Closure]) -> bool:
+    """Whether a name that will do is declared for itself, and does not merely bring the best one along."""
+    return name == best or best not in bring((name,))
 
 
 def _rank(use: Use) -> int:
@@ -134,20 +151,32 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
     """Return the needs that nothing declared brings along, and whether that is sure.
 
     What only launch files name, to start, include or look it up, is left out, unless these are tests: it has a rule of its
-    own.
+    own. Of what modules with parts of launch files name, nobody knows who takes it.
     """
     unknown = all_declared(package, workspace).unknown
     found = []
     for need in needs(package, workspace):
-        if need.declared or need.brought or only_launched(need.uses):
+        if need.declared or need.brought or only_launched(package, need.uses):
             continue
-        found.append((need, need.sure and not (unknown and may_bring(unknown, need.name, workspace))))
+        sure = need.sure and any(use.via != "launch" or use.role is _TEST for use in need.uses)
+        found.append((need, sure and not (unknown and _may_satisfy(unknown, need, workspace))))
     return tuple(found)
 
 
-def only_launched(uses: Sequence[Use]) -> bool:
-    """Whether only launch files name a package, and not for tests alone."""
-    return all(use.via == "launch" for use in uses) and any(use.role is not _TEST for use in uses)
+def _may_satisfy(unknown: Sequence[str], need: Need, workspace: Workspace) -> bool:
+    names = dict.fromkeys([name for use in need.uses for name in use.providers])
+    return any(may_bring(unknown, name, workspace) for name in names)
+
+
+def only_launched(package: Package, uses: Sequence[Use]) -> bool:
+    """Whether only launch files name a package, and not for tests alone.
+
+    Modules with parts of launch files, which others call, are code like any other.
+    """
+    if any(use.via != "launch" for use in uses) or all(use.role is _TEST for use in uses):
+        return False
+    helpers = {launch.path for launch in package.launch if launch.helper}
+    return not all(use.span.path in helpers for use in uses)
 
 
 _LAUNCH = frozenset({"launch", "launch_ros", "ament_index_python"})
@@ -164,21 +193,56 @@ def may_bring(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
     """Whether one of the declared names of which nothing is known could bring a package along.
 
     What comes from elsewhere needs none of this workspace: repositories do not need each other in a circle. A package of
-    messages brings messages, and build tools and linters come with others of their kind.
+    messages brings messages, and build tools and linters come with others of their kind. Of a library
+    nobody knows in which ways it comes. What hardly any package brings is not brought by one of which nothing is known but a
+    name that sounds quite different.
     """
     if name in workspace.by_name:
         return False
-    tool = name.startswith("ament_") and not name.startswith("ament_index")
+    tool = "cmake" in name or (name.startswith("ament_") and not name.startswith("ament_index"))
     released = workspace.world.released(name)
     messages = bool(released and released.interfaces)
+    strange = []
+    library = (workspace.world.is_key(name) and not name.startswith("python3-")) or name.endswith("_vendor")
     plumbing = name.startswith(("rosidl_", "builtin_", "action_msgs", "service_msgs", "unique_identifier_msgs"))
     for each in unknown:
         if _is_no_package(each, workspace) or (tool and not any(word in each for word in _OF_TOOLS)):
             continue
         if each.endswith(("_msgs", "_interfaces", "_srvs", "_msg")) and not (messages or plumbing):
             continue
-        return True
-    return False
+        if library:
+            return True
+        if workspace.world.knowledge.elsewhere(each):  # then it is known well enough, if the name is the same there
+            if workspace.world.knowledge.brings_elsewhere(each, name) is False:
+                continue
+            return True
+        strange.append(each)
+    return bool(strange) and (tool or not _is_far(strange, name, workspace))
+
+
+def _is_far(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
+    """Whether it would be a strange chance if one of the unknown names brought a package along.
+
+    Few released packages bring it, no other package of this workspace does, and its name has nothing in common with theirs.
+    """
+    words = _words(name)
+    if any(words & _words(each) for each in unknown):
+        return False
+    world = workspace.world
+    most = int(len(world.knowledge.index) * _CHANCE / len(unknown))
+    if most < 1 or world.knowledge.index.bringing(name, most) > most:
+        return False
+    return not any(name in world.closure((other,)) for other in workspace.by_name if other != name)
+
+
+_CHANCE = 0.02
+"""How likely it may be that one of the unknown names brings a package along, going by how many released packages do."""
+
+_EVERYDAY = frozenset({"ros", "ros2", "ament", "cmake", "python", "python3", "lib", "dev", "msgs", "common", "utils", "tools"})
+
+
+def _words(name: str) -> frozenset[str]:
+    return frozenset(re.split("[-_]", name)) - _EVERYDAY
 
 
 _OF_TOOLS = ("ament", "cmake", "lint", "common", "tools", "test")
@@ -192,4 +256,8 @@ def _is_no_package(name: str, workspace: Workspace) -> bool:
     gone = workspace.world.knowledge.names.end_of_life(name)
     if gone:
         return all(distro.startswith("ROS 1 ") for distro in gone)
-    return workspace.world.meant(name) is not None
+    world = workspace.world
+    if world.meant(name) is not None:
+        return True
+    # Of ament nearly everything is released, so what is near one of its names is a slip.
+    return name.startswith("ament_") and any(near.startswith("ament_") for near in world.suggest(name))

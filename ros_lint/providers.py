@@ -66,6 +66,12 @@ def by_cmake(world: World, name: str) -> Providers:
     return found if owners or found.names[0] == name else found._replace(sure=world.knowledge.names.cmake_sure(name))
 
 
+def by_macro(world: World, package: str) -> Providers:
+    """Return who provides the macros of a package."""
+    names = world.knowledge.names.alternatives(package)
+    return world.by_cmake(package) if len(names) == 1 else _of(world, names, keys=names)
+
+
 def by_include(world: World, header: str) -> Providers:
     """Return who provides a header."""
     names = world.knowledge.names

@@ -60,7 +60,7 @@ def _not_undeclared(package: Package, workspace: Workspace, name: str, uses: lis
     if all(brought):
         way = workspace.world.path(starts, brought[0])
         return f"silent, for it comes along: {' > '.join(way or (brought[0],))}; see transitive-dependency"
-    if only_launched(uses):
+    if only_launched(package, uses):
         return "silent, for only launch files name it; see launch-outside-closure"
     if not any(use.sure for use in uses):
         return "less than certain, for no use is sure; shown with --pedantic"

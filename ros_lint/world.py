@@ -213,6 +213,13 @@ class World:
             self._remembered[key] = providers.by_cmake(self, name)
         return self._remembered[key]
 
+    def by_macro(self, package: str) -> Providers:
+        """Return who provides the macros of a package: what a vendor package stands for has them, too."""
+        key = ("macro", package)
+        if key not in self._remembered:
+            self._remembered[key] = providers.by_macro(self, package)
+        return self._remembered[key]
+
     def by_include(self, header: str) -> Providers:
         """Return who provides a header, by its path as written between the brackets (reference, section E3.8).
 

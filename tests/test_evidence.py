@@ -133,3 +133,80 @@ def test_a_name_leaves_traces_in_many_spellings() -> None:
         "route": ("a.cpp", 2),
         "nav": ("c.yaml", 2),
     }
+
+
+def test_variables_of_ros_come_from_a_package() -> None:
+    lines = 'set(distro $ENV{ROS_DISTRO})\nmessage(STATUS "for $ENV{ROS_VERSION}")'
+    assert [(use.what, use.optional) for use in uses(load(cmake("talker", "", lines)), "ros_environment")] == [
+        ("$ENV{ROS_DISTRO}", False)
+    ]
+    guarded = load(cmake("talker", "", f"if(DEFINED ENV{{ROS_DISTRO}})\n{lines}\nendif()"))
+    assert all(use.optional for use in uses(guarded, "ros_environment"))
+
+
+def test_a_module_within_a_package_is_imported_by_its_full_name_only() -> None:
+    files = {
+        "talker/package.xml": HEAD.format(name="talker", depends="", kind="ament_python"),
+        "talker/setup.py": "from setuptools import setup\nsetup(name='talker', version='1.0.0', packages=['talker'])\n",
+        "talker/talker/__init__.py": "",
+        "talker/talker/controller_manager.py": "import controller_manager\nimport yaml\n",
+        "talker/talker/rclpy.py": "",
+        "talker/talker/main.py": "import rclpy\nimport controller_manager\n",
+    }
+    found = {(use.package, use.span.path.rpartition("/")[2]) for use in load(files).packages[0].uses}
+    assert ("controller_manager", "controller_manager.py") in found  # not itself
+    assert not {("controller_manager", "main.py"), ("rclpy", "main.py")} & found  # main.py may be started where it is
+
+
+def test_what_brings_the_best_is_no_answer_of_its_own() -> None:
+    lines = "find_package(cv_bridge REQUIRED)\nfind_package(OpenCV REQUIRED)"
+    workspace = load(cmake("talker", "<depend>cv_bridge</depend>", lines))
+    found = {need.name: (need.declared, need.brought) for need in needs(workspace.packages[0], workspace)}
+    assert found["cv_bridge"] == (("cv_bridge",), True)
+    assert found["libopencv-dev"] == ((), True)
+
+
+def test_each_place_of_a_need_is_answered_for_itself() -> None:
+    lines = "if(BUILD_TESTING)\nfind_package(ament_cmake_gtest REQUIRED)\nament_add_gtest(t test/t.cpp)\nendif()"
+    depends = "<depend>cv_bridge</depend><test_depend>gtest</test_depend>"
+    workspace = load(cmake("talker", depends, lines, test__t_dot_cpp="#include <gtest/gtest.h>\n"))
+    found = [need for need in needs(workspace.packages[0], workspace) if need.name == "ament_cmake_gtest"]
+    assert [(need.declared, sorted({use.via for use in need.uses})) for need in found] == [
+        ((), ["cmake", "macro"]),
+        (("gtest",), ["include"]),
+    ]
+
+
+def test_a_vendor_package_and_what_it_stands_for_have_the_same_macros() -> None:
+    lines = "find_package(pybind11 REQUIRED)\npybind11_add_module(talker src/talker.cpp)"
+    workspace = load(cmake("talker", "<depend>pybind11-dev</depend>", lines))
+    assert "pybind11_vendor" not in [need.name for need in needs(workspace.packages[0], workspace)]
+
+
+def test_what_hardly_anybody_brings_is_not_brought_by_a_stranger() -> None:
+    workspace = load(cmake("talker", "", "") | cmake("base", "<depend>octomap_server</depend>", ""))
+    assert not may_bring(("acme_arm",), "depthimage_to_laserscan", workspace)
+    assert may_bring(("acme_laserscan",), "depthimage_to_laserscan", workspace)  # the same family
+    assert may_bring(("acme_arm",), "octomap_server", workspace)  # others of the workspace bring it
+    assert may_bring(("acme_arm",), "rviz_common", workspace)  # many do
+    assert may_bring(("acme_arm",), "protobuf", workspace)  # libraries come in many ways
+    assert not may_bring(("acme_arm",), "python3-websockets", workspace)
+
+
+def test_what_another_distribution_has_is_known_from_there() -> None:
+    workspace = load(cmake("talker", "", ""), "lyrical")
+    assert workspace.world.standing("gazebo_ros") == "elsewhere"
+    assert may_bring(("gazebo_ros",), "rclpy", workspace)
+    assert not may_bring(("gazebo_ros",), "rviz_common", workspace)
+    assert may_bring(("gazebo_ros",), "gazebo", workspace)
+
+
+def test_modules_with_parts_of_launch_files_are_less_than_sure() -> None:
+    files = {
+        "talker/package.xml": HEAD.format(name="talker", depends="", kind="ament_python"),
+        "talker/setup.py": "from setuptools import setup\nsetup(name='talker', version='1.0.0', packages=['talker'])\n",
+        "talker/talker/__init__.py": "",
+        "talker/talker/nodes.py": "from launch_ros.actions import Node\nRVIZ = Node(package='rviz2', executable='rviz2')\n",
+    }
+    workspace = load(files)
+    assert [sure for need, sure in undeclared(workspace.packages[0], workspace) if need.name == "rviz2"] == [False]

@@ -609,3 +609,12 @@ def test_the_command_line_leads_to_the_command(tmp_path: Path) -> None:
     done = subprocess.run(words, capture_output=True, text=True, check=True)
     assert done.stdout.startswith(f"{to}/jazzy.idx: 9 lines")
     assert (tmp_path / "jazzy.idx").read_text().splitlines()[1:] == EXPECTED.splitlines()[1:]
+
+
+def test_what_brings_a_name_is_what_walks_to_it() -> None:
+    jazzy = index.load(Store(), "jazzy")
+    brought = {name: jazzy.brought(name) for name in jazzy.names()}
+    for name in ("rviz2", "octomap_server", "python3-yaml", "eigen", "rclcpp"):
+        having = sum(name in found for other, found in brought.items() if other != name)
+        assert jazzy.bringing(name, len(jazzy)) == having
+        assert jazzy.bringing(name, 3) > 3 or having <= 3

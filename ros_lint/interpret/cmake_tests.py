@@ -20,6 +20,7 @@ def _defined(run: Run, token: Token) -> Truth:
     if not is_known(name):
         return Truth(UNKNOWN)
     if name.startswith("ENV{") and name.endswith("}"):
+        run.tested.add(name)
         return Truth(TRUE if run.lookup(name[4:-1], "ENV") and is_known(run.lookup(name[4:-1], "ENV")) else UNKNOWN)
     if name.startswith("CACHE{") and name.endswith("}"):
         return Truth(TRUE if name[6:-1] in run.cache else UNKNOWN)

@@ -80,6 +80,7 @@ class Knowledge:
     def __init__(self, distro: str, places: Sequence[str] = ()) -> None:
         self.distro = distro
         self._store = Store(places)
+        self._elsewhere: dict[str, frozenset[str]] = {}
 
     @property
     def covered(self) -> bool:
@@ -117,6 +118,24 @@ class Knowledge:
     def elsewhere(self, name: str) -> tuple[str, ...]:
         """Return the other distributions that have a package, oldest first."""
         return tuple(other.distro for other in self.others if name in other)
+
+    def brings_elsewhere(self, package: str, name: str) -> bool | None:
+        """Return whether a name comes along with a package in any of the other distributions that have it.
+
+        None when none has it, or when the name means nothing there.
+        """
+        having = [other for other in self.others if package in other]
+        if not having or not any(name in other or other.declared_as(name) for other in having):
+            return None
+        if package not in self._elsewhere:
+            found = set().union(*(other.brought(package) for other in having))
+            queue = list(found)
+            for each in queue:  # a key brings keys
+                new = [key for key in self.names.brought(each) if key not in found]
+                found.update(new)
+                queue += new
+            self._elsewhere[package] = frozenset(found)
+        return name in self._elsewhere[package]
 
     @property
     def platform(self) -> str:

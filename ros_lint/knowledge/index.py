@@ -187,6 +187,36 @@ class Index:
                         found[name].append(kinds)
         return found
 
+    def bringing(self, name: str, most: int) -> int:
+        """Return how many packages bring a name along, at any distance; any number above ``most`` stands for more."""
+        found = {name}
+        queue = [name]
+        for each in queue:
+            new = [other for other in self._brought_by.get(each, ()) if other not in found]
+            found.update(new)
+            queue += new
+            if len(found) - 1 > most:
+                break
+        return len(found) - 1
+
+    @cached_property
+    def _brought_by(self) -> Mapping[str, list[str]]:
+        found: defaultdict[str, list[str]] = defaultdict(list)
+        for package in self.names():
+            for name in self.runtime(package) or ():
+                found[name].append(package)
+        return found
+
+    def brought(self, name: str) -> set[str]:
+        """Return all that comes along with a package, at any distance."""
+        found = {name}
+        queue = [name]
+        for each in queue:
+            new = [other for other in self.runtime(each) or () if other not in found]
+            found.update(new)
+            queue += new
+        return found
+
     def runtime(self, name: str) -> tuple[str, ...] | None:
         """Return what comes along with a package, without names of groups: None when that is not known.
 

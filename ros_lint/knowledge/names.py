@@ -54,6 +54,10 @@ class Names:
         found = (*self._cmake_ros.get(name, ()), *self._cmake_system.get(name, ()))
         return found or ((NOTHING_NEEDED,) if name in CMAKE_MODULES else ())
 
+    def alternatives(self, package: str) -> tuple[str, ...]:
+        """Return what provides the same to CMake as a package does, this included: a vendor package and the key it stands for."""
+        return self._alternatives.get(package, (package,))
+
     def cmake_sure(self, name: str) -> bool:
         """Return whether those that find a name also declare what :meth:`cmake` gives, as a rule."""
         return name not in self._doubted("cmake_system.tsv")
@@ -147,6 +151,15 @@ class Names:
     @cached_property
     def _cmake_system(self) -> Mapping[str, tuple[str, ...]]:
         return self._map("cmake_system.tsv")
+
+    @cached_property
+    def _alternatives(self) -> Mapping[str, tuple[str, ...]]:
+        found: dict[str, tuple[str, ...]] = {}
+        for names in self._cmake_system.values():
+            for name in names:
+                if name.endswith("_vendor"):
+                    found.setdefault(name, names)
+        return found
 
     @cached_property
     def _cmake_lower(self) -> Mapping[str, tuple[str, ...]]:

@@ -15,7 +15,8 @@ Add `find_package(package REQUIRED)`, before the first use.
 
 ## When it keeps silent
 
-- The package comes along with one that is found, for then it is found, too.
+- The package comes along with one that is found, for then it is found, too: then, and when nobody knows what comes along,
+  the confidence is medium.
 - The script cannot be followed everywhere, or the use hangs on a condition that cannot be decided.
 - The name belongs to no ROS package that is known.
 """
@@ -24,7 +25,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Facet, Finding, Package, Related, Rule, Severity, Workspace, come_along, found_names
+from ros_lint.api import Confidence, Facet, Finding, Package, Related, Rule, Severity, Workspace, come_along, found_names
 
 _MOST_RELATED = 4
 _NOT_SOUGHT = ("ament_export_dependencies", "plugins for ")
@@ -35,13 +36,14 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or script.problems or package.builds_with != "ament_cmake" or package.hidden(Facet.USES):
         return
-    have = come_along(workspace, found_names(package, script))
-    if have is None:
-        return
+    found = found_names(package, script)
+    along = come_along(workspace, found)
     missing: dict[str, list[tuple[str, Related]]] = {}
     for mention in script.mentions:
         name = mention.name.partition("::")[0]
-        if mention.via not in ("target", "macro") or mention.optional or name in have or name == package.name:
+        if mention.via not in ("target", "macro") or mention.optional or name in found or name == package.name:
+            continue
+        if mention.via == "macro" and (along is None or name in along):
             continue
         if mention.what.startswith(_NOT_SOUGHT) or not workspace.world.is_package(name):
             continue
@@ -49,11 +51,15 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         missing.setdefault(name, []).append((what, Related(f"also needed here: {what}", mention.span)))
     for name, places in missing.items():
         (what, first), *others = places
+        sure = along is not None and name not in along
+        where = "which nothing finds" if sure else "which comes along with what is found, if at all"
         yield Finding(
-            f"{what} needs {name}, which nothing finds: add find_package({name} REQUIRED) before",
+            f"{what} needs {name}, {where}: add find_package({name} REQUIRED) before",
             first.span,
             name,
             tuple(place for _, place in others[:_MOST_RELATED]),
+            confidence=Confidence.HIGH if sure else Confidence.MEDIUM,
+            severity=None if sure else Severity.INFO,
         )
 
 

@@ -1,8 +1,7 @@
 """
 ## What it finds
 
-A package whose headers or targets others can build against, and whose installed headers include another package that
-`ament_export_dependencies()` does not name.
+Installed headers that include another package which `ament_export_dependencies()` does not name.
 
 ## Why it matters
 
@@ -15,8 +14,9 @@ Add `ament_export_dependencies(other)` before `ament_package()`.
 
 ## When it keeps silent
 
-- The package exports nothing for others to build with, or `ament_auto_package()` does the exporting.
-- The other package comes along with one that is exported: then the confidence is medium.
+- `ament_auto_package()` does the exporting.
+- The package exports nothing at all, so that its headers may be there for itself: then the confidence is medium.
+- The other package comes along with one that is exported: then, too, the confidence is medium.
 - The header is not installed, or perhaps not, or the script cannot be followed everywhere.
 - The script does not find the other package: that is another mistake.
 """
@@ -53,8 +53,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     if package.hidden(Facet.USES | Facet.LIBRARIES) or _EXPORTS_ALL.intersection(script.calls):
         return
-    if not any(call in script.calls for call in _EXPORTS):
-        return
+    exports = any(call in script.calls for call in _EXPORTS)
     exported = {mention.name for mention in given_to(script, "ament_export_dependencies")}
     along = come_along(workspace, exported) or frozenset(exported)
     finds = found_names(package, script)
@@ -68,7 +67,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             name,
             tuple(Related(f"also included here: {use.what}", use.span) for use in others[:_MOST_RELATED]),
             None,
-            Confidence.MEDIUM if name in along else Confidence.HIGH,
+            Confidence.MEDIUM if name in along or not exports else Confidence.HIGH,
         )
 
 

@@ -18,9 +18,10 @@ is not released, put its sources into the workspace, or name the prefix it is in
 ## When it keeps silent
 
 For tags under a condition that is false or cannot be evaluated, for packages of ROS 1 (build type catkin), and when there
-is no index of the distribution. Unless the name is clearly a slip the confidence is medium, so that the finding shows with
-`--pedantic` only: packages that are not released anywhere cannot be told from those that do not exist. So it is for the
-names of libraries when a `.repos` file or `.gitmodules` says that sources of the workspace are elsewhere.
+is no index of the distribution. Unless the name is clearly a slip, or one that no package has (REP 144: no dashes, no
+capitals), the confidence is medium, so that the finding shows with `--pedantic` only: packages that are not released
+anywhere cannot be told from those that do not exist. So it is for the names of libraries when a `.repos` file or
+`.gitmodules` says that sources of the workspace are elsewhere.
 """
 
 from __future__ import annotations
@@ -101,7 +102,8 @@ def _unknown(stranger: Stranger, workspace: Workspace) -> Finding:
 
 def _confidence(stranger: Stranger, by: str, workspace: Workspace) -> Confidence:
     if not by:
-        return Confidence.MEDIUM
+        # Packages are called otherwise (REP 144), and rosdep knows its keys.
+        return Confidence.MEDIUM if _MAY_BE_A_PACKAGE.fullmatch(stranger.name) else Confidence.HIGH
     # A library may be wrapped in a package of its own name whose sources come with another repository.
     elsewhere = bool(workspace.source_lists) and by in _CALLED_SO_BY
     return Confidence.MEDIUM if elsewhere and _MAY_BE_A_PACKAGE.fullmatch(stranger.name) else Confidence.HIGH

@@ -3,7 +3,7 @@
 
 A dependency that is declared, but in a tag that does not reach where it is used: `<test_depend>` for what is built or
 runs outside tests, `<exec_depend>` for what is compiled against, `<build_depend>` for what is imported, launched or
-looked up at run time, or for what public headers include.
+looked up at run time, or for what public headers include and `ament_export_dependencies` names.
 
 ## Why it matters
 
@@ -22,6 +22,8 @@ Use the tag that the message names. The fix does this.
 - Only launch files name it, for what they start, include or look up: see `launch-outside-closure`.
 - Launch files import what comes with `ros2 launch`, and what packages of tests declare serves tests anyhow.
 - A tag has a condition, or a declared dependency is itself not known, so that the package might come with it.
+- With both `<build_depend>` and `<exec_depend>` the confidence is medium: what is installed is then there to build against,
+  too, but REP 149 wants `<build_export_depend>`. So it is for rosdep keys that only headers ask for.
 - Only ROS packages count for run time: a rosdep key for building may have another one for running, and build tools and
   vendor packages have nothing to run.
 """
@@ -30,8 +32,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 from ros_lint.api import (
+    Confidence,
     Declared,
     Finding,
     Fix,
@@ -56,7 +60,7 @@ _MOST_RELATED = 4
 _TESTS = re.compile(r"(^|_)(tests?|testing)(_|$)")
 _BUILT = ("include", "cmake", "interface", "symbol", "macro", "target")
 _RUN = ("import", "package")
-_SEEN = ("include", "interface", "symbol")
+_EXPORTED = ("include", "interface", "target")
 _ASKED = (Role.BUILD, Role.EXEC, Role.EXPORT)
 _TEST = Role.TEST
 _TO_BUILD = Role.BUILD | Role.TOOL
@@ -83,8 +87,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         lacking = _lacks(package, workspace, need, tags)
         if lacking is None:
             continue
-        role, why = lacking
-        uses = [use for use in need.uses if use.sure and _is_about(use, role)]
+        uses = [use for use in need.uses if use.sure and _is_about(use, lacking.role)]
         name = next((name for name in uses[0].providers if name in need.declared), need.declared[0])
         if name in said or name in unguarded:
             continue  # unguarded-test tells where to put it
@@ -93,12 +96,21 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         tag = tag_for(package, workspace, name, need.role | (_given(tags, name) & ~_TEST))
         written = " and ".join(dict.fromkeys(f"<{depend.tag}>" for depend in mine))
         yield Finding(
-            f"{name} is declared as {written} only, {why}: make it <{tag}>{name}</{tag}>",
+            f"{name} is declared as {written} only, {lacking.why}: make it <{tag}>{name}</{tag}>",
             mine[0].span,
             name,
             tuple(Related(f"used here: {use.what}", use.span) for use in uses[:_MOST_RELATED]),
             Fix(f"declare {name} as <{tag}>", change_dependency(package, mine, tag)),
+            lacking.confidence,
         )
+
+
+class _Lack(NamedTuple):
+    """What tags do not give."""
+
+    role: Role
+    why: str
+    confidence: Confidence = Confidence.HIGH
 
 
 def _given(tags: Sequence[Declared], name: str = "") -> Role:
@@ -110,7 +122,7 @@ def _given(tags: Sequence[Declared], name: str = "") -> Role:
     return role
 
 
-def _lacks(package: Package, workspace: Workspace, need: Need, tags: Sequence[Declared]) -> tuple[Role, str] | None:
+def _lacks(package: Package, workspace: Workspace, need: Need, tags: Sequence[Declared]) -> _Lack | None:
     """Return the first thing that the tags of a need do not give, and no other dependency either."""
     given = _given(tags)
 
@@ -125,15 +137,22 @@ def _lacks(package: Package, workspace: Workspace, need: Need, tags: Sequence[De
 
     if given is _TEST:
         role = next((role for role in _ASKED if asked(role)), None)
-        return None if role is None or comes_along(~_TEST) else (role, "but it is used outside tests")
+        return None if role is None or comes_along(~_TEST) else _Lack(role, "but it is used outside tests")
     if not given & _TEST and missing(Role.BUILD, _TO_BUILD):
-        return Role.BUILD, "but it is needed to build this package"
-    if any(is_unseen_by_name(workspace.world, name) for name in need.declared):
+        return _Lack(Role.BUILD, "but it is needed to build this package")
+    world = workspace.world
+    packages = [name for name in need.declared if world.is_package(name)]
+    if any(is_unseen_by_name(world, name) for name in packages):
         return None
-    if missing(Role.EXEC, _AFTERWARDS):
-        return Role.EXEC, "but it is needed at run time"
+    if packages and missing(Role.EXEC, _AFTERWARDS):
+        return _Lack(Role.EXEC, "but it is needed at run time")
     if missing(Role.EXPORT, _AFTERWARDS):
-        return Role.EXPORT, "but public headers include it, and whoever includes these needs it"
+        # A library that many have declared elsewhere is missed by few.
+        sure = bool(packages) or any(use.via == "target" for use in need.uses if _is_about(use, Role.EXPORT))
+        why = "but it is part of what this package exports, and whoever builds against that needs it"
+        return _Lack(Role.EXPORT, why, Confidence.HIGH if sure else Confidence.MEDIUM)
+    if missing(Role.EXPORT, Role.EXPORT):
+        return _Lack(Role.EXPORT, "but whoever builds against this package needs it, too", Confidence.MEDIUM)
     return None
 
 
@@ -142,7 +161,7 @@ def _is_about(use: Use, role: Role) -> bool:
         return use.via in _BUILT and bool(use.role & _TO_BUILD)
     if role is Role.EXEC:
         return use.via in _RUN and bool(use.role & Role.EXEC)
-    return use.via in _SEEN and bool(use.role & Role.EXPORT)
+    return use.via in _EXPORTED and bool(use.role & Role.EXPORT)
 
 
 RULE = Rule(
