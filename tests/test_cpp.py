@@ -287,6 +287,7 @@ def test_computed_include_is_opaque() -> None:
         ('// a_b::msg::C\n/* a_b::msg::C */ /*\na_b::msg::C */ x = "a_b::msg::C";\nR"(\na_b::msg::C)";', []),
         ("// a_b::msg::C\nvoid f(a_b::msg::C c);", [("a_b", "a_b::msg::C", False)]),
         ("#define M a_b::msg::C\nnamespace a_b::msg::d {\n}", []),
+        ("#define M \\\n  a_b::msg::C\n\na_b::msg::D d;", [("a_b", "a_b::msg::D", False)]),
         ("#ifdef X\na_b::msg::C c;\n#endif\n", [("a_b", "a_b::msg::C", True)]),
         ("#ifdef X\na_b::msg::C c;\n#else\na_b::msg::D d;\n#endif\n", [("a_b", "a_b::msg::C", True)]),
         ("#ifdef X\na_b::msg::C c;\n#endif\na_b::msg::D d;\n", [("a_b", "a_b::msg::D", False)]),

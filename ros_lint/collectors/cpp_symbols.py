@@ -66,8 +66,9 @@ def _first(text: str, package: str, code: Sequence[int], conditional: Sequence[r
 
 def _is_code(text: str, at: int) -> bool:
     """Return whether a qualified name may begin at an offset, going by what stands before it in its line."""
-    before = text[text.rfind("\n", 0, at) + 1 : at].removesuffix("::")  # of no namespace: ::pkg::msg::Type
-    if before[-1:] in _INSIDE or before.count('"') % 2:
+    line = text.rfind("\n", 0, at) + 1
+    before = text[line:at].removesuffix("::")  # of no namespace: ::pkg::msg::Type
+    if before[-1:] in _INSIDE or before.count('"') % 2 or text[max(line - 3, 0) : line].rstrip("\r\n")[-1:] == "\\":
         return False
     bare = before.strip()
     return not bare or (bare[0] != "#" and not bare.endswith("namespace"))
