@@ -15,7 +15,7 @@ from ros_lint.build_scripts import (
     unguarded_tests,
 )
 from ros_lint.cmake_finds import come_along, found_names, given_to
-from ros_lint.collectors.launch_text import is_plain
+from ros_lint.collectors.launch_text import agree, is_plain
 from ros_lint.declare import (
     add_dependency,
     builds_something,
@@ -38,6 +38,7 @@ from ros_lint.facts import (
     EntryPoint,
     Facet,
     LaunchAction,
+    LaunchCondition,
     LaunchFile,
     LaunchReference,
     LaunchValue,
@@ -95,6 +96,7 @@ __all__ = [
     "Graph",
     "Knot",
     "LaunchAction",
+    "LaunchCondition",
     "LaunchFile",
     "LaunchReference",
     "LaunchValue",
@@ -128,6 +130,7 @@ __all__ = [
     "Use",
     "Workspace",
     "add_dependency",
+    "agree",
     "builds_something",
     "called",
     "change_dependency",

@@ -123,14 +123,20 @@ class Expansion(NamedTuple):
 
 
 def expand(
-    file: LaunchFile, given: Mapping[str, str], files: Callable[[str], LaunchFile | None] = lambda path: None, distro: str = ""
+    file: LaunchFile,
+    given: Mapping[str, str],
+    files: Callable[[str], LaunchFile | None] = lambda path: None,
+    distro: str = "",
+    *,
+    brief: bool = False,
 ) -> Expansion:
     """Return what a launch file starts with the arguments given.
 
     ``files`` finds an included file by its path, which may begin with the mark of an install prefix; the path of ``file``
-    itself says where it lies, too.
+    itself says where it lies, too. ``brief`` leaves out parameters, remappings and what is passed to included files,
+    which are most of the work.
     """
-    run = _Run(files, {f"${name}": (value,) for name, value in (("ROS_DISTRO", distro),) if value})
+    run = _Run(files, brief, {f"${name}": (value,) for name, value in (("ROS_DISTRO", distro),) if value})
     run.file(file, {name: (value,) for name, value in given.items()})
     return Expansion(
         tuple(run.started),
@@ -169,8 +175,11 @@ class _Scope(NamedTuple):
 
 
 class _Run:
-    def __init__(self, files: Callable[[str], LaunchFile | None], environment: Mapping[str, Texts]) -> None:
+    def __init__(
+        self, files: Callable[[str], LaunchFile | None], brief: bool, environment: Mapping[str, Texts]
+    ) -> None:
         self._files = files
+        self._brief = brief
         self._environment = environment
         self._open: list[tuple[str, dict[str, Texts]]] = []
         self._unknown: dict[str, None] = {}
@@ -308,6 +317,9 @@ class _Run:
     def _start(self, action: LaunchAction, scope: _Scope) -> Started:
         is_process = action.kind == "process"
         self._unknown.clear()
+        if self._brief:
+            words_only = tuple([one for one in action.arguments if not one[0]])
+            action = action._replace(parameters=(), remappings=(), arguments=words_only)
         is_node = action.kind in ("node", "component")
         words = tuple([self.texts(value, scope) for name, value in action.arguments if not name])
         named = [(name, self.texts(value, scope)) for name, value in action.arguments if name]

@@ -24,20 +24,20 @@ Give one of them another name, or put it into a namespace of its own.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from ros_lint.api import (
     Finding,
+    LaunchCondition,
     LaunchFile,
-    Package,
     Related,
     Rule,
     Severity,
     Span,
     Workspace,
+    agree,
     defaults_of,
-    everything,
     filled,
     is_plain,
     launchable,
@@ -50,42 +50,80 @@ if TYPE_CHECKING:
 _SHORT = frozenset({"spawner", "spawner.py", "unspawner", "spawn_entity.py", "create", "load_controller"})
 """Executables that do one thing and end."""
 
+Conditions = tuple[LaunchCondition, ...]
 _RENAMES = ("__node:=", "__name:=", "__ns:=")
-_DEEPEST = 20
 
 
-def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    for launch in launchable(package):
-        if _may_repeat(launch.file, workspace):
-            yield from _in_file(launch.file, workspace)
+def check(workspace: Workspace) -> Iterator[Finding]:
+    names = _Names(workspace)
+    for package in workspace.packages:
+        for launch in launchable(package):
+            for finding in _of(launch.file, names, workspace):
+                yield finding._replace(package=package.name)
 
 
-def _may_repeat(file: LaunchFile, workspace: Workspace) -> bool:
-    """Whether a name stands twice in a file or what it includes, whatever the conditions. To follow it costs more."""
-    seen: set[str] = set()
-    for name in _names(file, workspace, 0):
-        if name in seen:
-            return True
-        seen.add(name)
-    return False
+def _of(file: LaunchFile, names: _Names, workspace: Workspace) -> Iterator[Finding]:
+    repeated = names.repeated(file)
+    if repeated:
+        yield from _in_file(launched(file, workspace, lambda inner: not repeated.isdisjoint(names.of(inner))).started)
 
 
-def _names(file: LaunchFile, workspace: Workspace, depth: int) -> Iterator[str]:
-    defaults = defaults_of(file)
-    for action in everything(file.actions):
-        if action.kind in ("node", "component"):
-            yield from filled(action.name, defaults)
-        elif action.kind == "include" and depth < _DEEPEST:
-            inner = workspace.links.target(action.target, file)
-            if inner is not None:
-                yield from _names(inner.file, workspace, depth + 1)
+class _Names:
+    """What nodes may be called, whatever the conditions: to follow launch files through their includes costs more."""
+
+    def __init__(self, workspace: Workspace) -> None:
+        self._links = workspace.links
+        self._known: dict[str, frozenset[str]] = {}
+
+    def repeated(self, file: LaunchFile) -> set[str]:
+        """Return the names that stand twice: in a file, in two files that it includes, or in the file and an included one.
+
+        What starts later, or under conditions that exclude each other, does not count.
+        """
+        seen: list[tuple[frozenset[str], Conditions]] = []
+        found: set[str] = set()
+        for names, conditions in self._parts(file, (), ()):
+            for others, theirs in seen:
+                if not others.isdisjoint(names) and agree((*conditions, *theirs)):
+                    found |= others & names
+            if names:
+                seen.append((names, conditions))
+        return found
+
+    def of(self, file: LaunchFile) -> frozenset[str]:
+        """Return the names of nodes in a file and all that it includes."""
+        return self._all(file, ())
+
+    def _parts(
+        self, file: LaunchFile, above: tuple[str, ...], conditions: Conditions
+    ) -> Iterator[tuple[frozenset[str], Conditions]]:
+        defaults = defaults_of(file)
+        waiting = [(action, conditions) for action in file.actions]
+        while waiting:
+            action, outer = waiting.pop()
+            inner = (*outer, *action.conditions)
+            if action.kind in ("node", "component"):
+                yield frozenset(filled(action.name, defaults)), inner
+            elif action.kind == "include":
+                target = self._links.target(action.target, file)
+                if target is not None and target.file.path not in above:
+                    yield self._all(target.file, (*above, file.path)), inner
+            if action.kind != "later":
+                waiting += [(child, inner) for child in action.children]
+
+    def _all(self, file: LaunchFile, above: tuple[str, ...]) -> frozenset[str]:
+        known = self._known.get(file.path)
+        if known is None:
+            known = frozenset().union(*(names for names, _ in self._parts(file, above, ())))
+            self._known[file.path] = known
+        return known
 
 
-def _in_file(file: LaunchFile, workspace: Workspace) -> Iterator[Finding]:
+def _in_file(everything: Sequence[Started]) -> Iterator[Finding]:
     first: dict[str, tuple[Started, Started]] = {}
     again: dict[Span, list[tuple[str, Started, Started, Started]]] = {}
     include: Started | None = None
-    for started in launched(file, workspace, follow=True).started:
+    for started in everything:
         if started.kind == "include" and started.depth == 0:
             include = started
         here = started if started.depth == 0 else include
@@ -137,5 +175,5 @@ RULE = Rule(
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,
-    package=check,
+    workspace=check,
 )
