@@ -37,6 +37,11 @@ END_OF_LIFE: Mapping[str, str] = {
 # Each of these is one package's top-level module and a word that any folder of anybody may be called.
 _EVERYDAY_WORDS = frozenset({"scripts", "controller", "vehicle"})
 
+_SAME_MACROS: Mapping[str, tuple[str, ...]] = {
+    "rosidl_default_generators": ("rosidl_default_generators", "rosidl_core_generators"),
+}
+"""Packages whose macros another one has, too: the second of these is what the messages use that the first depends on."""
+
 
 class Names:
     """The maps. Raises KnowledgeError from any look-up when a data file is damaged."""
@@ -159,7 +164,7 @@ class Names:
             for name in names:
                 if name.endswith("_vendor"):
                     found.setdefault(name, names)
-        return found
+        return {**found, **_SAME_MACROS}
 
     @cached_property
     def _cmake_lower(self) -> Mapping[str, tuple[str, ...]]:

@@ -43,7 +43,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         name = mention.name.partition("::")[0]
         if mention.via not in ("target", "macro") or mention.optional or name in found or name == package.name:
             continue
-        if mention.via == "macro" and (along is None or name in along):
+        if mention.via == "macro" and (along is None or not along.isdisjoint(workspace.world.by_macro(name).names)):
             continue
         if mention.what.startswith(_NOT_SOUGHT) or not workspace.world.is_package(name):
             continue
