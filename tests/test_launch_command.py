@@ -113,6 +113,12 @@ def test_a_variable_that_is_set_is_known() -> None:
     ]
 
 
+def test_lists_of_parameters_are_filled_in() -> None:
+    assert launch(
+        '<arg name="a" default="1"/><node pkg="p" exec="x"><param name="l" value="$(var a);x,y" value-sep=";"/></node>'
+    ) == ["argument a = 1", "node p x", "parameter l = [1, 'x,y']"]
+
+
 def test_what_it_depends_on() -> None:
     assert launch('<node pkg="p" exec="x" if="$(env SIM)"/>') == ["node p x", "if $(env SIM)"]
     assert launch('<node pkg="p" exec="x" unless="$(env SIM)"/>') == ["node p x", "unless $(env SIM)"]

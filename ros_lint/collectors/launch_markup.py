@@ -370,6 +370,8 @@ def _nested(reader: Reader, param: Entity, above: str) -> list[tuple[str, Launch
     if inner:
         return [one for child in inner for name in names for one in _nested(reader, child, f"{name}.")]
     typed = reader.typed(param, "value", kind)
+    if isinstance(typed, list):
+        typed = reader.listed(param, "value", typed)
     if isinstance(typed, LaunchValue):
         return [(name, typed) for name in names]
     if kind in _SCALARS and not isinstance(typed, _SCALARS[kind]):

@@ -14,6 +14,7 @@ from typing import Any, NamedTuple, NoReturn
 from ros_lint.collectors.launch_entity import Entity, Rejected, Type
 from ros_lint.collectors.launch_markup_texts import Pieces, package_of, simple_text, texts
 from ros_lint.collectors.launch_tags import EXTENSIONS, SUBSTITUTIONS
+from ros_lint.collectors.launch_text import joined
 from ros_lint.collectors.substitution import Literal, Substitution, SubstitutionError, parse
 from ros_lint.facts import LaunchAction, LaunchCondition, LaunchValue, Problem
 from ros_lint.text import Span, Text
@@ -109,6 +110,11 @@ class Reader:
             return self._value(entity, name, value)
         return value
 
+    def listed(self, entity: Entity, name: str, values: list[Any]) -> LaunchValue:
+        """Return a list that an attribute holds as one text, as YAML has it."""
+        rows = [self._texts(entity, name, one) if isinstance(one, str) else (str(one),) for one in values]
+        return LaunchValue(joined(rows, _as_yaml), entity.place(name))
+
     def _kind(self, entity: Entity, name: str, value: Any) -> type | None:
         """Return the type of a value, None for a text with substitutions."""
         if not isinstance(value, str):
@@ -176,6 +182,10 @@ class Mistake(NamedTuple):
 
 
 @lru_cache(maxsize=4_096)
+def _as_yaml(row: tuple[str, ...]) -> str:
+    return f"[{', '.join(repr(one) if ',' in one else one for one in row)}]"
+
+
 def reading(value: str) -> tuple[str, ...] | Mistake:
     """Return what a value becomes, or why the front end refuses it. Few values are written in one place only."""
     found = simple_text(value)
