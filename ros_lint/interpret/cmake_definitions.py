@@ -44,19 +44,21 @@ def _define(run: Run, node: Definition) -> Exit:
 def counts(body: Body) -> bool:
     """Return whether a body may ask for the arguments of its function by number."""
     for node in body:
-        if type(node) is Command:
-            command = node
+        commands: list[Command | None]
+        bodies: list[Body]
+        if isinstance(node, Command):
+            commands, bodies = [node], []
         elif isinstance(node, If):
-            if any(counts(inner) for _, inner in node.branches):
-                return True
-            command = node.command
+            commands, bodies = [command for command, _ in node.branches], [inner for _, inner in node.branches]
         else:
-            command = node.command  # type: ignore[union-attr]
-            if counts(node.body):  # type: ignore[union-attr]
-                return True
-        if command.name == "include" or any("ARGV" in text or "ARGC" in text for text, *_ in command.args):
+            commands, bodies = [node.command], [node.body]
+        if any(command is not None and _counts(command) for command in commands) or any(map(counts, bodies)):
             return True
     return False
+
+
+def _counts(command: Command) -> bool:
+    return command.name == "include" or any("ARGV" in text or "ARGC" in text for text, *_ in command.args)
 
 
 def _substituted(given: dict[str, str], args: tuple[Argument, ...]) -> tuple[Argument, ...]:
