@@ -252,6 +252,8 @@ class Target(NamedTuple):
     """Relative to the package."""
     test: bool
     span: Span
+    links: tuple[tuple[str, Span], ...] = ()
+    """What it is linked with for sure, by name, each with the place that says so."""
 
 
 class Provided(NamedTuple):

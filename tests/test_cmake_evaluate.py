@@ -443,3 +443,22 @@ def test_words_of_install_targets_elsewhere() -> None:
     (problem,) = run(text, ("launch/a.launch.py",)).problems
     assert problem.message == "install(DIRECTORY) knows no ARCHIVE, that belongs to install(TARGETS)"
     assert problem.span.column == len("install(DIRECTORY launch ") + 1
+
+
+def test_what_targets_are_linked_with() -> None:
+    text = """
+    set(DEPS a pkg::b rclcpp::rclcpp)
+    add_executable(e e.cpp)
+    foreach(target e)
+      target_link_libraries(${target} PRIVATE ${DEPS})
+    endforeach()
+    add_library(a SHARED a.cpp)
+    add_library(b SHARED b.cpp)
+    add_library(pkg::b ALIAS b)
+    if(UNKNOWN_FOUND)
+      target_link_libraries(a b)
+    endif()
+    """
+    script = run(f"find_package(UNKNOWN)\n{text}", ("a.cpp", "b.cpp", "e.cpp"))
+    links = {target.name: [name for name, _ in target.links] for target in script.targets}
+    assert links == {"e": ["a", "b"], "a": [], "b": []}

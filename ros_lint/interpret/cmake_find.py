@@ -140,6 +140,17 @@ def link(run: Run, args: list[str]) -> None:
                 run.mention(package, "target", command.span(frame.path, start, end), match[0])
 
 
+def _link_libraries(run: Run, args: list[str]) -> None:
+    """``target_link_libraries(target [PRIVATE|PUBLIC|INTERFACE] names...)``."""
+    link(run, args)
+    if run.muted or not args or run.unsure or run.testing:
+        return
+    span = run.here()
+    links = run.links.setdefault(args[0], {})
+    for arg in args[1:]:
+        links.setdefault(arg, span)
+
+
 def _package_of(run: Run, prefix: str) -> str:
     """Return the found package whose variables begin with a prefix, or ""."""
     if prefix in run.prefixes:
@@ -170,7 +181,7 @@ COMMANDS: Final[dict[str, Handler]] = {
     "find_dependency": find_package,
     "pkg_check_modules": _pkg_config,
     "pkg_search_module": _pkg_config,
-    "target_link_libraries": link,
+    "target_link_libraries": _link_libraries,
     "target_include_directories": link,
     "include_directories": link,
     "link_libraries": link,

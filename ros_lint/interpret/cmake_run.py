@@ -157,6 +157,8 @@ class Run(State):
         self.installed_targets: list[InstalledTarget] = []
         self.built: list[tuple[str, Properties, Span]] = []
         """Targets in the order of their definition."""
+        self.links: dict[str, dict[str, Span]] = {}
+        """What targets are linked with, and where that is said."""
         self.missing: list[tuple[str, Span, bool]] = []
         """Files that are named and not there (unless they are generated), and whether that may not matter."""
         self.undefined: list[tuple[str, Span, bool]] = []

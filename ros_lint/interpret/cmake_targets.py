@@ -9,6 +9,7 @@ from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_state import Properties
 from ros_lint.interpret.cmake_truth import is_off
 from ros_lint.interpret.cmake_values import HOLE, elements, is_fixed, is_known, join, sure
+from ros_lint.text import Span
 
 _LIBRARY_TYPES: Final = ("STATIC", "SHARED", "MODULE", "OBJECT", "INTERFACE", "UNKNOWN")
 
@@ -197,11 +198,22 @@ def targets(run: Run) -> tuple[Target, ...]:
         if kind == "imported":
             continue
         sources = tuple(dict.fromkeys([sure(path)[0] for path in elements(target["SOURCES"]) if HOLE not in path]))
-        found.append(Target(name, _KINDS.get(kind, "library"), sources, "TEST" in target, span))
+        links = _links(run, name) if name in run.links else ()
+        found.append(Target(name, _KINDS.get(kind, "library"), sources, "TEST" in target, span, links))
     return tuple(dict.fromkeys(found)) if len(found) > 1 else tuple(found)
 
 
 _KINDS: Final[dict[str, Literal["executable", "interface"]]] = {"executable": "executable", "interface": "interface"}
+
+
+def _links(run: Run, name: str) -> tuple[tuple[str, Span], ...]:
+    """Return the targets of the package that another one is linked with, aliases by the names of what they stand for."""
+    found: dict[str, Span] = {}
+    for other, span in run.links[name].items():
+        target = real_target(run, other)
+        if target is not None and target.get("KIND") != "imported" and "NAME" in target:
+            found.setdefault(target["NAME"], span)
+    return tuple(found.items())
 
 
 def real_target(run: Run, name: str) -> Properties | None:

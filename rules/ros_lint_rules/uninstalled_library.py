@@ -25,6 +25,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros_lint.api import (
+    BuildScript,
     Call,
     Confidence,
     Facet,
@@ -60,7 +61,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         if any("OBJECT" in call.texts[1:2] for call in _made(package, target.name)):
             continue
         shared = _is_shared(package, target.name)
-        users = [(name, span) for name, span in _linked_by(package, target.name) if name in installed] if shared else []
+        users = [(name, span) for name, span in _linked_by(script, target.name) if name in installed] if shared else []
         exported = _exported(package, target.name)
         related = tuple(Related(f"{name} links it here", span) for name, span in users[:3])
         if exported is not None:
@@ -96,11 +97,9 @@ def _made(package: Package, name: str) -> Iterator[Call]:
             yield call
 
 
-def _linked_by(package: Package, library: str) -> Iterator[tuple[str, Span]]:
-    for call in called(package, "target_link_libraries", anywhere=True):
-        names = [evaluated_name(package, text) for text in call.texts]
-        if names and names[0] and library in names[1:] and not call.test:
-            yield names[0], call.place
+def _linked_by(script: BuildScript, library: str) -> Iterator[tuple[str, Span]]:
+    for target in script.targets:
+        yield from ((target.name, span) for name, span in target.links if name == library and not target.test)
 
 
 def _exported(package: Package, library: str) -> Span | None:
