@@ -78,7 +78,7 @@ def is_unseen_by_name(world: World, name: str) -> bool:
 def works_unseen(package: Package, workspace: Workspace, name: str) -> bool:
     """Whether a dependency of a package on a name can do its work without the name standing anywhere (reference, section F2).
 
-    True for what is no package that is known; for packages that bring others, give macros, plugins or components, or are
+    True for what is no package that is known; for packages that bring others, give macros or plugins, or are
     mostly declared by others to be run; for those whose name says that they stand for something else; and for what
     generated interfaces need.
     """
@@ -87,7 +87,7 @@ def works_unseen(package: Package, workspace: Workspace, name: str) -> bool:
         return True
     if package.script and package.script.interfaces and name in _IN_INTERFACES:
         return True
-    if world.plugins(name).names or world.components(name).names:
+    if world.plugins(name).names:
         return True
     mine = workspace.by_name.get(name, ())
     if mine:

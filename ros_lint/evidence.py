@@ -264,24 +264,31 @@ def unused_names(declared: Sequence[str], uses: Sequence[Use]) -> tuple[str, ...
 
 
 def used_names(declared: Iterable[str], uses: Iterable[Use]) -> frozenset[str]:
-    """Return the names that satisfy a use. Of several that would do, the best does it if it is declared."""
+    """Return the names that satisfy a use. Of several that would do, the best that is declared does it."""
     names = frozenset(declared)
-    return frozenset(
-        name for use in uses for name in ((use.package,) if use.package in names else use.providers)
-    )
+    answers = {use.providers for use in uses}
+    return frozenset([name for answer in answers for name in [each for each in answer if each in names][:1]])
 
 
-def traces(names: Sequence[str], files: Iterable[tuple[str, bytes]]) -> dict[str, Span]:
+def traces(
+    names: Sequence[str], files: Iterable[tuple[str, bytes]], words: Mapping[str, Sequence[str]] | None = None
+) -> dict[str, Span]:
     """Return a place for every name that stands as a word in one of the files, dashes and underscores taken as equal.
 
     ``files`` are paths with contents. They are searched all at once and as they are: few of them have a name in question.
+    ``words`` are sought for some of the names instead, anywhere and whatever their capitals.
     """
     listed = list(files)
     data = b"\n".join([content for _, content in listed])
     starts = list(accumulate([len(content) + 1 for _, content in listed], initial=0))
     found: dict[str, Span] = {}
+    words = words or {}
+    lower = data.lower() if words else b""
     for name in names:
-        places = ((_find_word(data, spelling), spelling) for spelling in _written(name, data))
+        if name in words:
+            places = ((lower.find(word.lower().encode()), word.encode()) for word in words[name])
+        else:
+            places = ((_find_word(data, spelling), spelling) for spelling in _written(name, data))
         start, spelling = next((place for place in places if place[0] >= 0), (-1, b""))
         if start < 0:
             continue
@@ -314,7 +321,10 @@ def _spellings(name: str) -> tuple[str, ...]:
     Conversions of tf2 are found by the types of their arguments, and bear no name but tf2.
     """
     found = [name, name.replace("-", "_"), name.replace("_", "-"), name.replace("_", "::", 1), name.replace("_", "/", 1)]
-    return tuple(dict.fromkeys([*found, "tf2"] if name.startswith("tf2_") else found))
+    return tuple(dict.fromkeys([*found, "tf2"] if name in _CONVERSIONS else found))
+
+
+_CONVERSIONS = frozenset({"tf2_bullet", "tf2_eigen", "tf2_eigen_kdl", "tf2_geometry_msgs", "tf2_kdl", "tf2_sensor_msgs"})
 
 
 def _find_word(data: bytes, word: bytes) -> int:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from ros_lint.evidence import traces
+from ros_lint.evidence import traces, used_names
 from ros_lint.facts import Role, Use
+from ros_lint.knowledge.names import Names
+from ros_lint.knowledge.store import Store
 from ros_lint.load import Loader
 from ros_lint.needs import covered, may_bring, needs, undeclared
 from ros_lint.tree import MemoryTree
@@ -210,3 +212,21 @@ def test_modules_with_parts_of_launch_files_are_less_than_sure() -> None:
     }
     workspace = load(files)
     assert [sure for need, sure in undeclared(workspace.packages[0], workspace) if need.name == "rviz2"] == [False]
+
+
+def test_words_leave_traces_whatever_their_capitals() -> None:
+    files = [("a.cpp", b"#include <cpprest/http_client.h>\n"), ("CMakeLists.txt", b"find_package(CHOLMOD)\n")]
+    names = Names(Store())
+    keys = ("libcpprest-dev", "suitesparse", "python3-open3d")
+    found = traces(keys, files, {key: names.called(key) for key in keys})
+    assert {name: (span.path, span.line) for name, span in found.items()} == {
+        "libcpprest-dev": ("a.cpp", 1),
+        "suitesparse": ("CMakeLists.txt", 1),
+    }
+
+
+def test_of_several_that_would_do_the_best_that_is_declared_is_used() -> None:
+    workspace = load(cmake("talker", "", "find_package(PCL REQUIRED)"))
+    (use,) = uses(workspace, "libpcl-all-dev")
+    assert used_names(("pcl_ros", "pcl_conversions"), [use]) == {"pcl_conversions"}
+    assert used_names(("pcl_ros", "libpcl-all-dev"), [use]) == {"libpcl-all-dev"}

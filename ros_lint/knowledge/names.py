@@ -35,6 +35,9 @@ END_OF_LIFE: Mapping[str, str] = {
 """Distributions at their end of life, as the letters of the data stand for them."""
 
 # Each of these is one package's top-level module and a word that any folder of anybody may be called.
+_NO_WORDS = frozenset({"lib", "dev", "python", "python3", "pip", "all", "core", "data", "tools"})
+"""Parts of the names of rosdep keys that say nothing."""
+
 _EVERYDAY_WORDS = frozenset({"scripts", "controller", "vehicle"})
 
 _SAME_MACROS: Mapping[str, tuple[str, ...]] = {
@@ -133,6 +136,21 @@ class Names:
         """Return the distributions at their end of life that had a package which no active one has, newest first."""
         row = self._eol.row(name)
         return tuple(END_OF_LIFE[letter] for letter in "igfedcNMK" if letter in row[1]) if row and len(row) > 1 else ()
+
+    def called(self, key: str) -> tuple[str, ...]:
+        """Return words of which one stands in whatever uses a rosdep key: of its name, of headers, modules and for CMake."""
+        parts = re.findall(r"[a-z0-9]+", key.lower())
+        words = [part.removeprefix("lib") for part in parts if part not in _NO_WORDS and not part.isdigit()]
+        return tuple(dict.fromkeys([*words, *self._called.get(key, ())])) or (key,)
+
+    @cached_property
+    def _called(self) -> Mapping[str, list[str]]:
+        found: dict[str, list[str]] = {}
+        for names in (self._cmake_system, self._include_system, self._py_import):
+            for name, keys in names.items():
+                for key in keys:
+                    found.setdefault(key, []).append(name.rstrip("*/"))
+        return found
 
     def brought(self, key: str) -> tuple[str, ...]:
         """Return the rosdep keys that come along with a key, for its package depends on theirs; not what these bring."""

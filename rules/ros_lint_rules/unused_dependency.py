@@ -16,9 +16,10 @@ Remove the tag. The fix does this.
 
 ## When it keeps silent
 
-Whenever the dependency might be needed in a way that leaves no trace: linters, run-time and tool dependencies, rosdep
-keys of the system, tags under a condition, packages whose build scripts cannot be followed everywhere, metapackages,
-vendor packages and packages without code, and dependencies that give CMake macros, plugins or components.
+Whenever the dependency might be needed in a way that leaves no trace: linters, run-time and tool dependencies, tags
+under a condition, packages whose build scripts cannot be followed everywhere, metapackages, vendor packages and packages
+without code, and dependencies that give CMake macros or plugins. For rosdep keys of libraries, which others' headers may
+need, and for packages that nobody knows the confidence is medium.
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ from collections.abc import Iterator
 
 from ros_lint.api import (
     BuildScript,
+    Confidence,
     Finding,
     Fix,
     Package,
@@ -48,26 +50,31 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or not is_seen_whole(package):
         return
+    world = workspace.world
     built = [each.name for each in package.declared if each.depend.tag in _TAGS and not each.depend.condition]
     used = used_names(built, package.uses)
+    libraries = {name for use in package.uses for name in use.providers}
     for declared in package.declared:
         depend = declared.depend
-        if depend.condition or depend.name in used or is_unseen_by_name(workspace.world, depend.name):
+        name = depend.name
+        if depend.condition or name in used or world.knowledge.names.works_unseen(name):
             continue
+        unknown = is_unseen_by_name(world, name)
         if depend.tag in _TAGS:
-            if depend.name in package.traces or works_unseen(package, workspace, depend.name):
+            if name in package.traces or (name in libraries if unknown else works_unseen(package, workspace, name)):
                 continue
             says = "nothing in the package uses it"
-        elif depend.tag == "test_depend" and not _can_test_with(package, script, workspace, depend.name):
+        elif depend.tag == "test_depend" and not _can_test_with(package, script, workspace, name):
             says = "there is no test that could use it"
         else:
             continue
-        written = f"<{depend.tag}>{depend.name}</{depend.tag}>"
+        written = f"<{depend.tag}>{name}</{depend.tag}>"
         yield Finding(
-            f"{depend.name} is declared, but {says}: remove {written}",
+            f"{name} is declared, but {says}: remove {written}",
             depend.span,
-            depend.name,
+            name,
             fix=Fix(f"remove {written}", remove_dependency(package, depend)),
+            confidence=Confidence.MEDIUM if unknown else Confidence.HIGH,
         )
 
 
