@@ -67,17 +67,16 @@ def sections(args: Iterable[str], keywords: Mapping[str, int]) -> dict[str, list
     ``keywords`` gives how many arguments a keyword takes, -1 for any number. What follows when it has enough belongs to "".
     """
     found: dict[str, list[str]] = {"": []}
-    current, room = "", -1
+    current, room = found[""], -1
     for arg in args:
         wanted = keywords.get(arg)
         if wanted is not None:
-            current, room = arg, wanted
-            found.setdefault(arg, [])
+            current, room = found.setdefault(arg, []), wanted
             if not room:
-                current, room = "", -1
+                current, room = found[""], -1
         else:
             if not room:
-                current, room = "", -1
-            found.setdefault(current, []).append(arg)
+                current, room = found[""], -1
+            current.append(arg)
             room -= room > 0
     return found

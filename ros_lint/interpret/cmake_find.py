@@ -80,9 +80,10 @@ def _find_all(run: Run, args: list[str]) -> None:
     names = run.sources.build_depends if args[:1] == ["build"] else run.sources.test_depends
     run.open_world = True
     run.prefixes.update(dict.fromkeys(names))
+    packages = run.packages
     for name in names:
-        if name not in run.packages:
-            run.put(run.packages, name, "1")
+        if name not in packages:
+            run.put(packages, name, "1")
         if name in run.helpers or name in _SHARED_LIBRARIES:
             found(run, name, required=True)
 

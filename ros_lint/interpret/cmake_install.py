@@ -105,10 +105,9 @@ def _install_targets(run: Run, args: list[str]) -> None:
             destinations[artifact] = arg
             room -= 1
     everywhere = destinations.get("")
-    runtime, library, archive = (
-        run.destination(sure(destinations.get(kind, everywhere or usual))[0])
-        for kind, usual in (("RUNTIME", "bin"), ("LIBRARY", "lib"), ("ARCHIVE", "lib"))
-    )
+    runtime = run.destination(sure(destinations.get("RUNTIME") or everywhere or "bin")[0])
+    library = run.destination(sure(destinations.get("LIBRARY") or everywhere or "lib")[0])
+    archive = run.destination(sure(destinations.get("ARCHIVE") or everywhere or "lib")[0])
     for name in names:
         plain, certain = sure(name)
         if not is_known(plain):
@@ -230,10 +229,10 @@ class _Rule(NamedTuple):
 
 
 def _install_directories(run: Run, args: list[str]) -> None:
-    at = next((index for index, arg in enumerate(args) if arg in ("PATTERN", "REGEX")), len(args))
+    at = min([args.index(word) for word in ("PATTERN", "REGEX") if word in args], default=len(args))
     parts = sections(args[:at], _DIRECTORY_WORDS)
     destination = _destination(run, parts)
-    patterns = _patterns(args[at:])
+    patterns = _patterns(args[at:]) if at < len(args) else []
     if patterns is None:
         run.hide(facet_of(run, destination), "install(DIRECTORY) with a pattern that is not known")
         return
@@ -264,7 +263,8 @@ def _install_directory(run: Run, value: str, source: str, target: str, rule: _Ru
         run.problem("directory-is-file", f"install(DIRECTORY) of {source}, which is a file", span)
         return
     more = unlisted(run, source, facet_of(run, target), span) if run.sources.unseen else []
-    if not run.is_folder(source):
+    own = run.below(source)
+    if not own and source and not run.is_unseen(source):
         if not rule.optional:
             run.missing.append((source, span, conditional))
         return
@@ -272,7 +272,7 @@ def _install_directory(run: Run, value: str, source: str, target: str, rule: _Ru
     top = plain.rstrip("/") if plain.startswith("/") else f"/{join_path(run.directory, plain)}".rstrip("/")
     start = f"{target}/" if target else ""
     chosen = bool(rule.patterns or rule.only)
-    for file in (*run.below(source), *more):
+    for file in (*own, *more) if more else own:
         program = file in run.sources.executables if rule.executable is None else rule.executable
         if chosen:
             wanted, given = _chosen(file[skip:], top, rule)

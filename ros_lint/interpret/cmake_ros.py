@@ -172,7 +172,7 @@ def _package(run: Run, args: list[str]) -> None:
     conditional = run.conditional or run.testing
     given = sections(args, dict.fromkeys(_EXTRAS, -1)) if args else {}
     for word in _EXTRAS:
-        files = [*given.get(word, ()), *elements(run.get(f"{name}_{word}") or "")]
+        files = [*given.get(word, ()), *elements(run.normal(f"{name}_{word}") or "")]
         if files:
             _extras(run, name, files, conditional)
     if is_known(name):

@@ -23,7 +23,8 @@ def _add_executable(run: Run, args: list[str]) -> None:
 
 
 def _add_library(run: Run, args: list[str]) -> None:
-    kind = next((word.lower() for word in args[1:3] if word in _LIBRARY_TYPES), "")
+    word = next(iter([word for word in args[1:3] if word in _LIBRARY_TYPES]), "")
+    kind = word.lower()
     if not kind:
         shared = run.get("BUILD_SHARED_LIBS")
         kind = "static" if shared is None or is_off(shared) else "shared"
@@ -58,9 +59,10 @@ def _add_sources(run: Run, target: Properties, sources: list[str]) -> None:
     for source in sources:
         plain, certain = sure(source)
         path = run.source(plain)
-        if path is not None and "$<" not in plain:
-            if path not in run.files:
-                path = next((f"{path}{suffix}" for suffix in _SUFFIXES if f"{path}{suffix}" in run.files), path)
+        if path in run.files:
+            have.append(path)
+        elif path is not None and "$<" not in plain:
+            path = next((f"{path}{suffix}" for suffix in _SUFFIXES if f"{path}{suffix}" in run.files), path)
             have.append(path)
             if certain and path not in run.files:
                 run.missing.append((path, run.where(source), bool(run.muted or run.unsure)))
