@@ -262,7 +262,7 @@ def test_files_that_are_looked_up(text: str, expected: list[tuple[str, str]]) ->
 )
 def test_plugin_loaders(text: str, expected: list[str]) -> None:
     assert [name for via, name, _ in collected("#include <pluginlib/class_loader.hpp>\n" + text) if via == "package"] == expected
-    assert collected(text) == []
+    assert not [name for via, name, _ in collected(text) if via == "package"]
 
 
 def test_computed_include_is_opaque() -> None:
@@ -283,6 +283,9 @@ def test_computed_include_is_opaque() -> None:
         ("f<::a_b::srv::C::Request>();\nd_e::action::F g;", [("a_b", "a_b::srv::C", False), ("d_e", "d_e::action::F", False)]),
         ("using a_b::msg::C;\nusing namespace d_e::msg;", [("a_b", "a_b::msg::C", False)]),
         ('#include "a_b/msg/c.hpp"\na_b::msg::D d; g_h::msg::I i;', [("g_h", "g_h::msg::I", False)]),
+        ("void f(tf2_ros::Buffer & b);\ntf2_ros::Buffer c;", [("tf2_ros", "tf2_ros::Buffer", False)]),
+        ("#include <rclcpp_lifecycle/lifecycle_node.hpp>\nclass A : public rclcpp_lifecycle::LifecycleNode", []),
+        ("my_tf2_ros::Buffer b; x::tf2_ros::Buffer c; tf2::Transform d; namespace tf2_ros::e {}", []),
         ("outer::a_b::msg::C c; T::msg::D d; MsgT::msg::E e;", []),
         ('// a_b::msg::C\n/* a_b::msg::C */ /*\na_b::msg::C */ x = "a_b::msg::C";\nR"(\na_b::msg::C)";', []),
         ("// a_b::msg::C\nvoid f(a_b::msg::C c);", [("a_b", "a_b::msg::C", False)]),

@@ -1,7 +1,8 @@
-"""Types of messages, services and actions that C++ code names, ``pkg::msg::Type``: each tells of the package.
+"""Names in C++ code that tell of a package without an include: types of messages, and a few namespaces.
 
-The generators give every package a namespace of its own name (reference, section C4), so that such a name says as much
-as an include. Other namespaces say less: nothing but a custom ties them to a package.
+The generators give every package of messages a namespace of its own name, ``pkg::msg::Type`` (reference, section C4), so
+that such a name says as much as an include. Nothing but a custom ties other namespaces to a package: those that count
+are known to be of one package only.
 """
 
 from __future__ import annotations
@@ -17,8 +18,17 @@ from ros_lint.facts import Mention
 if TYPE_CHECKING:
     from ros_lint.text import Text
 
-_KIND = re.compile("::(?:msg|srv|action)::")
-_TYPE = re.compile(r"::(?:msg|srv|action)::\w+")
+_NAMESPACES = (
+    "ament_index_cpp", "cv_bridge", "image_transport", "message_filters", "pluginlib", "rclcpp_action", "rclcpp_lifecycle",
+    "tf2_ros",
+)  # fmt: skip
+"""Packages that have a namespace of their name for themselves, and that others bring along more often than not."""
+
+# "::" first, as that is looked for fast; of what may stand before it the last letter is looked at before the rest.
+_LAST = "".join(sorted({name[-1] for name in _NAMESPACES}))
+_BEFORE = "|".join(rf"(?<=\b{name}::)" for name in _NAMESPACES)
+_KIND = re.compile(rf"::(?:(?:msg|srv|action)::|(?<=[{_LAST}]::)(?:{_BEFORE}))")
+_TYPE = re.compile(r"::(?:(?:msg|srv|action)::)?\w+")
 _WORD = string.ascii_letters + string.digits + "_"
 _INSIDE = frozenset(_WORD)
 _make = tuple.__new__
@@ -27,7 +37,7 @@ _LONGEST = 64
 
 
 def symbols(source: Text, known: Collection[str], directives: Found) -> list[Mention]:
-    """Return the packages whose interfaces a C++ file names, each at its first place in the code.
+    """Return the packages whose interfaces or namespaces a C++ file names, each at its first place in the code.
 
     Those that are ``known`` are left out. Optional is what is named only where it depends on the build. All mentions
     are ``via="symbol"``, of the package.
@@ -47,7 +57,7 @@ def symbols(source: Text, known: Collection[str], directives: Found) -> list[Men
 
 
 def _first(text: str, package: str, code: Sequence[int], conditional: Sequence[range]) -> tuple[int, int, bool, str] | None:
-    """Return start and end of the first type of a package in plain code, whether it depends on the build, and the package.
+    """Return start and end of the first name of a package in plain code, whether it depends on the build, and the package.
 
     Lines that may be comments, strings or directives are passed over: what a source needs it mostly names more than once.
     """
