@@ -17,10 +17,10 @@ import re
 import shutil
 import subprocess
 import sys
-import xml.etree.ElementTree as ElementTree  # noqa: ICN001
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from typing import NamedTuple
+from xml.etree import ElementTree
 
 Pair = tuple[str, str]
 """A package, and a dependency that it is said to lack."""
