@@ -462,3 +462,16 @@ def test_what_targets_are_linked_with() -> None:
     script = run(f"find_package(UNKNOWN)\n{text}", ("a.cpp", "b.cpp", "e.cpp"))
     links = {target.name: [name for name, _ in target.links] for target in script.targets}
     assert links == {"e": ["a", "b"], "a": [], "b": []}
+
+
+def test_what_configure_file_makes_is_installed_with_its_folder() -> None:
+    text = """
+    configure_file(a.h.in include/pkg/a.h)
+    configure_file(b.h.in ${PROJECT_BINARY_DIR}/include/pkg/b.h COPYONLY)
+    configure_file(c.in c)
+    install(DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/include/ DESTINATION include/pkg)
+    install(DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/include DESTINATION x PATTERN b.h EXCLUDE)
+    """
+    script = run(text)
+    assert paths(script).keys() == {"include/pkg/pkg/a.h", "include/pkg/pkg/b.h", "x/include/pkg/a.h"}
+    assert hidden(script) & Facet.LIBRARIES

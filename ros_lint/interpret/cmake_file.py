@@ -152,8 +152,12 @@ def _configure(run: Run, args: list[str]) -> None:
     if len(args) > 1:
         output = args[1]
         if not output.startswith("/") and is_fixed(output):
-            return  # below the build folder
-        generate(run, output)
+            output = f"{run.places['CMAKE_CURRENT_BINARY_DIR']}/{output}"
+        path = run.build(output)
+        if path is None:
+            generate(run, output)
+        elif not run.muted:
+            run.configured[path] = run.configured.get(path, False) or not run.conditional
 
 
 COMMANDS: Final[dict[str, Handler]] = {

@@ -248,6 +248,7 @@ def _install_directories(run: Run, args: list[str]) -> None:
             run.hide(facet_of(run, destination), "install(DIRECTORY) of a folder or to a place that is not known")
         elif source is None:
             run.hide(facet_of(run, destination), "install(DIRECTORY) of a folder that is not in the sources")
+            _install_configured(run, value, destination, rule)
         elif not run.muted:
             target = destination
             if not plain.endswith("/") and source and plain not in (".", ".."):
@@ -280,6 +281,21 @@ def _install_directory(run: Run, value: str, source: str, target: str, rule: _Ru
                 continue
             program = program if given is None else given
         run.installed.append(Provided(f"{start}{file[skip:]}", file if file in run.files else "", program, conditional, span))
+
+
+def _install_configured(run: Run, value: str, destination: str, rule: _Rule) -> None:
+    """Install what configure_file() has put into a folder below the build folder. The build may put more there."""
+    plain, certain = sure(value)
+    folder = run.build(plain)
+    if folder is None or run.muted:
+        return
+    span = run.where(value)
+    target = destination if plain.endswith("/") or not folder else join_path(destination, posixpath.basename(folder))
+    for path, always in run.configured.items():
+        inner = path if not folder else path[len(folder) + 1 :] if path.startswith(f"{folder}/") else ""
+        if inner and _chosen(inner, plain.rstrip("/"), rule)[0]:
+            conditional = run.conditional or run.testing or not certain or not always
+            run.installed.append(Provided(join_path(target, inner), "", False, conditional, span))
 
 
 def unlisted(run: Run, source: str, facet: Facet, span: Span) -> list[str]:

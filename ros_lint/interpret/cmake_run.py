@@ -145,6 +145,8 @@ class Run(State):
         self.loose: dict[str, list[Span]] = {}
         """Where packages are searched without being required."""
         self.generated: set[str] = set()
+        self.configured: dict[str, bool] = {}
+        """Files that configure_file() puts below the build folder, and whether it does so for sure."""
         self.calls: set[str] = set()
         self.mentions: dict[Mention, None] = {}
         self.opaques: dict[Opaque, None] = {}
@@ -354,6 +356,13 @@ class Run(State):
     def destination(self, value: str) -> str | None:
         """Return an install destination relative to the prefix, or None when it is not known or lies elsewhere."""
         return _destination(value)
+
+    def build(self, value: str) -> str | None:
+        """Return a path relative to the build folder of the package, None for one that lies elsewhere or is not known."""
+        if HOLE in value or not (value.startswith(f"{BINARY}/") or value == BINARY):
+            return None
+        path = posixpath.normpath(value[len(BINARY) :].lstrip("/"))
+        return None if path.startswith("..") or ATOM in path else path.removeprefix(".")
 
     def is_folder(self, path: str) -> bool:
         """Return whether the package has such a folder, with a file in it."""
