@@ -8,18 +8,21 @@ from __future__ import annotations
 
 import ast
 import warnings
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.launch import entries
 from ros_lint.collectors.launch_py_actions import LAUNCHED, walker
 from ros_lint.collectors.launch_py_objects import PERHAPS, Frame, Function, OutOfBudget, Raised, Source
 from ros_lint.collectors.launch_py_run import Machine, Modules
-from ros_lint.collectors.launch_py_texts import texts
+from ros_lint.collectors.launch_py_texts import Within, texts
 from ros_lint.collectors.launch_py_walk import span_of
 from ros_lint.collectors.launch_references import References
 from ros_lint.collectors.launch_text import UNKNOWN
 from ros_lint.facts import Facet, LaunchAction, LaunchFile, Opaque, Problem
 from ros_lint.text import Span, Text
+
+_LONGEST = 250_000
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -33,6 +36,9 @@ def collect(
     ``modules`` finds the modules of the workspace that it imports, ``files`` the text of a file by its installed path.
     """
     defined = entries(source.text)
+    if len(source.text) > _LONGEST:
+        opaque = Opaque(Facet.USES, "the file is too long to be followed", source.span(0, 0))
+        return LaunchFile(source.path, "python", opaque=(opaque,), test="launch" not in defined, helper=not defined)
     test, helper = "launch" not in defined and "test" in defined, not defined
     try:
         with warnings.catch_warnings():
@@ -128,11 +134,12 @@ class _Reading:
 
     def asks(self) -> tuple[str, ...]:
         """Return the launch configurations that are asked for, UNKNOWN among them when others may be."""
+        within = Within()
         found = {
             str(name)
             for made in self._machine.made
             if made.name.startswith("LaunchConfiguration")
-            for name in texts(made.get(0, "variable_name", "launch_configuration_name"))
+            for name in texts(made.get(0, "variable_name", "launch_configuration_name"), within)
         }
         if ".launch_configurations" in self._source.text.text:
             found.add(UNKNOWN)
@@ -141,7 +148,9 @@ class _Reading:
     def stopped(self, reason: str) -> None:
         """Note that the file could not be followed to its end: anything that it makes may be launched."""
         self._blind.append(Opaque(Facet.USES, reason, self._source.text.span(0, 0)))
-        self._leftovers(everything=True)
+        self._machine.grant()
+        with suppress(OutOfBudget, RecursionError, MemoryError):
+            self._leftovers(everything=True)
 
     def _leftovers(self, everything: bool) -> None:
         """Take what went where it cannot be followed for launched, perhaps."""

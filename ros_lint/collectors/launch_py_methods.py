@@ -55,6 +55,7 @@ def items(machine: Machine, value: Value) -> list[Value] | None:
             found += [Guarded(element, one.conditions or (PERHAPS,)) for element in inner]
         return found
     if isinstance(value, (list, tuple, set, frozenset, dict)):
+        machine.spend(len(value) // 8)
         return list(value) if len(value) <= _MOST_ITEMS else None
     if isinstance(value, range):
         return list(value) if len(value) <= _MOST_ITEMS else None
@@ -147,6 +148,8 @@ def call_method(
 ) -> Value:
     """Return what a method returns."""
     owner, name = method.owner, method.name
+    if isinstance(owner, (list, dict)):
+        machine.spend(len(owner) // 8)
     if isinstance(owner, str):
         return _of_text(machine, owner, name, arguments, keywords, node, frame)
     if isinstance(owner, list):

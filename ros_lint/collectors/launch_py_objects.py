@@ -188,22 +188,26 @@ class Class:
         """Annotated names, in order: what a dataclass takes."""
 
     def find(self, name: str) -> Value | None:
-        if name in self.names:
-            return self.names[name]
-        for base in self.bases:
-            if isinstance(base, Class):
-                found = base.find(name)
-                if found is not None:
-                    return found
+        for one in self._line():
+            if isinstance(one, Class) and name in one.names:
+                return one.names[name]
         return None
 
     def library_base(self) -> Api | None:
         """Return the class of a library that it is made from."""
-        for base in self.bases:
-            found = base if isinstance(base, Api) else base.library_base() if isinstance(base, Class) else None
-            if found is not None:
-                return found
-        return None
+        return next((one for one in self._line() if isinstance(one, Api)), None)
+
+    def _line(self) -> Iterator[Value]:
+        """Yield the class and those above it, each once."""
+        waiting: list[Value] = [self]
+        seen: set[int] = set()
+        while waiting:
+            one = waiting.pop()
+            if id(one) not in seen:
+                seen.add(id(one))
+                yield one
+                if isinstance(one, Class):
+                    waiting += reversed(one.bases)
 
 
 class Instance:

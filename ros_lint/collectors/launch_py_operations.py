@@ -34,6 +34,7 @@ if TYPE_CHECKING:
 
 _NUMBERS = (int, float, bool)
 _MOST_ITEMS = 5_000
+_MOST_COMPARED = 500
 
 
 def each(value: Value, function: Callable[[Value], Value]) -> Value:
@@ -113,6 +114,21 @@ def _shown(value: Any) -> str:
         elif not (one is None or isinstance(one, (str, *_NUMBERS))):
             return UNKNOWN
     return str(value)
+
+
+def _is_small(value: Any) -> bool:
+    """Return whether a collection has few elements, those of the collections in it counted wherever they are."""
+    stack, count = [value], 0
+    while stack:
+        one = stack.pop()
+        count += 1
+        if count > _MOST_COMPARED:
+            return False
+        if isinstance(one, dict):
+            stack += one.values()
+        elif isinstance(one, (list, tuple, set)):
+            stack += one
+    return True
 
 
 def hashable(key: Value) -> Any:
@@ -261,6 +277,12 @@ def _one_compare(op: ast.cmpop, left: Value, right: Value) -> Value:
             if is_plain(right):
                 return Unknown("comparison with an argument", LaunchCondition((str(left),), str(right), isinstance(op, ast.Eq)))
             return Unknown("comparison with what is not known")
+    if (
+        isinstance(left, (list, tuple, dict, set))
+        and isinstance(right, type(left))
+        and not (_is_small(left) and _is_small(right))
+    ):
+        return Unknown("a comparison of much")
     try:
         return bool(_COMPARISONS[type(op)](left, right))
     except (TypeError, RecursionError):
@@ -274,7 +296,9 @@ def _contained(op: ast.cmpop, left: Value, right: Value) -> Value:
     if isinstance(right, str):
         if isinstance(left, str) and is_plain(left) and is_plain(right):
             return (left in right) is wanted
-    elif isinstance(right, (list, tuple, dict, range)) and isinstance(left, (str, *_NUMBERS, type(None))):
+    elif isinstance(right, range):
+        return (left in right) is wanted if isinstance(left, int) else Unknown("membership that is not known")
+    elif isinstance(right, (list, tuple, dict)) and isinstance(left, (str, *_NUMBERS, type(None))):
         inner = [plain(one) for one in right]
         if any(isinstance(one, (str, *_NUMBERS)) and one == left for one in inner):
             return wanted

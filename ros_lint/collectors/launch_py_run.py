@@ -43,7 +43,7 @@ from ros_lint.collectors.launch_py_objects import (
 )
 from ros_lint.collectors.launch_py_operations import negated, text_of
 from ros_lint.collectors.launch_py_statements import LEAVE, bind, execute
-from ros_lint.collectors.launch_py_texts import texts
+from ros_lint.collectors.launch_py_texts import Within, texts
 from ros_lint.collectors.launch_text import UNKNOWN, fill, is_settled, joined
 from ros_lint.facts import LaunchCondition
 from ros_lint.text import Text
@@ -88,6 +88,10 @@ class Machine:
         self._left -= steps
         if self._left < 0:
             raise OutOfBudget
+
+    def grant(self) -> None:
+        """Allow some more steps: for what is left to do when the others were not enough."""
+        self._left = STEPS // 4
 
     @contextmanager
     def under(self, *conditions: LaunchCondition) -> Iterator[None]:
@@ -350,7 +354,7 @@ class Machine:
             self.looked_up.append((package, at, source, self.conditions))
 
     def texts(self, value: Value) -> tuple[str, ...]:
-        return texts(value)
+        return texts(value, Within(self.spend))
 
     def negated(self, value: Value) -> Value:
         return negated(self, value)

@@ -20,7 +20,7 @@ from ros_lint.collectors.launch_py_objects import (
     alternatives,
     plain,
 )
-from ros_lint.collectors.launch_py_texts import conditions_of, texts
+from ros_lint.collectors.launch_py_texts import Within, conditions_of, texts
 from ros_lint.collectors.launch_text import installed
 from ros_lint.facts import LaunchAction, LaunchValue, Problem
 from ros_lint.text import Span
@@ -78,12 +78,15 @@ class Walker:
         self._depth = 0
         self._open: set[int] = set()
         self._left = _MOST
+        self._stopped = False
 
     def actions(self, value: Value, conditions: Conditions = (), at: Span | None = None) -> list[LaunchAction]:
         """Return what a value does when it is launched."""
         found: list[LaunchAction] = []
-        if self._depth > _DEEPEST:
+        if self._depth > _DEEPEST or self._left <= 0:
+            self._stop("there is too much of it" if self._left <= 0 else "it is nested too deeply", at)
             return found
+        self._left -= 1
         self._depth += 1
         try:
             if not isinstance(value, (Union, Guarded)):
@@ -98,10 +101,9 @@ class Walker:
         if isinstance(value, Instance) and value.made is not None:
             value = value.made
         if isinstance(value, Made):
-            if id(value) in self._open or self._left <= 0:
+            if id(value) in self._open:
                 return []
             value.seen = True
-            self._left -= 1
             self._open.add(id(value))
             try:
                 return self._made(value, conditions)
@@ -117,7 +119,7 @@ class Walker:
         conditions = _merged(conditions, made.conditions)
         condition = made.get(-1, "condition")
         if condition is not None:
-            conditions = (*conditions, *conditions_of(condition))
+            conditions = (*conditions, *conditions_of(condition, Within(self.machine.spend)))
         if made.name == "LaunchDescription":
             return self._description(made, conditions)
         return self._rules.get(made.name, self._otherwise)(self, made, conditions)
@@ -126,10 +128,19 @@ class Walker:
         found: list[LaunchAction] = []
         index = 0
         # Functions that are called on the way may add to it.
-        while index < len(made.entities) and index < 5_000:
-            found += self.actions(made.entities[index], conditions, span_of(made.node, made.source))
+        at = span_of(made.node, made.source)
+        while index < len(made.entities) and self._left > 0:
+            found += self.actions(made.entities[index], conditions, at)
             index += 1
+        if index < len(made.entities):
+            self._stop("there is too much of it", at)
         return found
+
+    def _stop(self, reason: str, at: Span | None) -> None:
+        """Note once that not everything is followed."""
+        if not self._stopped:
+            self._stopped = True
+            self.blind.append((reason, at or Span(self._source.text.path, 1, 1, 1, 1)))
 
     def value(self, made: Made, position: int, *names: str) -> LaunchValue | None:
         """Return an argument as a text, None when it is not there."""
@@ -138,7 +149,7 @@ class Walker:
 
     def text(self, given: Value, node: ast.expr, source: Source) -> LaunchValue:
         """Return a value as a text with the place where it is written."""
-        found = (str(given),) if isinstance(given, str) else tuple(map(str, texts(given)))
+        found = (str(given),) if isinstance(given, str) else tuple(map(str, texts(given, Within(self.machine.spend))))
         origin = plain(given)
         while isinstance(origin, Made) and origin.name in ("TextSubstitution", "ParameterFile", "ParameterValue"):
             origin = plain(origin.get(0, "text", "param_file", "value"))
