@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import re
+from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
@@ -11,7 +13,7 @@ from hypothesis import strategies as st
 from ros_lint.collectors import cpp
 from ros_lint.collectors.cpp_includes import STANDARD, Found, exact, mentions
 from ros_lint.facts import Mention
-from ros_lint.text import Span, Text
+from ros_lint.text import Span, Text, read
 
 
 def includes(text: str) -> Found:
@@ -310,3 +312,13 @@ def test_facts_are_whole() -> None:
     facts = cpp.collect(Text("a.cpp", '#include "a/b.h"\nc_d::msg::E e;\n'))
     assert [len(mention) for mention in facts.mentions] == [len(Mention._fields)] * 2
     assert [len(mention.span) for mention in facts.mentions] == [len(Span._fields)] * 2
+
+
+@pytest.mark.skipif("ROS_LINT_CORPUS" not in os.environ, reason="ROS_LINT_CORPUS names no folder of repositories")
+def test_both_ways_agree_on_real_sources() -> None:
+    sources = [path for path in Path(os.environ["ROS_LINT_CORPUS"]).rglob("*.[ch]pp") if path.is_file()]
+    assert sources
+    for path in sources:
+        source = read(str(path), path.read_bytes())
+        found, precise = mentions(source), exact(source)
+        assert (found.mentions, found.computed) == (precise.mentions, precise.computed), path
