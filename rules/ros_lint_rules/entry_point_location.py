@@ -22,14 +22,15 @@ The fix does this where there is none.
 
 ## When it keeps silent
 
-For entry points whose module does not use rclpy, and that no launch file of the workspace starts.
+For entry points whose module does not use rclpy, and that no launch file of the workspace starts; in packages that extend the
+command `ros2`. A program that uses rclpy and defines no node of its own may be a tool, too: the confidence is medium.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Edit, Facet, Finding, Fix, Package, Related, Rule, Severity, Span, Workspace, relative
+from ros_lint.api import Confidence, Edit, Facet, Finding, Fix, Package, Related, Rule, Severity, Span, Workspace, relative
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -48,8 +49,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         and entry.name in outside
         and (modules.get(entry.target.partition(":")[0].strip()) in using or entry.name in started)
     ]
-    if not nodes:
+    if not nodes or any(entry.group.startswith("ros2cli.") for entry in script.entry_points):
         return
+    defining = {module.name for module in script.modules if _NODES.intersection(module.names)}
+    sure = any(entry.name in started or entry.target.partition(":")[0].strip() in defining for entry in nodes)
     config = f"{package.path}/setup.cfg" if package.path else "setup.cfg"
     there = "setup.cfg" in package.files
     names = [entry.name for entry in nodes]
@@ -61,7 +64,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         "setup.cfg",
         tuple(Related("this entry point", entry.span) for entry in nodes[0 if there else 1 :][:4]),
         None if there else _fix(config, package.name),
+        Confidence.HIGH if sure else Confidence.MEDIUM,
     )
+
+
+_NODES = frozenset({"Node", "LifecycleNode"})
+"""Classes that a module with a node imports by name."""
 
 
 def _fix(config: str, name: str) -> Fix:
