@@ -527,7 +527,7 @@ class LaunchAction(NamedTuple):
     given by name: ``$VARIABLE`` of its environment, ``cwd``, ``prefix``."""
     choices: tuple[str, ...] = ()
     parameters: tuple[tuple[str, LaunchValue], ...] = ()
-    """By name; a file under ""."""
+    """By name; a file under "", any number of parameters that are not known under UNKNOWN."""
     remappings: tuple[tuple[LaunchValue, LaunchValue], ...] = ()
     conditions: tuple[LaunchCondition, ...] = ()
     """All of them must hold; an unknown one has UNKNOWN for its text."""
@@ -573,7 +573,7 @@ class LaunchFile(NamedTuple):
     """Modules that a Python launch file imports whenever it is loaded, dotted as written; none if it changes where Python
     looks for them."""
     asks: tuple[str, ...] = ()
-    """Launch configurations that a Python launch file asks for, wherever they go, sorted; with UNKNOWN for any other."""
+    """Launch configurations that it asks for, wherever they go, sorted; with UNKNOWN for any other."""
     wants: tuple[str, ...] = ()
     """What a Python launch file reads besides itself, and that was not at hand when it was followed: modules, dotted, and
     files by their install path; sorted."""

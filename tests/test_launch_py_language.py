@@ -7,6 +7,7 @@ import pytest
 
 from ros_lint.collectors import launch_py, launch_text
 from ros_lint.facts import Facet
+from ros_lint.interpret.launch_expand import expand
 from ros_lint.text import Text
 from tests.launch_cases import collect, said
 
@@ -282,3 +283,29 @@ def test_hostile_files_end_soon(program: str) -> None:
     begin = time.process_time()
     collect("a.launch.py", body(program))
     assert time.process_time() - begin < 2
+
+
+def test_parameters_by_name_by_file_and_unknown() -> None:
+    program = """\
+where = get_package_share_directory('a')
+return LaunchDescription([Node(package='a', executable='b', parameters=[
+    {'x': 1}, [FindPackageShare('a'), '/config/', 'p.yaml'], os.path.join(where, 'q.yaml'), unknown()])])"""
+    _, file = collect("a.launch.py", body(program))
+    (node,) = file.actions
+    assert [(name, value.texts) for name, value in node.parameters] == [
+        ("x", ("1",)),
+        ("", (f"{launch_text.share('a')}/config/p.yaml",)),
+        ("", (f"{launch_text.share('a')}/q.yaml",)),
+        (launch_text.UNKNOWN, (launch_text.UNKNOWN,)),
+    ]
+
+
+@pytest.mark.parametrize(("distro", "wanted"), [("humble", "old"), ("jazzy", "new")])
+def test_branches_by_distribution(distro: str, wanted: str) -> None:
+    program = """\
+name = 'old' if os.environ.get('ROS_DISTRO') == 'humble' else 'new'
+if os.getenv('ROS_DISTRO') == 'humble':
+    return [Node(package='a', executable='old'), Node(package='a', executable=name)]
+return [Node(package='a', executable='new'), Node(package='a', executable=name)]"""
+    _, file = collect("a.launch.py", body(program))
+    assert [one.target for one in expand(file, {}, distro=distro).started if one.certain][:1] == [(wanted,)]

@@ -11,6 +11,7 @@ from ros_lint.collectors.launch_py_objects import (
     Bound,
     Conditions,
     Context,
+    FilePath,
     Function,
     Instance,
     Made,
@@ -318,10 +319,19 @@ def _parameter(walker: Walker, value: Value, node: ast.expr, made: Made, found: 
         if isinstance(one, dict):
             inner = [(f"{name}.{key}" if name else _key(key), plain(inner)) for key, inner in one.items()]
             waiting = [*inner, *waiting]
-        elif isinstance(one, (list, tuple)) and not name:
+        elif isinstance(one, (list, tuple)) and not name and not all(_names_file(plain(part)) for part in one):
             waiting = [*[("", plain(inner)) for inner in one], *waiting]
+        elif name:
+            found.append((name, walker.text(_list(one), node, made.source)))
         else:
-            found.append((name, walker.text(_list(one) if name else one, node, made.source)))
+            # What is not known is mostly a dictionary of parameters, and no file.
+            known = isinstance(one, (list, tuple)) or _names_file(one)
+            found.append(("" if known else UNKNOWN, walker.text(one, node, made.source)))
+
+
+def _names_file(value: Value) -> bool:
+    """Return whether a value is a path or a part of one."""
+    return isinstance(value, (str, FilePath)) or _is_text(value)
 
 
 def _list(value: Value) -> Value:

@@ -161,7 +161,8 @@ def _path(call: Call) -> Value:
 def _variable(call: Call) -> Value:
     default = call.get(1, "default")
     names = call.texts(0, "key")
-    if default is None and call.name != "os.environ":
+    # ROS sets its distribution wherever something is launched; any other variable may be missing.
+    if default is None and call.name != "os.environ" and names != ("ROS_DISTRO",):
         return Unknown("an environment variable")
     defaults = call.texts(1, "default") if default is not None else (None,)
     return call.result(tuple(environment(name, one) for name in names for one in defaults))
