@@ -6,8 +6,9 @@ import posixpath
 from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
-from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, configurations, fill, installed, is_plain, is_settled
+from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, fill, installed, is_plain, is_settled, named_in
 from ros_lint.facts import LaunchAction, LaunchFile, LaunchValue
+from ros_lint.text import Span
 from ros_lint.workspace import Package
 
 
@@ -118,12 +119,10 @@ class Links:
         complete = not file.problems and not file.opaque and all(map(is_plain, file.asks))
         includes: list[LaunchFile] = []
         for action in everything(file.actions):
-            for value in values(action):
-                for text in value.texts:
-                    known.update(name for name, _ in configurations(text))
-            for condition in action.conditions:
-                for text in condition.texts:
-                    known.update(name for name, _ in configurations(text))
+            for text, _ in texts_of(action):
+                names = named_in(text)
+                known.update(names or ())
+                complete = complete and names is not None
             if action.kind in ("argument", "set") and action.target is not None:
                 known.update(action.target.texts)
                 complete = complete and all(is_plain(text) for text in action.target.texts)
@@ -140,6 +139,14 @@ def everything(actions: Iterable[LaunchAction]) -> Iterator[LaunchAction]:
     for action in actions:
         yield action
         yield from everything(action.children)
+
+
+def texts_of(action: LaunchAction) -> Iterator[tuple[str, Span]]:
+    """Yield every text of an action and its conditions with its place, but for those of the actions in it."""
+    for value in values(action):
+        yield from ((text, value.span) for text in value.texts)
+    for condition in action.conditions:
+        yield from ((text, action.span) for text in condition.texts)
 
 
 def values(action: LaunchAction) -> Iterator[LaunchValue]:

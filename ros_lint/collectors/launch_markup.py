@@ -14,6 +14,7 @@ from typing import NamedTuple
 from ros_lint.collectors.launch_entity import Entity, Rejected, Type
 from ros_lint.collectors.launch_markup_read import Reader, Rule
 from ros_lint.collectors.launch_references import References
+from ros_lint.collectors.launch_text import UNKNOWN
 from ros_lint.facts import LaunchAction, LaunchReference, LaunchValue, Opaque, Problem
 from ros_lint.text import Text
 
@@ -47,6 +48,18 @@ def read(source: Text, root: Entity) -> Found:
         tuple(reader.problems),
         tuple(actions),
     )
+
+
+_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+_ASKED = re.compile(r"\$\(var[ ]+[\"']?(\$\(|[^\s()\"']+)")
+
+
+def asks(text: str) -> tuple[str, ...]:
+    """Return the launch configurations that a text asks for anywhere, sorted, UNKNOWN among them if a name is computed."""
+    if "$(var" not in text:
+        return ()
+    names = set(_ASKED.findall(_COMMENT.sub("", text) if "<!--" in text else text))
+    return tuple(sorted(UNKNOWN if name == "$(" else name for name in names))
 
 
 # --- actions of launch ---------------------------------------------------------------------------------------------

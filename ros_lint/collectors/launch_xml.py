@@ -21,7 +21,8 @@ def collect(source: Text) -> LaunchFile:
             problems=(Problem("syntax", error.message, span),),
         )
     found = launch_markup.read(source, root)
-    return LaunchFile(source.path, "xml", found.references, found.opaque, found.problems, actions=found.actions)
+    asks = launch_markup.asks(source.text)
+    return LaunchFile(source.path, "xml", found.references, found.opaque, found.problems, actions=found.actions, asks=asks)
 
 
 def entities(source: Text) -> Entity:

@@ -36,7 +36,8 @@ def collect(source: Text) -> LaunchFile:
         problem = Problem("root", "the file must be a mapping with the one key launch", start)
         return LaunchFile(source.path, "yaml", problems=(problem,))
     found = launch_markup.read(source, root)
-    return LaunchFile(source.path, "yaml", found.references, found.opaque, found.problems, actions=found.actions)
+    asks = launch_markup.asks(source.text)
+    return LaunchFile(source.path, "yaml", found.references, found.opaque, found.problems, actions=found.actions, asks=asks)
 
 
 class _Reader:

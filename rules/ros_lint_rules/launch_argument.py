@@ -1,13 +1,17 @@
 """
 ## What it finds
 
-An include that does not give an argument which the included launch file requires, or that gives one which neither this
-file nor any that it includes declares or uses.
+- An include that does not give an argument which the included launch file requires, or that gives one which neither this
+  file nor any that it includes declares or uses.
+- A launch configuration that is asked for, while nothing declares or sets it.
+- An argument whose default is none of its choices, and one that is declared and never used.
 
 ## Why it matters
 
-Without a required argument the launch file stops: `Included launch description missing required argument`. An argument
-that nobody takes does nothing, silently: it was renamed or removed, and what it used to change has its default again.
+Without a required argument, and with a default that is no choice, the launch file stops: `Included launch description
+missing required argument`. So it does when a configuration is asked for that nobody set: `launch configuration 'x' does
+not exist`. An argument that nobody takes does nothing, silently: it was renamed or removed, and what it used to change has
+its default again.
 
 ## How to fix it
 
@@ -16,47 +20,129 @@ Give the argument, or give it a default where it is declared; correct the name, 
 ## When it keeps silent
 
 - Which file is included, or which arguments it gets, is not known from the launch files alone.
-- A file that is included further down is not in the workspace: it may take the argument.
-- Arguments that are declared under a condition or in a group.
+- A file that is included further down is not in the workspace: it may take the argument, or declare it.
+- Arguments that are declared under a condition or in a group are not required.
 - A file asks for arguments by names that it computes.
+- A file asks for several configurations that nobody declares: it is a part of others. With one or two the confidence is
+  medium, unless a declared one is nearly the same.
+- A Python launch file imports modules that may ask for its arguments.
 
-An argument that nobody takes is an info, since it is also set for what is included later; a warning if it resembles an
-argument that is not given.
+What does nothing is an info, since an argument that nobody takes is also set for what is included later; it is a warning
+if it resembles an argument that is not given.
 """
 
 from __future__ import annotations
 
 import difflib
+import sys
 from collections.abc import Iterator
 
 from ros_lint.api import (
+    Confidence,
+    Families,
     Finding,
-    Launchable,
     LaunchAction,
+    LaunchFile,
     LaunchValue,
     Links,
     Related,
     Rule,
     Severity,
+    Span,
     Workspace,
     everything,
     is_plain,
     launchable,
 )
 
+_MOST_MISSING = 2
+"""A file that asks for more than these is a part of one that sets them."""
+
+_QUIET = frozenset({"launch", "launch_ros", "launch_xml", "launch_yaml", "ament_index_python", "nav2_common", "xacro", "yaml"})
+"""Modules of launch files besides those of Python."""
+
 
 def check(workspace: Workspace) -> Iterator[Finding]:
     links = workspace.links
+    families = Families([file for package in workspace.packages for file in package.launch], links)
     for package in workspace.packages:
         for launch in launchable(package):
-            for action in everything(launch.file.actions):
-                if action.kind == "include":
-                    for finding in _of_include(action, launch, links):
-                        yield finding._replace(package=package.name)
+            for finding in _of_file(launch.file, links, families):
+                yield finding._replace(package=package.name)
 
 
-def _of_include(action: LaunchAction, launch: Launchable, links: Links) -> Iterator[Finding]:
-    target = links.target(action.target, launch.file)
+def _of_file(file: LaunchFile, links: Links, families: Families) -> Iterator[Finding]:
+    for action in everything(file.actions):
+        if action.kind == "include":
+            yield from _of_include(action, file, links)
+        elif action.kind == "argument":
+            yield from _of_choices(action)
+    names, takes = families.names(file), links.takes(file)
+    if not (names.whole and takes.complete):
+        return
+    above = families.above(file)
+    there = {*names.declared, *names.made}.union(*([*one.declared, *one.made] for one in above))
+    inside = _known_inside(file, links)
+    missing = {name: span for name, span in names.needed.items() if name not in there and name not in inside}
+    for name, span in missing.items() if len(missing) <= _MOST_MISSING else ():
+        yield _undeclared(name, span, sorted(names.declared), sure=not above)
+    if file.language == "python" and not (file.imports and all(_is_of_launch(name) for name, _ in file.imports)):
+        return
+    asked = names.asked.union(inside, *(one.asked for one in above))
+    for name, span in names.declared.items():
+        if name not in asked:
+            yield Finding(
+                f"the argument {name} is declared and never used: it does nothing",
+                span,
+                name,
+                severity=Severity.INFO,
+            )
+
+
+def _is_of_launch(module: str) -> bool:
+    """Whether a module surely asks for no launch configurations of its own."""
+    top = module.partition(".")[0]
+    return top in _QUIET or top in sys.stdlib_module_names
+
+
+def _known_inside(file: LaunchFile, links: Links) -> frozenset[str]:
+    """Return every name that the included files know."""
+    found: set[str] = set()
+    for action in everything(file.actions):
+        target = links.target(action.target, file) if action.kind == "include" else None
+        if target is not None:
+            found |= links.takes(target.file).known
+    return frozenset(found)
+
+
+def _undeclared(name: str, span: Span, declared: list[str], *, sure: bool) -> Finding:
+    near = difflib.get_close_matches(name, declared, 1, 0.85)
+    return Finding(
+        f"no launch argument {name} is declared, and nothing sets it{f'; did you mean {near[0]}?' if near else ''}",
+        span,
+        name,
+        confidence=Confidence.HIGH if near and sure else Confidence.MEDIUM,
+        severity=Severity.ERROR,
+    )
+
+
+def _of_choices(action: LaunchAction) -> Iterator[Finding]:
+    value = action.value
+    if value is None or not action.choices or not all(map(is_plain, (*action.choices, *value.texts))):
+        return
+    if len(value.texts) == 1 and value.texts[0] not in action.choices:
+        name = action.target.texts[0] if action.target is not None else ""
+        choices = ", ".join(action.choices)
+        yield Finding(
+            f"the default of {name} is {value.texts[0] or 'the empty text'}, which is none of its choices: {choices}",
+            value.span,
+            name,
+            severity=Severity.ERROR,
+        )
+
+
+def _of_include(action: LaunchAction, source: LaunchFile, links: Links) -> Iterator[Finding]:
+    target = links.target(action.target, source)
     given = {name: value for name, value in action.arguments if name}
     if target is None or not all(is_plain(name) for name in given):
         return
