@@ -549,6 +549,12 @@ function(generate_parameter_module module yaml)
   ros_lint_python(${PROJECT_NAME})
   ros_lint_provide(${PYTHON_INSTALL_DIR}/${PROJECT_NAME}/${module}.py)
 endfunction()
+function(add_rostest_with_parameters_gtest target sources yaml)
+  ros_lint_test_executable(${target} ${sources})
+endfunction()
+function(add_rostest_with_parameters_gmock target sources yaml)
+  ros_lint_test_executable(${target} ${sources})
+endfunction()
 
 package(autoware_cmake)
 
