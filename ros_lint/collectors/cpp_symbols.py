@@ -26,9 +26,10 @@ _NAMESPACES = (
 
 # "::" first, as that is looked for fast; of what may stand before it the last letter is looked at before the rest.
 _LAST = "".join(sorted({name[-1] for name in _NAMESPACES}))
-_BEFORE = "|".join(rf"(?<=\b{name}::)" for name in _NAMESPACES)
+_BEFORE = "|".join(f"(?<={name}::)" for name in _NAMESPACES)
 _KIND = re.compile(rf"::(?:(?:msg|srv|action)::|(?<=[{_LAST}]::)(?:{_BEFORE}))")
-_TYPE = re.compile(r"::(?:(?:msg|srv|action)::)?\w+")
+_TYPE = re.compile(r"::(?:msg|srv|action)::\w+")
+_NAME = re.compile(r"::\w+")
 _WORD = string.ascii_letters + string.digits + "_"
 _INSIDE = frozenset(_WORD)
 _make = tuple.__new__
@@ -63,9 +64,10 @@ def _first(text: str, package: str, code: Sequence[int], conditional: Sequence[r
     """
     optional = None
     written = f"{package}::"
+    pattern = _NAME if package in _NAMESPACES else _TYPE
     start = text.find(written)
     while start >= 0:
-        name = _TYPE.match(text, start + len(package))
+        name = pattern.match(text, start + len(package))
         if name and _is_code(text, start) and not in_doubt(text, start, code):
             if not conditional or not any(start in each for each in conditional):
                 return start, name.end(), False, package
