@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from functools import cache, partial
 from typing import Final, NamedTuple
 
-from ros_lint.collectors.cmake_syntax import QUOTED, UNQUOTED, Command
+from ros_lint.collectors.cmake_syntax import QUOTED, UNQUOTED, Command, parse
 from ros_lint.interpret.cmake_arguments import parse_keywords
 from ros_lint.interpret.cmake_blocks import Body, Definition, If, blocks
 from ros_lint.interpret.cmake_definitions import counts
@@ -21,6 +21,7 @@ from ros_lint.interpret.cmake_run import MOST_STEPS, BudgetError, Run
 from ros_lint.interpret.cmake_state import NEXT, STOP, TESTS, USUAL, Exit, Frame, Procedure
 from ros_lint.interpret.cmake_values import split
 from ros_lint.knowledge.cmake_commands import macros
+from ros_lint.text import Text
 
 _NOT_PLAIN = re.compile(r"[\0\2$\\;\[]")
 _TESTS: Final = "BUILD_TESTING"
@@ -54,7 +55,7 @@ def released(name: str) -> Released | None:
     macro = macros().get(name)
     if macro is None:
         return None
-    (node,) = blocks(macro.definition)
+    (node,) = blocks(parse(Text("ros_macros.cmake", macro.text)).commands)
     assert isinstance(node, Definition)
     _, *parameters = [argument[0] for argument in node.command.args]
     is_macro = node.command.name == "macro"

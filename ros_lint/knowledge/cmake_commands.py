@@ -7,13 +7,12 @@ in place of the real ones. See the head of that file.
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Mapping
 from functools import cache
 from typing import Final, NamedTuple
 
-from ros_lint.collectors.cmake_syntax import Command, parse
 from ros_lint.knowledge.store import SHIPPED
-from ros_lint.text import Text
 
 VARIABLES: Final[Mapping[str, str]] = {
     "CMAKE_SOURCE_DIR": "/\1source",
@@ -88,23 +87,23 @@ class Macro(NamedTuple):
     """A released function or macro: its definition, reduced to its effects, and the package that brings it."""
 
     package: str
-    definition: tuple[Command, ...]
+    text: str
+    """From function() or macro() to its end."""
 
 
 @cache
 def macros() -> Mapping[str, Macro]:
     """Return the released macros that are known, by name in lower case."""
-    path = os.path.join(SHIPPED, "ros_macros.cmake")
-    with open(path, encoding="utf-8") as file:
-        commands = parse(Text("ros_macros.cmake", file.read())).commands
     found: dict[str, Macro] = {}
     package = ""
-    begin = 0
-    for index, command in enumerate(commands):
-        if command.name == "package":
-            package = command.args[0][0]
-        elif command.name in ("function", "macro"):
-            begin = index
-        elif command.name in ("endfunction", "endmacro"):
-            found[commands[begin].args[0][0].lower()] = Macro(package, commands[begin : index + 1])
+    with open(os.path.join(SHIPPED, "ros_macros.cmake"), encoding="utf-8") as file:
+        for match in _PIECE.finditer(file.read()):
+            if match[3]:
+                found[match[3].lower()] = Macro(package, match[0])
+            else:
+                package = match[1]
     return found
+
+
+# Few of the definitions are wanted in a run, so these are not taken apart before.
+_PIECE = re.compile(r'^package\("?([^")\n]*)"?\)$|^(function|macro)\((\w+)[^\n]*\n(?s:.*?)^end\2\(\)$', re.MULTILINE)
