@@ -577,3 +577,5 @@ class LaunchFile(NamedTuple):
     wants: tuple[str, ...] = ()
     """What a Python launch file reads besides itself, and that was not at hand when it was followed: modules, dotted, and
     files by their install path; sorted."""
+    fills: bool = False
+    """Whether launch configurations are filled into a file of parameters (allow_substs), which can ask for any."""

@@ -67,6 +67,11 @@ def entries(text: str) -> frozenset[str]:
 
 def collect(source: Text, language: Language) -> LaunchFile:
     """Return what a launch file says. Never raises: what is wrong with the file is among its problems."""
+    found = _collect(source, language)
+    return found._replace(fills=True) if "allow_substs" in source.text else found
+
+
+def _collect(source: Text, language: Language) -> LaunchFile:
     if language == "python":
         from ros_lint.collectors import launch_py  # noqa: PLC0415  (most workspaces have files of one language)
 
