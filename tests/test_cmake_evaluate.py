@@ -475,3 +475,9 @@ def test_what_configure_file_makes_is_installed_with_its_folder() -> None:
     script = run(text)
     assert paths(script).keys() == {"include/pkg/pkg/a.h", "include/pkg/pkg/b.h", "x/include/pkg/a.h"}
     assert hidden(script) & Facet.LIBRARIES
+
+
+def test_many_ways_out_do_not_make_a_script_long() -> None:
+    text = "".join(f"find_package(p{number})\nif(p{number}_FOUND)\nreturn()\nendif()\n" for number in range(50))
+    script = run(text + "set(a b)\n" * 2000 + "install(FILES a.txt DESTINATION share/pkg)\n", ("a.txt",))
+    assert paths(script)["share/pkg/a.txt"] is True

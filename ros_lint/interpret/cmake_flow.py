@@ -58,6 +58,7 @@ def run_body(run: Run, body: Sequence[Node], start: int = 0) -> Exit:
             return ended
         if ended == NEXT | STOP:
             continue  # only the ways that go on matter
+        run.steps -= len(body) - index - 1  # they are counted once more
         rest, changes = perhaps(run, partial(run_body, run, body, index + 1), ended)
         run.join([{}, changes], 1 if ended & USUAL else None)
         return (ended & ~(NEXT | USUAL | TESTS)) | rest

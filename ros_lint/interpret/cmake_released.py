@@ -161,6 +161,7 @@ def _run_steps(run: Run, steps: Sequence[_Step], values: dict[str, str | None], 
             continue
         if not ended & NEXT:
             return ended
+        run.steps -= len(steps) - index - 1  # they are counted once more
         rest, changes = perhaps(run, partial(_run_steps, run, steps, values, index + 1), ended)
         run.join([{}, changes], 1 if ended & USUAL else None)
         return (ended & ~(NEXT | USUAL | TESTS)) | rest
