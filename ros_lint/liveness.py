@@ -25,6 +25,9 @@ _RUNNERS = ("pytest", "launch_test", "ros_test", "add_test", "nose")
 
 _PROGRAMS = ("lib/", "bin/")
 
+_SHADOWED = frozenset({"launch"})
+"""Folders of packages that are called like a module everybody imports: without __init__.py they do not hide it (PEP 420)."""
+
 PRODUCTION = Role.BUILD | Role.EXEC
 PUBLIC = Role.BUILD | Role.EXPORT | Role.EXEC
 
@@ -90,7 +93,7 @@ class Liveness:
 
         What lies in a Python package is no module of its own, but for scripts beside it that are started where they are.
         """
-        folders = self._modules.get(module, ())
+        folders = self._modules.get(module, set())
         if not folders:
             return False
         here, _, name = importer.rpartition("/")
@@ -155,6 +158,8 @@ class Liveness:
                     folder, _, name = path.rpartition("/")
                     found.setdefault(name, set()).add(folder)
                     path = folder
+        for name in _SHADOWED & found.keys():
+            found[name] = {folder for folder in found[name] if f"{folder}/{name}".lstrip("/") in self._python_packages}
         return found
 
     @cached_property

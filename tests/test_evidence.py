@@ -230,3 +230,11 @@ def test_of_several_that_would_do_the_best_that_is_declared_is_used() -> None:
     (use,) = uses(workspace, "libpcl-all-dev")
     assert used_names(("pcl_ros", "pcl_conversions"), [use]) == {"pcl_conversions"}
     assert used_names(("pcl_ros", "libpcl-all-dev"), [use]) == {"libpcl-all-dev"}
+
+
+def test_a_folder_with_launch_files_is_no_module() -> None:
+    launch = "from launch import LaunchDescription\ndef generate_launch_description():\n    return LaunchDescription([])\n"
+    lines = "install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})"
+    files = cmake("talker", "", lines, launch__a_dot_launch_dot_py=launch)
+    assert uses(load(files), "launch")
+    assert not uses(load({**files, "talker/launch/__init__.py": ""}), "launch")

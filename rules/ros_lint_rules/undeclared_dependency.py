@@ -53,7 +53,11 @@ _MOST_RELATED = 4
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if package.manifest is None or package.manifest.problems:
         return
-    for need, sure in undeclared(package, workspace):
+    found = undeclared(package, workspace)
+    with_launch = {need.name for need, _ in found if comes_with_launching(package, need.uses)}
+    for need, sure in found:
+        if need.name == "launch" and "launch_ros" in with_launch:
+            continue  # which brings it
         best, *others = need.uses
         name = need.name
         tag = tag_for(package, workspace, name, need.role)
@@ -65,7 +69,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             tuple(Related(f"also used here: {use.what}", use.span) for use in others[:_MOST_RELATED]),
             None if circular else Fix(f"declare {name} as <{tag}>", add_dependency(package, tag, name)),
             Confidence.HIGH if sure and not circular else Confidence.MEDIUM,
-            Severity.INFO if comes_with_launching(package, need.uses) else None,
+            Severity.INFO if need.name in with_launch else None,
         )
 
 
