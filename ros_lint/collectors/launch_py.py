@@ -70,7 +70,7 @@ def collect(
         tuple(reading.actions),
         tuple(_imports(source, tree)),
         reading.asks(),
-        tuple(sorted(reading.wants)),
+        tuple(sorted(map(str, reading.wants))),  # the cache takes none but plain texts
     )
 
 

@@ -1,0 +1,48 @@
+"""What is kept between runs is what was found."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ros_lint.cache import Cache
+from ros_lint.collect import collect_all
+from ros_lint.tree import DiskTree
+
+FILES = {
+    "p/CMakeLists.txt": "project(p)\nadd_executable(a a.cpp)\n",
+    "p/a.cpp": '#include "b/c.hpp"\nRCLCPP_COMPONENTS_REGISTER_NODE(p::A)\nauto d = get_package_share_directory("q") + "/x.y";\n',
+    "p/msg/A.msg": "q/B b\nc/d/e/F g\n",
+    "p/config/a.yaml": "/**:\n  ros__parameters:\n    file: $(find-pkg-share q)/a.b\n",
+    "p/launch/a.launch.xml": '<launch><arg name="x" default="1"/><node pkg="p" exec="a" if="$(var x)"/></launch>\n',
+    "p/launch/b.launch.py": """import os
+import yaml
+from launch import LaunchDescription
+from launch_ros.actions import Node
+from ament_index_python.packages import get_package_share_directory
+
+
+def generate_launch_description():
+    path = os.path.join(get_package_share_directory("p"), "config", "a.yaml")
+    with open(path) as file:
+        values = yaml.safe_load(file)
+    more = yaml.safe_load(open("config/b.yaml"))
+    return LaunchDescription([Node(package="p", executable=name, parameters=[path]) for name in values["nodes"]])
+""",
+    "p/setup.py": "import q  # ros-lint: ignore[undeclared-dependency] why\nx = __import__(name)\n",
+    "p/Cargo.toml": '[dependencies]\nrclrs = "*"\n',
+}
+
+
+def test_what_is_kept_is_what_was_found(tmp_path: Path) -> None:
+    for name, text in FILES.items():
+        path = tmp_path / "ws" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    tree = DiskTree(str(tmp_path / "ws"))
+    found = collect_all(tree, list(FILES), 1, Cache(str(tmp_path / "cache"), "ws"), lambda done: None)
+    assert not any(each.unreadable for each in found.values())
+    kept = Cache(str(tmp_path / "cache"), "ws").fetch(tree, list(FILES))
+    assert kept == found
+    assert repr(kept) == repr(found)  # which tells the classes, too
+    (tmp_path / "ws" / "p" / "a.cpp").write_text("#include <d/e.hpp>\n")
+    assert set(Cache(str(tmp_path / "cache"), "ws").fetch(tree, list(FILES))) == set(FILES) - {"p/a.cpp"}
