@@ -23,6 +23,9 @@ _RESOURCES = (".urdf", ".xacro", ".sdf", ".world", ".rviz", ".yaml", ".yml", ".x
 _RUNNERS = ("pytest", "launch_test", "ros_test", "add_test", "nose")
 """Parts of the names of CMake commands that run tests in Python."""
 
+_RECIPES = frozenset({"conanfile.py", "noxfile.py", "conf.py"})
+"""Files of tools that have no part in a build by colcon."""
+
 _PROGRAMS = ("lib/", "bin/")
 
 _SHADOWED = frozenset({"launch"})
@@ -85,7 +88,7 @@ class Liveness:
             return Role.EXEC, path in self._installed or not (self._sees_share or idle)
         if python:
             alive = path in self._installed_python or (path in self._installed and path in self._beside_launch_files)
-            return Role.EXEC, alive or not (self._sees_python or idle)
+            return Role.EXEC, alive or not (self._sees_python or idle or name in _RECIPES)
         return PRODUCTION, not (self._sees_targets or idle)
 
     def has_module(self, module: str, importer: str) -> bool:

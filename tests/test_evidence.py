@@ -238,3 +238,13 @@ def test_a_folder_with_launch_files_is_no_module() -> None:
     files = cmake("talker", "", lines, launch__a_dot_launch_dot_py=launch)
     assert uses(load(files), "launch")
     assert not uses(load({**files, "talker/launch/__init__.py": ""}), "launch")
+
+
+def test_recipes_of_other_tools_are_less_than_sure() -> None:
+    files = {
+        **cmake("talker", "", "find_package(acme_cmake REQUIRED)\nacme_package()"),
+        "talker/conanfile.py": "import yaml\n",
+        "talker/nodes/main.py": "import yaml\n",
+    }
+    found = {use.span.path: use.sure for use in load(files).packages[0].uses if use.via == "import"}
+    assert found == {"talker/conanfile.py": False, "talker/nodes/main.py": True}
