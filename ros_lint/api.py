@@ -61,7 +61,7 @@ from ros_lint.graph import Edge, Graph, Reason
 from ros_lint.graph_cut import Knot, knots
 from ros_lint.launch_files import Launchable, Programs, launchable, programs
 from ros_lint.launch_links import Links, defaults_of, everything, filled
-from ros_lint.launch_names import Families
+from ros_lint.launch_names import Families, needed
 from ros_lint.launch_parameters import Given, ParameterFiles
 from ros_lint.launch_runs import launched
 from ros_lint.needs import Need, comes_with_launching, covered, declared_closure, may_bring, needs, undeclared
@@ -160,6 +160,7 @@ __all__ = [
     "manifest_edits",
     "may_bring",
     "missing_path",
+    "needed",
     "needs",
     "programs",
     "relative",

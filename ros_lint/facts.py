@@ -153,6 +153,8 @@ class ParameterFile(NamedTuple):
     it has no ``ros__parameters`` at all."""
     first: Span
     """Of its first key."""
+    asks: tuple[str, ...] = ()
+    """Launch configurations that are filled in, if whoever gives it to a node allows that (``allow_substs``)."""
 
 
 class FileFacts(NamedTuple):

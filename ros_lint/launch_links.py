@@ -115,14 +115,10 @@ class Links:
         done = self._owns.get(file.path)
         if done is not None:
             return done
-        known = set(file.asks)
-        complete = not file.problems and not file.opaque and all(map(is_plain, file.asks))
+        known = asked_by(file)
+        complete = not file.problems and not file.opaque and all(map(is_plain, known))
         includes: list[LaunchFile] = []
         for action in everything(file.actions):
-            for text, _ in texts_of(action):
-                names = named_in(text)
-                known.update(names or ())
-                complete = complete and names is not None
             if action.kind in ("argument", "set") and action.target is not None:
                 known.update(action.target.texts)
                 complete = complete and all(is_plain(text) for text in action.target.texts)
@@ -139,6 +135,17 @@ def everything(actions: Iterable[LaunchAction]) -> Iterator[LaunchAction]:
     for action in actions:
         yield action
         yield from everything(action.children)
+
+
+def asked_by(file: LaunchFile) -> set[str]:
+    """Return the launch configurations that a file asks for, UNKNOWN among them if others may be meant."""
+    found = set(file.asks)
+    if file.language == "python":  # of the others, the text says it all
+        for action in everything(file.actions):
+            for text, _ in texts_of(action):
+                if not text.isascii():
+                    found.update(name for name in named_in(text) or () if not name.startswith("$"))
+    return found
 
 
 def texts_of(action: LaunchAction) -> Iterator[tuple[str, Span]]:

@@ -138,7 +138,7 @@ class _Reading:
         found = {
             str(name)
             for made in self._machine.made
-            if made.name.startswith("LaunchConfiguration")
+            if made.name.startswith("LaunchConfig")  # LaunchConfigAsBool of nav2_common among them
             for name in texts(made.get(0, "variable_name", "launch_configuration_name"), within)
         }
         if ".launch_configurations" in self._source.text.text:

@@ -23,6 +23,15 @@ _MOST_LINES = 20_000
 
 def collect(source: Text) -> ParameterFile | None:
     """Return what a file says, None when it has no keys."""
+    found = _collected(source)
+    if found is None or "$(var" not in source.text:
+        return found
+    from ros_lint.collectors.launch_markup import asks  # noqa: PLC0415  (few files of parameters are filled in)
+
+    return found._replace(asks=asks(source.text))
+
+
+def _collected(source: Text) -> ParameterFile | None:
     text = source.text
     first = _FIRST.search(text)
     marks = text.count(_MARK)

@@ -25,7 +25,10 @@ Give the argument, or give it a default where it is declared; correct the name, 
 - A file asks for arguments by names that it computes.
 - A file asks for several configurations that nobody declares: it is a part of others. With one or two the confidence is
   medium, unless a declared one is nearly the same.
-- A Python launch file imports modules that may ask for its arguments.
+- A Python launch file imports modules that may ask for its arguments, or parameters are filled in from launch
+  configurations (`allow_substs`): whoever gives another file of parameters may use any argument there. Of an argument that
+  an include gives the confidence is medium then.
+- A file has nothing but arguments: it sets them for whoever includes it.
 
 What does nothing is an info, since an argument that nobody takes is also set for what is included later; it is a warning
 if it resembles an argument that is not given.
@@ -53,6 +56,7 @@ from ros_lint.api import (
     everything,
     is_plain,
     launchable,
+    needed,
 )
 
 _MOST_MISSING = 2
@@ -65,16 +69,17 @@ _QUIET = frozenset({"launch", "launch_ros", "launch_xml", "launch_yaml", "ament_
 def check(workspace: Workspace) -> Iterator[Finding]:
     links = workspace.links
     families = Families([file for package in workspace.packages for file in package.launch], links)
+    filled = frozenset(name for package in workspace.packages for file in package.parameter_files for name in file.asks)
     for package in workspace.packages:
         for launch in launchable(package):
-            for finding in _of_file(launch.file, links, families):
+            for finding in _of_file(launch.file, links, families, filled):
                 yield finding._replace(package=package.name)
 
 
-def _of_file(file: LaunchFile, links: Links, families: Families) -> Iterator[Finding]:
+def _of_file(file: LaunchFile, links: Links, families: Families, filled: frozenset[str]) -> Iterator[Finding]:
     for action in everything(file.actions):
         if action.kind == "include":
-            yield from _of_include(action, file, links)
+            yield from _of_include(action, file, links, families, filled)
         elif action.kind == "argument":
             yield from _of_choices(action)
     names, takes = families.names(file), links.takes(file)
@@ -83,10 +88,13 @@ def _of_file(file: LaunchFile, links: Links, families: Families) -> Iterator[Fin
     above = families.above(file)
     there = {*names.declared, *names.made}.union(*([*one.declared, *one.made] for one in above))
     inside = _known_inside(file, links)
-    missing = {name: span for name, span in names.needed.items() if name not in there and name not in inside}
+    strange = names.asked - there - inside
+    missing = needed(file, strange) if strange else {}
     for name, span in missing.items() if len(missing) <= _MOST_MISSING else ():
         yield _undeclared(name, span, sorted(names.declared), sure=not above)
     if file.language == "python" and not (file.imports and all(_is_of_launch(name) for name, _ in file.imports)):
+        return
+    if families.fill(file) or all(action.kind in ("argument", "set") for action in file.actions):
         return
     asked = names.asked.union(inside, *(one.asked for one in above))
     for name, span in names.declared.items():
@@ -141,7 +149,9 @@ def _of_choices(action: LaunchAction) -> Iterator[Finding]:
         )
 
 
-def _of_include(action: LaunchAction, source: LaunchFile, links: Links) -> Iterator[Finding]:
+def _of_include(
+    action: LaunchAction, source: LaunchFile, links: Links, families: Families, filled: frozenset[str]
+) -> Iterator[Finding]:
     target = links.target(action.target, source)
     given = {name: value for name, value in action.arguments if name}
     if target is None or not all(is_plain(name) for name in given):
@@ -165,18 +175,20 @@ def _of_include(action: LaunchAction, source: LaunchFile, links: Links) -> Itera
                 severity=Severity.ERROR,
             )
     left = takes.known - given.keys()
+    sure = not families.fill(target.file)
     for name, value in given.items() if takes.complete else ():
-        if name not in takes.known:
-            yield _useless(file, name, value, left)
+        if name not in takes.known and (sure or name not in filled):
+            yield _useless(file, name, value, left, sure=sure)
 
 
-def _useless(file: str, name: str, value: LaunchValue, left: frozenset[str]) -> Finding:
+def _useless(file: str, name: str, value: LaunchValue, left: frozenset[str], *, sure: bool) -> Finding:
     """Return the finding for an argument that nobody takes. One that resembles an argument not given was renamed."""
     near = difflib.get_close_matches(name, left, 1, 0.85)
     return Finding(
         f"{file} takes no argument {name}: it does nothing there{f'; did you mean {near[0]}?' if near else ''}",
         value.span,
         f"{file}:{name}",
+        confidence=Confidence.HIGH if sure else Confidence.MEDIUM,
         severity=None if near else Severity.INFO,
     )
 
