@@ -10,14 +10,17 @@ import re
 from typing import TYPE_CHECKING, Any, Final, Literal
 
 from ros_lint.collectors.xml_tree import Element, attribute_places
+from ros_lint.text import Span
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from ros_lint.text import Span, Text
+    from ros_lint.text import Text
 
 Type = Literal["str", "int", "float", "bool", "any", "strs", "ints", "floats", "bools"]
 """What an attribute is asked to be; ``any`` is what YAML's rules make of it."""
+
+_make = tuple.__new__  # half of what the constructor takes
 
 _SCALARS: Mapping[str, type] = {"str": str, "int": int, "float": float, "bool": bool}
 _LISTS: Mapping[str, type] = {"strs": str, "ints": int, "floats": float, "bools": bool}
@@ -44,6 +47,7 @@ class Entity:
         "_read_children",
         "_source",
         "_spots",
+        "_written",
         "attributes",
         "children",
         "end",
@@ -78,6 +82,7 @@ class Entity:
         self.form = form
         """``element`` in XML; in YAML what stands behind the key."""
         self._spots = spots
+        self._written: dict[str, tuple[Span, bool]] | None = None
         self.simple = simple
         """Whether each attribute is the text that is written: in XML, and without separators."""
         self.read: set[str] = set()
@@ -89,34 +94,49 @@ class Entity:
         """The place of the tag."""
         return self._source.span(self.start, self.end)
 
-    def spot(self, name: str) -> tuple[int, int]:
-        """Return the offsets of the value of an attribute that is there."""
-        spots = self._spots
-        if spots is None:
-            spots = self._spots = self._find_spots(self._source.text)
-        return spots.get(name) or (self.start - 1, self.start - 1)
+    def written(self, name: str) -> tuple[Span, bool]:
+        """Return the place of the value of an attribute that is there, and whether it stands there letter by letter."""
+        found = self._written
+        if found is None:
+            found = self._written = self._find_written()
+        return found.get(name) or (self._source.span(self.start - 1, self.start - 1), False)
 
-    def _find_spots(self, text: str) -> dict[str, tuple[int, int]]:
-        """Return the offsets of the values of the attributes of an element."""
-        found: dict[str, tuple[int, int]] = {}
+    def _find_written(self) -> dict[str, tuple[Span, bool]]:
+        source, text = self._source, self._source.text
+        if self._spots is not None:
+            return self._from_spots(self._spots)
+        # Nearly all are written plainly, in the order in which the parser reports them: a pass from line to line.
+        found: dict[str, tuple[Span, bool]] = {}
         at = self.end
+        path, line, column, _, _ = source.span(at, at)
+        before = at - column
         for name, value in self.attributes.items():
-            # Nearly all are written plainly, in the order in which the parser reports them.
-            written = f'{name}="{value}"'
+            plain = f'{name}="{value}"'
             start = at + 1
-            if not (text.startswith(written, start) and text[at] in " \n"):
+            if not (text.startswith(plain, start) and text[at] == " "):
                 start = text.find(name, at)
-                if not (text.startswith(written, start) and text[at:start].isspace()):
-                    return attribute_places(text, Element(self.tag, {}, self.start - 1))
+                gap = text[at:start]
+                if not (text.startswith(plain, start) and gap.isspace()):
+                    return self._from_spots(attribute_places(text, Element(self.tag, {}, self.start - 1)))
+                if not gap.isascii() or "\r" in gap:
+                    _, line, column, _, _ = source.span(start, start)
+                    before = start - column
+                elif "\n" in gap:
+                    line += gap.count("\n")
+                    before = at + gap.rindex("\n")
             start += len(name) + 2
-            at = start + len(value)
-            found[name] = (start, at)
-            at += 1
+            end = start + len(value)
+            found[name] = (_make(Span, (path, line, start - before, line, end - before)), True)
+            at = end + 1
         return found
+
+    def _from_spots(self, spots: dict[str, tuple[int, int]]) -> dict[str, tuple[Span, bool]]:
+        text, span = self._source.text, self._source.span
+        return {name: (span(start, end), text[start:end] == self.attributes.get(name)) for name, (start, end) in spots.items()}
 
     def place(self, name: str) -> Span:
         """Return the place of the value of an attribute."""
-        return self._source.span(*self.spot(name)) if name in self.attributes else self.span
+        return self.written(name)[0] if name in self.attributes else self.span
 
     def lacks(self, names: frozenset[str]) -> bool:
         """Return whether none of some names is an attribute, and asking for them could not raise."""

@@ -85,7 +85,8 @@ def _argument(reader: Reader, entity: Entity) -> LaunchAction:
 def _plain(entity: Entity, name: str) -> LaunchValue:
     """Return an attribute that is no substitution, whatever it looks like."""
     value = _unescaped(entity.attributes[name])
-    return LaunchValue((value,), entity.place(name), value == entity.attributes[name])
+    span, plain = entity.written(name)
+    return LaunchValue((value,), span, plain and value == entity.attributes[name])
 
 
 def _unescaped(value: str) -> str:

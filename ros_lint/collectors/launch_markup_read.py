@@ -26,8 +26,7 @@ class Reader:
     """Reads entities by rules, one to a tag, and notes what is refused."""
 
     def __init__(self, source: Text, rules: Mapping[str, Rule]) -> None:
-        self._text = source.text
-        self._span = source.span
+        self._source = source
         self._rules = rules
         self.problems: list[Problem] = []
 
@@ -72,10 +71,13 @@ class Reader:
 
     def _inner(self, entity: Entity, name: str, value: str, start: int, end: int) -> Span:
         """Return the place of a part of a value, of all of it where it is not written as it is meant."""
-        first, last = entity.spot(name)
-        if self._text[first:last] != value:
-            return self._span(first, last)
-        return self._span(first + start, first + end)
+        span, plain = entity.written(name)
+        if not plain or entity.attributes[name] != value:
+            return span
+        if span.line == span.end_line:
+            return Span(span.path, span.line, span.column + start, span.line, span.column + end)
+        first = self._source.offset(span.line, span.column)
+        return self._source.span(first + start, first + end)
 
     def text(self, entity: Entity, name: str) -> LaunchValue:
         """Return an attribute that must be there as a text. Raises Rejected."""
@@ -94,9 +96,8 @@ class Reader:
 
     def _value(self, entity: Entity, name: str, value: str) -> LaunchValue:
         texts = (value,) if "$" not in value and "\\" not in value else self._texts(entity, name, value)
-        start, end = entity.spot(name)
-        exact = len(texts) == 1 and self._text[start:end] == texts[0]
-        return _make(LaunchValue, (texts, self._span(start, end), exact))
+        span, plain = entity.written(name)
+        return _make(LaunchValue, (texts, span, plain and len(texts) == 1 and texts[0] == value))
 
     def typed(self, entity: Entity, name: str, kind: Type) -> Any:
         """Return an attribute that may be a substitution instead of what is asked for, None when it is not there."""
@@ -181,11 +182,11 @@ class Mistake(NamedTuple):
     end: int
 
 
-@lru_cache(maxsize=4_096)
 def _as_yaml(row: tuple[str, ...]) -> str:
     return f"[{', '.join(repr(one) if ',' in one else one for one in row)}]"
 
 
+@lru_cache(maxsize=4_096)
 def reading(value: str) -> tuple[str, ...] | Mistake:
     """Return what a value becomes, or why the front end refuses it. Few values are written in one place only."""
     found = simple_text(value)
