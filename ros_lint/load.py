@@ -12,7 +12,7 @@ from typing import NamedTuple
 from ros_lint import conditions, evidence, launch_around, scripts, source_lists
 from ros_lint.cache import Cache
 from ros_lint.collect import FAILED, Collected, collect_all, kind_of
-from ros_lint.declare import is_seen_whole
+from ros_lint.declare import is_seen_whole, is_unseen_by_name
 from ros_lint.discover import Found, Skipped, discover
 from ros_lint.facts import ROLES, BuildScript, FileFacts, LaunchFile, Manifest, Role
 from ros_lint.knowledge import Knowledge
@@ -217,7 +217,8 @@ class Loader:
         built = [d.name for d in package.declared if d.depend.tag in ("depend", "build_depend") and not d.depend.condition]
         unused = evidence.unused_names(built, package.uses)
         names = world.knowledge.names
-        wanted = [name for name in unused if not names.works_unseen(name)]
+        satisfied = {name for use in package.uses for name in use.providers}
+        wanted = [n for n in unused if not (names.works_unseen(n) or (n in satisfied and is_unseen_by_name(world, n)))]
         libraries = {name: names.called(name) for name in wanted if world.is_key(name)}
         return evidence.traces(wanted, _contents(tree, package), libraries) if wanted else {}
 

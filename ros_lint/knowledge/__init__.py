@@ -125,7 +125,7 @@ class Knowledge:
         None when none has it, or when the name means nothing there.
         """
         having = [other for other in self.others if package in other]
-        if not having or not any(name in other or other.declared_as(name) for other in having):
+        if not having or not (name in self.rosdep or any(name in other for other in having)):
             return None
         if package not in self._elsewhere:
             found = set().union(*(other.brought(package) for other in having))

@@ -138,6 +138,7 @@ class Index:
         self.date = said.get("date", "")
         self.commit = said.get("rosdistro", "")
         self._table = table
+        self._brings: dict[str, tuple[str, ...]] = {}
 
     def __len__(self) -> int:
         return len(self._table)
@@ -211,8 +212,12 @@ class Index:
         """Return all that comes along with a package, at any distance."""
         found = {name}
         queue = [name]
+        known = self._brings
         for each in queue:
-            new = [other for other in self.runtime(each) or () if other not in found]
+            brings = known.get(each)
+            if brings is None:
+                brings = known[each] = self.runtime(each) or ()
+            new = [other for other in brings if other not in found]
             found.update(new)
             queue += new
         return found
