@@ -230,9 +230,9 @@ def _is_far(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
         return False
     world = workspace.world
     most = int(len(world.knowledge.index) * _CHANCE / len(unknown))
-    if most < 1 or world.knowledge.index.bringing(name, most) > most:
+    if most < 1 or any(name in world.closure((other,)) for other in workspace.by_name if other != name):
         return False
-    return not any(name in world.closure((other,)) for other in workspace.by_name if other != name)
+    return world.knowledge.index.bringing(name, most) <= most
 
 
 _CHANCE = 0.02

@@ -203,9 +203,10 @@ class Index:
     @cached_property
     def _brought_by(self) -> Mapping[str, list[str]]:
         found: defaultdict[str, list[str]] = defaultdict(list)
-        for package in self.names():
-            for name in self.runtime(package) or ():
-                found[name].append(package)
+        for line in self._table.lines():
+            row = line.split("\t")
+            for name in _runtime(row) or ():
+                found[name].append(row[0])
         return found
 
     def brought(self, name: str) -> set[str]:
@@ -228,14 +229,19 @@ class Index:
         Much faster than :meth:`get`, for it takes no other field apart.
         """
         row = self._table.row(name)
-        if row is None or len(row) < 3 or "-" in row[2] or "U" in row[2]:
-            return None
-        found: list[str] = []
-        for field in row[4:]:
-            kinds, _, names = field.partition(":")
-            if not RUNTIME.isdisjoint(kinds):
-                found += names.split(" ")
-        return tuple(found)
+        return None if row is None else _runtime(row)
+
+
+def _runtime(row: list[str]) -> tuple[str, ...] | None:
+    """Return what comes along with the package of a line that has been split at its tabs: None when that is not known."""
+    if len(row) < 3 or "-" in row[2] or "U" in row[2]:
+        return None
+    found: list[str] = []
+    for field in row[4:]:
+        kinds, _, names = field.partition(":")
+        if not RUNTIME.isdisjoint(kinds):
+            found += names.split(" ")
+    return tuple(found)
 
 
 _HEAD = re.compile(r"(\w+)=(\S+)")
