@@ -481,3 +481,19 @@ def test_many_ways_out_do_not_make_a_script_long() -> None:
     text = "".join(f"find_package(p{number})\nif(p{number}_FOUND)\nreturn()\nendif()\n" for number in range(50))
     script = run(text + "set(a b)\n" * 2000 + "install(FILES a.txt DESTINATION share/pkg)\n", ("a.txt",))
     assert paths(script)["share/pkg/a.txt"] is True
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        'list(TRANSFORM L APPEND "${L}")',
+        'string(REPLACE a "${L}" L "${L}")',
+        'string(REGEX REPLACE "a" "${L}" L "${L}")',
+        'string(JOIN "${L}" L ${L})',
+        "set(L ${L} ${L} ${L})",
+        'set(L "${L}${L}${L}")',
+    ],
+)
+def test_texts_that_grow_and_grow_become_unknown(line: str) -> None:
+    script = run(f'set(L "a;a")\nforeach(i RANGE 60)\n{line}\nendforeach()\ninstall(FILES ${{L}} DESTINATION share/pkg)\n')
+    assert hidden(script) & Facet.SHARE

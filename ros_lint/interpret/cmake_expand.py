@@ -109,10 +109,12 @@ def expand(parts: Template, lookup: Lookup) -> str:
             pieces.append(lookup(name, where))
         else:
             pieces.append(_reference(part, lookup))
+    if sum(map(len, pieces)) > LONGEST:
+        return HOLE
     text = "".join(pieces)
     if MAYBE in text:
         text = "".join(_stands_alone(pieces, index) for index in range(len(pieces)))
-    return text if len(text) <= LONGEST else HOLE
+    return text
 
 
 def _stands_alone(pieces: list[str], index: int) -> str:

@@ -83,7 +83,7 @@ def _find(text: str, wanted: str, reverse: str = "") -> str:
 
 def _replace(old: str, new: str, *inputs: str) -> str:
     text = "".join(inputs)
-    if not old or not is_fixed(old) or not is_fixed(text):
+    if not old or not is_fixed(old) or not is_fixed(text) or text.count(old) * len(new) > LONGEST:
         return HOLE
     if ATOM not in text or old in (SOURCE, BINARY, PREFIX) or old.startswith((f"{SOURCE}/", f"{BINARY}/", f"{PREFIX}/")):
         return text.replace(old, flat_value(new))
@@ -143,6 +143,8 @@ def _repeat(text: str, count: str) -> str:
 
 
 def _join(glue: str, *inputs: str) -> str:
+    if len(glue) * len(inputs) + sum(map(len, inputs)) > LONGEST:
+        return HOLE
     return flat_value(glue).join(map(flat_value, inputs))
 
 
@@ -272,9 +274,13 @@ def replace_all(regex: str, template: str, text: str) -> str:
     """Return a text with every match replaced. Raises RegexError."""
     parts = _replacement(template)
     found: list[str] = []
+    size = 0
     for before, _, groups in every(regex, text):
         found.append(before)
         if groups:
+            size += len(template) + sum(map(len, groups))
+            if size > LONGEST:
+                return HOLE
             found += [part if isinstance(part, str) else (groups[part] if part < len(groups) else "") for part in parts]
     return "".join(found)
 

@@ -95,8 +95,17 @@ def data(text: str) -> bytes:
 
 
 def join(values: Iterable[str]) -> str:
-    """Return a list as CMake stores it."""
-    return ";".join(values)
+    """Return a list as CMake stores it, a HOLE for one that is too long."""
+    if isinstance(values, (list, tuple)):
+        return ";".join(values) if sum(map(len, values)) <= LONGEST else HOLE
+    found = []
+    size = 0
+    for value in values:  # each may be made on the way, and all together be more than memory holds
+        size += len(value)
+        if size > LONGEST:
+            return HOLE
+        found.append(value)
+    return ";".join(found)
 
 
 def sure(element: str) -> tuple[str, bool]:
