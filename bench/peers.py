@@ -27,6 +27,7 @@ Pair = tuple[str, str]
 
 _MARKS = ("<!-- made by bench/peers.py: begin -->", "<!-- end -->")
 _RULES = frozenset({"undeclared-dependency", "launch-outside-closure", "launch-unknown-package"})
+_ERROR = re.compile(r"E(?:rror|RROR):")
 _MISSING = re.compile(r"\tMissing (?:<\w+> |test )?dependencies in ([\w.-]+)/package\.xml(?:: (?P<here>.*)| compared)")
 
 
@@ -124,18 +125,19 @@ def _names(workspace: str) -> dict[str, list[str]]:
 
 
 def _unable(*command: str) -> Callable[[str], Answer]:
-    """Return how to run a tool that so far has never got to say anything of a package: its last line is the answer."""
+    """Return how to run a tool that so far has never got to say anything of a package: its error or last line is the answer."""
 
     def run(workspace: str) -> Answer:
-        done = _run(*command, workspace)
+        done = _run(*command, ".", cwd=workspace)
         lines = [line.strip() for line in (done.stdout + done.stderr).splitlines() if line.strip()]
-        return Answer(None, (lines[-1] if lines else "says nothing").replace("|", "/")[:200])
+        said = next((line for line in lines if _ERROR.search(line)), lines[-1] if lines else "says nothing")
+        return Answer(None, said.replace("|", "/")[:120])
 
     return run
 
 
-def _run(*command: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(command, capture_output=True, text=True, check=False)
+def _run(*command: str, cwd: str | None = None) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(command, capture_output=True, text=True, check=False, cwd=cwd)
 
 
 TOOLS: Mapping[str, Callable[[str], Answer]] = {
