@@ -23,7 +23,7 @@ from ros_lint.interpret.cmake_state import (
     Procedure,
     Variables,
 )
-from ros_lint.interpret.cmake_values import HOLE, MAYBE, join
+from ros_lint.interpret.cmake_values import HOLE, MAYBE, elements, join, maybe
 
 HANDLERS: Final[dict[str, Handler]] = {}
 """What carries out each command of CMake. Filled by :mod:`ros_lint.interpret.cmake`, as is BLOCKS."""
@@ -168,7 +168,10 @@ def _call_values(procedure: Procedure, args: list[str], firm: int) -> dict[str, 
     else:
         values = {name: args[index] if index < firm else HOLE for index, name in enumerate(parameters)}
         values["ARGC"] = HOLE
-        values["ARGN"] = join(args[len(parameters) :]) if firm >= len(parameters) else HOLE
+        if firm >= len(parameters):
+            values["ARGN"] = join(args[len(parameters) :])
+        else:  # any of the others may be among them, and be a keyword
+            values["ARGN"] = join([HOLE, *(maybe(item) for arg in args[firm:] for item in elements(arg))])
         values.update({f"ARGV{index}": HOLE for index in range(firm, len(args) + 10)})
     values["ARGV"] = join(args)
     values.update({f"ARGV{index}": arg for index, arg in enumerate(args[:firm])})
