@@ -65,6 +65,7 @@ def mend(opened: Opened, selection: engine.Selection) -> Mended:
     changed: dict[str, bytes] = {}
     made: list[Issue] = []
     withheld: dict[str, tuple[Issue, str]] = {}
+    helped = False
     for _ in range(_MOST_ROUNDS):
         before = proof.issues(changed)
         wanted = [issue for issue in proof.fixable(before) if issue.identity not in withheld]
@@ -76,9 +77,13 @@ def mend(opened: Opened, selection: engine.Selection) -> Mended:
             while len(group) > 1 and proof.complaint(changed, before, group):
                 group = group[: len(group) // 2]  # fixes that are at odds with each other; the rest has its turn next
         if not group:
-            break
+            if not (withheld and helped):
+                break
+            withheld, helped = {}, False  # what was made since may be what they waited for
+            continue
         changed = proof.applied(changed, group)
         made += group
+        helped = True
     return Mended(changed, tuple(made), tuple(withheld.values()))
 
 
