@@ -64,7 +64,12 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     exported = list(called(package, _EXPORT, anywhere=True))
     if _EXPORT not in script.calls and not exported:
         yield from _unexported(package, registered)
-        return  # what descriptions say that nobody is told of does no harm; many are left over from ROS 1
+        # What descriptions say that nobody is told of does no harm, and many are left over from ROS 1.
+        for plugin in script.plugins:
+            if plugin.path in installed and not is_apart(plugin.path):
+                for finding in _libraries(package, plugin, registered):
+                    yield finding._replace(confidence=Confidence.MEDIUM)
+        return
     found = {
         one.type
         for plugin in script.plugins
