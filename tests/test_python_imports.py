@@ -190,6 +190,8 @@ def test_any_text_is_read(text: str) -> None:
         ("try:\n    import a\nexcept Exception:\n    print(1)\n", [("a", True)]),
         ("try:\n    import a\nexcept ImportError:\n    raise RuntimeError('install a')\n", [("a", False)]),
         ("try:\n    import a\nexcept ImportError:\n    print('install a')\n    sys.exit(1)\n", [("a", False)]),
+        ("if x:\n    try:\n        import a\n    except ImportError:\n        raise RuntimeError('-x needs a')\n", [("a", True)]),
+        ("def f():\n    try:\n        import a\n    except ImportError as e:\n        raise\n", [("a", False)]),
         ("try:\n    import a\nexcept KeyError:\n    pass\n", [("a", False)]),
         ("try:\n    import a\nfinally:\n    import b\n", [("a", False), ("b", False)]),
         ("try:\n    from a.b import c\nexcept ImportError:\n    from a.d import c\n", [("a.b", False), ("a.d", False)]),

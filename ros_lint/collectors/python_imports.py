@@ -210,12 +210,13 @@ def walk(source: Text, tree: ast.Module) -> list[Import]:
     """Return the imports of a source in order.
 
     Optional are those under TYPE_CHECKING, and those in a try statement that goes on when the import fails or under
-    a test of the platform, unless every branch imports from the same package (reference, section D6). Calls of
+    a test of the platform, unless every branch imports from the same package (reference, section D6). A try statement
+    inside of others that raises another error instead, which says what is missing, makes them optional, too. Calls of
     ``importlib.import_module()`` and the like are imports, too; whoever calls one is taken to be able to go without.
     """
     found = [
         Import(start, module, optional)
-        for statement, optional in _imports(tree.body)
+        for statement, optional in _imports(tree.body, inside=False)
         for start, module in _modules(source, statement)
     ]
     if any(name in source.text for name in _DYNAMIC):
@@ -240,14 +241,14 @@ def _calls(source: Text, tree: ast.Module) -> Iterator[Import]:
 _Found = tuple[ast.Import | ast.ImportFrom, bool]
 
 
-def _imports(body: Iterable[ast.stmt]) -> Iterator[_Found]:
+def _imports(body: Iterable[ast.stmt], inside: bool = True) -> Iterator[_Found]:
     for statement in body:
         if isinstance(statement, (ast.Import, ast.ImportFrom)):
             yield statement, False
         elif isinstance(statement, ast.If):
             yield from _conditional(statement)
         elif isinstance(statement, ast.Try) or type(statement).__name__ == "TryStar":
-            yield from _try(statement)  # type: ignore[arg-type]  # of the same fields
+            yield from _try(statement, inside)  # type: ignore[arg-type]  # of the same fields
         elif isinstance(statement, (ast.With, ast.AsyncWith)) and any(_suppresses(item) for item in statement.items):
             yield from ((found, True) for found, _ in _imports(statement.body))
         else:
@@ -272,11 +273,11 @@ def _conditional(statement: ast.If) -> Iterator[_Found]:
         yield from _alternatives([list(_imports(statement.body)), list(_imports(statement.orelse))])
 
 
-def _try(statement: ast.Try) -> Iterator[_Found]:
+def _try(statement: ast.Try, inside: bool) -> Iterator[_Found]:
     branches = [[*_imports(statement.body), *_imports(statement.orelse)]]
     others: list[_Found] = []
     for handler in statement.handlers:
-        if _catches_import_error(handler) and not _gives_up(handler):
+        if _catches_import_error(handler) and (not _gives_up(handler) or (inside and _explains(handler))):
             branches.append(list(_imports(handler.body)))
         else:
             others += _imports(handler.body)
@@ -316,6 +317,12 @@ def _gives_up(handler: ast.ExceptHandler) -> bool:
         function = last.value.func
         return (function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")) in _EXITS
     return isinstance(last, ast.Raise)
+
+
+def _explains(handler: ast.ExceptHandler) -> bool:
+    """Whether another error is raised. Where not everyone comes by, that tells those who do what they have to install."""
+    last = handler.body[-1]
+    return isinstance(last, ast.Raise) and isinstance(last.exc, ast.Call)
 
 
 def _suppresses(item: ast.withitem) -> bool:
