@@ -155,12 +155,24 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
     """
     unknown = all_declared(package, workspace).unknown
     found = []
-    for need in needs(package, workspace):
-        if need.declared or need.brought or only_launched(package, need.uses):
-            continue
+    missing = [need for need in needs(package, workspace) if not (need.declared or need.brought)]
+    for need in _joined([need for need in missing if not only_launched(package, need.uses)]):
         sure = need.sure and any(use.via != "launch" or use.role is _TEST for use in need.uses)
         found.append((need, sure and not (unknown and _may_satisfy(unknown, need, workspace))))
     return tuple(found)
+
+
+def _joined(found: Sequence[Need]) -> list[Need]:
+    """Return needs without those that an earlier one satisfies: what CMake finds and what is included may have two names."""
+    result: list[Need] = []
+    for need in found:
+        for number, other in enumerate(result):
+            if all(other.name in use.providers for use in need.uses):
+                result[number] = other._replace(uses=tuple(sorted((*other.uses, *need.uses), key=_rank)))
+                break
+        else:
+            result.append(need)
+    return result
 
 
 def _may_satisfy(unknown: Sequence[str], need: Need, workspace: Workspace) -> bool:
