@@ -86,6 +86,8 @@ def _split(value: str) -> list[str]:
             piece.append(letter)
         position += 1
     found.append("".join(piece))
+    if depth and (MAYBE in value or HOLE in value):
+        return [HOLE]  # a bracket without its partner holds together what follows, if it is there
     return found
 
 
