@@ -59,7 +59,7 @@ from ros_lint.facts import (
 from ros_lint.facts import Target as BuildTarget
 from ros_lint.graph import Edge, Graph, Reason
 from ros_lint.graph_cut import Knot, knots
-from ros_lint.launch_files import Launchable, Programs, launchable, programs
+from ros_lint.launch_files import Launchable, Programs, launchable, programs, referred
 from ros_lint.launch_links import Links, defaults_of, everything, filled
 from ros_lint.launch_names import Families, needed
 from ros_lint.launch_parameters import Given, ParameterFiles
@@ -163,6 +163,7 @@ __all__ = [
     "needed",
     "needs",
     "programs",
+    "referred",
     "relative",
     "remove_dependency",
     "setup_edits",

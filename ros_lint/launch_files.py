@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Container, Iterable, Iterator
 from typing import NamedTuple
 
 from ros_lint.apart import is_apart
@@ -33,6 +33,18 @@ def launchable(package: Package, *, apart: bool = False) -> Iterator[Launchable]
         aside = file.test or is_apart(path)
         if apart or not aside:
             yield Launchable(file, path, path in installed or path.startswith(modules), aside)
+
+
+def referred(
+    package: Package, kinds: Container[str], *, apart: bool = False
+) -> dict[tuple[str, str], list[LaunchReference]]:
+    """Return the references of some kinds in what :func:`launchable` yields, by the package and the name that they mean."""
+    found: dict[tuple[str, str], list[LaunchReference]] = {}
+    for launch in launchable(package, apart=apart):
+        for reference in launch.file.references:
+            if reference.kind in kinds:
+                found.setdefault((reference.package, reference.name), []).append(reference)
+    return found
 
 
 class Programs(NamedTuple):

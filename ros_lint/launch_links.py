@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import posixpath
 from collections.abc import Iterable, Iterator, Mapping
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, fill, installed, is_plain, is_settled, named_in
-from ros_lint.facts import LaunchAction, LaunchFile, LaunchValue
+from ros_lint.facts import LaunchAction, LaunchFile, LaunchValue, ParameterFile
 from ros_lint.text import Span
 from ros_lint.workspace import Package
+
+File = TypeVar("File", LaunchFile, ParameterFile)
 
 
 class Linked(NamedTuple):
@@ -41,6 +43,17 @@ class _Own(NamedTuple):
     includes: list[LaunchFile]
 
 
+def installed_below_share(package: Package, files: Iterable[File]) -> Iterator[tuple[File, str]]:
+    """Yield those files of a package that it installs below share/<package>, each with its path there."""
+    skip = len(package.path) + 1 if package.path else 0
+    by_source = {file.path[skip:]: file for file in files}
+    share = f"share/{package.name}/"
+    for provided in package.script.provides if package.script and by_source else ():
+        file = by_source.get(provided.source)
+        if file is not None and provided.path.startswith(share):
+            yield file, provided.path[len(share) :]
+
+
 class Links:
     """All launch files of a workspace by where they are installed."""
 
@@ -50,15 +63,10 @@ class Links:
         self._takes: dict[str, Takes] = {}
         self._owns: dict[str, _Own] = {}
         for package in packages:
-            skip = len(package.path) + 1 if package.path else 0
-            files = {file.path[skip:]: file for file in package.launch}
-            share = f"share/{package.name}/"
-            for provided in package.script.provides if package.script and files else ():
-                file = files.get(provided.source)
-                if file is not None and provided.path.startswith(share):
-                    linked = Linked(package, file, provided.path[len(share) :])
-                    self._by_path.setdefault((package.name, linked.path), []).append(linked)
-                    self._places.setdefault(file.path, linked)
+            for file, path in installed_below_share(package, package.launch):
+                linked = Linked(package, file, path)
+                self._by_path.setdefault((package.name, path), []).append(linked)
+                self._places.setdefault(file.path, linked)
 
     def target(self, value: LaunchValue | None, source: LaunchFile) -> Linked | None:
         """Return the one launch file of the workspace that an include in a file means, None when it is not that clear."""

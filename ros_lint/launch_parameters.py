@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.launch_links import defaults_of, everything, filled
+from ros_lint.launch_links import defaults_of, everything, filled, installed_below_share
 
 if TYPE_CHECKING:
     from ros_lint.facts import LaunchAction, LaunchFile, LaunchValue, ParameterFile
@@ -34,15 +34,10 @@ class ParameterFiles:
         self._links = workspace.links
         self._by_path: dict[tuple[str, str], tuple[ParameterFile, Package] | None] = {}
         for package in workspace.packages:
-            skip = len(package.path) + 1 if package.path else 0
-            files = {file.path[skip:]: file for file in package.parameter_files}
-            share = f"share/{package.name}/"
-            for provided in package.script.provides if package.script and files else ():
-                file = files.get(provided.source)
-                if file is not None and provided.path.startswith(share):
-                    key = (package.name, provided.path[len(share) :])
-                    # Where one of two is installed, nobody knows which.
-                    self._by_path[key] = None if key in self._by_path else (file, package)
+            for file, path in installed_below_share(package, package.parameter_files):
+                key = (package.name, path)
+                # Where one of two is installed, nobody knows which.
+                self._by_path[key] = None if key in self._by_path else (file, package)
 
     def given(self, file: LaunchFile) -> Iterator[Given]:
         """Yield the parameter files that a launch file gives to nodes, as far as it is clear which these are."""

@@ -10,7 +10,7 @@ import ast
 from collections.abc import Iterable, Iterator
 from typing import Any, Final
 
-from ros_lint.collectors.launch_text import MOST, UNKNOWN, agree, conditional, conditions_of, configuration, is_plain
+from ros_lint.collectors.launch_text import MOST, UNKNOWN, agree, conditional, conditions_of, configuration
 from ros_lint.facts import LaunchCondition
 from ros_lint.text import Text
 
@@ -305,11 +305,6 @@ def _same(one: Value, other: Value) -> bool:
         return one == other
     simple = (int, float, bool, type(None), tuple)
     return type(one) is type(other) and isinstance(one, simple) and bool(one == other)
-
-
-def is_known_text(value: Value) -> bool:
-    """Return whether a value is a text that is known whole."""
-    return isinstance(value, str) and is_plain(value)
 
 
 def environment(name: str, default: str | None) -> str:

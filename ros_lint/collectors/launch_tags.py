@@ -42,35 +42,3 @@ EXTENSIONS: Mapping[str, str] = {
     "test": "launch_testing",
 }
 """Tags that other packages add, and the packages (entry point group ``launch.frontend.launch_extension``)."""
-
-SINCE: Mapping[str, str] = {
-    "log": "galactic",
-    "timer": "galactic",
-    "append_env": "humble",
-    "reset": "humble",
-    "shutdown": "humble",
-    "node_container": "humble",
-    "load_composable_node": "humble",
-    "push_ros_namespace": "humble",
-    "ros_timer": "humble",
-    "set_parameters_from_file": "humble",
-    "set_use_sim_time": "humble",
-    "set_ros_log_dir": "iron",
-    "for_each": "kilted",
-    "lifecycle_node": "lyrical",
-    "composable_lifecycle_node": "lyrical",
-    "$(log_dir": "galactic",
-    "$(and": "humble",
-    "$(or": "humble",
-    "$(not": "humble",
-    "$(param": "humble",
-    "$(any": "humble",
-    "$(all": "humble",
-    "$(equals": "humble",
-    "$(not-equals": "humble",
-    "$(if": "humble",
-    "$(file-content": "humble",
-    "$(launch_log_dir": "iron",
-    "$(string-join": "rolling",
-}
-"""The first distribution that has a tag or substitution, where it is not in all that are known here."""

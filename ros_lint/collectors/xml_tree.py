@@ -99,16 +99,6 @@ def attribute_places(text: str, element: Element) -> dict[str, tuple[int, int]]:
     return places
 
 
-def start_tag_end(text: str, element: Element) -> int:
-    """Return the offset behind the ``>`` of the start tag."""
-    name = _NAME.match(text, element.start)
-    at = name.end() if name else element.start
-    while match := _ATTRIBUTE.match(text, at):
-        at = match.end()
-    end = text.find(">", at)
-    return end + 1 if end >= 0 else len(text)
-
-
 class _Offsets:
     """Turns offsets of bytes into offsets of characters; fast when they rise."""
 

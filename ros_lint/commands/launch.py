@@ -13,11 +13,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ros_lint.collectors.launch_text import readable
 from ros_lint.commands import launch_formats
 from ros_lint.commands.launch_lookup import LookUp
-from ros_lint.config import ConfigError
+from ros_lint.commands.question import Answer, ask
 from ros_lint.interpret.launch_expand import Expansion, expand
-from ros_lint.knowledge import KnowledgeError
-from ros_lint.opening import UsageError, open_workspace
-from ros_lint.progress import Progress
+from ros_lint.opening import Opened, UsageError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -37,24 +35,18 @@ class Asked(NamedTuple):
 
 def run(said: Mapping[str, Any]) -> int:
     """Answer the question, print the answer, return the exit code."""
-    progress = Progress(sys.stderr, wanted=said.get("progress", True))
     try:
         asked = understood(said["words"], os.path.isfile)
         paths = said.get("paths") or (["."] if asked.package else [enclosing_workspace(asked.file)])
-        with progress:
-            opened = open_workspace({**said, "paths": paths}, os.environ, progress.tell)
-            workspace = opened.loader.load()
-        path = "" if asked.package else os.path.relpath(os.path.realpath(asked.file), opened.base).replace(os.sep, "/")
-        out, err, code = answer(workspace, LookUp(workspace, opened.loader.tree), asked, path, said["format"])
-    except (UsageError, ConfigError, KnowledgeError) as error:
+    except UsageError as error:
         print(f"ros-lint: {error}", file=sys.stderr)
         return 2
-    for warning in opened.warnings:
-        print(f"ros-lint: {warning}", file=sys.stderr)
-    sys.stdout.write(out)
-    sys.stdout.flush()
-    sys.stderr.write(err)
-    return code
+
+    def answered(opened: Opened, workspace: Workspace) -> Answer:
+        path = "" if asked.package else os.path.relpath(os.path.realpath(asked.file), opened.base).replace(os.sep, "/")
+        return answer(workspace, LookUp(workspace, opened.loader.tree), asked, path, said["format"])
+
+    return ask({**said, "paths": paths}, answered)
 
 
 def understood(words: Sequence[str], is_file: Any = os.path.isfile) -> Asked:

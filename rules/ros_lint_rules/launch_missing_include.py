@@ -31,13 +31,12 @@ from ros_lint.api import (
     Confidence,
     Facet,
     Finding,
-    LaunchReference,
     Package,
     Related,
     Rule,
     Severity,
     Workspace,
-    launchable,
+    referred,
 )
 
 _MOST_RELATED = 4
@@ -46,12 +45,10 @@ _WRITTEN = (".yaml", ".yml", ".rviz", ".urdf", ".xacro", ".srdf", ".sdf", ".worl
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    wanted: dict[tuple[str, str], list[LaunchReference]] = {}
-    for launch in launchable(package):
-        for reference in launch.file.references:
-            if reference.kind in ("include", "file") and not reference.optional:
-                wanted.setdefault((reference.package, reference.name), []).append(reference)
-    for (owner, path), references in wanted.items():
+    for (owner, path), named in referred(package, ("include", "file")).items():
+        references = [reference for reference in named if not reference.optional]
+        if not references:
+            continue
         best, *others = sorted(references, key=lambda one: (one.by_default, one.kind != "include", one.span))
         others_there = _files_without(owner, path, best.kind, workspace)
         if others_there is None:

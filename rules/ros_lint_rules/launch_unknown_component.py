@@ -37,19 +37,14 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
-    launchable,
+    referred,
 )
 
 _MOST_RELATED = 4
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    loaded: dict[tuple[str, str], list[LaunchReference]] = {}
-    for launch in launchable(package):
-        for reference in launch.file.references:
-            if reference.kind == "component":
-                loaded.setdefault((reference.package, reference.name), []).append(reference)
-    for (owner, name), references in loaded.items():
+    for (owner, name), references in referred(package, ("component",)).items():
         names = _names_without(owner, name, workspace)
         if names is None:
             continue

@@ -42,6 +42,7 @@ from ros_lint.api import (
     Workspace,
     launchable,
     programs,
+    referred,
     stranded,
 )
 
@@ -49,15 +50,8 @@ _MOST_RELATED = 4
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    wrong: dict[tuple[str, str], list[LaunchReference]] = {}
-    apart: set[str] = set()
-    for launch in launchable(package, apart=True):
-        if launch.apart:
-            apart.add(launch.file.path)
-        for reference in launch.file.references:
-            if reference.kind == "node":
-                wrong.setdefault((reference.package, reference.name), []).append(reference)
-    for (owner, name), references in wrong.items():
+    apart = frozenset(launch.file.path for launch in launchable(package, apart=True) if launch.apart)
+    for (owner, name), references in referred(package, ("node",), apart=True).items():
         if "/" in name:
             continue
         missing = _missing(owner, name, workspace)
