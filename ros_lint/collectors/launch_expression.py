@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import ast
-import operator
 from collections.abc import Callable, Mapping
 from functools import lru_cache
 from typing import Any
 
 from ros_lint.collectors.launch_text import UNKNOWN
+from ros_lint.collectors.python_operators import ARITHMETIC, COMPARISONS
 
 _LONGEST = 2_000
 _MOST = 10_000
@@ -37,21 +37,8 @@ def means_true(text: str) -> bool | None:
     return False if word in ("false", "0") else None
 
 
-_BINARY: Mapping[type[ast.operator], Callable[[Any, Any], Any]] = {
-    ast.Add: operator.add,
-    ast.Sub: operator.sub,
-    ast.Mult: operator.mul,
-    ast.Div: operator.truediv,
-    ast.FloorDiv: operator.floordiv,
-    ast.Mod: operator.mod,
-}
 _COMPARE: Mapping[type[ast.cmpop], Callable[[Any, Any], Any]] = {
-    ast.Eq: operator.eq,
-    ast.NotEq: operator.ne,
-    ast.Lt: operator.lt,
-    ast.LtE: operator.le,
-    ast.Gt: operator.gt,
-    ast.GtE: operator.ge,
+    **COMPARISONS,
     ast.Is: lambda a, b: a is b or a == b,
     ast.IsNot: lambda a, b: not (a is b or a == b),
     ast.In: lambda a, b: a in b,
@@ -78,8 +65,8 @@ def _value(node: ast.expr) -> Any:
                 if bool(result) is isinstance(op, ast.Or):
                     return result
             return result
-        case ast.BinOp(left=left, op=op, right=right) if type(op) in _BINARY:
-            return _small(_BINARY[type(op)](_small(_value(left)), _small(_value(right))))
+        case ast.BinOp(left=left, op=op, right=right) if type(op) in ARITHMETIC:
+            return _small(ARITHMETIC[type(op)](_small(_value(left)), _small(_value(right))))
         case ast.Compare(left=left, ops=ops, comparators=comparators):
             before = _value(left)
             for comparison, comparator in zip(ops, comparators, strict=True):

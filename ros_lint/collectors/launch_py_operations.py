@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import operator
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -27,6 +26,7 @@ from ros_lint.collectors.launch_py_objects import (
 )
 from ros_lint.collectors.launch_py_texts import texts
 from ros_lint.collectors.launch_text import LONGEST, UNKNOWN, certain_part, distinct, is_plain, joined, presence
+from ros_lint.collectors.python_operators import ARITHMETIC, BITWISE, COMPARISONS
 from ros_lint.facts import LaunchCondition
 
 if TYPE_CHECKING:
@@ -160,17 +160,7 @@ def texts_made(found: tuple[str, ...], node: ast.expr, frame: Frame) -> Value:
     return union(guarded_text(one, written(one, node, frame.source)) for one in found)
 
 
-_OPERATORS: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
-    ast.Add: operator.add,
-    ast.Sub: operator.sub,
-    ast.Mult: operator.mul,
-    ast.Div: operator.truediv,
-    ast.FloorDiv: operator.floordiv,
-    ast.Mod: operator.mod,
-    ast.BitOr: operator.or_,
-    ast.BitAnd: operator.and_,
-    ast.BitXor: operator.xor,
-}
+_OPERATORS = {**ARITHMETIC, **BITWISE}
 
 
 def operation(machine: Machine, op: ast.operator, left: Value, right: Value, node: ast.expr, frame: Frame) -> Value:
@@ -243,16 +233,6 @@ def negated(machine: Machine, value: Value) -> Value:
     return Unknown("not known to be true", opposite)
 
 
-_COMPARISONS: dict[type[ast.cmpop], Callable[[Any, Any], Any]] = {
-    ast.Eq: operator.eq,
-    ast.NotEq: operator.ne,
-    ast.Lt: operator.lt,
-    ast.LtE: operator.le,
-    ast.Gt: operator.gt,
-    ast.GtE: operator.ge,
-}
-
-
 def compared(op: ast.cmpop, left: Value, right: Value) -> Value:
     """Return what a comparison gives."""
     return each(left, lambda one: each(right, lambda other: _one_compare(op, one, other)))
@@ -284,7 +264,7 @@ def _one_compare(op: ast.cmpop, left: Value, right: Value) -> Value:
     ):
         return Unknown("a comparison of much")
     try:
-        return bool(_COMPARISONS[type(op)](left, right))
+        return bool(COMPARISONS[type(op)](left, right))
     except (TypeError, RecursionError):
         raise Raised from None
 
