@@ -126,7 +126,7 @@ def value(text: str, node: Node) -> tuple[str, int, int]:
 
 def markup(text: str, node: Node) -> str:
     """Return the content of an element with its markup, as catkin_pkg takes description and export: "" when nothing is there."""
-    raw = text[node.inner : node.close].strip(BLANK)
+    raw = text[node.inner : node.close].replace("<![CDATA[]]>", "").strip(BLANK)  # xml.dom.minidom drops empty ones, too
     if "<" not in raw:
         return value(text, node)[0]
     if any(_counts(piece) for piece in _PIECE.finditer(raw)):
