@@ -90,6 +90,7 @@ _TOKEN = re.compile(
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
 _PLACEHOLDER = re.compile(r"@\w+@\Z")
 _NEW_LINE = re.compile(r"\n")
+_MARKS = dict.fromkeys((1, 2, 3), "\ufffd")
 
 
 def parse(source: Text) -> Parsed:
@@ -128,7 +129,7 @@ class _Reader:
         last = glued = -1
         line, column = 1, 0
         template = self.source.path.endswith(".in")
-        strange = "\r" in text or "\1" in text or "\2" in text
+        strange = "\r" in text or "\1" in text or "\2" in text or "\3" in text
         for match in _TOKEN.finditer(text):
             if match.start() != position:
                 raise self._wrong(position)
@@ -234,4 +235,4 @@ class _Reader:
 
 def _cleaned(value: str) -> str:
     """Return an argument as CMake reads it, and free of the characters that evaluation marks unknown pieces with."""
-    return value.replace("\r\n", "\n").replace("\1", "\ufffd").replace("\2", "\ufffd")
+    return value.replace("\r\n", "\n").translate(_MARKS)

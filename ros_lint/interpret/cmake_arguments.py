@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
 
-from ros_lint.interpret.cmake_values import HOLE, MAYBE, join, split
+from ros_lint.interpret.cmake_values import HOLE, MAYBE, WILD, join, split
 
 _FLAG, _SINGLE, _LIST, _MAYBE = 1, 2, 3, 4
 
@@ -39,7 +39,7 @@ def parse_keywords(prefix: str, options: str, ones: str, multis: str, args: Sequ
             given.setdefault(arg, [])
         elif taking == _SINGLE:
             values[f"{prefix}_{state}"] = arg
-            taking = _MAYBE if arg == HOLE or arg.startswith(MAYBE) else 0
+            taking = _MAYBE if arg in (HOLE, WILD) or arg.startswith(MAYBE) else 0
         elif taking == _LIST:
             given[state].append(arg)
         elif taking == _MAYBE and arg.startswith(MAYBE):

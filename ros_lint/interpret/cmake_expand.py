@@ -18,7 +18,7 @@ Lookup = Callable[[str, str], str]
 
 _PIECE = re.compile(r"([^\\$}]+)|\\(?:([tnr])|(\n)|(;)|([^A-Za-z0-9;])|(.?))|\$(ENV|CACHE|)\{|(\})|(\$)", re.DOTALL)
 _LETTERS: Final = {"t": "\t", "n": "\n", "r": "\r"}
-_NAME = re.compile(r"[A-Za-z0-9/_.+\-\0\1\2]*\Z")
+_NAME = re.compile(r"[A-Za-z0-9/_.+\-\0-\3]*\Z")
 _MARKS = re.compile(f"[{HOLE}{MAYBE}]")
 _MOST_TEMPLATES: Final = 20_000
 

@@ -120,6 +120,8 @@ def call(run: Run, procedure: Procedure | Choice, args: list[str]) -> Exit:
         if index is not None:  # cmake_language(CALL) takes two words more than the command itself
             firm = max(0, index - (len(run.arguments(command)) - len(args)))
     values = _call_values(procedure, args, firm)
+    for arg in args:
+        run.notice(arg)
     frame = Frame(procedure.own, procedure.path, procedure.folder, procedure)
     frames.append(frame)
     if procedure.macro:

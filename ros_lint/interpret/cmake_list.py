@@ -15,6 +15,8 @@ def _list(run: Run, args: list[str]) -> None:
     if len(args) < 2 or HOLE in args[1]:
         return
     mode, name, rest = args[0], args[1], args[2:]
+    for text in rest:
+        run.notice(text)
     change = _CHANGES.get(mode)
     if change is not None:
         change(run, name, rest)

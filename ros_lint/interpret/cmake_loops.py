@@ -13,7 +13,7 @@ from ros_lint.interpret.cmake_flow import count_step, perhaps, run_body
 from ros_lint.interpret.cmake_run import MOST_STEPS, Run
 from ros_lint.interpret.cmake_state import BREAK, CONTINUE, NEXT, RETURN, STOP, Exit
 from ros_lint.interpret.cmake_truth import FALSE, LIKELY, UNKNOWN, UNLIKELY
-from ros_lint.interpret.cmake_values import HOLE, MAYBE, elements, split, sure
+from ros_lint.interpret.cmake_values import HOLE, MAYBE, WILD, elements, split, sure
 
 
 def _run_loop(run: Run, node: Loop) -> Exit:
@@ -81,7 +81,7 @@ def _rounds(run: Run, command: Command, args: list[str]) -> list[tuple[str, ...]
 
 def _unknown_whole(items: list[str]) -> list[str]:
     """Return list elements; those with an unknown piece may be several."""
-    return [HOLE if HOLE in item else item for item in items]
+    return [WILD if WILD in item else HOLE if HOLE in item else item for item in items]
 
 
 def _quoted(run: Run, command: Command) -> list[bool]:
@@ -115,8 +115,8 @@ def _range(args: list[str]) -> list[str]:
 def _run_rounds(run: Run, body: Body, names: list[str], rounds: list[tuple[str, ...]], start: int) -> Exit:
     for index in range(start, len(rounds)):
         items = rounds[index]
-        if items[0] == HOLE:
-            ended = _run_any_number(run, partial(_run_round, run, body, names, (HOLE,) * len(names)))
+        if items[0] in (HOLE, WILD):
+            ended = _run_any_number(run, partial(_run_round, run, body, names, items[:1] * len(names)))
         else:
             plain = tuple(sure(item)[0] for item in items)
             if plain == items:

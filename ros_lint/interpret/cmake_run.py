@@ -14,7 +14,7 @@ from ros_lint.facts import Component, Facet, Mention, Opaque, Problem, Provided,
 from ros_lint.interpret.cmake_expand import ExpansionError, expand, template, templates
 from ros_lint.interpret.cmake_sources import Helper, Sources
 from ros_lint.interpret.cmake_state import MISSING, Frame, Properties, State
-from ros_lint.interpret.cmake_values import ATOM, BINARY, HOLE, MAYBE, PREFIX, SOURCE, split
+from ros_lint.interpret.cmake_values import ATOM, BINARY, HOLE, MAYBE, PREFIX, SOURCE, split, wild
 from ros_lint.knowledge.cmake_commands import SOFT_VARIABLES, UNKNOWN_VARIABLES, VARIABLES
 from ros_lint.text import Span
 from ros_lint.tree import join as join_path
@@ -182,13 +182,13 @@ class Run(State):
             if name in scope:
                 value = scope[name]
                 if value is not None and name not in self.cache:
-                    return value
+                    return wild(value) if self.unpaired else value
                 break
         else:
             if name not in self.cache:
                 return self.default(name)
         found: str | None = self.found(name)
-        return found
+        return wild(found) if self.unpaired else found
 
     def default(self, name: str) -> str | None:
         """Return what a variable holds that no script has set."""

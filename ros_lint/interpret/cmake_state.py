@@ -7,7 +7,7 @@ from typing import Any, Final, NamedTuple
 
 from ros_lint.collectors.cmake_syntax import Command
 from ros_lint.interpret.cmake_blocks import Body
-from ros_lint.interpret.cmake_values import HOLE, certainly_set, merge
+from ros_lint.interpret.cmake_values import HOLE, certainly_set, merge, unpaired
 
 Exit = int
 """How a piece of script can end: a set of the bits below."""
@@ -90,6 +90,8 @@ class State:
         self.targets: dict[str, Properties] = {}
         self.globals: Properties = Properties()
         self.log: list[tuple[dict[str, Any], str, Any]] | None = None
+        self.unpaired = False
+        """Whether some value holds a square bracket without its partner, so that unknown texts may hold one too."""
 
     # --- writing
 
@@ -98,6 +100,13 @@ class State:
         if self.log is not None:
             self.log.append((mapping, key, mapping.get(key, MISSING)))
         mapping[key] = value
+        if type(value) is str:
+            self.notice(value)
+
+    def notice(self, value: str) -> None:
+        """Look for brackets without partners in a value that can be read from now on."""
+        if ("[" in value or "]" in value or "\3" in value) and not self.unpaired:
+            self.unpaired = unpaired(value)
 
     def remove(self, mapping: dict[str, Any], key: str) -> None:
         if key in mapping:
@@ -115,6 +124,9 @@ class State:
         if self.log is not None:
             self.log += [(scope, name, scope.get(name, MISSING)) for name in values]
         scope.update(values)
+        for value in values.values():
+            if value:
+                self.notice(value)
 
     def set_outer(self, name: str, value: str | None) -> None:
         """Set a variable of the scope around the innermost (PARENT_SCOPE)."""

@@ -41,10 +41,13 @@ def _string(run: Run, args: list[str]) -> None:
         value = compute(*rest)
     except (ValueError, TypeError):
         value = HOLE  # CMake reports an error
-    _assign(run, output, value)
+    _assign(run, output, value, *rest)
 
 
-def _assign(run: Run, name: str, value: str) -> None:
+def _assign(run: Run, name: str, value: str, *texts: str) -> None:
+    """Set a variable to what was made of some texts; of those, an unknown value may hold one bracket of a pair."""
+    if HOLE in value and any("[" in text or "]" in text for text in texts):
+        run.unpaired = True
     if HOLE not in name:
         run.set(name, value if len(value) <= LONGEST else HOLE)
 
@@ -221,10 +224,10 @@ def _regex(run: Run, args: list[str]) -> None:
     mode = args[0]
     if mode == "REPLACE" and len(args) > 4:
         regex, new, name, text = args[1], args[2], args[3], "".join(args[4:])
-        _assign(run, name, _regex_replace(run, regex, new, text))
+        _assign(run, name, _regex_replace(run, regex, new, text), new, text)
     elif mode in ("MATCH", "MATCHALL") and len(args) > 3:
         regex, name, text = args[1], args[2], "".join(args[3:])
-        _assign(run, name, _regex_match(run, regex, text) if mode == "MATCH" else _regex_all(run, regex, text))
+        _assign(run, name, _regex_match(run, regex, text) if mode == "MATCH" else _regex_all(run, regex, text), text)
 
 
 def _regex_match(run: Run, regex: str, text: str) -> str:

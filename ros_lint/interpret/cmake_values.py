@@ -1,8 +1,9 @@
 """Values of CMake variables: strings in which some pieces may be unknown.
 
-A value is a ``str``. Three characters that no CMake file can hold (the parser sees to it) mark what is not plain text:
+A value is a ``str``. Four characters that no CMake file can hold (the parser sees to it) mark what is not plain text:
 
-- :data:`HOLE` stands for any text, also for none and for several list elements;
+- :data:`HOLE` stands for any text, also for none and for several list elements, whose square brackets come in pairs;
+- :data:`WILD` is a HOLE whose brackets may lack their partners: nobody knows which elements after it are glued to it;
 - :data:`ATOM` and the letters after it stand for one text that is fixed and not empty, but unknown: where the package lies
   on the disk, say. It holds no semicolon, and two equal atoms are the same text;
 - :data:`MAYBE` at the start of a list element says that the element may be missing.
@@ -16,6 +17,7 @@ from typing import Final
 HOLE: Final = "\0"
 ATOM: Final = "\1"
 MAYBE: Final = "\2"
+WILD: Final = f"{HOLE}\3{HOLE}"  # whoever looks for a HOLE, also at the ends of a text, finds one
 
 SOURCE: Final = f"/{ATOM}source"
 """The folder of the package."""
@@ -49,7 +51,7 @@ def split(value: str) -> list[str]:
     """Return the elements of a list without the empty ones, as an unquoted argument is split (cmake-language(7))."""
     if ";" not in value:
         return [value] if value else []
-    if "\\" not in value and "[" not in value and "]" not in value:
+    if "\\" not in value and "[" not in value and "]" not in value and "\3" not in value:
         return [element for element in value.split(";") if element]
     return [element for element in _split(value) if element]
 
@@ -60,7 +62,7 @@ def elements(value: str) -> list[str]:
         return []
     if ";" not in value:
         return [value]
-    if "\\" not in value and "[" not in value and "]" not in value:
+    if "\\" not in value and "[" not in value and "]" not in value and "\3" not in value:
         return value.split(";")
     return _split(value)
 
@@ -75,6 +77,8 @@ def _split(value: str) -> list[str]:
             piece.append(";")
             position += 2
             continue
+        if letter == "\3":
+            return [*found, WILD]
         if letter == "[":
             depth += 1
         elif letter == "]":
@@ -87,8 +91,28 @@ def _split(value: str) -> list[str]:
         position += 1
     found.append("".join(piece))
     if depth and (MAYBE in value or HOLE in value):
-        return [HOLE]  # a bracket without its partner holds together what follows, if it is there
+        return [WILD]  # a bracket without its partner holds together what follows, if it is there
     return found
+
+
+def unpaired(value: str) -> bool:
+    """Return whether a text holds a square bracket without its partner, or may hold one."""
+    if "\3" in value:
+        return True
+    depth = lowest = 0
+    for letter in value:
+        depth += (letter == "[") - (letter == "]")
+        lowest = min(lowest, depth)
+    return depth != 0 or lowest < 0
+
+
+def wild(value: str | None) -> str | None:
+    """Return a value in a script where unknown texts may hold brackets without partners."""
+    if not value:
+        return value
+    if MAYBE in value and unpaired(value):
+        return WILD  # which elements are glued depends on which are there
+    return value.replace(HOLE, WILD) if HOLE in value and WILD not in value else value
 
 
 def data(text: str) -> bytes:
@@ -117,7 +141,7 @@ def sure(element: str) -> tuple[str, bool]:
 
 def maybe(element: str) -> str:
     """Return a list element that may be missing."""
-    return element if element.startswith(MAYBE) or element == HOLE else MAYBE + element
+    return element if element.startswith(MAYBE) or element in (HOLE, WILD) else MAYBE + element
 
 
 def certainly_set(value: str) -> bool:
@@ -125,7 +149,7 @@ def certainly_set(value: str) -> bool:
 
     Where one branch sets a variable to nothing and another does not set it, it is held to be empty.
     """
-    return any(element and element != HOLE and not element.startswith(MAYBE) for element in elements(value))
+    return any(element and element not in (HOLE, WILD) and not element.startswith(MAYBE) for element in elements(value))
 
 
 def merge(values: Sequence[str | None], default: int | None = None) -> str | None:
@@ -149,7 +173,7 @@ def merge(values: Sequence[str | None], default: int | None = None) -> str | Non
         more = dict.fromkeys(
             maybe(element) for value in values for element in elements(value or "") if sure(element)[0] not in have
         )
-        return join([base, *(element for element in more if element != HOLE)])
+        return join([base, *(element for element in more if element not in (HOLE, WILD))])
     return _merge_lists(values)
 
 
