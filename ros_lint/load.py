@@ -208,9 +208,9 @@ class Loader:
                 look_ups=tuple([look_up for facts in done.facts.values() for look_up in facts.look_ups]),
                 parameter_files=tuple([f.parameters for f in done.facts.values() if f.parameters is not None]),
             )
-            yield package._replace(traces=self._traces(tree, package, world)) if search else package
+            yield package._replace(traces=self._traces(tree, package, source, world)) if search else package
 
-    def _traces(self, tree: Tree, package: Package, world: World) -> Mapping[str, Span]:
+    def _traces(self, tree: Tree, package: Package, source: evidence.Source, world: World) -> Mapping[str, Span]:
         """Look for the names of what seems unused in every text of the package (reference, section F3, condition 7)."""
         if not is_seen_whole(package):
             return {}
@@ -220,7 +220,9 @@ class Loader:
         satisfied = {name for use in package.uses for name in use.providers}
         wanted = [n for n in unused if not (names.works_unseen(n) or (n in satisfied and is_unseen_by_name(world, n)))]
         libraries = {name: names.called(name) for name in wanted if world.is_key(name)}
-        return evidence.traces(wanted, _contents(tree, package), libraries) if wanted else {}
+        found = evidence.mentioned(wanted, source, libraries, _may_trace) if wanted else {}
+        left = [name for name in wanted if name not in found]
+        return {**found, **evidence.traces(left, _contents(tree, package), libraries)} if left else found
 
     def _declared(self, manifest: Manifest | None) -> tuple[Declared, ...]:
         """Return every dependency element whose condition is not false, groups, conflicts and replaces included."""
@@ -292,10 +294,7 @@ def _failed(reads: Sequence[_Read]) -> Iterator[NotChecked]:
 
 def _contents(tree: Tree, package: Package) -> Iterator[tuple[str, bytes]]:
     """Yield the files of a package that may say that it uses something: no prose, and not the manifest itself."""
-    for file in package.files:
-        name = file.rpartition("/")[2].lower()
-        if name == "package.xml" or name.startswith(_NO_TRACE) or name.endswith(_NO_TEXT):
-            continue
+    for file in filter(_may_trace, package.files):
         path = join(package.path, file)
         try:
             data = tree.read(path)
@@ -303,3 +302,8 @@ def _contents(tree: Tree, package: Package) -> Iterator[tuple[str, bytes]]:
             continue
         if b"\0" not in data[:1024]:
             yield path, data
+
+
+def _may_trace(file: str) -> bool:
+    name = file.rpartition("/")[2].lower()
+    return not (name == "package.xml" or name.startswith(_NO_TRACE) or name.endswith(_NO_TEXT))

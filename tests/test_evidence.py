@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from ros_lint.evidence import traces, used_names
+from ros_lint.collectors import cpp
+from ros_lint.evidence import Source, mentioned, traces, used_names
 from ros_lint.facts import Role, Use
 from ros_lint.knowledge.names import Names
 from ros_lint.knowledge.store import Store
 from ros_lint.load import Loader
 from ros_lint.needs import covered, may_bring, needs, undeclared
+from ros_lint.text import read
 from ros_lint.tree import MemoryTree
 from ros_lint.workspace import Target, Workspace
 
@@ -223,6 +225,18 @@ def test_words_leave_traces_whatever_their_capitals() -> None:
         "libcpprest-dev": ("a.cpp", 1),
         "suitesparse": ("CMakeLists.txt", 1),
     }
+
+
+def test_what_an_include_names_is_a_trace_where_the_text_has_it() -> None:
+    source = b"#include <acme/route_tools/route.hpp>\n#include <Eigen/Core>\nacme_msgs::msg::Route route;\n"
+    names, words = ("acme_route_tools", "acme_msgs", "eigen", "acme_other"), {"eigen": ("eigen",)}
+    facts = {file: cpp.collect(read(f"talker/{file}", source)) for file in ("a.cpp", "readme.cpp")}
+    package = Source("talker", "talker", tuple(facts), None, facts, (), "ament_cmake")
+    found = mentioned(names, package, words, lambda file: file != "readme.cpp")
+    texts = traces(names, [("talker/a.cpp", source)], words)
+    assert {name: span.line for name, span in found.items()} == {name: span.line for name, span in texts.items()}
+    assert found.keys() == {"acme_route_tools", "acme_msgs", "eigen"}
+    assert not mentioned(names, package, words, lambda file: False)
 
 
 def test_of_several_that_would_do_the_best_that_is_declared_is_used() -> None:
