@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Container, Iterable, Iterator
 from typing import NamedTuple
 
-from ros_lint.apart import is_apart
+from ros_lint.apart import is_apart, lies_apart
 from ros_lint.facts import Facet, LaunchFile, LaunchReference, LookUp
 from ros_lint.workspace import Package
 
@@ -24,20 +24,20 @@ class Launchable(NamedTuple):
 def launchable(package: Package, *, apart: bool = False) -> Iterator[Launchable]:
     """Yield the launch files that are there to be launched: no mere helpers, and tests and examples only if asked for."""
     script = package.script
-    installed = {provided.source for provided in script.provides if provided.source} if script else set()
+    installed = {provided.source: provided.conditional for provided in script.provides if provided.source} if script else {}
     modules = tuple(f"{module.replace('.', '/')}/" for module in script.python_packages) if script else ()
     for file in package.launch:
         path = file.path[len(package.path) + 1 :] if package.path else file.path
         if file.helper:
             continue
-        aside = file.test or is_apart(path)
+        is_installed = path in installed or path.startswith(modules)
+        # What is merely called a test, and always installed, is for people to start.
+        aside = file.test or (lies_apart(path) if is_installed and not installed.get(path) else is_apart(path))
         if apart or not aside:
-            yield Launchable(file, path, path in installed or path.startswith(modules), aside)
+            yield Launchable(file, path, is_installed, aside)
 
 
-def referred(
-    package: Package, kinds: Container[str], *, apart: bool = False
-) -> dict[tuple[str, str], list[LaunchReference]]:
+def referred(package: Package, kinds: Container[str], *, apart: bool = False) -> dict[tuple[str, str], list[LaunchReference]]:
     """Return the references of some kinds in what :func:`launchable` yields, by the package and the name that they mean."""
     found: dict[tuple[str, str], list[LaunchReference]] = {}
     for launch in launchable(package, apart=apart):
@@ -59,11 +59,7 @@ class Programs(NamedTuple):
 def programs(package: Package) -> Programs | None:
     """Return what can be started from a package, None when that cannot be seen whole."""
     script = package.script
-    if (
-        script is None
-        or package.hidden(Facet.EXECUTABLES)
-        or package.builds_with not in ("ament_cmake", "ament_python")
-    ):
+    if script is None or package.hidden(Facet.EXECUTABLES) or package.builds_with not in ("ament_cmake", "ament_python"):
         return None
     names: set[str] = set()
     elsewhere: dict[str, str] = {}

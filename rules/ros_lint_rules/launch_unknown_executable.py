@@ -19,7 +19,8 @@ Correct the name. The usual slips are the suffix (a console script is called `ta
 - A part of the package's build script that cannot be followed may make the executable.
 - For a released package: the sources of its release are not known whole. What is known of another distribution's
   release does not count.
-- In launch files of tests and examples, which may not run at all, the confidence is medium.
+- In launch files of tests and examples, which may not run at all, the confidence is medium; one that is merely called a
+  test and always installed counts like any other.
 """
 
 from __future__ import annotations

@@ -20,11 +20,13 @@ elsewhere, check with the workspace that holds it as `--underlay`.
 - Nobody said which distribution is meant, and another one has the package.
 - The launch file asks first if the package is there.
 - The name is that of a default which an argument can replace: then the confidence is medium.
-- The name is merely unknown, resembling no other: that may be a driver that its vendor does not release. Then the
-  confidence is medium.
+- The name is merely unknown: that may be a driver that its vendor does not release. Then the confidence is medium, unless
+  the package is started under no condition and `package.xml` does not declare it either: wherever it comes from, whoever
+  installs this package does not get it. That is a warning.
 - `package.xml` declares the name as well, and it resembles no other: then `unknown-dependency` or
   `end-of-life-dependency` tells of it, once.
-- In launch files of tests and examples, which may not run at all, the confidence is medium.
+- In launch files of tests and examples, which may not run at all, the confidence is medium; one that is merely called a
+  test and always installed counts like any other.
 """
 
 from __future__ import annotations
@@ -35,15 +37,20 @@ from typing import NamedTuple
 from ros_lint.api import (
     Confidence,
     Edit,
+    Facet,
     Finding,
     Fix,
     LaunchReference,
     Package,
     Related,
+    Role,
     Rule,
     Severity,
+    Span,
     Workspace,
+    declared_closure,
     launchable,
+    may_bring,
 )
 
 _MOST_RELATED = 4
@@ -52,21 +59,53 @@ _MOST_RELATED = 4
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if not workspace.world.knowledge.covered:
         return
-    apart = frozenset(launch.file.path for launch in launchable(package, apart=True) if launch.apart)
     declared = frozenset(one.name for one in package.declared)
-    for name, references in _unknown(package, workspace).items():
+    for name, places in _unknown(package, workspace).items():
         verdict = _verdict(name, workspace)
         if verdict is None or (name in declared and not verdict.resembles):
             continue
-        best, *others = sorted(references, key=lambda one: (one.span.path in apart, one.by_default, one.span))
-        yield Finding(
-            f"there is no package {name}{verdict.hint}",
-            best.package_span,
-            name,
-            tuple(Related("also named here", other.package_span) for other in others[:_MOST_RELATED]),
-            _fix(name, verdict.meant, references),
-            Confidence.MEDIUM if best.by_default or best.span.path in apart else verdict.confidence,
+        best, *others = sorted(places)
+        wanted = not (best.apart or best.by_default)
+        left_out = (
+            wanted
+            and verdict.confidence is not Confidence.HIGH
+            and not (best.idle or best.conditional)
+            and _never_comes(name, package, workspace)
         )
+        yield Finding(
+            f"there is no package {name}{verdict.hint}{_LEFT_OUT if left_out else ''}",
+            best.reference.package_span,
+            name,
+            tuple(Related("also named here", other.reference.package_span) for other in others[:_MOST_RELATED]),
+            _fix(name, verdict.meant, [place.reference for place in places]),
+            Confidence.HIGH if left_out else verdict.confidence if wanted else Confidence.MEDIUM,
+            severity=Severity.WARNING if left_out else None,
+        )
+
+
+class _Place(NamedTuple):
+    """Where a package is named; the most telling place is the least."""
+
+    apart: bool
+    """Whether the launch file is a test or an example."""
+    by_default: bool
+    idle: bool
+    """Whether the launch file is not installed."""
+    conditional: bool
+    span: Span
+    reference: LaunchReference
+
+
+_LEFT_OUT = "; wherever it comes from, package.xml does not declare it"
+
+
+def _never_comes(name: str, package: Package, workspace: Workspace) -> bool:
+    """Whether nothing that is declared is a package of some name, or may bring it along."""
+    manifest = package.manifest
+    if manifest is None or manifest.problems or any(declared.name == name for declared in package.declared):
+        return False
+    closure = declared_closure(package, workspace, Role.EXEC | Role.EXPORT)
+    return name not in closure and not may_bring(closure.unknown, name, workspace)
 
 
 def _fix(name: str, meant: str, references: Sequence[LaunchReference]) -> Fix | None:
@@ -84,13 +123,16 @@ class _Verdict(NamedTuple):
     """Whether it is a slip, or was renamed, rather than a package that is nowhere to be had."""
 
 
-def _unknown(package: Package, workspace: Workspace) -> Mapping[str, list[LaunchReference]]:
-    found: dict[str, list[LaunchReference]] = {}
+def _unknown(package: Package, workspace: Workspace) -> Mapping[str, list[_Place]]:
+    found: dict[str, list[_Place]] = {}
+    hidden = bool(package.hidden(Facet.SHARE))
     for launch in launchable(package, apart=True):
+        idle = not (launch.installed or hidden)
         for reference in launch.file.references:
             name = reference.package
             if not workspace.world.is_package(name) and name != package.name and not reference.optional:
-                found.setdefault(name, []).append(reference)
+                place = _Place(launch.apart, reference.by_default, idle, reference.conditional, reference.span, reference)
+                found.setdefault(name, []).append(place)
     return found
 
 
