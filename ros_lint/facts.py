@@ -432,13 +432,15 @@ class Slot(NamedTuple):
 
 
 class WrittenText(NamedTuple):
-    """A place in ``setup.py`` that a fix can change a text at."""
+    """A place in ``setup.py`` or ``setup.cfg`` that a fix can change a text at."""
 
-    kind: Literal["glob", "gap"]
-    """The pattern of a glob, or what it ends with; or where a comma between two texts is missing, most likely."""
+    kind: Literal["glob", "gap", "section", "option"]
+    """The pattern of a glob, or what it ends with; where a comma between two texts is missing, most likely; a section of
+    ``setup.cfg``, or its last line; or an option."""
     text: str
+    """The name of a section, "" for the last line; ``section.name`` of an option."""
     span: Span
-    """Of the text without its quotes; of a gap, empty."""
+    """Of the text without its quotes; of the value of an option; of others, empty, and at the end of the line."""
 
 
 class BuildScript(NamedTuple):

@@ -149,7 +149,7 @@ def _python(tree: Tree, found: Found) -> BuildScript | None:
     script = setup_py.evaluate(found.name, found.path, found.files, setup, config, project, _Executables(tree, found))
     slots = setup_layout.collect(setup, found.name) if setup else ()
     texts = setup_texts.collect(setup) if setup else ()
-    return script._replace(slots=slots, texts=texts, modules=tuple(_modules(tree, found, script)))
+    return script._replace(slots=slots, texts=(*script.texts, *texts), modules=tuple(_modules(tree, found, script)))
 
 
 def _modules(tree: Tree, found: Found, script: BuildScript) -> Iterator[PythonModule]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.facts import Problem
+from ros_lint.facts import Problem, WrittenText
 
 if TYPE_CHECKING:
     from ros_lint.text import Span, Text
@@ -40,6 +40,8 @@ class SetupCfg(NamedTuple):
     path: str
     options: tuple[Option, ...]
     problems: tuple[Problem, ...]
+    texts: tuple[WrittenText, ...] = ()
+    """Where options can be added or changed."""
 
     def section(self, name: str) -> dict[str, Option]:
         """Return the options of a section by key."""
@@ -60,7 +62,9 @@ def collect(source: Text) -> SetupCfg:
     """
     options: list[Option] = []
     problems: list[Problem] = []
+    texts: list[WrittenText] = []
     section = ""
+    last = source.span(0, 0)
     indent = 0
     open_option: Option | None = None
 
@@ -74,6 +78,7 @@ def collect(source: Text) -> SetupCfg:
         start = source.offset(number, 1) + len(line) - len(line.lstrip())
         if not text or text[0] in "#;":
             continue
+        last = source.span(start + len(text), start + len(text))
         width = len(line) - len(line.lstrip())
         if open_option is not None and width > indent:
             added = Line(text, source.span(start, start + len(text)))
@@ -85,6 +90,7 @@ def collect(source: Text) -> SetupCfg:
         header, given = _SECTION.match(text), _OPTION.match(text)
         if header:
             section = header[1]
+            texts.append(WrittenText("section", section, last))
         elif given is None or not section or not given[1]:
             message = "this line is in no section" if not section else "this line is neither a section nor an option"
             problems.append(Problem("setup-cfg-syntax", message, source.span(start, start + len(text))))
@@ -97,4 +103,8 @@ def collect(source: Text) -> SetupCfg:
                 better = given[1].replace("-", "_")
                 problems.append(Problem("dashed-key", f"{given[1]} with a dash; write {better}", span))
     close()
-    return SetupCfg(source.path, tuple(options), tuple(problems))
+    texts += [
+        WrittenText("option", f"{option.section}.{option.key}", option.lines[0].span) for option in options if option.lines
+    ]
+    texts.append(WrittenText("section", "", last))
+    return SetupCfg(source.path, tuple(options), tuple(problems), tuple(texts))

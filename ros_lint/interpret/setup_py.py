@@ -75,6 +75,7 @@ def evaluate(
         python_packages=tuple(sorted({*script.python_packages, *program.generated})),
         opaque=tuple(dict.fromkeys([*script.opaque, *found])),
         problems=tuple(dict.fromkeys([*script.problems, *(cfg.problems if cfg else ())])),
+        texts=cfg.texts if cfg else (),
     )
 
 

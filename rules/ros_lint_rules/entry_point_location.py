@@ -2,7 +2,7 @@
 ## What it finds
 
 Console scripts of nodes that land in `bin/`, because `setup.cfg` is missing or does not say
-`install_scripts=$base/lib/<package>`.
+`install_scripts=$base/lib/<package>`; those that land in `lib/` of another name than that of the package.
 
 ## Why it matters
 
@@ -18,7 +18,7 @@ Write a `setup.cfg`:
     [install]
     install_scripts=$base/lib/<package>
 
-The fix does this where there is none.
+The fix does this, and adds what is missing to one that is there.
 
 ## When it keeps silent
 
@@ -30,7 +30,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Confidence, Edit, Facet, Finding, Fix, Package, Related, Rule, Severity, Span, Workspace, relative
+from ros_lint.api import (
+    BuildScript,
+    Confidence,
+    Edit,
+    Facet,
+    Finding,
+    Fix,
+    Package,
+    Related,
+    Rule,
+    Severity,
+    Span,
+    Workspace,
+    relative,
+)
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -38,7 +52,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if script is None or package.builds_with != "ament_python" or package.hidden(Facet.EXECUTABLES):
         return
     inside = {p.path.rpartition("/")[2] for p in script.provides if p.path.startswith(f"lib/{package.name}/")}
-    outside = {p.path.rpartition("/")[2] for p in script.provides if p.path.startswith("bin/")} - inside
+    elsewhere = {
+        p.path.rpartition("/")[2]: p.path.rpartition("/")[0]
+        for p in script.provides
+        if p.program and not p.source and p.path.startswith(("bin/", "lib/"))
+    }
+    outside = {name: folder for name, folder in elsewhere.items() if name not in inside}
     using = {relative(package, use.span.path) for use in package.uses if use.package == "rclpy"}
     modules = {module.name: module.path for module in script.modules}
     started = workspace.started.get(package.name, {})
@@ -47,23 +66,31 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         for entry in script.entry_points
         if entry.group == "console_scripts"
         and entry.name in outside
-        and (modules.get(entry.target.partition(":")[0].strip()) in using or entry.name in started)
+        and (
+            modules.get(entry.target.partition(":")[0].strip()) in using
+            or entry.name in started
+            or outside[entry.name] != "bin"
+        )
     ]
     if not nodes or any(entry.group.startswith("ros2cli.") for entry in script.entry_points):
         return
     defining = {module.name for module in script.modules if _NODES.intersection(module.names)}
-    sure = any(entry.name in started or entry.target.partition(":")[0].strip() in defining for entry in nodes)
+    folder = outside[nodes[0].name]
+    another = folder != "bin" and not any(folder == f"lib/{other.name}" for other in workspace.packages)
+    sure = another or any(
+        entry.name in started or entry.target.partition(":")[0].strip() in defining for entry in nodes
+    )
     config = f"{package.path}/setup.cfg" if package.path else "setup.cfg"
     there = "setup.cfg" in package.files
     names = [entry.name for entry in nodes]
     named = ", ".join(names[:3]) + (" ..." if len(names) > 3 else "")
     yield Finding(
-        f"{named} {'land' if len(names) > 1 else 'lands'} in bin/, where ros2 run does not look; "
+        f"{named} {'land' if len(names) > 1 else 'lands'} in {folder}/, where ros2 run does not look; "
         f"{'say' if there else 'add a setup.cfg with'} install_scripts=$base/lib/{package.name}",
         Span(config, 1, 1, 1, 1) if there else nodes[0].span,
         "setup.cfg",
         tuple(Related("this entry point", entry.span) for entry in nodes[0 if there else 1 :][:4]),
-        None if there else _fix(config, package.name),
+        _extended(script, package.name) if there else _fix(config, package.name),
         Confidence.HIGH if sure else Confidence.MEDIUM,
     )
 
@@ -75,6 +102,28 @@ _NODES = frozenset({"Node", "LifecycleNode"})
 def _fix(config: str, name: str) -> Fix:
     text = f"[develop]\nscript_dir=$base/lib/{name}\n[install]\ninstall_scripts=$base/lib/{name}\n"
     return Fix("add setup.cfg", (Edit(Span(config, 1, 1, 1, 1), text),))
+
+
+def _extended(script: BuildScript, name: str) -> Fix | None:
+    """Return how to add to a setup.cfg what it lacks, and to change where it says something else."""
+    found = {(text.kind, text.text): text.span for text in script.texts if text.kind in ("section", "option")}
+    end = found.get(("section", ""))
+    if end is None:
+        return None
+    place = f"$base/lib/{name}"
+    edits: list[Edit] = []
+    rest = ""
+    for section, option in (("develop", "script_dir"), ("install", "install_scripts")):
+        value, header = found.get(("option", f"{section}.{option}")), found.get(("section", section))
+        if value is not None:
+            edits.append(Edit(value, place))
+        elif header == end:
+            rest = f"\n{option}={place}{rest}"
+        elif header is not None:
+            edits.append(Edit(header, f"\n{option}={place}"))
+        else:
+            rest += f"\n[{section}]\n{option}={place}"
+    return Fix("complete setup.cfg", (*edits, Edit(end, rest)) if rest else tuple(edits))
 
 
 RULE = Rule(
