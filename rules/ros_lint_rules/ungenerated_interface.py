@@ -44,7 +44,7 @@ _KINDS = {"msg": ("msg", "idl"), "srv": ("srv", "idl"), "action": ("action", "id
 """Suffixes of interfaces, by folder."""
 
 
-def check(package: Package, _: Workspace) -> Iterator[Finding]:
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_cmake" or package.hidden(Facet.INTERFACES):
         return
