@@ -583,3 +583,5 @@ class LaunchFile(NamedTuple):
     files by their install path; sorted."""
     fills: bool = False
     """Whether launch configurations are filled into a file of parameters (allow_substs), which can ask for any."""
+    newer: tuple[Problem, ...] = ()
+    """What not every distribution takes; ``kind`` is the first that does."""

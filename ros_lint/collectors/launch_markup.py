@@ -14,8 +14,9 @@ from typing import NamedTuple
 from ros_lint.collectors.launch_entity import Entity, Rejected, Type
 from ros_lint.collectors.launch_markup_read import Reader, Rule
 from ros_lint.collectors.launch_references import References
+from ros_lint.collectors.launch_tags import SINCE
 from ros_lint.collectors.launch_text import UNKNOWN
-from ros_lint.facts import LaunchAction, LaunchReference, LaunchValue, Opaque, Problem
+from ros_lint.facts import LaunchAction, LaunchCondition, LaunchReference, LaunchValue, Opaque, Problem
 from ros_lint.text import Text
 
 
@@ -26,6 +27,8 @@ class Found(NamedTuple):
     opaque: tuple[Opaque, ...]
     problems: tuple[Problem, ...]
     actions: tuple[LaunchAction, ...]
+    newer: tuple[Problem, ...]
+    """What not every distribution takes; ``kind`` is the first that does."""
 
 
 def read(source: Text, root: Entity) -> Found:
@@ -47,6 +50,7 @@ def read(source: Text, root: Entity) -> Found:
         tuple(references.opaque),
         tuple(reader.problems),
         tuple(actions),
+        tuple(reader.newer),
     )
 
 
@@ -182,10 +186,24 @@ def _timer(reader: Reader, entity: Entity) -> LaunchAction:
     return LaunchAction("later", entity.span, conditions=conditions, children=tuple(children))
 
 
+def _loop(reader: Reader, entity: Entity) -> LaunchAction:
+    """Return what is done for each of some values, how many there are: perhaps never."""
+    conditions = reader.conditions(entity)
+    for attribute in ("values",) if entity.tag == "for_each" else ("len", "name"):
+        reader.text(entity, attribute)
+    children = reader.actions(entity.actions())
+    perhaps = LaunchCondition((UNKNOWN,), None)
+    unscoped = LaunchValue(("unscoped",), entity.span)
+    return LaunchAction("group", entity.span, name=unscoped, conditions=(*conditions, perhaps), children=tuple(children))
+
+
 def _include(reader: Reader, entity: Entity) -> LaunchAction:
     conditions = reader.conditions(entity)
     target = reader.text(entity, "file")
     arguments = _named(reader, entity, "arg")
+    if any(child.tag == "let" for child in entity.children):
+        arguments += _named(reader, entity, "let")
+        reader.note_newer("<let> in <include>", next(child.span for child in entity.children if child.tag == "let"))
     return LaunchAction(
         "include",
         entity.span,
@@ -226,7 +244,7 @@ def _process(reader: Reader, entity: Entity, kind: str) -> LaunchAction:
     if entity.get("on_exit") not in (None, "shutdown"):
         raise Rejected("on-exit", f"on_exit of <{entity.tag}> can only be shutdown", entity.place("on_exit"))
     if not entity.lacks(_LIMITS):
-        _limits(entity)
+        _limits(reader, entity)
     entity.get("shell", "bool")
     entity.get("emulate_tty", "bool")
     given += [(f"${variable}", value) for variable, value in _named(reader, entity, "env")]
@@ -245,7 +263,10 @@ _SURROUNDINGS = frozenset({"cwd", "launch-prefix", "output", "respawn"})
 _LIMITS = frozenset({"respawn_max_retries", "respawn_delay", "sigkill_timeout", "sigterm_timeout"})
 
 
-def _limits(entity: Entity) -> None:
+def _limits(reader: Reader, entity: Entity) -> None:
+    for name in entity.attributes:
+        if f"attribute {name}" in SINCE:
+            reader.note_newer(f"attribute {name}", entity.place(name))
     entity.get("respawn_max_retries", "int")
     for limit in ("respawn_delay", "sigkill_timeout", "sigterm_timeout"):
         seconds = entity.get(limit, "float")
@@ -290,7 +311,7 @@ def _lifecycle_node(reader: Reader, entity: Entity) -> LaunchAction:
 
 def _container(reader: Reader, entity: Entity) -> LaunchAction:
     action = _node(reader, entity)
-    components = [_component(reader, child) for child in entity.entities("composable_node")]
+    components = _components(reader, entity)
     for name in ("name", "namespace"):
         entity.need(name)
     return action._replace(children=tuple(components))
@@ -299,11 +320,20 @@ def _container(reader: Reader, entity: Entity) -> LaunchAction:
 def _load(reader: Reader, entity: Entity) -> LaunchAction:
     conditions = reader.conditions(entity)
     target = reader.text(entity, "target")
-    children = entity.entities("composable_node")
-    if not children:
+    components = tuple(_components(reader, entity))
+    if not components:
         raise Rejected("missing-child", f"<{entity.tag}> needs a <composable_node>", entity.span)
-    components = tuple(_component(reader, child) for child in children)
     return LaunchAction("group", entity.span, name=target, conditions=conditions, children=components)
+
+
+def _components(reader: Reader, entity: Entity) -> list[LaunchAction]:
+    components = [_component(reader, child) for child in entity.entities("composable_node")]
+    if any(child.tag == "composable_lifecycle_node" for child in entity.children):
+        for child in entity.entities("composable_lifecycle_node"):
+            reader.note_newer("<composable_lifecycle_node>", child.span)
+            reader.typed(child, "autostart", "bool")
+            components.append(_component(reader, child))
+    return components
 
 
 def _component(reader: Reader, entity: Entity) -> LaunchAction:
@@ -401,6 +431,8 @@ _RULES: Mapping[str, Rule] = {
     "unset_env": _unset_environment,
     "reset_env": _bare,
     "reset": _reset,
+    "for": _loop,
+    "for_each": _loop,
     "log": _log,
     "shutdown": _shutdown,
     "group": _group,

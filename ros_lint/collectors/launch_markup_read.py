@@ -13,7 +13,7 @@ from typing import Any, NamedTuple, NoReturn
 
 from ros_lint.collectors.launch_entity import Entity, Rejected, Type
 from ros_lint.collectors.launch_markup_texts import Pieces, package_of, simple_text, texts
-from ros_lint.collectors.launch_tags import EXTENSIONS, SUBSTITUTIONS
+from ros_lint.collectors.launch_tags import EXTENSIONS, SINCE, SUBSTITUTIONS
 from ros_lint.collectors.launch_text import joined
 from ros_lint.collectors.substitution import Literal, Substitution, SubstitutionError, parse
 from ros_lint.facts import LaunchAction, LaunchCondition, LaunchValue, Problem
@@ -29,6 +29,12 @@ class Reader:
         self._source = source
         self._rules = rules
         self.problems: list[Problem] = []
+        self.newer: dict[Problem, None] = {}
+        """What not every distribution takes; ``kind`` is the first that does."""
+
+    def note_newer(self, what: str, span: Span) -> None:
+        """Note something that not every distribution takes."""
+        self.newer[Problem(SINCE[what], what, span)] = None
 
     def refuse(self, error: Rejected) -> None:
         """Note that the front end refuses something."""
@@ -50,6 +56,8 @@ class Reader:
             if entity.tag in EXTENSIONS:
                 return []  # its package says what it takes
             raise Rejected("unknown-tag", f"there is no tag <{entity.tag}>", entity.span)
+        if entity.tag in _NEWER_TAGS:
+            self.note_newer(f"<{entity.tag}>", entity.span)
         action = rule(self, entity)
         entity.finish()
         return [action]
@@ -59,12 +67,23 @@ class Reader:
     def _texts(self, entity: Entity, name: str, value: str) -> tuple[str, ...]:
         """Return what a value with substitutions becomes. Raises Rejected."""
         found = reading(value)
+        if _NEWER.search(value):
+            self._note_substitutions(entity, name, value)
         return self._refused(entity, name, value, found) if isinstance(found, Mistake) else found
 
     def _pieces(self, entity: Entity, name: str, value: str) -> Pieces:
         """Return a value as text and substitutions. Raises Rejected."""
         found = _pieces(value)
+        if _NEWER.search(value):
+            self._note_substitutions(entity, name, value)
         return self._refused(entity, name, value, found) if isinstance(found, Mistake) else found
+
+    def _note_substitutions(self, entity: Entity, name: str, value: str) -> None:
+        pieces = _pieces(value)
+        for piece in () if isinstance(pieces, Mistake) else _substitutions(pieces):
+            what = "$(eval) with modules" if piece.name == "eval" and len(piece.arguments) > 1 else f"$({piece.name})"
+            if what in SINCE:
+                self.note_newer(what, self._inner(entity, name, value, piece.start, piece.end))
 
     def _refused(self, entity: Entity, name: str, value: str, found: Mistake) -> NoReturn:
         raise Rejected(found.kind, found.message, self._inner(entity, name, value, found.start, found.end))
@@ -219,6 +238,9 @@ def _package_place(value: str) -> tuple[int, int] | None:
     return (argument[0].start, argument[-1].end) if argument else None
 
 
+_NEWER_TAGS = frozenset([what[1:-1] for what in SINCE if re.fullmatch(r"<\w+>", what)])
+_NEWER = re.compile(r"\$\((?:eval|" + "|".join([what[2:-1] for what in SINCE if re.fullmatch(r"\$\(.*\)", what)]) + r")[ )]")
+"""Substitutions that not every distribution takes, or not with everything."""
 _LOOK_UP = re.compile(r"\$\(find-pkg-(?:share|prefix) ([^)]*)\)")
 
 

@@ -20,7 +20,9 @@ SUBSTITUTIONS: Mapping[str, tuple[int, int]] = {
     "find-exec": (1, 1),
     "find-pkg-prefix": (1, 1),
     "find-pkg-share": (1, 1),
+    "for-var": (1, 2),
     "if": (2, 3),
+    "index": (1, 2),
     "launch_log_dir": (0, 0),
     "log_dir": (0, 0),
     "not": (1, 1),
@@ -42,3 +44,28 @@ EXTENSIONS: Mapping[str, str] = {
     "test": "launch_testing",
 }
 """Tags that other packages add, and the packages (entry point group ``launch.frontend.launch_extension``)."""
+
+SINCE: Mapping[str, str] = {
+    "<set_ros_log_dir>": "iron",  # launch_ros 0.22.0
+    "<for>": "kilted",  # launch 3.8.0
+    "<for_each>": "kilted",  # launch 3.8.0
+    "<lifecycle_node>": "lyrical",  # launch_ros 0.29.4
+    "<composable_lifecycle_node>": "lyrical",  # launch_ros 0.29.3
+    "<let> in <include>": "jazzy",  # launch 3.4.7
+    "attribute sigkill_timeout": "iron",  # launch 1.4.0
+    "attribute sigterm_timeout": "iron",  # launch 1.4.0
+    "attribute respawn_max_retries": "jazzy",  # launch 3.1.0
+    "$(launch_log_dir)": "iron",  # launch 1.3.0
+    "$(eval) with modules": "iron",  # launch 1.4.0
+    "$(for-var)": "kilted",  # launch 3.8.0
+    "$(index)": "kilted",  # launch 3.8.0
+    "$(string-join)": "lyrical",  # launch 3.9.5
+}
+"""The first distribution that takes something, where not every supported one does.
+
+From the ``parse`` methods and ``expose_action``, ``expose_substitution`` of the branches humble, iron, jazzy and rolling of
+ros2/launch and ros2/launch_ros as of 2024-12, and from their changelogs of humble (launch 1.0.14, launch_ros 0.19.13), jazzy
+(3.4.10, 0.26.11), kilted (3.8.7, 0.28.4) and rolling (3.9.6, 0.29.5) for what came later. What an update brought to every
+supported distribution is not here: ``on_exit`` and ``emulate_tty``, ``$(if)``, ``$(any)``, ``$(all)``, ``$(equals)`` and
+``$(not-equals)`` came to humble with launch 1.0.9, ``$(file-content)`` with 1.0.11.
+"""

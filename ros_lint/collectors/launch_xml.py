@@ -22,7 +22,9 @@ def collect(source: Text) -> LaunchFile:
         )
     found = launch_markup.read(source, root)
     asks = launch_markup.asks(source.text)
-    return LaunchFile(source.path, "xml", found.references, found.opaque, found.problems, actions=found.actions, asks=asks)
+    return LaunchFile(
+        source.path, "xml", found.references, found.opaque, found.problems, actions=found.actions, asks=asks, newer=found.newer
+    )
 
 
 def entities(source: Text) -> Entity:

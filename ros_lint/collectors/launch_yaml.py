@@ -37,7 +37,9 @@ def collect(source: Text) -> LaunchFile:
         return LaunchFile(source.path, "yaml", problems=(problem,))
     found = launch_markup.read(source, root)
     asks = launch_markup.asks(source.text)
-    return LaunchFile(source.path, "yaml", found.references, found.opaque, found.problems, actions=found.actions, asks=asks)
+    return LaunchFile(
+        source.path, "yaml", found.references, found.opaque, found.problems, actions=found.actions, asks=asks, newer=found.newer
+    )
 
 
 class _Reader:

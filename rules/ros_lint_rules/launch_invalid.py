@@ -3,6 +3,7 @@
 
 A launch file that the real front end refuses: it does not parse, has a tag, an attribute or a substitution that does not
 exist, misses one that is needed, or holds a value of another type; one in Python that gives keywords which were removed.
+So does a file with something that came to the launch format after the distribution that was asked for.
 
 ## Why it matters
 
@@ -18,13 +19,25 @@ The message names what is wrong. See the launch format of your distribution for 
 - Launch files of ROS 1 as a whole.
 - Tags that packages add to the format.
 - Launch files of tests, examples and templates.
+- What is newer than the distribution, where nobody said which one is meant.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
-from ros_lint.api import Confidence, Finding, Package, Problem, Related, Rule, Severity, Workspace, launchable
+from ros_lint.api import (
+    Confidence,
+    Finding,
+    Package,
+    Problem,
+    Related,
+    Rule,
+    Severity,
+    Target,
+    Workspace,
+    launchable,
+)
 
 _MOST_RELATED = 4
 _LEFTOVERS = {
@@ -50,16 +63,26 @@ _LEFTOVERS = {
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for launch in launchable(package):
-        if not launch.file.problems:
+        problems = (*launch.file.problems, *_newer(launch.file.newer, workspace.target))
+        if not problems:
             continue
-        first, *others = sorted(launch.file.problems, key=lambda problem: problem.span)
+        first, *others = sorted(problems, key=lambda problem: problem.span)
         yield Finding(
             _message(first),
             first.span,
             launch.path,
             tuple(Related(_message(other), other.span) for other in others[:_MOST_RELATED]),
-            confidence=max(_confidence(problem, workspace) for problem in launch.file.problems),
+            confidence=max(_confidence(problem, workspace) for problem in problems),
         )
+
+
+def _newer(problems: Iterable[Problem], target: Target) -> Iterator[Problem]:
+    """Yield what came after the distribution that was asked for; their names go with the alphabet."""
+    if target.told and target.distro != "rolling":
+        for problem in problems:
+            if target.distro < problem.kind:
+                message = f"{target.distro} has no {problem.message}: it came with {problem.kind}"
+                yield problem._replace(message=message)
 
 
 def _message(problem: Problem) -> str:
