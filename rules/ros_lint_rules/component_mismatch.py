@@ -97,7 +97,8 @@ def _unmade(component: Component, alike: list[Registration]) -> Finding:
             inner = span._replace(column=span.column + quotes, end_column=span.end_column - quotes)
             fix = Fix(f"write {alike[0].name}", (Edit(inner, alike[0].name),))
     related = tuple(Related("made loadable here", one.span) for one in alike[:2])
-    return Finding(f"no source makes the component {component.name} loadable{hint}", span, component.name, related, fix)
+    subject = alike[0].name if alike else component.name
+    return Finding(f"no source makes the component {component.name} loadable{hint}", span, subject, related, fix)
 
 
 def _library_of(package: Package, one: Registration) -> str:

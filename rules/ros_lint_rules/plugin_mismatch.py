@@ -118,7 +118,7 @@ def _unexported(package: Package, registered: list[Registration]) -> Iterator[Fi
         tuple(Related("also this class", made.span) for made in others[:4])
         + ((Related("it is described here", plugin.span),) if plugin else ()),
         _export(package, plugin) if plugin else None,
-        confidence=Confidence.HIGH if plugin and _is_built(package, first) and not by_manifest else Confidence.MEDIUM,
+        confidence=Confidence.HIGH if _is_built(package, first) and not by_manifest else Confidence.MEDIUM,
     )
 
 
@@ -153,7 +153,9 @@ def _library(package: Package, plugin: PluginFile, library: PluginLibrary) -> It
         return
     if name in built:
         message = f"the library {name} is built, but not installed to lib/"
-        sure = Confidence.MEDIUM  # it may be static, or its file may have another name
+        listed = [call for call in called(package, "add_library", anywhere=True) if name in call.texts[:1]]
+        by_words = any({"SHARED", "MODULE"}.intersection(call.texts) and not call.blocks for call in listed)
+        sure = Confidence.HIGH if by_words else Confidence.MEDIUM  # it may be static, or its file may have another name
     else:
         near = difflib.get_close_matches(name, sorted(installed | built), 1, 0.8)
         message = f"the package builds no library {name}" + (f"; is {near[0]} meant?" if near else "")

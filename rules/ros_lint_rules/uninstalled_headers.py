@@ -2,8 +2,9 @@
 ## What it finds
 
 A package that exports its include folder (`ament_export_include_directories()`, or targets with
-`ament_export_targets()`), and does not install the headers in `include/`. Packages that install a library and no headers
-are told with medium confidence, those with programs only with low confidence.
+`ament_export_targets()`) or a library (`ament_export_libraries()`), and does not install the headers in `include/`. Packages
+that install a library and no headers are told with medium confidence, so are those that export plugins or components, which
+nobody links; those with programs only with low confidence.
 
 ## Why it matters
 
@@ -41,6 +42,9 @@ from ros_lint.api import (
     hidden,
 )
 
+_LOADED = (
+    "pluginlib_export_plugin_description_file", "rclcpp_components_register_node", "rclcpp_components_register_nodes",
+)  # fmt: skip
 _HEADERS = (".h", ".hh", ".hpp", ".hxx", ".inl", ".ipp", ".tpp")
 
 
@@ -54,7 +58,9 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         return
     exports = _exports(package)
     library = any(path.startswith("lib/lib") for path in places)
-    sure = Confidence.HIGH if exports else Confidence.MEDIUM if library else Confidence.LOW
+    loaded = any(True for _ in called(package, *_LOADED, anywhere=True))
+    linked = library and not loaded and any(not call.blocks for call in called(package, "ament_export_libraries"))
+    sure = Confidence.HIGH if exports or linked else Confidence.MEDIUM if library else Confidence.LOW
     yield Finding(
         f"the headers in include/ ({headers[0].rpartition('/')[2]} ...) are not installed"
         f"{', but exported' if exports else ''}",

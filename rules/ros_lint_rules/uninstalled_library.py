@@ -1,8 +1,9 @@
 """
 ## What it finds
 
-A library that is built and not installed, although an installed program or library links it, or it is exported with
-`ament_export_libraries()`. Other libraries that are not installed are told with low confidence.
+A library that is built and not installed, although an installed program or library links it, it is exported with
+`ament_export_libraries()`, or it is `SHARED` or a `MODULE` and nothing but programs at run time, plugin loaders or other
+packages can use it. Other libraries that are not installed are told with low confidence.
 
 ## Why it matters
 
@@ -61,6 +62,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         if any("OBJECT" in call.texts[1:2] for call in _made(package, target.name)):
             continue
         shared = _is_shared(package, target.name)
+        lone = _is_lone(package, target.name)
         users = [(name, span) for name, span in _linked_by(script, target.name) if name in installed] if shared else []
         exported = _exported(package, target.name)
         related = tuple(Related(f"{name} links it here", span) for name, span in users[:3])
@@ -73,7 +75,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             target.name,
             related,
             Fix(f"install {target.name}", (cmake_edits.install_library(script.end, target.name),)) if script.end else None,
-            Confidence.HIGH if reason else Confidence.MEDIUM if shared else Confidence.LOW,
+            Confidence.HIGH if reason or lone else Confidence.MEDIUM if shared else Confidence.LOW,
             None if reason else Severity.WARNING,
         )
 
@@ -89,6 +91,18 @@ def _is_shared(package: Package, name: str) -> bool:
         kinds = {"STATIC", "OBJECT", "INTERFACE"}.intersection(call.texts)
         return "SHARED" in call.texts or (not kinds and "ament_cmake_ros" in found)
     return False
+
+
+def _is_lone(package: Package, name: str) -> bool:
+    """Whether a library is shared by its own words, and no target links it that stays in the build folder as well."""
+    script = package.script
+    assert script is not None
+    installed = {provided.target for provided in script.provides}
+    left = {target.name for target in script.targets if target.kind == "executable" and target.name not in installed}
+    left.update(target.name for target in script.targets if target.test)
+    linking = {target.name for target in script.targets for linked, _ in target.links if linked == name}
+    calls = list(_made(package, name))
+    return not linking & left and any({"SHARED", "MODULE"}.intersection(call.texts) and not call.blocks for call in calls)
 
 
 def _made(package: Package, name: str) -> Iterator[Call]:

@@ -40,6 +40,7 @@ from ros_lint.api import (
     Span,
     Workspace,
     cmake_edits,
+    is_apart,
     launchable,
     setup_edits,
     uninstalled_resources,
@@ -64,9 +65,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     kept = {provided.source for provided in script.provides if provided.source}
     missing: dict[str, list[tuple[str, Span]]] = {}
     files = frozenset(package.files)
+    folders = frozenset(file.partition("/")[0] for file in package.files if _is_resource(file))
     for look_up in workspace.looked_up.get(package.name, ()):
         path, span = look_up.path.rstrip("/"), look_up.span
-        if f"share/{package.name}/{path}" in installed or path not in files or _is_launch(path):
+        if f"share/{package.name}/{path}" in installed or _is_launch(path) or not (path in files or path in folders):
             continue
         if any(place.startswith(f"share/{package.name}/{path}/") for place in installed):
             continue
@@ -77,26 +79,31 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     yield from _folders(package, kept, told)
 
 
+def _is_resource(path: str) -> bool:
+    """Whether a file is one of a folder that a launch file or a program can look up as a whole."""
+    return "/" in path and path.lower().endswith(_RUN_TIME) and not is_apart(path)
+
+
 def _is_launch(path: str) -> bool:
     return path.endswith((".launch.py", ".launch.xml", ".launch.yaml", ".launch", "_launch.py"))
 
 
 def _unit(path: str, kept: set[str]) -> str:
     """Return what to install: the topmost folder of the file, if nothing of it is installed so far, else the file."""
-    top = path.partition("/")[0]
+    top, inside, _ = path.partition("/")
+    if not inside and "." not in top:
+        return f"{top}/"
     return f"{top}/" if "/" in path and not any(source.startswith(f"{top}/") for source in kept) else path
 
 
 def _named(package: Package, unit: str, found: list[tuple[str, Span]]) -> Finding:
     script = package.script
     assert script is not None
-    paths = sorted({path for path, _ in found})
+    paths = sorted({path for path, _ in found} - {unit.rstrip("/")})
     named = ", ".join(path.rpartition("/")[2] for path in paths[:3]) + (" ..." if len(paths) > 3 else "")
-    what = f"{unit} is not installed, and {named} is looked up in it" if unit.endswith("/") else f"{unit} is not installed"
-    if not unit.endswith("/"):
-        what += ", and is looked up at run time"
+    inside = f"{named} is looked up in it" if unit.endswith("/") and paths else "is looked up at run time"
     return Finding(
-        what,
+        f"{unit} is not installed, and {inside}",
         _place(package),
         unit,
         tuple(Related("looked up here", span) for _, span in found[:4]),
