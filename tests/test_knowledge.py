@@ -618,3 +618,10 @@ def test_what_brings_a_name_is_what_walks_to_it() -> None:
         having = sum(name in found for other, found in brought.items() if other != name)
         assert jazzy.bringing(name, len(jazzy)) == having
         assert jazzy.bringing(name, 3) > 3 or having <= 3
+
+
+def test_plugins_of_one_base_stand_together() -> None:
+    line = "demo\t=\tP:nav=demo::A,demo::B rviz=demo/C"
+    found = provides.parse(line.split("\t"))
+    assert found.known("plugins").names == ("nav=demo::A", "nav=demo::B", "rviz=demo/C")
+    assert provides.render(found) == line

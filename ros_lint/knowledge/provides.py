@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 from ros_lint.knowledge.store import KnowledgeError, Store, Table
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
 Answer = Literal["exists", "missing", "unknowable"]
 Facet = Literal["executables", "launch", "components", "plugins", "modules", "interfaces", "programs"]
@@ -87,7 +87,8 @@ def parse(fields: list[str]) -> Provided:
         if len(letter) != 1:
             raise ValueError(f"{field!r} is no list of names")
         # A lone Y is the module that is called as the package.
-        found[letter] = tuple(text.split(" ")) if colon else (name,)
+        names = text.split(" ") if colon else [name]
+        found[letter] = tuple(_apart(names) if letter == LETTERS["plugins"] else names)
     return Provided(name, origin, found)
 
 
@@ -96,11 +97,29 @@ def render(provided: Provided) -> str:
     fields = [provided.name, provided.origin]
     for letter in LETTERS.values():
         names = provided.fields.get(letter, ())
+        if letter == LETTERS["plugins"]:
+            names = _together(names)
         if names == (provided.name,) and letter == "Y":
             fields.append(letter)
         elif names:
             fields.append(f"{letter}:{' '.join(names)}")
     return "\t".join(fields)
+
+
+def _apart(plugins: Iterable[str]) -> Iterator[str]:
+    """Yield base=class for each of base=class,class."""
+    for plugin in plugins:
+        base, equals, classes = plugin.partition("=")
+        yield from (f"{base}{equals}{one}" for one in classes.split(","))
+
+
+def _together(plugins: Iterable[str]) -> tuple[str, ...]:
+    """Return base=class,class for all classes of a base. The inverse of :func:`_apart`."""
+    found: dict[str, list[str]] = {}
+    for plugin in plugins:
+        base, _, one = plugin.partition("=")
+        found.setdefault(base, []).append(one)
+    return tuple(f"{base}={','.join(classes)}" for base, classes in found.items())
 
 
 def render_file(distro: str, packages: Iterable[Provided]) -> str:
