@@ -145,6 +145,33 @@ def generate_launch_description():
     assert [(node.name, node.conditional) for node in nodes] == [("left", True)]
 
 
+def test_list_that_an_argument_names_is_counted() -> None:
+    files = {
+        "config/setup.yaml": "names: [left, right]\n",
+        "launch/a.launch.py": """
+import os, yaml
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, OpaqueFunction
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+def setup(context):
+    with open(LaunchConfiguration("file").perform(context)) as file:
+        names = yaml.safe_load(file)["names"]
+    return [Node(package="driver", executable=names[i]) for i in range(len(names))]
+
+def generate_launch_description():
+    default = os.path.join(get_package_share_directory("app"), "config", "setup.yaml")
+    return LaunchDescription([DeclareLaunchArgument("file", default_value=default), OpaqueFunction(function=setup)])
+""",
+    }
+    package = _package("app", files, {"share/app/config/setup.yaml": "config/setup.yaml"})
+    after = _completed((package, files))["app/launch/a.launch.py"]
+    nodes = [action for action in after.actions if action.kind == "node"]
+    assert [{"left", "right"} & set(node.target.texts) for node in nodes if node.target][:2] == [{"left"}, {"right"}]
+
+
 def test_files_that_are_clear_are_not_followed_again() -> None:
     files = {
         "launch/a.launch.py": """

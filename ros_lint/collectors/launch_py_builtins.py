@@ -77,14 +77,23 @@ def _dict(call: Call) -> Value:
 
 
 def _length(call: Call) -> Value:
-    value = plain(call.get(0))
+    return each(call.get(0), _length_of)
+
+
+def _length_of(value: Value) -> Value:
+    value = plain(value)
     if isinstance(value, (list, tuple, dict, set, range)) or (isinstance(value, str) and launch_text.is_plain(value)):
         return len(value)
     return Unknown("a length")
 
 
 def _range(call: Call) -> Value:
-    values = [plain(argument) for argument in call.arguments]
+    *before, last = call.arguments or [None]
+    return each(last, lambda one: _range_of([*before, one]))
+
+
+def _range_of(arguments: list[Value]) -> Value:
+    values = [plain(argument) for argument in arguments]
     if values and all(isinstance(value, int) for value in values):
         try:
             return range(*values)
