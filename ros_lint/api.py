@@ -17,11 +17,16 @@ from ros_lint.build_scripts import (
 from ros_lint.cmake_finds import come_along, found_names, given_to
 from ros_lint.collectors.launch_text import agree, is_plain
 from ros_lint.declare import (
+    PYTHON_LIKE,
     add_dependency,
     builds_something,
     change_dependency,
+    is_built_in_sight,
+    is_library,
+    is_mostly_run,
     is_seen_whole,
     is_unseen_by_name,
+    leaves_trace,
     remove_dependency,
     tag_for,
     works_unseen,
@@ -64,7 +69,19 @@ from ros_lint.launch_links import Links, defaults_of, everything, filled
 from ros_lint.launch_names import Families, needed
 from ros_lint.launch_parameters import Given, ParameterFiles
 from ros_lint.launch_runs import launched
-from ros_lint.needs import Need, comes_with_launching, covered, declared_closure, may_bring, needs, undeclared
+from ros_lint.needs import (
+    Need,
+    comes_elsewhere,
+    comes_with_launching,
+    covered,
+    declared_closure,
+    is_available,
+    may_bring,
+    needs,
+    tells,
+    undeclared,
+    wishes,
+)
 from ros_lint.resource_files import uninstalled as uninstalled_resources
 from ros_lint.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
 from ros_lint.strangers import Stranger, declared_names, strangers
@@ -78,6 +95,7 @@ if TYPE_CHECKING:  # made only where it is asked for
 
 __all__ = [
     "ANYTHING",
+    "PYTHON_LIKE",
     "ROLES",
     "BuildScript",
     "BuildTarget",
@@ -138,6 +156,7 @@ __all__ = [
     "change_dependency",
     "cmake_edits",
     "come_along",
+    "comes_elsewhere",
     "comes_with_launching",
     "conditions",
     "covered",
@@ -151,12 +170,17 @@ __all__ = [
     "given_to",
     "hidden",
     "is_apart",
+    "is_available",
+    "is_built_in_sight",
+    "is_library",
+    "is_mostly_run",
     "is_plain",
     "is_seen_whole",
     "is_unseen_by_name",
     "knots",
     "launchable",
     "launched",
+    "leaves_trace",
     "manifest_edits",
     "may_bring",
     "missing_path",
@@ -170,10 +194,12 @@ __all__ = [
     "stranded",
     "strangers",
     "tag_for",
+    "tells",
     "top_file",
     "undeclared",
     "unguarded_tests",
     "uninstalled_resources",
     "used_names",
+    "wishes",
     "works_unseen",
 ]

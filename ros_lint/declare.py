@@ -75,12 +75,16 @@ def is_unseen_by_name(world: World, name: str) -> bool:
     return world.knowledge.names.works_unseen(name)
 
 
+def is_library(world: World, name: str) -> bool:
+    """Whether a name is a key of something that is compiled against, which launch files cannot use."""
+    return world.is_key(name) and not name.startswith("python")
+
+
 def works_unseen(package: Package, workspace: Workspace, name: str) -> bool:
     """Whether a dependency of a package on a name can do its work without the name standing anywhere (reference, section F2).
 
-    True for what is no package that is known; for packages that bring others, give macros or plugins, or are
-    mostly declared by others to be run; for those whose name says that they stand for something else; and for what
-    generated interfaces need.
+    True for what is no package that is known; for packages that bring others, give macros or plugins; for those whose name
+    says that they stand for something else; and for what generated interfaces need. See :func:`is_mostly_run`, too.
     """
     world = workspace.world
     if is_unseen_by_name(workspace.world, name):
@@ -93,7 +97,30 @@ def works_unseen(package: Package, workspace: Workspace, name: str) -> bool:
     if mine:
         return any(_gives_macros(each) or not makes_something(each) for each in mine)
     released = world.released(name)
-    return (released is not None and "m" in released.flags[1:]) or _is_run(workspace, name)
+    return released is not None and "m" in released.flags[1:]
+
+
+def is_mostly_run(workspace: Workspace, name: str) -> bool:
+    """Whether released packages mostly declare a name without building against it, so that it may well leave no trace."""
+    if name in workspace.by_name or not workspace.world.is_package(name):
+        return False
+    declared = workspace.world.knowledge.index.declared_as(name)
+    return 2 * sum(count for kinds, count in declared.items() if "b" not in kinds) > sum(declared.values())
+
+
+def leaves_trace(package: Package, workspace: Workspace, name: str) -> bool:
+    """Whether a dependency leaves a trace if it is of use at all: messages, and modules where no Python code could import them."""
+    world = workspace.world
+    released = world.released(name)
+    if released is None:
+        return False
+    runs = world.executables(name).names or world.programs(name).names or world.launch_files(name).names
+    no_python = not any(file.endswith(PYTHON_LIKE) for file in package.files)
+    return bool(released.interfaces) or (no_python and not runs and bool(world.python_modules(name).names))
+
+
+PYTHON_LIKE = (".py", ".py.in", ".launch", ".launch.xml", ".launch.yaml")
+"""Files that can run Python code, or have it run."""
 
 
 _IN_INTERFACES = frozenset({"action_msgs", "service_msgs", "builtin_interfaces", "unique_identifier_msgs"})
@@ -101,9 +128,17 @@ _IN_INTERFACES = frozenset({"action_msgs", "service_msgs", "builtin_interfaces",
 
 
 def is_seen_whole(package: Package) -> bool:
-    """Whether so much is seen of a package that nothing more can be used in it than what is found."""
+    """Whether so much is seen of a package that no more packages can be used in it than those that are found."""
+    return is_built_in_sight(package) and not package.hidden(Facet.USES)
+
+
+def is_built_in_sight(package: Package) -> bool:
+    """Whether so much is seen of a package that no more libraries can be used in it: launch files need none."""
     manifest, script = package.manifest, package.script
-    if manifest is None or manifest.problems or script is None or script.problems or package.hidden(Facet.USES):
+    if manifest is None or manifest.problems or script is None or script.problems:
+        return False
+    launched = {launch.path for launch in package.launch}
+    if any(opaque.span.path not in launched for opaque in package.hidden(Facet.USES)):
         return False
     return package.builds_with in ("ament_cmake", "ament_python") and builds_something(package)
 
@@ -137,9 +172,3 @@ def _is_only_for_building(workspace: Workspace, name: str) -> bool:
     """Whether released packages mostly declare a name for building alone."""
     declared = workspace.world.knowledge.index.declared_as(name)
     return 2 * sum(count for kinds, count in declared.items() if set(kinds) <= {"b", "t"}) > sum(declared.values())
-
-
-def _is_run(workspace: Workspace, name: str) -> bool:
-    """Whether released packages mostly declare a name without building against it."""
-    declared = workspace.world.knowledge.index.declared_as(name)
-    return 2 * sum(count for kinds, count in declared.items() if "b" not in kinds) > sum(declared.values())

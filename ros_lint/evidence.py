@@ -17,7 +17,7 @@ from ros_lint.liveness import HEADERS, Liveness
 from ros_lint.text import Span
 
 if TYPE_CHECKING:
-    from ros_lint.world import Providers
+    from ros_lint.world import Providers, Standing
 
 
 class Names(Protocol):
@@ -28,6 +28,7 @@ class Names(Protocol):
     def by_include(self, header: str) -> Providers: ...
     def by_import(self, module: str) -> Providers: ...
     def is_package(self, name: str) -> bool: ...
+    def standing(self, name: str) -> Standing: ...
 
 
 _make = tuple.__new__
@@ -77,13 +78,13 @@ class Resolver:
         self._headers = include_index(sources)
         self._ask: Mapping[Via, Callable[[str], Answer]] = {
             "include": self._include,
-            "import": lambda name: _told(self.names.by_import(name)),
-            "cmake": lambda name: _told(self.names.by_cmake(name)),
-            "target": lambda name: _told(self.names.by_cmake(name.partition("::")[0])),
-            "macro": lambda name: _told(self.names.by_macro(name.partition("::")[0])),
+            "import": lambda name: self._told(self.names.by_import(name), name.partition(".")[0]),
+            "cmake": lambda name: self._told(self.names.by_cmake(name), name),
+            "target": lambda name: self._told(self.names.by_cmake(name.partition("::")[0]), name.partition("::")[0]),
+            "macro": lambda name: self._told(self.names.by_macro(name.partition("::")[0]), name.partition("::")[0]),
             "interface": lambda name: self._package(name.partition("/")[0]),
             "package": self._package,
-            "symbol": self._package,
+            "symbol": lambda name: Answer((name,)) if self.names.is_package(name) else _NOBODY,
             "launch": self._package,
             "key": lambda name: Answer((name,)),
         }
@@ -99,17 +100,21 @@ class Resolver:
 
     def _include(self, header: str) -> Answer:
         found = self._headers.get(header)
+        first, slash, _ = header.partition("/")
         if not found:
-            return _told(self.names.by_include(header))
-        first = header.partition("/")[0]
+            return self._told(self.names.by_include(header), first if slash else "")
         return Answer(tuple(sorted(found, key=lambda package: package != first)))
 
     def _package(self, name: str) -> Answer:
-        return Answer((name,)) if self.names.is_package(name) else _NOBODY
+        return Answer((name,)) if self.names.is_package(name) else self._strange(name)
 
+    def _told(self, providers: Providers, name: str) -> Answer:
+        return Answer(providers.names, providers.sure) if providers.known else self._strange(name)
 
-def _told(providers: Providers) -> Answer:
-    return Answer(providers.names, providers.sure)
+    def _strange(self, name: str) -> Answer:
+        """Return what is to be made of a name that nobody here has: a package that other distributions have, or had."""
+        standing = self.names.standing(name) if name else "unknown"
+        return Answer((name,), standing == "elsewhere") if standing in ("elsewhere", "end-of-life") else _NOBODY
 
 
 _WHAT: Mapping[Via, str] = {
@@ -224,9 +229,10 @@ def _relative(source: Source, path: str) -> str:
 def _launch_uses(launch: LaunchFile, role: Role, uses: _Uses, sure: bool) -> None:
     for reference in launch.references:
         package = reference.package
-        if package != uses.package and uses.resolver.names.is_package(package):
+        answer = uses.resolver.answer("launch", package)
+        if package != uses.package and answer.providers:
             what = package if reference.kind == "package" else f"{reference.kind} {reference.name}"
-            uses.put(Use(package, (package,), role, what, "launch", False, reference.package_span, sure))
+            uses.put(Use(package, (package,), role, what, "launch", False, reference.package_span, sure and answer.sure))
 
 
 def include_index(sources: Iterable[Source]) -> dict[str, tuple[str, ...]]:

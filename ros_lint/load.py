@@ -12,7 +12,7 @@ from typing import NamedTuple
 from ros_lint import conditions, evidence, launch_around, scripts, source_lists
 from ros_lint.cache import Cache
 from ros_lint.collect import FAILED, Collected, collect_all, kind_of
-from ros_lint.declare import is_seen_whole, is_unseen_by_name
+from ros_lint.declare import is_built_in_sight, is_unseen_by_name
 from ros_lint.discover import Found, Skipped, discover
 from ros_lint.facts import ROLES, BuildScript, FileFacts, LaunchFile, Manifest, Role
 from ros_lint.knowledge import Knowledge
@@ -212,7 +212,7 @@ class Loader:
 
     def _traces(self, tree: Tree, package: Package, source: evidence.Source, world: World) -> Mapping[str, Span]:
         """Look for the names of what seems unused in every text of the package (reference, section F3, condition 7)."""
-        if not is_seen_whole(package):
+        if not is_built_in_sight(package):
             return {}
         built = [d.name for d in package.declared if d.depend.tag in ("depend", "build_depend") and not d.depend.condition]
         unused = evidence.unused_names(built, package.uses)

@@ -53,15 +53,29 @@ def needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
 
     A package of ROS 1 (build type catkin) has its own ways to get what it needs, and none that are known here.
     """
+    return _gathered(package, workspace, [use for use in package.uses if not use.optional])
+
+
+@per_package
+def wishes(package: Package, workspace: Workspace) -> tuple[Need, ...]:
+    """Return what a package uses only if it is there and does not declare, in the order of the best evidence.
+
+    Symbols are left out: in languages other than C++ they may as well come from elsewhere.
+    """
+    needed = {name for use in package.uses if not use.optional for name in use.providers}
+    uses = [use for use in package.uses if use.optional and use.via != "symbol" and needed.isdisjoint(use.providers)]
+    return tuple([need for need in _gathered(package, workspace, uses) if not need.declared])
+
+
+def _gathered(package: Package, workspace: Workspace, uses: Iterable[Use]) -> tuple[Need, ...]:
     if package.builds_with == "catkin" and not _is_ament(package):
         return ()
     found: dict[str, list[Use]] = {}
-    for use in package.uses:
-        if not use.optional:
-            if use.package in found:
-                found[use.package].append(use)
-            else:
-                found[use.package] = [use]
+    for use in uses:
+        if use.package in found:
+            found[use.package].append(use)
+        else:
+            found[use.package] = [use]
     declared = frozenset([declared.depend.name for declared in package.declared])
     closure = all_declared(package, workspace)
     bring = workspace.world.closure
@@ -146,6 +160,16 @@ def covered(package: Package, workspace: Workspace, names: Iterable[str], role: 
     return bool(unknown) and any(may_bring(unknown, name, workspace) for name in names)
 
 
+def tells(package: Package) -> bool:
+    """Whether the manifest tells all that is declared. One that colcon rejects does, if it was read to its end."""
+    manifest = package.manifest
+    return manifest is not None and all(problem.kind not in _CUT_SHORT for problem in manifest.problems)
+
+
+_CUT_SHORT = frozenset({"bare-ampersand", "encoding", "entity", "invalid-xml", "merge-conflict", "no-package", "too-deep"})
+"""Problems of manifests after which nothing more was read, or something that is not meant."""
+
+
 @per_package
 def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool], ...]:
     """Return the needs that nothing declared brings along, and whether that is sure.
@@ -158,8 +182,27 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
     missing = [need for need in needs(package, workspace) if not (need.declared or need.brought)]
     for need in _joined([need for need in missing if not only_launched(package, need.uses)]):
         sure = need.sure and any(use.via != "launch" or use.role is _TEST for use in need.uses)
+        if not is_available(need.name, workspace):
+            if comes_elsewhere(package, workspace, need.name):
+                continue
+            sure = sure and not workspace.target.told
         found.append((need, sure and not (unknown and _may_satisfy(unknown, need, workspace))))
     return tuple(found)
+
+
+def is_available(name: str, workspace: Workspace) -> bool:
+    """Whether the world has a package or key, and not only other distributions."""
+    return workspace.world.is_package(name) or workspace.world.is_key(name)
+
+
+def comes_elsewhere(package: Package, workspace: Workspace, name: str) -> bool:
+    """Whether a package that only other distributions have comes along there with something that is declared."""
+    starts = {each.name for each in package.declared}
+    closure = all_declared(package, workspace)
+    for name_here, having in workspace.by_name.items():
+        if name_here in closure:
+            starts.update(each.name for other in having for each in other.declared)
+    return any(workspace.world.knowledge.brings_elsewhere(each, name) for each in sorted(starts))
 
 
 def _joined(found: Sequence[Need]) -> list[Need]:

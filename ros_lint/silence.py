@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.declare import builds_something, is_seen_whole, works_unseen
+from ros_lint.declare import builds_something, is_built_in_sight, is_library, is_mostly_run, leaves_trace, works_unseen
 from ros_lint.facts import Facet, Role, Use
-from ros_lint.needs import all_declared, may_bring, only_launched
+from ros_lint.needs import all_declared, may_bring, only_launched, tells
 from ros_lint.workspace import Package, Workspace
 
 _MOST = 5
@@ -45,14 +45,14 @@ _WORDS = (
 
 
 def _not_undeclared(package: Package, workspace: Workspace, name: str, uses: list[Use]) -> str:
-    if package.manifest is None or package.manifest.problems:
+    if not tells(package):
         return "silent, for package.xml cannot be used as it is"
     if package.declares(name):
         return "silent, for it is declared"
     if not uses:
         return f"silent, for nothing that is seen uses it{_hidden(package)}"
     if all(use.optional for use in uses):
-        return "silent, for every use is optional"
+        return "less than certain, for every use is optional; shown with --pedantic"
     closure = all_declared(package, workspace)
     starts = [each.name for each in package.declared]
     own = [use for use in uses if use.package == name and not use.optional] or uses
@@ -79,13 +79,14 @@ def _not_unused(package: Package, workspace: Workspace, name: str, uses: list[Us
         return f"silent, for it is used: {uses[0].span}"
     if name in package.traces:
         return f"silent, for its name stands here: {package.traces[name]}"
-    if hidden := _hidden(package):
+    if (hidden := _hidden(package)) and not (is_library(workspace.world, name) and is_built_in_sight(package)):
         return f"silent{hidden}"
     if not builds_something(package):
         return "silent, for the package builds and installs no code of its own"
-    if not is_seen_whole(package):
+    if not is_built_in_sight(package):
         return "silent, for its manifest or build script cannot be followed"
-    if works_unseen(package, workspace, name):
+    unseen = works_unseen(package, workspace, name)
+    if unseen or (is_mostly_run(workspace, name) and not leaves_trace(package, workspace, name)):
         return "silent, for it may do its work without being named"
     if not any(depend.tag in ("depend", "build_depend") for depend in tags):
         return "silent unless it is declared for tests and there are none: this tag says that it leaves no trace"

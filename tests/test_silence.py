@@ -45,7 +45,7 @@ def workspace() -> Workspace:
     [
         ("nav_msgs", "reported", "silent, for it is not declared"),
         ("std_msgs", "silent, for it comes along: sensor_msgs > std_msgs", "silent, for it is not declared"),
-        ("map_msgs", "silent, for every use is optional", "silent, for it is not declared"),
+        ("map_msgs", "less than certain, for every use is optional", "silent, for it is not declared"),
         ("diagnostic_msgs", "less than certain, for no use is sure", "silent, for it is not declared"),
         ("rclcpp", "silent, for it is declared", "silent, for it is used: talker/talker.cpp:1"),
         ("sensor_msgs", "silent, for it is declared", "silent, for its name stands here: talker/notes.txt:1"),

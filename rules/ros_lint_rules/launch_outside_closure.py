@@ -18,7 +18,8 @@ Add `<exec_depend>` to `package.xml`. The fix does this.
 - The package comes with a declared dependency.
 - The package is used in other ways, too, and reported by `undeclared-dependency`.
 - The launch file asks first if the package is there (`get_packages_with_prefixes`, `PackageNotFoundError`).
-- The package exists nowhere: that is `launch-unknown-package`.
+- The package exists nowhere: that is `launch-unknown-package`. Where nobody said which distribution is meant, a package of
+  any will do, and what brings it along there counts.
 - Launch files of tests and examples, and those that are not installed.
 - What a declared dependency brings along is not known: then the confidence is medium.
 """
@@ -40,6 +41,7 @@ from ros_lint.api import (
     Severity,
     Workspace,
     add_dependency,
+    comes_elsewhere,
     declared_closure,
     launchable,
     may_bring,
@@ -70,6 +72,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for name, references in named.items():
         if name in closure or name in reported:
             continue
+        if not workspace.world.is_package(name) and comes_elsewhere(package, workspace, name):
+            continue
         best, *others = sorted(references, key=lambda r: (r.conditional, _ORDER.index(r.kind), r.span))
         says = _SAYS[best.kind].format(name=best.name, package=name)
         only = ", if only under a condition" if best.conditional else ""
@@ -92,9 +96,15 @@ def _named(package: Package, workspace: Workspace) -> Mapping[str, list[LaunchRe
             continue
         for reference in launch.file.references:
             name = reference.package
-            if name != package.name and not reference.optional and workspace.world.is_package(name):
+            if name != package.name and not reference.optional and _is_package(name, workspace):
                 found.setdefault(name, []).append(reference)
     return found
+
+
+def _is_package(name: str, workspace: Workspace) -> bool:
+    """Whether there is a package. If nobody said which distribution is meant, it may be one of any."""
+    world = workspace.world
+    return world.is_package(name) or (not workspace.target.told and bool(world.where_else(name)))
 
 
 RULE = Rule(

@@ -16,19 +16,21 @@ Declare what is used, in the tag that the message names. The fix does this.
 ## When it keeps silent
 
 - It is off unless asked for: most of ROS relies on what other packages bring along, such as `rclcpp` on `rcl`.
-- The use is optional, or the files that use it are perhaps not built or installed.
+- The files that use it are perhaps not built or installed, or colcon rejects `package.xml`: then the confidence is
+  medium. The use is optional: then it is low, and nothing is fixed.
 - The package merely gives CMake commands, and comes along with the build tool.
 - Nothing declared brings it along: that is `undeclared-dependency` or `launch-outside-closure`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from ros_lint.api import (
     Confidence,
     Finding,
     Fix,
+    Need,
     Package,
     Related,
     Rule,
@@ -37,31 +39,42 @@ from ros_lint.api import (
     add_dependency,
     needs,
     tag_for,
+    tells,
+    wishes,
 )
 
 _MOST_RELATED = 4
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    if package.manifest is None or package.manifest.problems:
+    if not tells(package):
         return
     declared = tuple(dict.fromkeys(declared.name for declared in package.declared))
     for need in needs(package, workspace):
         if need.declared or not need.brought or all(use.via == "macro" for use in need.uses):
             continue
-        best, *others = need.uses
-        ways = (workspace.world.path(declared, name) for name in best.providers)
-        way = next((way for way in ways if way), (need.name,))
-        name = way[-1]
-        tag = tag_for(package, workspace, name, need.role)
-        yield Finding(
-            f"{name} is used here, but comes along only by way of {' > '.join(way[:-1])}: add <{tag}>{name}</{tag}>",
-            best.span,
-            name,
-            tuple(Related(f"also used here: {use.what}", use.span) for use in others[:_MOST_RELATED]),
-            Fix(f"declare {name} as <{tag}>", add_dependency(package, tag, name)),
-            Confidence.HIGH if need.sure else Confidence.MEDIUM,
-        )
+        yield _finding(package, workspace, declared, need, Confidence.HIGH if need.sure else Confidence.MEDIUM)
+    for wish in wishes(package, workspace):
+        if wish.brought:
+            yield _finding(package, workspace, declared, wish, Confidence.LOW)._replace(fix=None)
+
+
+def _finding(package: Package, workspace: Workspace, declared: Sequence[str], need: Need, confidence: Confidence) -> Finding:
+    """Return what is to say of a need. A manifest that colcon rejects has to be mended first: then nothing is certain."""
+    best, *others = need.uses
+    ways = (workspace.world.path(declared, name) for name in best.providers)
+    way = next((way for way in ways if way), (need.name,))
+    name = way[-1]
+    tag = tag_for(package, workspace, name, need.role)
+    rejected = bool(package.manifest and package.manifest.problems)
+    return Finding(
+        f"{name} is used here, but comes along only by way of {' > '.join(way[:-1])}: add <{tag}>{name}</{tag}>",
+        best.span,
+        name,
+        tuple(Related(f"also used here: {use.what}", use.span) for use in others[:_MOST_RELATED]),
+        None if rejected else Fix(f"declare {name} as <{tag}>", add_dependency(package, tag, name)),
+        min(confidence, Confidence.MEDIUM) if rejected else confidence,
+    )
 
 
 RULE = Rule(

@@ -18,11 +18,16 @@ needed at run time, `<exec_depend>` for what is needed at run time only, `<test_
 ## When it keeps silent
 
 - The package comes with a declared one: see `transitive-dependency` for uses that hang on such a chain.
-- The use is optional: `find_package(QUIET)` behind `if(X_FOUND)`, `try: import`, `__has_include`.
+- The use is optional: `find_package(QUIET)` behind `if(X_FOUND)`, `try: import`, `__has_include`. Then the confidence is
+  low, and nothing is fixed.
+- colcon rejects `package.xml`, which is to be mended first: then the confidence is medium.
 - The name belongs to no package or rosdep key that is known, or to the system.
+- Only other distributions have the package, or had it: then the confidence is medium and the message names them, unless
+  nobody said which distribution is meant. What brings it along there counts.
 - A declared dependency is itself not known, so that the package might come with it: then the confidence is medium.
 - All evidence is in files that are perhaps not built or installed: then, too, the confidence is medium.
 - The package needs this one itself, so that declaring it would close a cycle: then, too, the confidence is medium.
+- Of `launch`, the confidence is medium where `launch_ros` is missing as well, which brings it.
 - Modules of launch itself that only launch files import come with `ros2 launch`: then the severity is info.
 - Only launch files that are no tests name it, for what they start, include or look up: that is the business of
   `launch-outside-closure`.
@@ -36,6 +41,7 @@ from ros_lint.api import (
     Confidence,
     Finding,
     Fix,
+    Need,
     Package,
     Related,
     Rule,
@@ -43,40 +49,64 @@ from ros_lint.api import (
     Workspace,
     add_dependency,
     comes_with_launching,
+    is_available,
     tag_for,
+    tells,
     undeclared,
+    wishes,
 )
 
 _MOST_RELATED = 4
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    if package.manifest is None or package.manifest.problems:
+    if not tells(package):
         return
     found = undeclared(package, workspace)
     with_launch = {need.name for need, _ in found if comes_with_launching(package, need.uses)}
     for need, sure in found:
-        if need.name == "launch" and "launch_ros" in with_launch:
-            continue  # which brings it
-        best, *others = need.uses
-        name = need.name
-        tag = tag_for(package, workspace, name, need.role)
-        circular = package.name in workspace.world.closure((name,))
-        yield Finding(
-            _message(name, tag, circular),
-            best.span,
-            name,
-            tuple(Related(f"also used here: {use.what}", use.span) for use in others[:_MOST_RELATED]),
-            None if circular else Fix(f"declare {name} as <{tag}>", add_dependency(package, tag, name)),
-            Confidence.HIGH if sure and not circular else Confidence.MEDIUM,
-            Severity.INFO if need.name in with_launch else None,
+        certain = sure and not (need.name == "launch" and "launch_ros" in with_launch)  # which brings it
+        says = "is used here, but package.xml does not declare it"
+        severity = Severity.INFO if need.name in with_launch else None
+        yield _finding(package, workspace, need, says, Confidence.HIGH if certain else Confidence.MEDIUM)._replace(
+            severity=severity
         )
+    for wish in wishes(package, workspace):
+        if not wish.brought:
+            says = "is used here if it is there, and package.xml does not declare it"
+            yield _finding(package, workspace, wish, says, Confidence.LOW)._replace(fix=None)
 
 
-def _message(name: str, tag: str, circular: bool) -> str:
+def _finding(package: Package, workspace: Workspace, need: Need, says: str, confidence: Confidence) -> Finding:
+    """Return what is to say of a need. A manifest that colcon rejects has to be mended first: then nothing is certain."""
+    best, *others = need.uses
+    name = need.name
+    tag = tag_for(package, workspace, name, need.role)
+    circular = package.name in workspace.world.closure((name,))
+    rejected = bool(package.manifest and package.manifest.problems)
+    where = _where(name, workspace)
     if circular:
-        return f"{name} is used here, but cannot be declared: it needs this package itself"
-    return f"{name} is used here, but package.xml does not declare it: add <{tag}>{name}</{tag}>"
+        message = f"{name} is used here, but cannot be declared: it needs this package itself"
+    elif where:
+        message = f"{name} {says}, nor could it: {workspace.target.distro} has no such package, only {where}"
+    else:
+        message = f"{name} {says}: add <{tag}>{name}</{tag}>"
+    return Finding(
+        message,
+        best.span,
+        name,
+        tuple(Related(f"also used here: {use.what}", use.span) for use in others[:_MOST_RELATED]),
+        None if circular or rejected or where else Fix(f"declare {name} as <{tag}>", add_dependency(package, tag, name)),
+        min(confidence, Confidence.MEDIUM) if circular or rejected else confidence,
+    )
+
+
+def _where(name: str, workspace: Workspace) -> str:
+    """Return the distributions that have a package which cannot be had here: if nobody said which is meant, any will do."""
+    world = workspace.world
+    if is_available(name, workspace) or (world.where_else(name) and not workspace.target.told):
+        return ""
+    return ", ".join(world.where_else(name) or world.knowledge.names.end_of_life(name))
 
 
 RULE = Rule(

@@ -19,7 +19,8 @@ Remove the tag. The fix does this.
 Whenever the dependency might be needed in a way that leaves no trace: linters, run-time and tool dependencies, tags
 under a condition, packages whose build scripts cannot be followed everywhere, metapackages, vendor packages and packages
 without code, and dependencies that give CMake macros or plugins. For rosdep keys of libraries, which others' headers may
-need, and for packages that nobody knows the confidence is medium.
+need, for packages that nobody knows, and for messages and Python packages that are mostly declared to be run, the
+confidence is medium.
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros_lint.api import (
+    PYTHON_LIKE,
     BuildScript,
     Confidence,
     Finding,
@@ -35,8 +37,12 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
+    is_built_in_sight,
+    is_library,
+    is_mostly_run,
     is_seen_whole,
     is_unseen_by_name,
+    leaves_trace,
     remove_dependency,
     used_names,
     works_unseen,
@@ -48,8 +54,9 @@ _NO_TEST = ("enable_testing", "ament_lint_auto_find_test_dependencies", "ament_a
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
-    if script is None or not is_seen_whole(package):
+    if script is None or not is_built_in_sight(package):
         return
+    whole = is_seen_whole(package)
     world = workspace.world
     built = [each.name for each in package.declared if each.depend.tag in _TAGS and not each.depend.condition]
     used = used_names(built, package.uses)
@@ -59,9 +66,14 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         name = depend.name
         if depend.condition or name in used or world.knowledge.names.works_unseen(name):
             continue
+        if not (whole or is_library(world, name)):
+            continue
         unknown = is_unseen_by_name(world, name)
+        mostly_run = depend.tag in _TAGS and not unknown and is_mostly_run(workspace, name)
         if depend.tag in _TAGS:
             if name in package.traces or (name in libraries if unknown else works_unseen(package, workspace, name)):
+                continue
+            if mostly_run and not leaves_trace(package, workspace, name):
                 continue
             says = "nothing in the package uses it"
         elif depend.tag == "test_depend" and not _can_test_with(package, script, workspace, name):
@@ -74,7 +86,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             depend.span,
             name,
             fix=Fix(f"remove {written}", remove_dependency(package, depend)),
-            confidence=Confidence.MEDIUM if unknown else Confidence.HIGH,
+            confidence=Confidence.MEDIUM if unknown or mostly_run else Confidence.HIGH,
         )
 
 
@@ -86,10 +98,7 @@ def _can_test_with(package: Package, script: BuildScript, workspace: Workspace, 
         return False
     released = workspace.world.released(name)
     python = bool(released and released.build_type == "ament_python") and name not in workspace.by_name
-    return not python or any(file.endswith(_PYTHON) for file in package.files)
-
-
-_PYTHON = (".py", ".py.in", ".launch", ".launch.xml", ".launch.yaml")
+    return not python or any(file.endswith(PYTHON_LIKE) for file in package.files)
 
 
 RULE = Rule(

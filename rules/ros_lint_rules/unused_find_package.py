@@ -25,7 +25,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Facet, Finding, Package, Rule, Severity, Workspace, works_unseen
+from ros_lint.api import Facet, Finding, Package, Rule, Severity, Workspace, is_mostly_run, works_unseen
 
 _CMAKE = ("cmake", "target")
 _FOR_CODE = ("interfaces of", "plugins for")
@@ -47,7 +47,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         name = mention.name
         if mention.via != "cmake" or mention.optional or mention.test or name in used or name in said:
             continue
-        if name == package.name or works_unseen(package, workspace, name):
+        if name == package.name or works_unseen(package, workspace, name) or is_mostly_run(workspace, name):
             continue
         said.add(name)
         yield Finding(f"{name} is found, but no code uses it: remove find_package({name})", mention.span, name)
