@@ -124,17 +124,46 @@ def test_what_it_depends_on() -> None:
     assert launch('<node pkg="p" exec="x" unless="$(env SIM)"/>') == ["node p x", "unless $(env SIM)"]
 
 
+def test_conditions_of_logic_are_said_as_they_are_written() -> None:
+    condition = "$(and $(env SIM) $(not $(equals $(env SHAPE) 'a b')))"
+    assert launch(f'<node pkg="p" exec="x" if="{condition}"/>') == ["node p x", f"if {condition}"]
+
+
+def test_a_branch_of_which_nothing_is_known_is_perhaps() -> None:
+    python = """
+from launch import LaunchDescription
+from launch_ros.actions import Node
+from somewhere import answer
+
+def generate_launch_description():
+    node = Node(package="p", executable="x", parameters=[answer(), answer()])
+    return LaunchDescription([node] if answer() else [])
+"""
+    out, _, _ = ask(package("p", {"launch/a.launch.py": python}), "p", "a.launch.py")
+    assert [line.strip() for line in out.splitlines()[1:5]] == [
+        "node p x",
+        "perhaps: the condition is not known",
+        "parameters that are not known",
+        "? it is computed in a way that cannot be followed",
+    ]
+
+
 def test_components_and_their_containers() -> None:
     assert launch(
         '<node_container pkg="rclcpp_components" exec="component_container" name="c" namespace="n">'
         '<composable_node pkg="p" plugin="p::A" name="a"/></node_container>'
         '<load_composable_node target="other"><composable_node pkg="p" plugin="p::B" name="b"/></load_composable_node>'
+        '<node_container pkg="rclcpp_components" exec="component_container" name="d" namespace="/">'
+        '<composable_node pkg="p" plugin="p::C" name="c"/></node_container>'
     ) == [
         "node rclcpp_components component_container as /n/c",
         "component p p::A as /a",
         "in /n/c",
         "component p p::B as /b",
         "in /other",
+        "node rclcpp_components component_container as /d",
+        "component p p::C as /c",
+        "in /d",
     ]
 
 

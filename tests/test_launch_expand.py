@@ -51,6 +51,24 @@ def test_conditions_have_three_values() -> None:
     assert said(run(file, {"sim": "true"})) == ["node p a", "node p c ?"]
 
 
+def test_logic_in_logic_is_worked_out() -> None:
+    file = xml(
+        '<arg name="a" default="true"/><arg name="mock" default="false"/>'
+        '<node pkg="p" exec="x" if="$(and $(var a) $(not $(var mock)))"/>'
+        """<node pkg="p" exec="y" if="$(or $(equals $(var mock) 'it\\'s') $(if $(not $(var a)) true false))"/>"""
+    )
+    assert said(run(file)) == ["node p x"]
+    assert said(run(file, {"mock": "true"})) == []
+    assert said(run(file, {"a": "false"})) == ["node p y"]
+    node = python(
+        "DeclareLaunchArgument('a', default_value='true'), DeclareLaunchArgument('b', default_value='false'),"
+        "Node(package='p', executable='x', condition=IfCondition("
+        "AndSubstitution(LaunchConfiguration('a'), NotSubstitution(LaunchConfiguration('b')))))"
+    )
+    assert said(run(node)) == ["node p x"]
+    assert said(run(node, {"b": "true"})) == []
+
+
 def test_a_required_argument_is_not_known() -> None:
     file = xml('<arg name="sim"/><node pkg="p" exec="a" if="$(var sim)"/><node pkg="p" exec="b"/>')
     assert said(run(file)) == ["node p a ?", "node p b"]

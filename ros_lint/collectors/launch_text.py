@@ -46,9 +46,11 @@ _PREFIX = re.compile(rf"/{_ROOT}([^/\s]*)((?:/[^/\s'\":;,\ue012-\ue015]*)*)")
 _INNERMOST = re.compile("\ue010([^\ue010\ue011]*)\ue011")
 # A name that is computed begins with the mark of another one.
 _NAME_OF_CONFIGURATION = re.compile("\ue010([^\ue010\ue011\ue016]*)([\ue010\ue011\ue016])")
+_EXPRESSION_MARKS = re.compile("([\ue012\ue013])")
 _INNER_EXPRESSION = re.compile("\ue012([^\ue012\ue013]*)\ue013")
 _ENDS = re.compile("\ue010\\$|[\ue010-\ue015]")
 _SHOWN = {"\ue010$": "$(env ", "\ue010": "$(var ", "\ue012": "$(eval ", "\ue014": "$(command "}
+_LOGIC = re.compile(r"_(and|or|not|if|equals|not_equals)\((.*)\)", re.DOTALL)
 _ROOTED = re.compile(rf"/{_ROOT}([^/:;,'\"]*)(?:/share/([^\s'\":;,{_ROOT}]*))?")
 _TWICE_ROOTED = re.compile(rf".*/(?=/(?:{_ROOT}|\ue002))", re.DOTALL)
 
@@ -109,8 +111,18 @@ def expression(text: str) -> str:
 
 
 def quoted(text: str) -> str:
-    """Return a text as a literal of Python, marks kept."""
-    return "'" + text.replace("\\", "\\\\").replace("'", "\\'").replace("\n", "\\n") + "'"
+    """Return a text as a literal of Python, marks kept, and expressions as they are: their values come to stand there."""
+    if _EXPRESSION[0] not in text:
+        return f"'{_escaped(text)}'"
+    depth, parts = 0, []
+    for part in _EXPRESSION_MARKS.split(text):
+        depth += (part == _EXPRESSION[0]) - (part == _EXPRESSION[1])
+        parts.append(part if depth else _escaped(part))
+    return f"'{''.join(parts)}'"
+
+
+def _escaped(text: str) -> str:
+    return text.replace("\\", "\\\\").replace("'", "\\'").replace("\n", "\\n")
 
 
 def command(text: str) -> str:
@@ -154,9 +166,33 @@ def configurations(text: str) -> Iterator[tuple[str, bool]]:
 
 def readable(text: str) -> str:
     """Return a text for people, with the substitutions of XML launch files for what is not known, and ? for any text."""
+    text = _with_logic(text) if f"{_EXPRESSION[0]}_" in text else text
     text = _ENDS.sub(lambda match: _SHOWN.get(match[0], ")"), text.replace(f"{OWN_FOLDER}/", "$(dirname)/"))
     text = text.replace(OWN_FOLDER, "$(dirname)").replace(_PRESENT, "").replace(_DEFAULT, " ")
     return _ROOTED.sub(_readable_root, text).replace(UNKNOWN, "?")
+
+
+def _with_logic(text: str) -> str:
+    """Return a text in which the expressions that stand for substitutions of logic are these substitutions again."""
+    while match := _INNER_EXPRESSION.search(text):
+        before, said = text[: match.start()], _said(match[1])
+        inside = before.count(_EXPRESSION[0]) > before.count(_EXPRESSION[1])
+        text = f"{before}{quoted(said)[1:-1] if inside else said}{text[match.end() :]}"
+    return text
+
+
+def _said(inner: str) -> str:
+    import ast  # noqa: PLC0415  (only for people)
+
+    match = _LOGIC.fullmatch(inner)
+    try:
+        words = ast.literal_eval(f"({match[2]},)") if match else ()
+    except (SyntaxError, ValueError):
+        words = ()
+    if match is None or not words:
+        return f"$(eval {inner})"
+    said = " ".join(f"'{word}'" if not word or (" " in certain_part(word) and word[:2] != "$(") else word for word in words)
+    return f"$({match[1].replace('_', '-')} {said})"
 
 
 def _readable_root(match: re.Match[str]) -> str:

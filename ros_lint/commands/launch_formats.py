@@ -62,9 +62,9 @@ def _full_name(started: Started) -> str:
 
 def _condition(condition: LaunchCondition) -> str:
     """Return what must hold, "" when nobody knows what."""
-    text = _text(condition.texts)
-    if text == "?":
+    if all(text.rstrip("0123456789") == UNKNOWN for text in condition.texts):
         return ""
+    text = _text(condition.texts)
     if condition.equals is None:
         return f"{'if' if condition.wanted else 'unless'} {text}"
     return f"if {text} {'==' if condition.wanted else '!='} {condition.equals or repr('')}"
@@ -131,7 +131,11 @@ def _details(started: Started, found: Found) -> Iterator[str]:
     if started.words:
         yield f"given {' '.join(map(_value, started.words))}"
     for name, texts in started.parameters:
+        if name == UNKNOWN:
+            continue
         yield f"parameter {readable(name)} = {_value(texts)}" if name else f"parameters {_text(texts)}"
+    if any(name == UNKNOWN for name, _ in started.parameters):
+        yield "parameters that are not known"
     for before, after in started.remappings:
         yield f"remap {_text(before)} to {_text(after)}"
     for name, texts in started.environment:

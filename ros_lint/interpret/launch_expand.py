@@ -436,6 +436,11 @@ def _filled_with(text: str, names: Texts, values: tuple[Texts | None, ...]) -> T
 
 def _joined_namespaces(outer: Texts, inner: Texts) -> Texts:
     """Return namespaces under others; an absolute one stands for itself (``make_namespace_absolute``)."""
-    return joined(
-        [outer, inner], lambda row: row[1] if row[1].startswith("/") or not row[0] else "/".join(part for part in row if part)
-    )
+    return joined([outer, inner], _joined_namespace)
+
+
+def _joined_namespace(row: Texts) -> str:
+    outer, inner = row
+    if inner.startswith("/") or not outer:
+        return inner
+    return f"{outer.rstrip('/')}/{inner}" if inner else outer
