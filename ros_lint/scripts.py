@@ -186,13 +186,13 @@ def _with_files(tree: Tree, parts: Parts, script: BuildScript) -> BuildScript:
         plugins=plugins,
         files=tuple(files),
         named=tuple(_named(tree, found, missing)),
-        inputs=tuple(_inputs(parts.commands, missing)),
+        inputs=tuple(_inputs(parts.commands, missing, [file.path for file in files])),
     )
 
 
-def _inputs(scripts: Mapping[str, Parsed], missing: Mapping[str, Sequence[str]]) -> Iterator[str]:
-    """Yield the resources, and folders of them, that a command of a CMake file has among its arguments, install() left out."""
-    if not missing:
+def _inputs(scripts: Mapping[str, Parsed], missing: Mapping[str, Sequence[str]], programs: Sequence[str]) -> Iterator[str]:
+    """Yield what a command of a CMake file has among its arguments, install() left out: resources, their folders, programs."""
+    if not missing and not programs:
         return
     commands = (command for parsed in scripts.values() for command in parsed.commands if command.name != "install")
     text = "\n".join([argument[0] for command in commands for argument in command.args])
@@ -200,6 +200,7 @@ def _inputs(scripts: Mapping[str, Parsed], missing: Mapping[str, Sequence[str]])
         if re.search(rf"(?<![\w.-]){re.escape(folder)}(?:/|$)", text, re.MULTILINE):
             yield f"{folder}/"
         yield from (file for file in files if file.rpartition("/")[2] in text)
+    yield from (file for file in programs if re.search(rf"(?<![\w.-]){re.escape(file)}(?![\w.-])", text))
 
 
 def _named(tree: Tree, found: Found, missing: Mapping[str, Sequence[str]]) -> Iterator[tuple[str, Span]]:

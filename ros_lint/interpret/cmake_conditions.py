@@ -42,6 +42,9 @@ _TEST_VARIABLE = re.compile(
 _REFERENCE = re.compile(r"\$\{([A-Za-z0-9_./+-]+)\}")
 
 
+_ASKED = re.compile(r"\$\{(\w+_FOUND)\}")
+
+
 def condition(run: Run, command: Command) -> Truth:
     """Return what a condition evaluates to."""
     if len(command.args) == 1:
@@ -57,6 +60,8 @@ def condition(run: Run, command: Command) -> Truth:
             tokens.append(Token(run.evaluated(text), True, _is_soft(run, text)))
         else:
             tokens.append(Token(text, kind in (LITERAL, BRACKET), False))
+        if "_FOUND}" in text:
+            run.tested.update(_ASKED.findall(text))
     if len(tokens) > 1:
         truth = _Parser(run, tokens).whole()
         if sum(token.text == "MATCHES" for token in tokens) > 1:

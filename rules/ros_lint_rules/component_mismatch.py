@@ -73,13 +73,13 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _alike(component: Component, left: list[Registration]) -> list[Registration]:
-    """Return the registrations that are meant: of the same name in another namespace, or else of a similar name."""
+    """Return the registrations that are meant: of the same class in another namespace, or else of a similar class."""
     last = component.name.rpartition("::")[2]
     alike = [one for one in left if one.name.rpartition("::")[2] == last]
     if alike:
         return alike
-    plain = {_plain(one.name): one for one in left}
-    near = difflib.get_close_matches(_plain(component.name), plain, 1, 0.8)
+    plain = {_plain(one.name.rpartition("::")[2]): one for one in left}
+    near = difflib.get_close_matches(_plain(last), plain, 1, 0.8)
     return [plain[near[0]]] if near else []
 
 

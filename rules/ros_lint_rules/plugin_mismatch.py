@@ -56,8 +56,9 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_cmake" or hidden(package, Facet.LIBRARIES | Facet.SHARE):
         return
+    everything = [made for made in package.registrations if made.kind == "plugin"]
     registered = [
-        made for made in package.registrations if made.kind == "plugin" and not is_apart(relative(package, made.span.path))
+        made for made in everything if not is_apart(relative(package, made.span.path))
     ]
     names = {made.name for made in registered}
     installed = {provided.source for provided in script.provides}
@@ -67,7 +68,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         # What descriptions say that nobody is told of does no harm, and many are left over from ROS 1.
         for plugin in script.plugins:
             if plugin.path in installed and not is_apart(plugin.path):
-                for finding in _libraries(package, plugin, registered):
+                for finding in _libraries(package, plugin, everything):
                     yield finding._replace(confidence=Confidence.MEDIUM)
         return
     found = {
@@ -81,7 +82,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         if is_apart(plugin.path):
             continue
         if plugin.path in installed:
-            yield from _libraries(package, plugin, registered)
+            yield from _libraries(package, plugin, everything)
         elif exported and any(one.type in names - found for library in plugin.libraries for one in library.classes):
             yield Finding(
                 f"{plugin.path} is not exported, so its plugins are not found; add {_EXPORT}(... {plugin.path})",
@@ -108,8 +109,9 @@ def _unexported(package: Package, registered: list[Registration]) -> Iterator[Fi
     first, *others = registered
     names = {made.name for made in registered}
     plugin = next((p for p in script.plugins if any(c.type in names for lib in p.libraries for c in lib.classes)), None)
-    # rqt finds the plugins that the manifest exports, if they are written in Python.
-    by_manifest = any(element.get("plugin") for element in package.manifest.exports) if package.manifest else False
+    # rqt finds the plugins that the manifest exports.
+    if package.manifest and any(element.get("plugin") for element in package.manifest.exports):
+        return
     way = f"{_EXPORT}(... {plugin.path})" if plugin else f"a plugin description and {_EXPORT}()"
     yield Finding(
         f"{first.name} is made loadable, but no plugin description is exported, so nobody finds it; add {way}",
@@ -118,7 +120,7 @@ def _unexported(package: Package, registered: list[Registration]) -> Iterator[Fi
         tuple(Related("also this class", made.span) for made in others[:4])
         + ((Related("it is described here", plugin.span),) if plugin else ()),
         _export(package, plugin) if plugin else None,
-        confidence=Confidence.HIGH if _is_built(package, first) and not by_manifest else Confidence.MEDIUM,
+        confidence=Confidence.HIGH if _is_built(package, first) else Confidence.MEDIUM,
     )
 
 

@@ -20,6 +20,7 @@ In `CMakeLists.txt` add the folder to `install(DIRECTORY ... DESTINATION share/$
 - Where the file does not exist at all: that is a matter of `launch-missing-include`.
 - Launch files themselves: see `uninstalled-launch`.
 - What a command of the build names, such as the file that `generate_parameter_library()` reads, is taken for its input.
+- Pictures in `images/` and `media/` that nothing names: they are there for the documentation.
 - A folder that nothing in the package names has medium confidence: it may serve documentation, or be left over. Not so if
   other folders of the kind are installed and its files serve at run time alone: displays, maps, models, parameters.
 """
@@ -48,6 +49,8 @@ from ros_lint.api import (
 
 _PLAIN = frozenset({"py", "sh", "txt", "md"})
 _DOCUMENTS = frozenset({"images", "media", "data"})
+_PICTURES = frozenset({"images", "media"})
+_PICTURE = (".png", ".jpg", ".jpeg")
 _FOR_RUN_TIME = frozenset(
     {"config", "configs", "launch", "maps", "meshes", "models", "param", "params", "rviz", "urdf", "worlds", "world"}
 )
@@ -128,6 +131,8 @@ def _folders(package: Package, kept: set[str], told: set[str]) -> Iterator[Findi
     shared = _shared(package)
     for folder, found in uninstalled_resources(package.files, kept).items():
         files = [file for file in found if file not in launches and file not in inputs]
+        if folder.partition("/")[0] in _PICTURES and not any(file in places for file in files):
+            files = [file for file in files if not file.lower().endswith(_PICTURE)]
         if not files or folder.partition("/")[0] in told or (
             folder != "controllers" and all(file.rpartition(".")[2] in _PLAIN for file in files)
         ):

@@ -14,8 +14,8 @@ install. The confidence is medium: it may be a tool for the sources only.
 
 ## When it keeps silent
 
-For files without interpreter line or executable bit, for tests, and where something that cannot be followed may install
-them.
+For files without interpreter line or executable bit, for tests, for those that the build itself runs, and where something
+that cannot be followed may install them.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         return
     installed = {provided.source for provided in script.provides}
     for file in script.files:
-        if file.path in installed or not (file.shebang and file.main) or is_apart(file.path):
+        if file.path in installed or file.path in script.inputs or not (file.shebang and file.main) or is_apart(file.path):
             continue
         path = f"{package.path}/{file.path}" if package.path else file.path
         fix = None
