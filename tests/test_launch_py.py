@@ -229,3 +229,49 @@ def test_places_are_exact_beyond_ascii() -> None:
     source, found = collect("a.launch.py", HEAD + "    return ['ü', Node(package='a', executable='''ö''')]\n")
     (node,) = found.references
     assert (source.slice(node.span), source.slice(node.package_span), node.exact) == ("ö", "a", True)
+
+
+@pytest.mark.parametrize(
+    ("body", "wanted"),
+    [
+        ("if has_resource('packages', 'a'):\n    return [@]", {"b": True}),
+        ("if has_resource('packages', 'a') and x:\n    ld.add_action(@)\nreturn ld", {"b": True}),
+        ("if 'a' in get_packages_with_prefixes().keys():\n    return [@]", {"b": True}),
+        ("if get_packages_with_prefixes().get('a'):\n    return [@]", {"b": True}),
+        ("if 'a' not in get_packages_with_prefixes():\n    return []\nreturn [@]", {"b": True}),
+        ("if 'a' not in get_packages_with_prefixes():\n    raise E()\nreturn [@]", {"b": False}),
+        ("if 'a' in get_packages_with_prefixes():\n    pass\nelse:\n    ld.add_action(@)\nreturn ld", {"b": False}),
+        (
+            "try:\n    p = get_package_share_directory('a')\nexcept PackageNotFoundError:\n    return []\nreturn [@]",
+            {"a": True, "b": True},
+        ),
+        (
+            "try:\n    p = get_package_share_directory('a')\nexcept PackageNotFoundError as e:\n    raise E() from e\nreturn [@]",
+            {"a": False, "b": False},
+        ),
+        ("try:\n    p = get_package_share_directory('a')\nexcept OSError:\n    pass\nreturn []", {"a": False}),
+        (
+            "p = ''\ntry:\n    p = os.path.join(get_package_prefix('a'), 'lib', 'a', 'liba.so')\n"
+            "except PackageNotFoundError:\n    print()\n"
+            "g = {}\nif p and not os.path.isfile(p):\n    p = ''\nif p:\n    g['plugin'] = p\n"
+            "return [@, Node(package='b', executable='d', parameters=[g])]",
+            {"a": True, "b": False},
+        ),
+        (
+            "try:\n    p = get_package_share_directory('a')\nexcept PackageNotFoundError:\n    p = ''\n"
+            "return [IncludeLaunchDescription(os.path.join(get_package_share_directory('a'), 'x.launch.py'))]",
+            {"a": False},
+        ),
+        (
+            "if x:\n    try:\n        p = get_package_share_directory('a')\n"
+            "    except PackageNotFoundError:\n        raise E('install a')\n"
+            "    ld.add_action(Node(package='a', executable='c'))\nreturn ld",
+            {"a": True},
+        ),
+    ],
+)  # fmt: skip
+def test_what_a_file_does_without(body: str, wanted: dict[str, bool]) -> None:
+    indented = "".join(f"    {line}\n" for line in body.replace("@", "Node(package='b', executable='c')").splitlines())
+    _, found = collect("a.launch.py", f"{HEAD}    ld = LaunchDescription()\n{indented}")
+    packages = {reference.package for reference in found.references}
+    assert {p: all(r.optional for r in found.references if r.package == p) for p in packages} == wanted

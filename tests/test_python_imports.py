@@ -278,6 +278,14 @@ def packages(text: str) -> list[tuple[str, str, bool]]:
             "try:\n    x = get_package_prefix('p')\nexcept PackageNotFoundError:\n    x = get_package_prefix('q')\n",
             [("p", 'get_package_prefix("p")', True), ("q", 'get_package_prefix("q")', False)],
         ),
+        (
+            "def f():\n    if not has_resource('packages', 'q'):\n        return None\n    return get_package_prefix('p')\n",
+            [("p", 'get_package_prefix("p")', True)],
+        ),
+        (
+            "if 'q' in get_packages_with_prefixes():\n    x = get_package_prefix('p')\nelse:\n    x = get_package_prefix('r')\n",
+            [("p", 'get_package_prefix("p")', True), ("r", 'get_package_prefix("r")', False)],
+        ),
         ("from ament_index_python import get_package_prefix\n", []),
     ],
 )

@@ -17,7 +17,7 @@ from ros_lint.collectors.launch_py_objects import PERHAPS, Frame, Function, OutO
 from ros_lint.collectors.launch_py_run import Machine, Modules
 from ros_lint.collectors.launch_py_texts import Within, texts
 from ros_lint.collectors.launch_py_walk import span_of
-from ros_lint.collectors.launch_references import References
+from ros_lint.collectors.launch_references import References, asks_first
 from ros_lint.collectors.launch_text import UNKNOWN
 from ros_lint.facts import Facet, LaunchAction, LaunchFile, Opaque, Problem
 from ros_lint.text import Span, Text
@@ -145,6 +145,14 @@ class _Reading:
             found.add(UNKNOWN)
         return tuple(sorted(found))
 
+    def _spare(self, references: References) -> None:
+        """What is looked up at once stops the file if it is missing, unless that is caught or asked for before."""
+        asked = {package: True for package, *_ in self._machine.looked_up if package not in self._machine.lazily}
+        for package, _, _, conditions in self._machine.looked_up:
+            if not asks_first(conditions):
+                asked.pop(package, None)
+        references.spare(asked)
+
     def stopped(self, reason: str) -> None:
         """Note that the file could not be followed to its end: anything that it makes may be launched."""
         self._blind.append(Opaque(Facet.USES, reason, self._source.text.span(0, 0)))
@@ -160,6 +168,7 @@ class _Reading:
 
     def add_to(self, references: References) -> None:
         """Add what is looked up at once, and what is hidden."""
+        self._spare(references)
         for package, node, source, conditions in self._machine.looked_up:
             value = self._walker.text(package, node, source)
             if value.texts == (package,):

@@ -24,9 +24,10 @@ from ros_lint.collectors.launch_py_objects import (
     guarded_text,
     union,
 )
-from ros_lint.collectors.launch_py_operations import text_of
+from ros_lint.collectors.launch_py_operations import INSTALLED, text_of
 from ros_lint.collectors.launch_py_texts import conditions_of
-from ros_lint.collectors.launch_text import UNKNOWN, joined
+from ros_lint.collectors.launch_text import UNKNOWN, joined, presence
+from ros_lint.facts import LaunchCondition
 
 if TYPE_CHECKING:
     from ros_lint.collectors.launch_py_objects import Frame
@@ -168,6 +169,15 @@ def _variable(call: Call) -> Value:
     return call.result(tuple(environment(name, one) for name in names for one in defaults))
 
 
+def _has_resource(call: Call) -> Value:
+    return _is_there(call.texts(1, "resource_name"))
+
+
+def _is_there(names: tuple[str, ...]) -> Value:
+    asked = presence(names[0] if len(names) == 1 else UNKNOWN)
+    return Unknown("whether something is installed", LaunchCondition((asked,), None))
+
+
 def _first(call: Call) -> Value:
     return call.get(0)
 
@@ -234,6 +244,8 @@ _BY_NAME: Mapping[str, Rule] = {
     "pathlib.Path.home": lambda call: FilePath(UNKNOWN),
     "context.launch_configurations.get": _configured,
     "context.perform_substitution": _perform(0),
+    f"{INSTALLED}.keys": lambda call: Api(INSTALLED),
+    f"{INSTALLED}.get": lambda call: _is_there(call.texts(0)),
     "xacro.process_file": _expanded,
     "xacro.process": _expanded,
 }
@@ -242,7 +254,9 @@ _BY_LAST: Mapping[str, Rule] = {
     "get_package_share_directory": _share,
     "get_package_share_path": _share_path,
     "get_package_prefix": _prefix,
-    "get_packages_with_prefixes": lambda call: Api("installed packages"),
+    "get_packages_with_prefixes": lambda call: Api(INSTALLED),
+    "get_resources": lambda call: Api(INSTALLED),
+    "has_resource": _has_resource,
     "perform_substitutions": _perform(1),
     "normalize_to_list_of_substitutions": _first,
     "Path": _path,

@@ -32,6 +32,9 @@ from ros_lint.facts import LaunchCondition
 if TYPE_CHECKING:
     from ros_lint.collectors.launch_py_run import Machine
 
+INSTALLED = "installed packages"
+"""What stands for the answer of the ament index which packages there are."""
+
 _NUMBERS = (int, float, bool)
 _MOST_ITEMS = 5_000
 _MOST_COMPARED = 500
@@ -271,8 +274,8 @@ def _one_compare(op: ast.cmpop, left: Value, right: Value) -> Value:
 
 def _contained(op: ast.cmpop, left: Value, right: Value) -> Value:
     wanted = isinstance(op, ast.In)
-    if isinstance(right, Api) and right.name == "installed packages" and isinstance(left, str):
-        return Unknown("whether a package is installed", LaunchCondition((presence(left),), None, wanted))
+    if isinstance(right, Api) and right.name == INSTALLED:
+        return Unknown("whether a package is installed", LaunchCondition((presence(_str(left)),), None, wanted))
     if isinstance(right, str):
         if isinstance(left, str) and is_plain(left) and is_plain(right):
             return (left in right) is wanted

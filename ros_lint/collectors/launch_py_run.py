@@ -78,6 +78,8 @@ class Machine:
         """Names that nothing binds."""
         self.wanted: set[str] = set()
         """Modules and files that are read and were not at hand."""
+        self.lazily: set[str] = set()
+        """Packages that are looked up when something is launched."""
         self.named: dict[str, tuple[ast.expr, Source]] = {}
         """Where each package that is looked up is written first."""
 
@@ -105,10 +107,12 @@ class Machine:
 
     def fresh(self, condition: LaunchCondition) -> LaunchCondition:
         """Return a condition of which nothing is known as one that its own opposite can be told from."""
-        if condition is not PERHAPS:
-            return condition
+        return condition if condition is not PERHAPS else LaunchCondition((self.another(),), None)
+
+    def another(self) -> str:
+        """Return a text of which nothing is known but that it is no other one."""
         self._branches += 1
-        return LaunchCondition((f"{UNKNOWN}{self._branches}",), None)
+        return f"{UNKNOWN}{self._branches}"
 
     def guard(self, value: Value) -> Value:
         """Return a value as it goes into a collection now."""
@@ -352,6 +356,8 @@ class Machine:
             self.named.setdefault(package, (at, source))
         if eager:
             self.looked_up.append((package, at, source, self.conditions))
+        else:
+            self.lazily.add(package)
 
     def texts(self, value: Value) -> tuple[str, ...]:
         return texts(value, Within(self.spend))

@@ -33,6 +33,8 @@ from ros_lint.collectors.launch_py_objects import (
 from ros_lint.collectors.launch_py_operations import hashable, operation, opposite_of, truth
 from ros_lint.collectors.launch_py_texts import SUBSTITUTIONS
 from ros_lint.collectors.launch_text import presence
+from ros_lint.collectors.python_look_ups import catches_missing_package
+from ros_lint.collectors.python_values import LOOK_UPS, callee
 from ros_lint.facts import LaunchCondition
 
 if TYPE_CHECKING:
@@ -142,6 +144,12 @@ def _store(machine: Machine, target: ast.Subscript, value: Value, frame: Frame) 
 
 
 def _if(machine: Machine, node: ast.If, frame: Frame) -> int:
+    test = node.test
+    if isinstance(test, ast.BoolOp) and isinstance(test.op, ast.And) and not node.orelse and not _may_leave(node.body):
+        inner: list[ast.stmt] = node.body  # one condition within the other, so that each is known for what it is
+        for part in reversed(test.values[1:]):
+            inner = [ast.copy_location(ast.If(part, inner, []), node)]
+        node = ast.copy_location(ast.If(test.values[0], inner, []), node)
     answer, condition = truth(machine, machine.evaluate(node.test, frame))
     if answer is not None:
         return execute(machine, node.body if answer else node.orelse, frame)
@@ -166,7 +174,8 @@ def _either(
     if LEAVE in (first, second):
         # The rest of the function runs only if the other side was taken.
         frame.names = _kept(first_names, second_names) if first == LEAVE else _kept(second_names, first_names)
-        machine.conditions = (*before, opposite if first == LEAVE else condition)
+        if not _gives_up(body if first == LEAVE else other, everywhere=not before):
+            machine.conditions = (*before, opposite if first == LEAVE else condition)
         return NEXT
     frame.names = first_names
     for name, value in second_names.items():
@@ -175,6 +184,22 @@ def _either(
         elif first_names[name] is not value:
             first_names[name] = union([Guarded(first_names[name], (condition,)), Guarded(value, (opposite,))])
     return first if first == second else NEXT
+
+
+def _may_leave(body: Sequence[ast.stmt]) -> bool:
+    ways_out = (ast.Return, ast.Raise, ast.Break, ast.Continue)
+    return any(isinstance(node, ways_out) for statement in body for node in ast.walk(statement))
+
+
+def _gives_up(body: Sequence[ast.stmt], *, everywhere: bool) -> bool:
+    """Whether a block stops the whole launch file, so that what is beyond is what it does whenever it works.
+
+    Where not everyone comes by, an error that is made there tells those who do what they have to install.
+    """
+    last = body[-1] if body else None
+    if isinstance(last, ast.Raise):
+        return everywhere or not isinstance(last.exc, ast.Call)
+    return isinstance(last, ast.Expr) and isinstance(last.value, ast.Call) and callee(last.value) in ("exit", "quit", "_exit")
 
 
 def _side(machine: Machine, body: Sequence[ast.stmt], conditions: Conditions, frame: Frame) -> int:
@@ -240,7 +265,12 @@ def _with(machine: Machine, node: ast.With | ast.AsyncWith, frame: Frame) -> int
 
 
 def _try(machine: Machine, node: ast.Try, frame: Frame) -> int:
-    looked_up = len(machine.looked_up)
+    missing = next((handler for handler in node.handlers if catches_missing_package(handler)), None)
+    if missing is not None and _looks_up(node.body) and not _gives_up(missing.body, everywhere=not machine.conditions):
+        # A package that is looked up may be missing, and the file does without.
+        there = LaunchCondition((presence(machine.another()),), None)
+        signal = _either(machine, [*node.body, *node.orelse], missing.body, there, frame)
+        return execute(machine, node.finalbody, frame) or signal
     try:
         signal = execute(machine, node.body, frame)
     except Raised:
@@ -250,23 +280,14 @@ def _try(machine: Machine, node: ast.Try, frame: Frame) -> int:
                 frame.names[handler.name] = Unknown("an exception")
             signal = execute(machine, handler.body, frame)
     else:
-        if node.handlers and len(machine.looked_up) > looked_up:
-            _without(machine, node, looked_up, frame)
         if signal == NEXT:
             signal = execute(machine, node.orelse, frame)
     final = execute(machine, node.finalbody, frame)
     return final or signal
 
 
-def _without(machine: Machine, node: ast.Try, first: int, frame: Frame) -> None:
-    """A package that is looked up may be missing, and the file does without."""
-    there = LaunchCondition((presence(machine.looked_up[first][0]),), None)
-    machine.looked_up[first:] = [
-        (name, at, source, (*conditions, LaunchCondition((presence(name),), None)))
-        for name, at, source, conditions in machine.looked_up[first:]
-    ]
-    for handler in node.handlers:
-        _either(machine, handler.body, (), opposite_of(there), frame)
+def _looks_up(body: Sequence[ast.stmt]) -> bool:
+    return any(isinstance(node, ast.Call) and callee(node) in LOOK_UPS for statement in body for node in ast.walk(statement))
 
 
 def _return(machine: Machine, node: ast.Return, frame: Frame) -> int:

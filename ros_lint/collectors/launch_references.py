@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Iterator, Sequence
+from collections.abc import Container, Iterable, Sequence
 from posixpath import normpath
 from typing import Literal
 
@@ -34,7 +34,8 @@ class References:
         self._defaults = _defaults(actions)
         self._carriers = carriers_of_places(self._defaults)
         self._known: dict[str, tuple[str, ...]] = {}
-        self._optional: tuple[str, ...] = ()
+        self._optional = False
+        self._named: set[str] = set()
         for action in actions:
             self._action(action, conditional=False)
 
@@ -42,7 +43,7 @@ class References:
         before = self._optional
         if action.conditions:
             conditional = True
-            self._optional = (*before, *_presences(action.conditions))
+            self._optional = before or asks_first(action.conditions)
         match action.kind:
             case "node" | "component":
                 self._program(action, conditional)
@@ -66,6 +67,7 @@ class References:
         packages, package_default = self._filled(action.package)
         names, name_default = self._filled(action.target) if action.target is not None else ((UNKNOWN,), False)
         conditional = conditional or len(packages) * len(names) > 1
+        self._named.update(packages)
         for package in packages:
             if not is_plain(package) or not package:
                 self.hide(f"the package of a {kind} is computed", action.package.span)
@@ -158,7 +160,7 @@ class References:
             self.hide("the package that is looked up is computed", value.span)
             return
         if not any(reference.package == package and reference.conditional <= bool(conditions) for reference in self.found):
-            optional = package in set(_presences(conditions))
+            optional = asks_first(conditions)
             self.found[
                 LaunchReference(
                     "package", package, "", value.span, value.span, bool(conditions), value.exact, value.exact, optional
@@ -172,9 +174,16 @@ class References:
         if kind == "package":
             exact = package_exact
         reference = LaunchReference(
-            kind, package, name, at.span, owner.span, conditional, exact, package_exact, package in self._optional, by_default
+            kind, package, name, at.span, owner.span, conditional, exact, package_exact, self._optional, by_default
         )
         self.found[reference] = None
+
+    def spare(self, packages: Container[str]) -> None:
+        """Take packages for optional that are looked up only if they are there, unless they are named for a node."""
+        self.found = {
+            found._replace(optional=True) if found.package in packages and found.package not in self._named else found: None
+            for found in self.found
+        }
 
     def hide(self, reason: str, span: Span) -> None:
         """Note that something hides which packages are used."""
@@ -195,12 +204,9 @@ def _defaults(actions: Sequence[LaunchAction]) -> dict[str, tuple[str, ...]]:
     return found
 
 
-def _presences(conditions: Iterable[LaunchCondition]) -> Iterator[str]:
-    """Yield the packages that conditions ask for."""
-    for condition in conditions:
-        for text in condition.texts:
-            if condition.wanted and condition.equals is None and (package := asked_for(text)):
-                yield package
+def asks_first(conditions: Iterable[LaunchCondition]) -> bool:
+    """Return whether conditions ask if something is installed: what is under them is done without, whatever its name."""
+    return any(condition.wanted and asked_for(text) for condition in conditions for text in condition.texts)
 
 
 def _values(action: LaunchAction) -> Iterable[LaunchValue]:

@@ -20,7 +20,8 @@ _NAMED = re.compile(rf"\b({'|'.join(sorted(LOOK_UPS))})\b(?:[ \t]*\()?")
 _LITERAL = re.compile(r"\s*(?:package(?:_name)?[ \t]*=[ \t]*)?([\"'])([\w.-]+)\1\s*[,)]")
 _FILE_NAME = re.compile(r"""\.(?<=[\w)}]\.)[A-Za-z]\w{1,9}["']""")
 _NOT_FOUND = frozenset({"PackageNotFoundError", "LookupError", "KeyError", "Exception", "BaseException"})
-_CATCHES = re.compile(rf"except[ \t]*(?:[(:]|[^\n]*\b(?:{'|'.join(sorted(_NOT_FOUND))})\b)")
+_ASKS = frozenset({"has_resource", "get_packages_with_prefixes", "get_resources"})
+_CATCHES = re.compile(rf"except[ \t]*(?:[(:]|[^\n]*\b(?:{'|'.join(sorted(_NOT_FOUND))})\b)|\b(?:{'|'.join(sorted(_ASKS))})\(")
 
 
 class Found(NamedTuple):
@@ -153,15 +154,34 @@ def _paths(evaluator: Evaluator, node: ast.expr, where: Where) -> Iterator[tuple
 
 
 def _guarded(tree: ast.Module) -> list[range]:
-    """Return the lines of the try statements that catch that a package is not found."""
-    return [
-        range(node.body[0].lineno, (node.body[-1].end_lineno or 0) + 1)
-        for node in nodes(tree)
-        if isinstance(node, ast.Try) and any(_catches(handler) for handler in node.handlers)
-    ]
+    """Return the lines that run only if a package is there: it is asked for, or what is raised without it is caught."""
+    found = []
+    for node in nodes(tree):
+        if isinstance(node, ast.Try) and any(catches_missing_package(handler) for handler in node.handlers):
+            found.append(_lines(node.body))
+        block = getattr(node, "body", None)
+        body: list[ast.stmt] = block if isinstance(block, list) else []
+        for index, inner in enumerate(body):
+            if isinstance(inner, ast.If) and (there := _asks(inner.test)) is not None:
+                rest = body[index + 1 :] if isinstance(inner.body[-1], (ast.Return, ast.Continue)) else []
+                found += [_lines(inner.body)] if there else [_lines(inner.orelse), _lines(rest)]
+    return found
 
 
-def _catches(handler: ast.ExceptHandler) -> bool:
+def _lines(body: list[ast.stmt]) -> range:
+    return range(body[0].lineno, (body[-1].end_lineno or 0) + 1) if body else range(0)
+
+
+def _asks(test: ast.expr) -> bool | None:
+    """Return whether a test wants something to be installed, None when it is about something else."""
+    inner = list(ast.walk(test))
+    if not any(isinstance(node, ast.Call) and callee(node) in _ASKS for node in inner):
+        return None
+    return not any(isinstance(node, (ast.Not, ast.NotIn)) for node in inner)
+
+
+def catches_missing_package(handler: ast.ExceptHandler) -> bool:
+    """Return whether a handler catches that a package is not found."""
     if handler.type is None:
         return True
     return any(
