@@ -12,15 +12,18 @@ from ros_lint.collectors.cmake_syntax import Command, Parsed
 from ros_lint.facts import Call
 
 WANTED: Final = frozenset({
-    "add_executable", "add_library", "ament_add_gmock", "ament_add_google_benchmark", "ament_add_gtest",
-    "ament_add_pytest_test", "ament_auto_add_executable", "ament_auto_add_library", "ament_auto_package",
-    "ament_environment_hooks", "ament_export_definitions", "ament_export_dependencies", "ament_export_include_directories",
-    "ament_export_interfaces", "ament_export_libraries", "ament_export_link_flags", "ament_export_targets",
-    "ament_package", "ament_python_install_package", "ament_target_dependencies", "ament_vendor", "add_custom_target",
-    "add_launch_test", "add_ros_test", "autoware_ament_auto_package", "catkin_package", "cmake_minimum_required",
-    "cmake_policy", "find_package", "include", "install", "link_directories", "nav2_package",
-    "pluginlib_export_plugin_description_file", "project", "rclcpp_components_register_node",
-    "rclcpp_components_register_nodes", "rosidl_generate_interfaces", "rosidl_target_interfaces", "set",
+    "add_custom_command", "add_custom_target", "add_executable", "add_launch_test", "add_library", "add_ros_test",
+    "ament_add_gmock", "ament_add_google_benchmark", "ament_add_gtest", "ament_add_pytest_test", "ament_auto_add_executable",
+    "ament_auto_add_library", "ament_auto_package", "ament_clang_format", "ament_clang_tidy", "ament_copyright",
+    "ament_cppcheck", "ament_cpplint", "ament_environment_hooks", "ament_export_definitions", "ament_export_dependencies",
+    "ament_export_include_directories", "ament_export_interfaces", "ament_export_libraries", "ament_export_link_flags",
+    "ament_export_targets", "ament_flake8", "ament_lint_auto_find_test_dependencies", "ament_lint_cmake", "ament_mypy",
+    "ament_package", "ament_pclint", "ament_pep257", "ament_pycodestyle", "ament_pyflakes", "ament_python_install_package",
+    "ament_target_dependencies", "ament_uncrustify", "ament_vendor", "ament_xmllint", "autoware_ament_auto_package",
+    "catkin_package", "cmake_minimum_required", "cmake_policy", "find_package", "include", "install", "link_directories",
+    "nav2_package", "pluginlib_export_plugin_description_file", "project", "rclcpp_components_register_node",
+    "rclcpp_components_register_nodes", "rosidl_generate_interfaces", "rosidl_get_typesupport_target",
+    "rosidl_target_interfaces", "set",
     "set_target_properties", "target_compile_definitions", "target_compile_features", "target_compile_options",
     "target_include_directories", "target_link_libraries", "target_sources",
 })  # fmt: skip

@@ -11,45 +11,83 @@ Everybody believes that the code is checked, and installs the linters, and nothi
 ## How to fix it
 
 Call `ament_lint_auto_find_test_dependencies()` in `if(BUILD_TESTING)` after `find_package(ament_lint_auto REQUIRED)`,
-or take the linters out of `package.xml`.
+or take the linters out of `package.xml`. Where CMake calls linters by their names, such as `ament_cppcheck()`, take out those
+that it does not call.
 
 ## When it keeps silent
 
-The script cannot be followed everywhere, or the package is none of `ament_cmake`.
+- The script cannot be followed everywhere, or the package is none of `ament_cmake`.
+- Another tag than `<test_depend>` declares the linter: then it is there for others, as in a metapackage.
+- `rosidl_generate_interfaces()` is given `ADD_LINTER_TESTS`: it runs the linters that `ament_lint_common` brings.
+- An option that is off switches the linters on.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Facet, Finding, Package, Rule, Severity, Workspace
+from ros_lint.api import BuildScript, Facet, Finding, Package, Rule, Severity, Workspace, called
 
 _AUTO = "ament_lint_auto"
+_ALL = "ament_lint_common"
 _RUN = "ament_lint_auto_find_test_dependencies"
 _FIND = frozenset({_RUN, "ament_auto_find_test_dependencies", "autoware_package"})
-_LINTERS = ("ament_lint_common", "ament_cmake_copyright", "ament_cmake_cppcheck", "ament_cmake_cpplint",
-            "ament_cmake_flake8", "ament_cmake_lint_cmake", "ament_cmake_pep257", "ament_cmake_uncrustify",
-            "ament_cmake_xmllint", "ament_cmake_clang_format", "ament_cmake_clang_tidy", "ament_cmake_mypy",
-            "ament_cmake_pycodestyle", "ament_cmake_pyflakes", "ament_cmake_pclint")  # fmt: skip
+_CALLS = {
+    f"ament_cmake_{linter}": f"ament_{linter}"
+    for linter in ("clang_format", "clang_tidy", "copyright", "cppcheck", "cpplint", "flake8", "lint_cmake", "mypy", "pclint",
+                   "pep257", "pycodestyle", "pyflakes", "uncrustify", "xmllint")
+}  # fmt: skip
+"""Linters, and the command of each."""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or script.problems or package.builds_with != "ament_cmake" or package.hidden(Facet.USES):
         return
-    if _FIND.intersection(script.calls):
+    if _FIND.intersection(script.calls) or _checks_what_it_generates(package):
         return
-    named = {mention.name for mention in script.mentions}
-    declared = [each.depend for each in package.declared if each.depend.name in (_AUTO, *_LINTERS)]
-    idle = [depend for depend in declared if depend.name == _AUTO or depend.name not in named]
-    if not idle:
+    if any(call.blocks.count("if") > call.test for call in called(package, _RUN, anywhere=True)):
+        return  # an option switches them on
+    declared = [each.depend for each in package.declared if each.name in (_AUTO, _ALL, *_CALLS)]
+    for_others = {depend.name for depend in declared if depend.tag != "test_depend"}
+    mine = [depend for depend in declared if depend.name not in for_others]
+    called_by_name = _called_by_name(package, script)
+    found = _found(package, script)
+    idle = [depend for depend in mine if depend.name not in found and _CALLS.get(depend.name) not in called_by_name]
+    if called_by_name:
+        for depend in idle:
+            if depend.name != _ALL:  # it brings those that are called
+                message = f"{depend.name} is declared, but CMake calls {_list(called_by_name)} instead: remove it"
+                yield Finding(message, depend.span, depend.name)
         return
-    first = next((depend for depend in idle if depend.name == _AUTO), idle[0])
-    yield Finding(
-        f"{first.name} is declared, but no linter runs: call {_RUN}() in if(BUILD_TESTING), or remove it",
-        first.span,
-        first.name,
-    )
+    first = next((depend for depend in mine if depend.name == _AUTO), idle[0] if idle else None)
+    if first is not None:
+        yield Finding(
+            f"{first.name} is declared, but no linter runs: call {_RUN}() in if(BUILD_TESTING), or remove it",
+            first.span,
+            first.name,
+        )
+
+
+def _checks_what_it_generates(package: Package) -> bool:
+    return any("ADD_LINTER_TESTS" in call.texts for call in called(package, "rosidl_generate_interfaces", anywhere=True))
+
+
+def _called_by_name(package: Package, script: BuildScript) -> list[str]:
+    """Return the commands of linters that the CMake files call, if only under a condition."""
+    written = {call.name for call in called(package, *_CALLS.values(), anywhere=True)}
+    return sorted(written.union(set(_CALLS.values()).intersection(script.calls)))
+
+
+def _found(package: Package, script: BuildScript) -> set[str]:
+    """Return what the CMake files look for, if only under a condition."""
+    written = {call.texts[0] for call in called(package, "find_package", anywhere=True) if call.args}
+    return written.union(mention.name for mention in script.mentions)
+
+
+def _list(commands: list[str]) -> str:
+    first, *others = [f"{command}()" for command in commands]
+    return f"{first} and {len(others)} more" if len(others) > 1 else " and ".join((first, *others))
 
 
 RULE = Rule(
