@@ -20,21 +20,25 @@ with an error.
 
 ## When it keeps silent
 
-For distributions in which the command is not deprecated, so in Humble and Jazzy for `ament_target_dependencies()`. Where the
-command is gone, `removed-command` speaks instead.
+- For distributions in which the command is not deprecated, so in Humble and Jazzy for `ament_target_dependencies()`. Where the
+  command is gone, `removed-command` speaks instead.
+- Under a condition, when what replaces the command is called under a condition, too: the script is for several distributions.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Edit, Finding, Fix, Package, Related, Rule, Severity, Workspace, called
+from ros_lint.api import Call, Edit, Finding, Fix, Package, Related, Rule, Severity, Workspace, called
 
 _ALWAYS = {
-    "rosidl_target_interfaces": "use rosidl_get_typesupport_target() and target_link_libraries()",
-    "ament_export_interfaces": "use ament_export_targets()",
+    "rosidl_target_interfaces": (
+        "rosidl_get_typesupport_target",
+        "use rosidl_get_typesupport_target() and target_link_libraries()",
+    ),
+    "ament_export_interfaces": ("ament_export_targets", "use ament_export_targets()"),
 }
-_SINCE_KILTED = {"ament_target_dependencies": "use target_link_libraries() with p::p, or ${p_TARGETS}"}
+_SINCE_KILTED = {"ament_target_dependencies": ("target_link_libraries", "use target_link_libraries() with p::p, or ${p_TARGETS}")}
 _MOST_RELATED = 4
 
 
@@ -44,8 +48,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     if package.builds_with == "ament_cmake":
         old = {**_ALWAYS, **(_SINCE_KILTED if workspace.target.distro == "kilted" else {})}
-        for name, instead in old.items():
-            calls = list(called(package, name, anywhere=True))
+        for name, (successor, instead) in old.items():
+            replaced = any(_is_switched(call) for call in called(package, successor, anywhere=True))
+            calls = [call for call in called(package, name, anywhere=True) if not (replaced and _is_switched(call))]
             if not calls:
                 continue
             first, *others = calls
@@ -60,6 +65,11 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             better = written.replace("-", "_")
             fix = Fix(f"write {better}", (Edit(problem.span, better),))
             yield Finding(f"the key {written} is deprecated; write {better}", problem.span, written, fix=fix)
+
+
+def _is_switched(call: Call) -> bool:
+    """Whether a command stands under a condition, other than that tests are wanted."""
+    return call.blocks.count("if") > call.test
 
 
 RULE = Rule(
