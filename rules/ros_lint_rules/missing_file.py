@@ -20,7 +20,8 @@ Correct the path, add the file to the repository, or remove the line. A folder t
 
 - Paths that cannot be evaluated, files in the build folder, and files that the build generates.
 - Under a condition that may not hold, and with `OPTIONAL`.
-- The confidence is medium where the script runs other programs or downloads files, and for what may be a submodule.
+- The confidence is medium where the script runs other programs or downloads files, for what may be a submodule, and for what is
+  installed where custom commands or targets work in the source folder: they may make it.
 """
 
 from __future__ import annotations
@@ -43,6 +44,7 @@ from ros_lint.api import (
 )
 
 _KINDS = ("missing-file", "file-is-directory")
+_WORKS = ("COMMAND", "ARGS", "WORKING_DIRECTORY")
 _MAKES_FILES = frozenset({"execute_process", "exec_program", "externaldata_add_target", "externaldata_expand_arguments"})
 
 
@@ -68,11 +70,30 @@ def _is_unseen(package: Package, path: str) -> bool:
 def _confidence(package: Package, workspace: Workspace, problem: Problem) -> Confidence:
     script = package.script
     assert script is not None
-    if _MAKES_FILES.intersection(script.calls):
+    if _MAKES_FILES.intersection(script.calls) or (_is_installed(package, problem) and _builds_in_sources(package)):
         return Confidence.MEDIUM
     if "add_subdirectory()" in problem.message and any(path.endswith(".gitmodules") for path in workspace.source_lists):
         return Confidence.MEDIUM
     return Confidence.HIGH
+
+
+def _is_installed(package: Package, problem: Problem) -> bool:
+    """Whether it is missed when everything is built, and not when CMake configures."""
+    start = problem.span[1:3]
+    calls = called(package, "install", anywhere=True)
+    return any(call.path == problem.span.path and call.whole[1:3] <= start < call.whole[3:5] for call in calls)
+
+
+def _builds_in_sources(package: Package) -> bool:
+    """Whether a custom command or target has the source folder to work in, or to work on."""
+    for call in called(package, "add_custom_command", "add_custom_target", anywhere=True):
+        word = ""
+        for text in call.texts:
+            if text.isupper() and "$" not in text:
+                word = text
+            elif word in _WORKS and "SOURCE_DIR}" in text:
+                return True
+    return False
 
 
 def _hint(package: Package, path: str) -> str:
