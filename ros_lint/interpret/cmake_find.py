@@ -9,7 +9,7 @@ from ros_lint.collectors.cmake_syntax import QUOTED, UNQUOTED
 from ros_lint.facts import ANYTHING, Facet
 from ros_lint.interpret.cmake_include import include_foreign, include_own
 from ros_lint.interpret.cmake_run import Handler, Run, folded
-from ros_lint.interpret.cmake_values import FOREIGN, HOLE, PREFIX, SOURCE, is_known, split, sure
+from ros_lint.interpret.cmake_values import FOREIGN, HOLE, PREFIX, SOURCE, is_known, join, maybe, split, sure
 
 _FOREIGN_VARIABLE = re.compile(
     r"\$\{([A-Za-z0-9_+.-]+?)_(?:TARGETS|LIBRARIES|LIBRARY|LIBS|INCLUDE_DIRS?|INCLUDES|DEFINITIONS|LDFLAGS|CFLAGS)\}"
@@ -77,7 +77,10 @@ def found(run: Run, name: str, *, required: bool) -> None:
 
 def _find_all(run: Run, args: list[str]) -> None:
     """``ros_lint_find(build|test)``: what the manifest declares is searched."""
-    names = run.sources.build_depends if args[:1] == ["build"] else run.sources.test_depends
+    names = run.sources.test_depends
+    if args[:1] == ["build"]:
+        names = run.sources.build_depends
+        run.set(f"{run.get('PROJECT_NAME') or ''}_FOUND_BUILD_DEPENDS", join(map(maybe, names)))  # keys are not found
     run.open_world = True
     run.prefixes.update(dict.fromkeys(names))
     packages = run.packages

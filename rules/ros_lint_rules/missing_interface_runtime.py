@@ -19,7 +19,10 @@ Add what the message names. The fix does this for package.xml.
 - The interfaces are not installed, so that nobody but the package itself uses them.
 - The script cannot be followed everywhere.
 - The other package comes along with one that is listed.
-- The run-time package comes along with another declared dependency: then the severity is info.
+- The run-time package comes along with another declared dependency, or may do so: then nothing fails, the severity is info and
+  the confidence medium.
+
+Where a folder of the package has a manifest of its own beside its CMakeLists.txt, CMake reads that one.
 """
 
 from __future__ import annotations
@@ -40,9 +43,11 @@ from ros_lint.api import (
     Span,
     Workspace,
     add_dependency,
+    called,
     come_along,
     given_to,
     manifest_edits,
+    relative,
 )
 
 _GROUP = "rosidl_interface_packages"
@@ -61,18 +66,30 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if place is None or not script.interfaces or not _is_installed(package):
         return
     sure = Confidence.MEDIUM if place.optional or place.test else Confidence.HIGH
-    if _GROUP not in package.groups:
-        yield Finding(
-            f"{_GENERATE}() stops here unless package.xml says <member_of_group>{_GROUP}</member_of_group>",
-            place.span,
-            _GROUP,
-            (),
-            Fix(f"join the group {_GROUP}", _join(manifest)),
-            sure,
-        )
-    yield from _runtime(package, workspace, place.span, sure)
+    if not _has_own_manifest(package, relative(package, place.span.path)):
+        if _GROUP not in package.groups and not _skips_check(package, place.span):
+            yield Finding(
+                f"{_GENERATE}() stops here unless package.xml says <member_of_group>{_GROUP}</member_of_group>",
+                place.span,
+                _GROUP,
+                (),
+                Fix(f"join the group {_GROUP}", _join(manifest)),
+                sure,
+            )
+        yield from _runtime(package, workspace, place.span, sure)
     if not package.hidden(Facet.USES):
         yield from _fields(package, workspace, place.span, sure)
+
+
+def _has_own_manifest(package: Package, path: str) -> bool:
+    """Whether a folder within the package that a file lies in has a manifest."""
+    folders = path.split("/")[:-1]
+    return any("/".join((*folders[:depth], "package.xml")) in package.files for depth in range(1, len(folders) + 1))
+
+
+def _skips_check(package: Package, place: Span) -> bool:
+    calls = called(package, _GENERATE, anywhere=True)
+    return any(call.place == place and "SKIP_GROUP_MEMBERSHIP_CHECK" in call.texts for call in calls)
 
 
 def _is_installed(package: Package) -> bool:
@@ -99,7 +116,7 @@ def _runtime(package: Package, workspace: Workspace, place: Span, sure: Confiden
         _RUNTIME,
         (),
         Fix(f"declare {_RUNTIME} as <{tag}>", add_dependency(package, tag, _RUNTIME)),
-        sure,
+        Confidence.MEDIUM if along else sure,
         Severity.INFO if along else None,
     )
 
