@@ -22,6 +22,8 @@ Add `<exec_depend>` to `package.xml`. The fix does this.
   any will do, and what brings it along there counts.
 - Launch files of tests and examples, and those that are not installed.
 - What a declared dependency brings along is not known: then the confidence is medium.
+- The other package needs this one itself, so that declaring it would close a cycle: then the confidence is medium, too; the
+  launch file may be at home there.
 """
 
 from __future__ import annotations
@@ -78,13 +80,15 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         says = _SAYS[best.kind].format(name=best.name, package=name)
         only = ", if only under a condition" if best.conditional else ""
         tag = tag_for(package, workspace, name, Role.EXEC)
+        circular = package.name in workspace.world.closure((name,))
+        way_out = "it needs this package itself, so it cannot be declared" if circular else f"add <{tag}>{name}</{tag}>"
         yield Finding(
-            f"{says}{only}, but does not come with {package.name}: add <{tag}>{name}</{tag}>",
+            f"{says}{only}, but does not come with {package.name}: {way_out}",
             best.package_span,
             name,
             tuple(Related("also needed here", other.package_span) for other in others[:_MOST_RELATED]),
-            Fix(f"declare {name} as <{tag}>", add_dependency(package, tag, name)),
-            Confidence.MEDIUM if may_bring(closure.unknown, name, workspace) else Confidence.HIGH,
+            None if circular else Fix(f"declare {name} as <{tag}>", add_dependency(package, tag, name)),
+            Confidence.MEDIUM if circular or may_bring(closure.unknown, name, workspace) else Confidence.HIGH,
         )
 
 
