@@ -211,3 +211,25 @@ def test_hostile_files(tmp_path: Path, file: str, content: str) -> None:
     assert ran.code == 1
     assert not [entry for entry in ran.out["not_checked"] if "failed on it" in entry["reason"]]
     assert not ran.out["crashes"]
+
+
+_TRAPPED = ("json", "ntpath", "nt", "yaml", "glob", "posixpath", "pickle", "lxml", "libcst", "networkx", "ros_lint_rules")
+
+
+def test_modules_of_the_workspace_are_not_loaded(tmp_path: Path) -> None:
+    for number in range(60):
+        package(tmp_path / f"p{number}", f"p{number}")
+    python = package(tmp_path / "python", "python")
+    (python / "setup.py").write_text(
+        "import glob\nfrom setuptools import setup\nsetup(data_files=[('a', glob.glob('*.yaml'))])\n"
+    )
+    (python / "a.yaml").write_text("a:\n  ros__parameters: {b: c}\n")
+    (python / "a.launch.py").write_text("import yaml\ndef generate_launch_description(): return yaml.load(open('a.yaml'))\n")
+    for name in _TRAPPED:
+        (tmp_path / f"{name}.py").write_text("import os\nopen(os.path.join(os.path.dirname(__file__), 'sprung'), 'w').close()\n")
+    for arguments in (("check", "--jobs", "2"), ("check", "--jobs", "1", "--pedantic"), ("graph", "--format", "json")):
+        command = [sys.executable, "-m", "ros_lint", *arguments]
+        done = subprocess.run(command, capture_output=True, cwd=tmp_path, timeout=60, check=False)
+        assert b"Traceback" not in done.stderr, done.stderr.decode()
+        assert done.returncode in (0, 1), done.stderr.decode()
+        assert not (tmp_path / "sprung").exists()
