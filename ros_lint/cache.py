@@ -1,7 +1,8 @@
-"""Keep the facts of files between runs, in the user's cache folder and never in the workspace.
+"""Keep the facts of files and the last reports between runs, in the user's cache folder and never in the workspace.
 
 What a workspace could plant is not loaded: the folder is the user's own, and unpickling makes no object but facts.
-A file counts as unchanged when its time, size and mode are; facts depend on nothing but its text.
+A file counts as unchanged when its time, size and mode are; facts depend on nothing but its text, and a report on nothing
+but what the tree said to everything that it was asked, the settings, the code, and the data of the released world.
 """
 
 from __future__ import annotations
@@ -11,17 +12,23 @@ import io
 import os
 import pickle
 import sys
-import tempfile
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 from ros_lint import __version__
-from ros_lint.tree import Stamp, Tree
+from ros_lint.tree import Stamp, says_the_same
+
+if TYPE_CHECKING:
+    from ros_lint.report import Report
+    from ros_lint.tree import DiskTree, RecordedTree, Tree
 
 _MODULES = frozenset({
-    "ros_lint.collect", "ros_lint.collectors.cmake_syntax", "ros_lint.facts", "ros_lint.rule", "ros_lint.suppress",
-    "ros_lint.text", "ros_lint.tree",
+    "ros_lint.collect", "ros_lint.collectors.cmake_syntax", "ros_lint.facts", "ros_lint.report", "ros_lint.rule",
+    "ros_lint.suppress", "ros_lint.text", "ros_lint.tree", "ros_lint.workspace",
 })  # fmt: skip
+
+_MOST_REPORTS = 8
+"""Of one workspace: somebody may check it in different ways by turns."""
 
 
 class _Facts(pickle.Unpickler):
@@ -37,54 +44,81 @@ class Cache:
     """Facts by path and stamp. An empty ``folder`` keeps nothing. Nothing here raises: a cache that fails is empty."""
 
     def __init__(self, folder: str, base: str) -> None:
-        self._file = ""
-        if folder:
-            name = hashlib.sha256(os.path.realpath(base).encode("utf-8", "surrogateescape")).hexdigest()[:24]
-            self._file = os.path.join(folder, f"{name}.facts")
-        self._kept: dict[str, tuple[Stamp, Any]] = self._load() if self._file else {}
+        self._file = os.path.join(folder, f"{_digest(os.path.realpath(base))}.facts") if folder else ""
+        self._kept: dict[str, tuple[Stamp, Any]] = {}
+        self._stamps: dict[str, Stamp] = {}
 
     def fetch(self, tree: Tree, paths: Sequence[str]) -> dict[str, Any]:
         """Return what is kept of those files that have not changed."""
-        if not self._kept:
+        if not self._file:
             return {}
+        kept = _load(self._file, _state(_collectors()))
+        self._kept = kept if isinstance(kept, dict) else {}
+        # Before anything is read, so that what changes meanwhile counts as changed.
+        self._stamps = {path: stamp for path in paths if (stamp := _stamp(tree, path)) is not None}
         found = {}
-        for path in paths:
-            kept = self._kept.get(path)
-            if kept is not None and kept[0] == _stamp(tree, path):
-                found[path] = kept[1]
+        for path, stamp in self._stamps.items():
+            known = self._kept.get(path)
+            if known is not None and known[0] == stamp:
+                found[path] = known[1]
         return found
 
     def store(self, tree: Tree, fresh: Mapping[str, Any]) -> None:
         """Keep what was read now, besides what was kept of files that are still there."""
         if not self._file or not fresh:
             return
+        there = {path: known for path, known in self._kept.items() if path in self._stamps or _stamp(tree, path) is not None}
         for path, collected in fresh.items():
-            if (stamp := _stamp(tree, path)) is not None:
-                self._kept[path] = (stamp, collected)
-        temporary = ""
-        try:
-            os.makedirs(os.path.dirname(self._file), mode=0o700, exist_ok=True)
-            handle, temporary = tempfile.mkstemp(dir=os.path.dirname(self._file))
-            with os.fdopen(handle, "wb") as file:
-                file.write(_state().encode() + b"\n")
-                pickler = pickle.Pickler(file, protocol=5)
-                pickler.dispatch_table = _reducers()
-                pickler.dump(self._kept)
-            os.replace(temporary, self._file)
-        except OSError:
-            if temporary and os.path.exists(temporary):
-                os.unlink(temporary)
+            if path in self._stamps:
+                there[path] = (self._stamps[path], collected)
+        self._kept = there
+        _save(self._file, _state(_collectors()), there)
 
-    def _load(self) -> dict[str, tuple[Stamp, Any]]:
+
+class Reports:
+    """The last reports about a workspace.
+
+    ``asked`` and the state of the files in ``data`` are all that a report depends on besides our code and the tree.
+    """
+
+    def __init__(self, folder: str, base: str, asked: str, data: Iterable[str]) -> None:
+        self._start = f"{_digest(os.path.realpath(base))}-"
+        self._folder = folder
+        self._file = os.path.join(folder, f"{self._start}{_digest(asked)}.report") if folder else ""
+        own = files_below(os.path.dirname(os.path.abspath(__file__)))
+        self._state = _state([*own, *data]) if folder else ""
+
+    def __bool__(self) -> bool:
+        """Whether any report is kept at all."""
+        return bool(self._file)
+
+    def fetch(self, tree: DiskTree) -> Report | None:
+        """Return the report that a run would make now, or None when only the run can tell."""
+        kept = _load(self._file, self._state) if self._file else None
+        if not isinstance(kept, tuple):
+            return None
+        report, said = kept
+        return report if says_the_same(tree, said) else None
+
+    def store(self, tree: RecordedTree, report: Report) -> None:
+        """Keep a report that was made from what a tree said. It loses the functions of its rules."""
+        if not self._file or not tree.steady or report.crashes:
+            return
+        bare = {rule.name: rule._replace(package=None, workspace=None, suppressions=None) for rule in report.rules}
+        issues = tuple([issue._replace(rule=bare[issue.rule.name]) for issue in report.issues])
+        said = [(question, _bare(told)) for question, told in tree.said.items()]
+        _save(self._file, self._state, (report._replace(issues=issues, rules=tuple(bare.values())), said))
+        self._clear()
+
+    def _clear(self) -> None:
+        """Remove the oldest reports of the workspace."""
         try:
-            with open(self._file, "rb") as file:
-                state, _, data = file.read().partition(b"\n")
-            if state == _state().encode():
-                kept = _Facts(io.BytesIO(data)).load()
-                return kept if isinstance(kept, dict) else {}
-        except (OSError, pickle.UnpicklingError, EOFError, AttributeError, TypeError, ValueError, IndexError):
-            pass
-        return {}
+            with os.scandir(self._folder) as entries:
+                mine = [(entry.stat().st_mtime_ns, entry.path) for entry in entries if entry.name.startswith(self._start)]
+            for _, path in sorted(mine)[:-_MOST_REPORTS]:
+                os.unlink(path)
+        except OSError:
+            return
 
 
 def folder(environment: Mapping[str, str]) -> str:
@@ -92,6 +126,34 @@ def folder(environment: Mapping[str, str]) -> str:
     home = environment.get("HOME") or environment.get("USERPROFILE") or ""
     above = environment.get("XDG_CACHE_HOME") or (os.path.join(home, ".cache") if home else "")
     return os.path.join(above, "ros-lint") if os.path.isabs(above) else ""
+
+
+def _load(path: str, state: str) -> Any:
+    """Return what a file keeps, None when it was written in another state or is damaged."""
+    try:
+        with open(path, "rb") as file:
+            written, _, data = file.read().partition(b"\n")
+        return _Facts(io.BytesIO(data)).load() if written == state.encode() else None
+    except (OSError, pickle.UnpicklingError, EOFError, AttributeError, TypeError, ValueError, IndexError):
+        return None
+
+
+def _save(path: str, state: str, value: Any) -> None:
+    import tempfile  # noqa: PLC0415  (a run that finds all that it needs writes nothing)
+
+    temporary = ""
+    try:
+        os.makedirs(os.path.dirname(path), mode=0o700, exist_ok=True)
+        handle, temporary = tempfile.mkstemp(dir=os.path.dirname(path))
+        with os.fdopen(handle, "wb") as file:
+            file.write(state.encode() + b"\n")
+            pickler = pickle.Pickler(file, protocol=5)
+            pickler.dispatch_table = _reducers()
+            pickler.dump(value)
+        os.replace(temporary, path)
+    except OSError:
+        if temporary and os.path.exists(temporary):
+            os.unlink(temporary)
 
 
 def _reducers() -> dict[type, Callable[[Any], tuple[type, tuple[Any, ...]]]]:
@@ -104,6 +166,11 @@ def _parts(fact: tuple[Any, ...]) -> tuple[type, tuple[Any, ...]]:
     return fact.__class__, tuple(fact)
 
 
+def _bare(told: Any) -> Any:
+    """Return the entries of a directory as plain tuples, which are equal to them and read faster."""
+    return [tuple(entry) for entry in told] if isinstance(told, list) else told
+
+
 def _stamp(tree: Tree, path: str) -> Stamp | None:
     try:
         return tree.stamp(path)
@@ -111,16 +178,32 @@ def _stamp(tree: Tree, path: str) -> Stamp | None:
         return None
 
 
-def _state() -> str:
-    """Return what the facts depend on besides the files: the interpreter and the very code of the collectors."""
+def _digest(text: str) -> str:
+    return hashlib.sha256(text.encode("utf-8", "surrogateescape")).hexdigest()[:24]
+
+
+def _state(files: Iterable[str]) -> str:
+    """Return what tells one interpreter and one state of some files from another."""
+    stamps = []
+    for file in sorted(files):
+        try:
+            found = os.stat(file)
+            stamps.append(f"{file}{found.st_mtime_ns}{found.st_size}")
+        except OSError:
+            stamps.append(file)
+    return f"ros-lint {__version__} {sys.implementation.cache_tag} {_digest(' '.join([sys.version, *stamps]))}"
+
+
+def _collectors() -> Iterator[str]:
+    """Yield the files that the facts of a file depend on."""
     here = os.path.dirname(os.path.abspath(__file__))
-    code = []
-    for directory in (here, os.path.join(here, "collectors")):
-        with os.scandir(directory) as entries:
-            code += [
-                f"{entry.name}{(found := entry.stat()).st_mtime_ns}{found.st_size}"
-                for entry in sorted(entries, key=lambda entry: entry.name)
-                if entry.name.endswith(".py")
-            ]
-    digest = hashlib.sha256("".join(code).encode()).hexdigest()[:16]
-    return f"ros-lint {__version__} {sys.implementation.cache_tag} {digest}"
+    for place in (here, os.path.join(here, "collectors")):
+        with os.scandir(place) as entries:
+            yield from [entry.path for entry in entries if entry.name.endswith(".py")]
+
+
+def files_below(place: str) -> Iterator[str]:
+    """Yield all files below a folder, those left out that Python makes of others."""
+    for folder, folders, files in os.walk(place):
+        folders[:] = [name for name in folders if name != "__pycache__"]
+        yield from [os.path.join(folder, file) for file in files]

@@ -15,7 +15,7 @@ from ros_lint.collectors.cmake_syntax import Parsed
 from ros_lint.facts import FileFacts, LaunchFile
 from ros_lint.suppress import Suppression
 from ros_lint.text import Text, read
-from ros_lint.tree import DiskTree, Tree
+from ros_lint.tree import DiskTree, RecordedTree, Tree
 
 Kind = Literal["manifest", "cpp", "python", "cmake", "interface", "xml", "yaml", "resource", "java", "rust", "cargo", "matlab"]
 
@@ -114,8 +114,9 @@ def collect_all(
     fresh: dict[str, Collected] = {}
     processes = jobs or min(os.cpu_count() or 1, 8, len(missing) // _FILES_A_PROCESS)
     chunks: Iterable[dict[str, Collected]]
-    if processes > 1 and isinstance(tree, DiskTree):
-        chunks = _in_processes(tree, missing, processes)
+    disk = tree.disk if isinstance(tree, RecordedTree) else tree
+    if processes > 1 and isinstance(disk, DiskTree):
+        chunks = _in_processes(disk, missing, processes)
     else:
         chunks = (_collect_chunk(tree, missing[at : at + 100]) for at in range(0, len(missing), 100))
     enabled = gc.isenabled()

@@ -13,9 +13,10 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from ros_lint.options import BY_NAME, OPTIONS, Option
+from ros_lint.report import RefusalError
 
 
-class ConfigError(Exception):
+class ConfigError(RefusalError):
     """Settings that cannot be used. The message names the place and the way out."""
 
 

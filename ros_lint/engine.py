@@ -9,13 +9,13 @@ from typing import NamedTuple
 from ros_lint import suppress
 from ros_lint.knowledge import KnowledgeError
 from ros_lint.registry import matching, suggest
-from ros_lint.report import Crash, Hidden, Issue
+from ros_lint.report import Crash, Hidden, Issue, RefusalError
 from ros_lint.rule import Confidence, Rule, Severity
 from ros_lint.suppress import Suppression
 from ros_lint.workspace import Package, Workspace
 
 
-class SelectionError(Exception):
+class SelectionError(RefusalError):
     """A rule that is asked for and does not exist."""
 
 

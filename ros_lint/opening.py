@@ -4,19 +4,42 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ros_lint import cache, underlay
+from ros_lint import cache
 from ros_lint.config import Settings, settle
-from ros_lint.engine import matches
 from ros_lint.knowledge import Knowledge, distros, newest_lts, user_directory
-from ros_lint.load import Loader, Progress
+from ros_lint.options import OPTIONS
+from ros_lint.registry import BUILTIN
+from ros_lint.report import RefusalError
 from ros_lint.tree import DiskTree
 from ros_lint.workspace import Target
 
+if TYPE_CHECKING:
+    from ros_lint import underlay
+    from ros_lint.load import Loader, Progress
+    from ros_lint.tree import Tree
 
-class UsageError(Exception):
+
+class UsageError(RefusalError):
     """Something that was asked for cannot be done. The message names it, and the way out."""
+
+
+class Asked(NamedTuple):
+    """A workspace and settings that are known to make sense. Nothing has been read of it."""
+
+    settings: Settings
+    base: str
+    """Absolute. Every path in the output is relative to it: the root of the repository, or the workspace itself."""
+    roots: tuple[str, ...]
+    """What was asked for, relative to the base."""
+    target: Target
+    places: tuple[str, ...]
+    """Folders with data of the released world that go before those shipped."""
+    cache: str
+    """The folder for what is kept between runs, or ""."""
+    warnings: tuple[str, ...]
 
 
 class Opened(NamedTuple):
@@ -26,9 +49,9 @@ class Opened(NamedTuple):
     settings: Settings
     knowledge: Knowledge
     base: str
-    """Absolute. Every path in the output is relative to it: the root of the repository, or the workspace itself."""
+    """As in :class:`Asked`."""
     roots: tuple[str, ...]
-    """What was asked for, relative to the base."""
+    """As in :class:`Asked`."""
     warnings: tuple[str, ...]
 
 
@@ -37,6 +60,11 @@ def open_workspace(said: Mapping[str, Any], environment: Mapping[str, str], prog
 
     ``said`` is what :func:`ros_lint.arguments.parse` gives. Raises UsageError, ConfigError and KnowledgeError.
     """
+    return opened(ask(said, environment), progress)
+
+
+def ask(said: Mapping[str, Any], environment: Mapping[str, str]) -> Asked:
+    """Return what the options name. Raises UsageError and ConfigError."""
     paths = [os.path.realpath(path) for path in said.get("paths") or ["."]]
     for path, written in zip(paths, said.get("paths") or ["."], strict=True):
         if not os.path.exists(path):
@@ -49,26 +77,69 @@ def open_workspace(said: Mapping[str, Any], environment: Mapping[str, str], prog
     )
     places = (user_directory(environment),)
     target, warnings = _target(settings, places)
-    knowledge = Knowledge(target.distro, places)
-    underlays, unread = _underlays(settings, target.distro, base)
     roots = tuple("" if path == base else os.path.relpath(path, base).replace(os.sep, "/") for path in paths)
+    return Asked(settings, base, roots, target, places, cache.folder(environment) if settings["cache"] else "", warnings)
+
+
+def opened(asked: Asked, progress: Progress, tree: Tree | None = None) -> Opened:
+    """Return a workspace that is ready to be loaded, from a tree that stands for its base if need be.
+
+    Raises UsageError and KnowledgeError.
+    """
+    from ros_lint.load import Loader  # noqa: PLC0415  (all that reads a workspace, of which a kept report needs nothing)
+
+    settings, base = asked.settings, asked.base
+    knowledge = Knowledge(asked.target.distro, asked.places)
+    underlays, unread = _underlays(settings, asked.target.distro, base)
     loader = Loader(
-        DiskTree(base),
-        roots,
-        target,
+        tree or DiskTree(base),
+        asked.roots,
+        asked.target,
         underlays=underlays,
         knowledge=knowledge,
         exclude=_excluder(settings["exclude"]),
         jobs=settings["jobs"],
-        cache=cache.Cache(cache.folder(environment) if settings["cache"] else "", base),
+        cache=cache.Cache(asked.cache, base),
         progress=progress,
     )
-    return Opened(loader, settings, knowledge, base, roots, (*warnings, *unread))
+    return Opened(loader, settings, knowledge, base, asked.roots, (*asked.warnings, *unread))
+
+
+_OF_NO_MATTER = frozenset((
+    "cache", "color", "config", "diff", "fail-on", "fix", "format", "isolated", "jobs", "output", "progress", "show-settings",
+    "unsafe-fixes",
+))  # fmt: skip
+"""Settings that the report does not depend on: it does on what a configuration file says, and not on where it lies."""
+
+
+_LIBRARIES = ("libcst", "lxml", "networkx", "yaml")
+"""What takes part in reading a workspace besides Python and our own code."""
+
+
+def reports(asked: Asked) -> cache.Reports:
+    """Return the reports that are kept of what is asked for.
+
+    None are while underlays or plugins take part: nobody watches all the files that these read.
+    """
+    settings = asked.settings
+    if not asked.cache or settings["underlay"] or settings["plugins"]:
+        return cache.Reports("", asked.base, "", ())
+    values = [(option.name, settings[option.name]) for option in OPTIONS if option.name not in _OF_NO_MATTER]
+    rules = find_spec(BUILTIN)
+    folders = [*(rules.submodule_search_locations or () if rules else ()), *asked.places]
+    libraries = [spec.origin or "" for name in _LIBRARIES if (spec := find_spec(name))]
+    data = [*libraries, *(file for folder in folders for file in cache.files_below(folder))]
+    said = repr((asked.roots, asked.target, values))
+    return cache.Reports(asked.cache, asked.base, said, data)
 
 
 def _underlays(settings: Settings, distro: str, base: str) -> tuple[tuple[underlay.Underlay, ...], tuple[str, ...]]:
     """Return the underlays and warnings. What was asked for must be one; what merely lies in the environment need not."""
     prefixes = [prefix for prefix in settings["underlay"] if prefix]
+    if not prefixes:
+        return (), ()
+    from ros_lint import underlay  # noqa: PLC0415
+
     if settings.origin("underlay") != "AMENT_PREFIX_PATH":
         try:
             return underlay.read(prefixes, distro), ()
@@ -84,9 +155,9 @@ def _underlays(settings: Settings, distro: str, base: str) -> tuple[tuple[underl
     return tuple(found), tuple(warnings)
 
 
-def no_packages(opened: Opened) -> str:
+def no_packages(asked: Asked | Opened) -> str:
     """Return what to say when there is nothing to work on."""
-    places = ", ".join(root or opened.base for root in opened.roots)
+    places = ", ".join(root or asked.base for root in asked.roots)
     return f"ros-lint: no package found below {places}; is there a package.xml?"
 
 
@@ -125,4 +196,6 @@ def _target(settings: Settings, places: Sequence[str]) -> tuple[Target, tuple[st
 def _excluder(patterns: Sequence[str]) -> Callable[[str], bool]:
     if not patterns:
         return lambda path: False
+    from ros_lint.engine import matches  # noqa: PLC0415
+
     return lambda path: any(matches(path, pattern) for pattern in patterns)

@@ -13,13 +13,14 @@ from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from types import ModuleType
 
+from ros_lint.report import RefusalError
 from ros_lint.rule import Rule
 
 GROUP = "ros_lint.rules"
 BUILTIN = "ros_lint_rules"
 
 
-class PluginError(Exception):
+class PluginError(RefusalError):
     """A plugin that cannot be loaded, or that brings a name or code which is taken."""
 
 

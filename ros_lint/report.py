@@ -9,6 +9,10 @@ if TYPE_CHECKING:
     from ros_lint.workspace import NotChecked, Target
 
 
+class RefusalError(Exception):
+    """The tool cannot do what was asked for. The message names the reason, and the way out."""
+
+
 class Issue(NamedTuple):
     """A finding with the rule that made it and the package that has to change, "" when it is none of the workspace."""
 

@@ -7,7 +7,7 @@ Paths are relative to the base of the tree, with forward slashes; the base itsel
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from operator import itemgetter
 from typing import Literal, NamedTuple, Protocol
 
@@ -122,6 +122,73 @@ class DiskTree:
 
     def identity(self, path: str) -> str:
         return os.path.realpath(os.path.join(self._base, path))
+
+
+Told = list[Entry] | Stamp | str | int
+"""What a tree says to a question, or the number of the error."""
+
+
+class RecordedTree:
+    """A disk that takes down what it is asked and what it says, so that it can be asked the same another day.
+
+    ``steady`` turns False when it says two things to one question: then somebody writes while a run reads.
+    """
+
+    def __init__(self, disk: DiskTree) -> None:
+        self.disk = disk
+        self.said: dict[tuple[str, str], Told] = {}
+        self.steady = True
+
+    def list(self, path: str) -> list[Entry]:
+        try:
+            entries = self.disk.list(path)
+        except OSError as error:
+            self._note("list", path, error.errno or 0)
+            raise
+        self._note("list", path, entries)
+        return entries
+
+    def read(self, path: str) -> bytes:
+        try:
+            self.stamp(path)  # before, so that what changes meanwhile counts as changed
+            return self.disk.read(path)
+        except OSError as error:
+            self._note("read", path, error.errno or 0)
+            raise
+
+    def stamp(self, path: str) -> Stamp:
+        known = self.said.get(("stamp", path))
+        if isinstance(known, Stamp):
+            return known
+        try:
+            stamp = self.disk.stamp(path)
+        except OSError as error:
+            self._note("stamp", path, error.errno or 0)
+            raise
+        self.said["stamp", path] = stamp
+        return stamp
+
+    def identity(self, path: str) -> str:
+        identity = self.disk.identity(path)
+        self._note("identity", path, identity)
+        return identity
+
+    def _note(self, question: str, path: str, told: Told) -> None:
+        if self.said.setdefault((question, path), told) != told:
+            self.steady = False
+
+
+def says_the_same(tree: DiskTree, said: Iterable[tuple[tuple[str, str], Told]]) -> bool:
+    """Return whether a tree says today what a :class:`RecordedTree` took down."""
+    return all(_asked(tree, question, path) == told for (question, path), told in said)
+
+
+def _asked(tree: DiskTree, question: str, path: str) -> Told | bytes:
+    try:
+        told: Told | bytes = getattr(tree, question)(path)
+    except OSError as error:
+        return error.errno or 0
+    return told
 
 
 class MemoryTree:

@@ -61,11 +61,14 @@ def test_a_changed_file_is_read_again(tmp_path: Path) -> None:
 def test_a_cache_that_somebody_planted_is_not_obeyed(tmp_path: Path) -> None:
     shuffled_copy(DEMO, tmp_path / "ws", 1)
     want = lint("ws", tmp_path, tmp_path, "--format", "concise")
-    (cache,) = (tmp_path / "cache" / "ros-lint").iterdir()
-    head = cache.read_bytes().partition(b"\n")[0]
+    kept = list((tmp_path / "cache" / "ros-lint").iterdir())
+    assert {cache.suffix for cache in kept} == {".facts", ".report"}
     marker = tmp_path / "planted"
-    cache.write_bytes(head + b"\ncposix\nsystem\n(S'touch " + str(marker).encode() + b"'\ntR.")
+    for cache in kept:
+        head = cache.read_bytes().partition(b"\n")[0]
+        cache.write_bytes(head + b"\ncposix\nsystem\n(S'touch " + str(marker).encode() + b"'\ntR.")
     assert lint("ws", tmp_path, tmp_path, "--format", "concise") == want
     assert not marker.exists()
-    cache.write_bytes(head + b"\n\x80\x05garbage")
+    for cache in kept:
+        cache.write_bytes(cache.read_bytes().partition(b"\n")[0] + b"\n\x80\x05garbage")
     assert lint("ws", tmp_path, tmp_path, "--format", "concise") == want

@@ -7,17 +7,19 @@ import sys
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from ros_lint import __version__, engine, registry
-from ros_lint.config import ConfigError, Settings
-from ros_lint.knowledge import KnowledgeError
-from ros_lint.opening import Opened, UsageError, no_packages, open_workspace
+from ros_lint import __version__, opening
 from ros_lint.progress import Progress
-from ros_lint.report import Hidden, Report, Unseen
+from ros_lint.report import Hidden, RefusalError, Report, Unseen
 from ros_lint.rule import Severity
-from ros_lint.workspace import Workspace
+from ros_lint.text import Text, read
+from ros_lint.tree import DiskTree, RecordedTree
 
 if TYPE_CHECKING:
+    from ros_lint import engine
+    from ros_lint.config import Settings
+    from ros_lint.opening import Asked, Opened
     from ros_lint.reporters.ansi import Style
+    from ros_lint.workspace import Workspace
 
 Said = Mapping[str, Any]
 
@@ -30,29 +32,52 @@ def run(said: Said) -> int:
     progress = Progress(sys.stderr, wanted=said.get("progress", True))
     try:
         with progress:
-            opened = open_workspace(said, os.environ, progress.tell)
-            if opened.settings["show-settings"]:
-                print(opened.settings.show(), end="")
+            asked = opening.ask(said, os.environ)
+            if asked.settings["show-settings"]:
+                print(asked.settings.show(), end="")
                 return 0
-            selection = select(opened.settings)
-            if opened.settings["fix"] or opened.settings["diff"]:
-                from ros_lint.commands import mend  # noqa: PLC0415
-
-                report, code = mend.run(opened, selection)
+            if asked.settings["fix"] or asked.settings["diff"]:
+                report, code, warnings = _mended(asked, progress)
             else:
-                report, code = check(opened, opened.loader.load(), selection), 0
-    except (UsageError, ConfigError, KnowledgeError, engine.SelectionError, registry.PluginError) as error:
+                report, warnings = _checked(asked, progress)
+                code = 0
+    except RefusalError as error:
         print(f"ros-lint: {error}", file=sys.stderr)
         return 2
-    for warning in opened.warnings:
+    for warning in warnings:
         print(f"ros-lint: {warning}", file=sys.stderr)
-    if opened.settings["diff"]:  # standard output holds a patch and nothing else
-        return max(code, exit_code(report, opened.settings["fail-on"]))
-    return max(code, _print(report, opened))
+    if asked.settings["diff"]:  # standard output holds a patch and nothing else
+        return max(code, exit_code(report, asked.settings["fail-on"]))
+    return max(code, _print(report, asked))
+
+
+def _checked(asked: Asked, progress: Progress) -> tuple[Report, tuple[str, ...]]:
+    """Return the report of a run, or the one of an earlier run if nothing that it depends on has changed; and warnings."""
+    reports = opening.reports(asked)
+    tree = DiskTree(asked.base)
+    kept = reports.fetch(tree)
+    if kept is not None:
+        return kept, asked.warnings
+    recorded = RecordedTree(tree)
+    opened = opening.opened(asked, progress.tell, recorded if reports else tree)
+    selection = select(asked.settings)
+    report = check(opened, opened.loader.load(), selection)
+    reports.store(recorded, report)
+    return report, opened.warnings
+
+
+def _mended(asked: Asked, progress: Progress) -> tuple[Report, int, tuple[str, ...]]:
+    from ros_lint.commands import mend  # noqa: PLC0415
+
+    opened = opening.opened(asked, progress.tell)
+    report, code = mend.run(opened, select(asked.settings))
+    return report, code, opened.warnings
 
 
 def select(settings: Settings) -> engine.Selection:
     """Return the rules that the settings select. Raises SelectionError and PluginError."""
+    from ros_lint import engine, registry  # noqa: PLC0415  (all the rules, of which a kept report needs none)
+
     return engine.select(
         registry.load(settings["plugins"]),
         chosen=settings["select"],
@@ -66,6 +91,8 @@ def select(settings: Settings) -> engine.Selection:
 
 def check(opened: Opened, workspace: Workspace, selection: engine.Selection) -> Report:
     """Return what the selected rules say of a workspace, suppressions and settings respected."""
+    from ros_lint import engine, registry  # noqa: PLC0415
+
     known = registry.load(opened.settings["plugins"])
     checked = engine.check(workspace, selection.rules, opened.loader.suppressions(), known)
     shown, hidden = engine.show(checked.issues, selection)
@@ -95,12 +122,20 @@ def exit_code(report: Report, fail_on: str) -> int:
     return int(any(issue.severity >= Severity[fail_on.upper()] for issue in report.issues))
 
 
-def _print(report: Report, opened: Opened) -> int:
+def _print(report: Report, asked: Asked) -> int:
     from ros_lint import reporters  # noqa: PLC0415
 
-    settings = opened.settings
+    settings = asked.settings
+    tree = DiskTree(asked.base)
+
+    def text_of(path: str) -> Text | None:
+        try:
+            return read(path, tree.read(path))
+        except OSError:
+            return None
+
     render = reporters.reporter(settings["format"])
-    text = render(report, opened.loader.text, _style(settings))
+    text = render(report, text_of, _style(settings))
     if settings["output"]:
         try:
             with open(settings["output"], "w", encoding="utf-8", newline="\n") as file:
@@ -112,7 +147,7 @@ def _print(report: Report, opened: Opened) -> int:
         sys.stdout.buffer.write(text.encode("utf-8", "backslashreplace"))
         sys.stdout.buffer.flush()
     if not report.packages:
-        print(no_packages(opened), file=sys.stderr)
+        print(opening.no_packages(asked), file=sys.stderr)
     return exit_code(report, settings["fail-on"])
 
 

@@ -12,13 +12,15 @@ from bisect import bisect_left
 from operator import gt
 from typing import TYPE_CHECKING
 
+from ros_lint.report import RefusalError
+
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
 SHIPPED = os.path.join(os.path.dirname(os.path.abspath(__file__)), "data")
 
 
-class KnowledgeError(Exception):
+class KnowledgeError(RefusalError):
     """A data file cannot be read, or is none. The message names the file and the way out."""
 
 
