@@ -22,7 +22,8 @@ In `CMakeLists.txt` add the folder to `install(DIRECTORY ... DESTINATION share/$
 - What a command of the build names, such as the file that `generate_parameter_library()` reads, is taken for its input.
 - Pictures in `images/` and `media/` that nothing names: they are there for the documentation.
 - A folder that nothing in the package names has medium confidence: it may serve documentation, or be left over. Not so if
-  other folders of the kind are installed and its files serve at run time alone: displays, maps, models, parameters.
+  other folders of the kind are installed and its files serve at run time alone: displays, maps, models, parameters; or if
+  they are parameters of nodes (`ros__parameters`), and the package has nodes.
 """
 
 from __future__ import annotations
@@ -43,6 +44,7 @@ from ros_lint.api import (
     cmake_edits,
     is_apart,
     launchable,
+    relative,
     setup_edits,
     uninstalled_resources,
 )
@@ -129,6 +131,7 @@ def _folders(package: Package, kept: set[str], told: set[str]) -> Iterator[Findi
     places = dict(script.named)
     inputs = frozenset(script.inputs)
     shared = _shared(package)
+    of_nodes = _of_nodes(package)
     for folder, found in uninstalled_resources(package.files, kept).items():
         files = [file for file in found if file not in launches and file not in inputs]
         if folder.partition("/")[0] in _PICTURES and not any(file in places for file in files):
@@ -146,7 +149,7 @@ def _folders(package: Package, kept: set[str], told: set[str]) -> Iterator[Findi
             f"{folder}/",
             tuple(Related(f"{file.rpartition('/')[2]} is named here", places[file]) for file in looked_up[:4]),
             fix=_fix(package, f"{folder}/") if "/" not in folder else None,
-            confidence=_confidence(folder, files, looked_up, shared and f"{folder}/" not in inputs),
+            confidence=_confidence(folder, files, looked_up, shared and f"{folder}/" not in inputs, of_nodes),
             severity=Severity.WARNING,
         )
 
@@ -161,13 +164,26 @@ def _shared(package: Package) -> bool:
     )
 
 
-def _confidence(folder: str, files: list[str], looked_up: list[str], shared: bool) -> Confidence:
+def _of_nodes(package: Package) -> frozenset[str]:
+    """Return the files with parameters of nodes, for a package that installs nodes."""
+    script = package.script
+    assert script is not None
+    installs = script.components or any(provided.path.startswith(f"lib/{package.name}/") for provided in script.provides)
+    if not installs or "example" in package.name:
+        return frozenset()
+    return frozenset(relative(package, file.path) for file in package.parameter_files if file.nodes)
+
+
+def _confidence(
+    folder: str, files: list[str], looked_up: list[str], shared: bool, of_nodes: frozenset[str]
+) -> Confidence:
     if looked_up:
         return Confidence.HIGH
     if folder.partition("/")[0] in _DOCUMENTS:
         return Confidence.LOW
     for_run_time = any(file.endswith(_RUN_TIME) and "example" not in file for file in files)
-    return Confidence.HIGH if shared and for_run_time else Confidence.MEDIUM
+    for_nodes = any(file in of_nodes and "example" not in file for file in files)
+    return Confidence.HIGH if (shared and for_run_time) or for_nodes else Confidence.MEDIUM
 
 
 def _fix(package: Package, unit: str) -> Fix | None:
