@@ -19,3 +19,12 @@ def unified(path: str, before: str | None, after: str, context: int = 1) -> str:
 def _lines(text: str) -> list[str]:
     """Split at line feeds only: str.splitlines knows more line ends than patch does."""
     return re.findall(r"[^\n]*\n|[^\n]+", text)
+
+
+def line_before(before: str, after: str, line: int) -> int:
+    """Return the line of the old text that a line of the new one was, or the one that came to stand there. Lines count from 1."""
+    old, new = _lines(before), _lines(after)
+    for _, old_start, old_end, new_start, new_end in difflib.SequenceMatcher(None, old, new, autojunk=False).get_opcodes():
+        if line - 1 < new_end:
+            return max(min(old_start + line - 1 - new_start, old_end - 1), 0) + 1
+    return max(len(old), 1)

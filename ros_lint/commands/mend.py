@@ -9,15 +9,17 @@ from __future__ import annotations
 import gc
 import sys
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from ros_lint import edits, engine, registry
 from ros_lint.commands import check
 from ros_lint.opening import Opened
+from ros_lint.patch import line_before, unified
 from ros_lint.report import Issue, Report
 from ros_lint.rule import Confidence
-from ros_lint.text import Text, read
+from ros_lint.text import Span, Text, read
+from ros_lint.workspace import Workspace
 
 _MOST_ROUNDS = 100
 """Fixes make way for others, and of those that are at odds one is made a round. No workspace needs as many."""
@@ -30,27 +32,27 @@ class Mended(NamedTuple):
     """New content by path."""
     made: tuple[Issue, ...]
     withheld: tuple[tuple[Issue, str], ...]
-    """Issues whose fix was not made, and why."""
+    """Issues whose fix was not made, at their place in the files as they are, and why."""
 
 
 def run(opened: Opened, selection: engine.Selection) -> tuple[Report, int]:
     """Show or make the fixes. Returns the report of what is left, and 2 when files could not be written."""
     gc.enable()  # the workspace is loaded again and again, and what is left of the last time has to go
-    mended = mend(opened, selection)
+    proof = _Proof(opened, selection)
+    mended = _mended(proof)
     for issue, reason in mended.withheld:
         print(f"ros-lint: {issue.finding.span}: not mended, {reason} [{issue.rule.name}]", file=sys.stderr)
     if opened.settings["diff"]:
         sys.stdout.write(diff(opened, mended.changed))
         sys.stdout.flush()
-        return check.check(opened, opened.loader.load(), selection), 0
-    code = 0
+        return check.check(opened, proof.trial({}).workspace, selection), 0
     try:
         edits.write_all(opened.base, mended.changed)
         print(f"ros-lint: {_told(len(mended.made), len(mended.changed))}", file=sys.stderr)
     except edits.EditError as error:
         print(f"ros-lint: {error}", file=sys.stderr)
-        return check.check(opened, opened.loader.load(), selection), 2
-    return check.check(opened, opened.loader.load(mended.changed), selection), code
+        return check.check(opened, proof.trial({}).workspace, selection), 2
+    return check.check(opened, proof.trial(mended.changed).workspace, selection), 0
 
 
 def _told(count: int, files: int) -> str:
@@ -61,41 +63,129 @@ def _told(count: int, files: int) -> str:
 
 def mend(opened: Opened, selection: engine.Selection) -> Mended:
     """Return every fix of the selected rules that can be proven, nothing written."""
-    proof = _Proof(opened, selection)
-    changed: dict[str, bytes] = {}
+    return _mended(_Proof(opened, selection))
+
+
+def _mended(proof: _Proof) -> Mended:
+    changed: Mapping[str, bytes] = {}
     made: list[Issue] = []
-    withheld: dict[str, tuple[Issue, str]] = {}
-    helped = False
     for _ in range(_MOST_ROUNDS):
-        before = proof.issues(changed)
-        wanted = [issue for issue in proof.fixable(before) if issue.identity not in withheld]
-        chosen = edits.choose(issue.finding.fix for issue in wanted if issue.finding.fix)
-        group = [issue for issue in wanted if issue.finding.fix in chosen]
-        if group and (alone := proof.culprits(changed, before, group)) is not None:
-            withheld.update((issue.identity, (issue, reason)) for issue, reason in alone.items())
-            group = [issue for issue in group if issue not in alone]
-            while len(group) > 1 and proof.complaint(changed, before, group):
-                group = group[: len(group) // 2]  # fixes that are at odds with each other; the rest has its turn next
-        if not group:
-            if not (withheld and helped):
-                break
-            withheld, helped = {}, False  # what was made since may be what they waited for
-            continue
-        changed = proof.applied(changed, group)
-        made += group
-        helped = True
-    return Mended(changed, tuple(made), tuple(withheld.values()))
+        done = _Round(proof, changed)
+        done.run()
+        changed = done.changed
+        made += done.made
+        if not done.made:
+            break  # else what was made may be what others waited for
+    return Mended(changed, tuple(made), tuple(done.withheld.values()))
+
+
+class _Round:
+    """Makes what can be made, in groups as large as possible, each on top of those before."""
+
+    def __init__(self, proof: _Proof, changed: Mapping[str, bytes]) -> None:
+        self._proof = proof
+        self._parts: list[frozenset[str]] = []
+        self.changed = changed
+        self.made: list[Issue] = []
+        self.withheld: dict[str, tuple[Issue, str]] = {}
+
+    def run(self) -> None:
+        self._later(self._proof.fixable(self.changed))
+        while self._parts:
+            self._try(self._parts.pop())
+
+    def _try(self, part: frozenset[str]) -> None:
+        """Make some of the fixes, and leave the rest for later in smaller parts.
+
+        Most groups are large, and few of their fixes to blame for a complaint. So those stand back that it is about. If all
+        is well without them, one that has a complaint of its own needs no trial; what cannot be told apart is halved.
+        """
+        wanted = [issue for issue in self._proof.fixable(self.changed) if issue.identity in part]  # where they are by now
+        fixes = edits.choose(issue.finding.fix for issue in wanted if issue.finding.fix)
+        group = [issue for issue in wanted if issue.finding.fix in fixes]
+        self._later(issue for issue in wanted if issue not in group)
+        complaints = self._proof.complaints(self.changed, group)
+        blamed = _blamed(group, complaints)
+        others = [issue for issue in group if issue not in blamed]
+        names = list(dict.fromkeys(issue.identity for issue in group))
+        if not complaints:
+            self._make(group)
+        elif blamed and others and self._proof.complaints(self.changed, others):
+            self._later(blamed)
+            self._later(others)
+        elif blamed and (others or all(blamed.values())):
+            self._withhold({issue: reason for issue, reason in blamed.items() if reason})
+            self._make(others)
+            self._later(issue for issue, reason in blamed.items() if not reason)
+        elif len(names) == 1:
+            self._withhold(dict.fromkeys(group, complaints[0].reason))
+        else:
+            first = frozenset(names[: len(names) // 2])
+            self._parts += [frozenset(names) - first, first]
+
+    def _later(self, issues: Iterable[Issue]) -> None:
+        if names := frozenset(issue.identity for issue in issues):
+            self._parts.append(names)
+
+    def _make(self, group: Sequence[Issue]) -> None:
+        self.changed = self._proof.applied(self.changed, group)
+        self.made += group
+
+    def _withhold(self, reasons: Mapping[Issue, str]) -> None:
+        for issue, reason in reasons.items():
+            self.withheld[issue.identity] = (self._proof.as_it_is(self.changed, issue), reason)
 
 
 def diff(opened: Opened, changed: Mapping[str, bytes]) -> str:
     """Return the changes as one patch."""
-    from ros_lint.patch import unified  # noqa: PLC0415
-
     parts = []
     for path, data in sorted(changed.items()):
         before = opened.loader.text(path)
         parts.append(unified(path, before.text if before else None, read(path, data).text))
     return "".join(parts)
+
+
+class _Trial(NamedTuple):
+    """A workspace with changes, and what the rules say of it."""
+
+    changed: Mapping[str, bytes]
+    workspace: Workspace
+    issues: tuple[Issue, ...]
+
+
+class _Complaint(NamedTuple):
+    """Something that is wrong with fixes: in which package, and with which dependency, file or executable."""
+
+    reason: str
+    package: str | None = None
+    subject: str | None = None
+
+    def suspects(self, group: Sequence[Issue]) -> list[Issue]:
+        """Return the issues whose fixes come into question first: what is missing has been removed, or is to be added twice."""
+        here = [issue for issue in group if issue.package == self.package]
+        same = [issue for issue in group if issue.finding.subject == self.subject]
+        both = [issue for issue in here if issue in same]
+        return both or [issue for issue in here if _only_removes(issue)] or same or here
+
+
+def _only_removes(issue: Issue) -> bool:
+    fix = issue.finding.fix
+    return fix is not None and not any(edit.text.strip() for edit in fix.edits)
+
+
+def _blamed(group: Sequence[Issue], complaints: Iterable[_Complaint]) -> Mapping[Issue, str]:
+    """Return the issues that complaints are about, with the reason where one of them is about no other issue, else ""."""
+    found: dict[Issue, str] = {}
+    for complaint in complaints:
+        suspects = complaint.suspects(group)
+        for issue in suspects:
+            reason = complaint.reason if len(suspects) == 1 else ""
+            found[issue] = found.get(issue, "") or reason
+    return found
+
+
+_MOST_TRIALS = 2
+"""That are remembered beside the workspace as it is: what passed is asked for again at once, what failed is not."""
 
 
 class _Proof:
@@ -106,55 +196,62 @@ class _Proof:
         self._selection = selection
         self._every = registry.load(opened.settings["plugins"])
         self._rules = tuple(rule for rule in self._every if rule.default or rule in selection.rules)
+        self._trials: list[_Trial] = []
 
-    def issues(self, changed: Mapping[str, bytes]) -> tuple[Issue, ...]:
+    def trial(self, changed: Mapping[str, bytes]) -> _Trial:
+        for trial in self._trials:
+            if trial.changed == changed:
+                return trial
         loader = self._opened.loader
         workspace = loader.load(changed)
-        return engine.check(workspace, self._rules, loader.suppressions(changed), self._every).issues
+        issues = engine.check(workspace, self._rules, loader.suppressions(changed), self._every).issues
+        trial = _Trial(changed, workspace, issues)
+        self._trials = [*self._trials[:1], *self._trials[1:][1 - _MOST_TRIALS :], trial]
+        return trial
 
-    def fixable(self, issues: Sequence[Issue]) -> list[Issue]:
+    def fixable(self, changed: Mapping[str, bytes]) -> list[Issue]:
         """Return the issues that are shown and carry a fix of the wanted kind."""
-        shown, _ = engine.show([issue for issue in issues if issue.rule in self._selection.rules], self._selection)
+        issues = [issue for issue in self.trial(changed).issues if issue.rule in self._selection.rules]
+        shown, _ = engine.show(issues, self._selection)
         unsafe = self._opened.settings["unsafe-fixes"]
         return [issue for issue in shown if issue.finding.fix and (issue.finding.fix.safe or unsafe)]
 
-    def applied(self, changed: Mapping[str, bytes], group: Sequence[Issue]) -> dict[str, bytes]:
+    def applied(self, changed: Mapping[str, bytes], group: Iterable[Issue]) -> dict[str, bytes]:
         texts = edits.apply((issue.finding.fix for issue in group if issue.finding.fix), lambda path: self._text(changed, path))
         return {**changed, **edits.encode(texts, lambda path: self._text(changed, path))}
 
-    def complaint(self, changed: Mapping[str, bytes], before: Sequence[Issue], group: Sequence[Issue]) -> str:
-        """Return what is wrong with the fixes of a group, or ""."""
+    def complaints(self, changed: Mapping[str, bytes], group: Sequence[Issue]) -> tuple[_Complaint, ...]:
+        """Return what is wrong with the fixes of a group, nothing if they can be made."""
+        if not group:
+            return ()
         try:
             new = self.applied(changed, group)
         except edits.EditError as error:
-            return str(error)
-        had = Counter(issue.identity for issue in before)
-        after = self.issues(new)
+            return (_Complaint(str(error)),)
+        had = Counter(issue.identity for issue in self.trial(changed).issues)
+        after = self.trial(new).issues
         has = Counter(issue.identity for issue in after)
-        for issue in after:
-            # What is less than certain, or asked for only, may change: a need that was undeclared can become a transitive one.
-            serious = issue.rule.default and issue.finding.confidence is Confidence.HIGH
-            if serious and has[issue.identity] > had[issue.identity]:
-                return f"because then {issue.finding.message}"
-        if any(has[issue.identity] >= had[issue.identity] for issue in group):
-            return "because the fix does not help"
-        return ""
+        # What is less than certain, or asked for only, may change: a need that was undeclared can become a transitive one.
+        serious = (issue for issue in after if issue.rule.default and issue.finding.confidence is Confidence.HIGH)
+        found = [
+            _Complaint(f"because then {issue.finding.message}", issue.package, issue.finding.subject)
+            for issue in serious
+            if has[issue.identity] > had[issue.identity]
+        ]
+        idle = (issue for issue in group if has[issue.identity] >= had[issue.identity])
+        found += [_Complaint("because the fix does not help", issue.package, issue.finding.subject) for issue in idle]
+        return tuple(found)
 
-    def culprits(
-        self, changed: Mapping[str, bytes], before: Sequence[Issue], group: Sequence[Issue]
-    ) -> dict[Issue, str] | None:
-        """Return the issues whose fixes are to blame for a complaint, each with its own; None when there is none.
-
-        Halves are tried before single fixes: most groups are large, and few of their fixes to blame.
-        """
-        complaint = self.complaint(changed, before, group)
-        if not complaint:
-            return None
-        if len(group) == 1:
-            return {group[0]: complaint}
-        middle = len(group) // 2
-        halves = (self.culprits(changed, before, group[:middle]), self.culprits(changed, before, group[middle:]))
-        return {issue: reason for half in halves if half for issue, reason in half.items()}
+    def as_it_is(self, changed: Mapping[str, bytes], issue: Issue) -> Issue:
+        """Return an issue of a workspace with changes at its place in the files as they are."""
+        span = issue.finding.span
+        if span.path not in changed:
+            return issue
+        before = edits.text_of(self._opened.loader.tree, span.path).text
+        after = self._text(changed, span.path).text
+        line, end = (line_before(before, after, number) for number in (span.line, span.end_line))
+        place = Span(span.path, line, span.column, max(line, end), span.end_column)
+        return issue._replace(finding=issue.finding._replace(span=place))
 
     def _text(self, changed: Mapping[str, bytes], path: str) -> Text:
         if path in changed:

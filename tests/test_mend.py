@@ -1,0 +1,79 @@
+"""Which fixes are made, with a proof that knows who is to blame; and where those stand that are not."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from random import Random
+
+import pytest
+
+from ros_lint.commands import mend
+from ros_lint.patch import line_before
+from ros_lint.report import Issue
+from ros_lint.rule import Edit, Finding, Fix, Rule, Severity
+from ros_lint.text import Span
+
+RULE = Rule("r", "ROS999", "s", Severity.ERROR, "0.1", "", package=lambda package, workspace: ())
+
+
+def issue(number: int, package: str, text: str = "") -> Issue:
+    span = Span("f", number + 1, 1, number + 1, 2)
+    return Issue(RULE, package, Finding("m", span, f"s{number}", fix=Fix("t", (Edit(span, text),))))
+
+
+class Proof(mend._Proof):
+    """Fixes that do harm, each in the package named, or that are at odds with another one."""
+
+    def __init__(self, issues: Sequence[Issue], harm: Mapping[str, str], odds: Sequence[tuple[str, str]] = ()) -> None:
+        self._issues = issues
+        self._harm = harm
+        self._odds = odds
+        self.trials: set[frozenset[str]] = set()
+
+    def fixable(self, changed: Mapping[str, bytes]) -> list[Issue]:
+        return [issue for issue in self._issues if issue.finding.subject not in changed]
+
+    def applied(self, changed: Mapping[str, bytes], group: Iterable[Issue]) -> dict[str, bytes]:
+        return {**changed, **{issue.finding.subject: b"" for issue in group}}
+
+    def complaints(self, changed: Mapping[str, bytes], group: Sequence[Issue]) -> tuple[mend._Complaint, ...]:
+        made = frozenset(self.applied(changed, group))
+        self.trials.add(made)
+        found = [mend._Complaint(name, package, "x") for name, package in self._harm.items() if name in made]
+        return (*found, *(mend._Complaint("at odds") for one, other in self._odds if one in made and other in made))
+
+    def as_it_is(self, changed: Mapping[str, bytes], issue: Issue) -> Issue:
+        return issue
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_all_that_is_harmless_is_made(seed: int) -> None:
+    random = Random(seed)
+    issues = [issue(number, f"p{random.randrange(30)}", random.choice(("", "text"))) for number in range(60)]
+    bad = random.sample(range(60), random.randrange(6))
+    # Half of the harm shows where the fix is, half somewhere else.
+    harm = {f"s{number}": issues[number].package if number % 2 else f"p{random.randrange(30)}" for number in bad}
+    left = [number for number in range(60) if number not in bad]
+    odds = [(f"s{a}", f"s{b}") for a, b in zip(random.sample(left, 2), random.sample(left, 2), strict=True) if a != b]
+    done = mend._mended(Proof(issues, harm, odds))
+    made = {issue.finding.subject for issue in done.made}
+    withheld = {issue.finding.subject for issue, _ in done.withheld}
+    assert made | withheld == {issue.finding.subject for issue in issues}
+    assert not made & harm.keys()
+    assert not any(one in made and other in made for one, other in odds)
+    for name in withheld - harm.keys():
+        assert any(name in pair for pair in odds)
+        assert any(made.intersection(pair) for pair in odds if name in pair)
+
+
+def test_a_few_trials_find_who_is_to_blame() -> None:
+    issues = [issue(number, f"p{number // 2}", "" if number % 2 else "text") for number in range(200)]
+    proof = Proof(issues, {f"s{number}": f"p{number // 2}" for number in (11, 51, 101, 151)})
+    done = mend._mended(proof)
+    assert {issue.finding.subject for issue, _ in done.withheld} == {"s11", "s51", "s101", "s151"}
+    assert len(proof.trials) <= 2, "all, and all but these"
+
+
+def test_the_line_as_it_was() -> None:
+    before = "a\nb\nc\nd\n"
+    assert [line_before(before, "b\nc\nnew\nd\n", line) for line in (1, 2, 4)] == [2, 3, 4]
+    assert [line_before(before, "a\nB\nc\nd\n", line) for line in (1, 2, 3, 9)] == [1, 2, 3, 4]
+    assert line_before("", "a\n", 1) == 1
