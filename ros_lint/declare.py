@@ -109,7 +109,7 @@ def is_mostly_run(workspace: Workspace, name: str) -> bool:
 
 
 def leaves_trace(package: Package, workspace: Workspace, name: str) -> bool:
-    """Whether a dependency leaves a trace if it is of use at all: messages, and modules where no Python code could import them."""
+    """Whether a dependency leaves a trace if it is of any use: messages, and modules where no Python code could import them."""
     world = workspace.world
     released = world.released(name)
     if released is None:

@@ -261,15 +261,16 @@ def may_bring(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
     library = (workspace.world.is_key(name) and not name.startswith("python3-")) or name.endswith("_vendor")
     plumbing = name.startswith(("rosidl_", "builtin_", "action_msgs", "service_msgs", "unique_identifier_msgs"))
     for each in unknown:
+        brings = workspace.world.knowledge.brings_elsewhere(each, name)
+        if brings:
+            return True
+        if brings is False:  # then it is known well enough, if the name is the same there
+            continue
         if _is_no_package(each, workspace) or (tool and not any(word in each for word in _OF_TOOLS)):
             continue
         if each.endswith(("_msgs", "_interfaces", "_srvs", "_msg")) and not (messages or plumbing):
             continue
-        if library:
-            return True
-        if workspace.world.knowledge.elsewhere(each):  # then it is known well enough, if the name is the same there
-            if workspace.world.knowledge.brings_elsewhere(each, name) is False:
-                continue
+        if library or workspace.world.knowledge.elsewhere(each):
             return True
         strange.append(each)
     return bool(strange) and (tool or not _is_far(strange, name, workspace))

@@ -203,6 +203,8 @@ def test_what_another_distribution_has_is_known_from_there() -> None:
     assert may_bring(("gazebo_ros",), "rclpy", workspace)
     assert not may_bring(("gazebo_ros",), "rviz_common", workspace)
     assert may_bring(("gazebo_ros",), "gazebo", workspace)
+    assert may_bring(("mocap4r2_msgs",), "rclcpp", workspace)  # though it is a package of messages
+    assert may_bring(("reach",), "ros_industrial_cmake_boilerplate", workspace)  # though it is no build tool
 
 
 def test_modules_with_parts_of_launch_files_are_less_than_sure() -> None:
