@@ -264,13 +264,15 @@ def may_bring(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
         brings = workspace.world.knowledge.brings_elsewhere(each, name)
         if brings:
             return True
-        if brings is False:  # then it is known well enough, if the name is the same there
-            continue
-        if _is_no_package(each, workspace) or (tool and not any(word in each for word in _OF_TOOLS)):
+        if brings is None and (_is_no_package(each, workspace) or (tool and not any(word in each for word in _OF_TOOLS))):
             continue
         if each.endswith(("_msgs", "_interfaces", "_srvs", "_msg")) and not (messages or plumbing):
             continue
-        if library or workspace.world.knowledge.elsewhere(each):
+        if library:
+            return True
+        if brings is False:  # then it is known well enough, if the name is the same there
+            continue
+        if workspace.world.knowledge.elsewhere(each):
             return True
         strange.append(each)
     return bool(strange) and (tool or not _is_far(strange, name, workspace))
