@@ -78,7 +78,7 @@ class Cache:
 class Reports:
     """The last reports about a workspace.
 
-    ``asked`` and the state of the files in ``data`` are all that a report depends on besides our code and the tree.
+    ``asked`` and the state of the files in ``data`` are all that a report depends on besides our code and the trees.
     """
 
     def __init__(self, folder: str, base: str, asked: str, data: Iterable[str]) -> None:
@@ -92,22 +92,22 @@ class Reports:
         """Whether any report is kept at all."""
         return bool(self._file)
 
-    def fetch(self, tree: DiskTree) -> Report | None:
+    def fetch(self, trees: Sequence[DiskTree]) -> Report | None:
         """Return the report that a run would make now, or None when only the run can tell."""
         kept = _load(self._file, self._state) if self._file else None
-        if not isinstance(kept, tuple):
+        if not isinstance(kept, tuple) or len(kept) != 1 + len(trees):
             return None
-        report, said = kept
-        return report if says_the_same(tree, said) else None
+        report, *said = kept
+        return report if all(map(says_the_same, trees, said)) else None
 
-    def store(self, tree: RecordedTree, report: Report) -> None:
-        """Keep a report that was made from what a tree said. It loses the functions of its rules."""
-        if not self._file or not tree.steady or report.crashes:
+    def store(self, trees: Sequence[RecordedTree], report: Report) -> None:
+        """Keep a report that was made from what some trees said. It loses the functions of its rules."""
+        if not self._file or report.crashes or not all(tree.steady for tree in trees):
             return
         bare = {rule.name: rule._replace(package=None, workspace=None, suppressions=None) for rule in report.rules}
         issues = tuple([issue._replace(rule=bare[issue.rule.name]) for issue in report.issues])
-        said = [(question, _bare(told)) for question, told in tree.said.items()]
-        _save(self._file, self._state, (report._replace(issues=issues, rules=tuple(bare.values())), said))
+        said = ([(question, _bare(told)) for question, told in tree.said.items()] for tree in trees)
+        _save(self._file, self._state, (report._replace(issues=issues, rules=tuple(bare.values())), *said))
         self._clear()
 
     def _clear(self) -> None:

@@ -81,8 +81,8 @@ def ask(said: Mapping[str, Any], environment: Mapping[str, str]) -> Asked:
     return Asked(settings, base, roots, target, places, cache.folder(environment) if settings["cache"] else "", warnings)
 
 
-def opened(asked: Asked, progress: Progress, tree: Tree | None = None) -> Opened:
-    """Return a workspace that is ready to be loaded, from a tree that stands for its base if need be.
+def opened(asked: Asked, progress: Progress, workspace: Tree | None = None, machine: Tree | None = None) -> Opened:
+    """Return a workspace that is ready to be loaded, from trees that stand for its base and the machine if need be.
 
     Raises UsageError and KnowledgeError.
     """
@@ -90,9 +90,9 @@ def opened(asked: Asked, progress: Progress, tree: Tree | None = None) -> Opened
 
     settings, base = asked.settings, asked.base
     knowledge = Knowledge(asked.target.distro, asked.places)
-    underlays, unread = _underlays(settings, asked.target.distro, base)
+    underlays, unread = _underlays(settings, asked.target.distro, base, machine)
     loader = Loader(
-        tree or DiskTree(base),
+        workspace or DiskTree(base),
         asked.roots,
         asked.target,
         underlays=underlays,
@@ -119,21 +119,24 @@ _LIBRARIES = ("libcst", "lxml", "networkx", "yaml")
 def reports(asked: Asked) -> cache.Reports:
     """Return the reports that are kept of what is asked for.
 
-    None are while underlays or plugins take part: nobody watches all the files that these read.
+    None are while plugins take part: nobody watches all the files that these are made of.
     """
     settings = asked.settings
-    if not asked.cache or settings["underlay"] or settings["plugins"]:
+    if not asked.cache or settings["plugins"]:
         return cache.Reports("", asked.base, "", ())
     values = [(option.name, settings[option.name]) for option in OPTIONS if option.name not in _OF_NO_MATTER]
     rules = find_spec(BUILTIN)
     folders = [*(rules.submodule_search_locations or () if rules else ()), *asked.places]
     libraries = [spec.origin or "" for name in _LIBRARIES if (spec := find_spec(name))]
     data = [*libraries, *(file for folder in folders for file in cache.files_below(folder))]
-    said = repr((asked.roots, asked.target, values))
+    prefixes = [os.path.abspath(prefix) for prefix in settings["underlay"] if prefix]
+    said = repr((asked.roots, asked.target, values, prefixes, settings.origin("underlay")))
     return cache.Reports(asked.cache, asked.base, said, data)
 
 
-def _underlays(settings: Settings, distro: str, base: str) -> tuple[tuple[underlay.Underlay, ...], tuple[str, ...]]:
+def _underlays(
+    settings: Settings, distro: str, base: str, machine: Tree | None
+) -> tuple[tuple[underlay.Underlay, ...], tuple[str, ...]]:
     """Return the underlays and warnings. What was asked for must be one; what merely lies in the environment need not."""
     prefixes = [prefix for prefix in settings["underlay"] if prefix]
     if not prefixes:
@@ -142,14 +145,14 @@ def _underlays(settings: Settings, distro: str, base: str) -> tuple[tuple[underl
 
     if settings.origin("underlay") != "AMENT_PREFIX_PATH":
         try:
-            return underlay.read(prefixes, distro), ()
+            return underlay.read(prefixes, distro, machine=machine), ()
         except underlay.UnderlayError as error:
             raise UsageError(str(error)) from error
     found: list[underlay.Underlay] = []
     warnings: list[str] = []
     for prefix in prefixes:
         try:
-            found += underlay.read([prefix], distro, base)
+            found += underlay.read([prefix], distro, base, machine)
         except underlay.UnderlayError as error:
             warnings.append(f"AMENT_PREFIX_PATH: {error}")
     return tuple(found), tuple(warnings)

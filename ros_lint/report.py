@@ -79,6 +79,8 @@ class Report(NamedTuple):
     crashes: tuple[Crash, ...] = ()
     workspace: str = ""
     """The folder that was checked, relative to the base that paths are relative to; "" is the base."""
+    warnings: tuple[str, ...] = ()
+    """What is odd about what was asked for: no part of the output, but told all the same."""
 
     def count(self, severity: Severity) -> int:
         """Return how many issues have a severity."""

@@ -124,6 +124,18 @@ class DiskTree:
         return os.path.realpath(os.path.join(self._base, path))
 
 
+class Machine(DiskTree):
+    """All files of the machine, by their absolute paths."""
+
+    __slots__ = ()
+
+    def __init__(self) -> None:
+        super().__init__("")
+
+    def place(self, path: str) -> str:
+        return path
+
+
 Told = list[Entry] | Stamp | str | int
 """What a tree says to a question, or the number of the error."""
 

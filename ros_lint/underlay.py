@@ -16,7 +16,7 @@ from ros_lint.knowledge.index import RUNTIME, Released
 from ros_lint.knowledge.manifests import context, describe
 from ros_lint.knowledge.provides import NOTHING_KNOWN, Known
 from ros_lint.text import read as read_text
-from ros_lint.tree import DiskTree, join
+from ros_lint.tree import Machine, join
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -138,26 +138,19 @@ class Underlay:
         return found
 
 
-def read(prefixes: Sequence[str], distro: str = "", base: str = "") -> tuple[Underlay, ...]:
+def read(prefixes: Sequence[str], distro: str = "", base: str = "", machine: Tree | None = None) -> tuple[Underlay, ...]:
     """Return the underlays at some places, in the order given: the first that has a package wins.
 
     A place is an install prefix such as ``/opt/ros/jazzy``, the ``install`` folder of a workspace (of either layout),
     one package's folder in there as AMENT_PREFIX_PATH lists it, or a workspace with an ``install`` folder. Conditions
     in manifests are evaluated for ``distro``. With ``base``, the folder of the workspace under analysis, its own
-    ``install`` folder is left out: what it has was made of the very packages that are looked at.
+    ``install`` folder is left out: what it has was made of the very packages that are looked at. ``machine`` has all files
+    by their absolute paths; without one, this machine has.
     Raises UnderlayError for any other folder.
     """
     roots = [os.path.abspath(place) for place in prefixes]
-    return tuple(in_tree(_Disk(""), root, distro) for root in roots if not (base and _belongs_to(root, base)))
-
-
-class _Disk(DiskTree):
-    """All files of the machine, by their absolute paths."""
-
-    __slots__ = ()
-
-    def place(self, path: str) -> str:
-        return path
+    tree = machine or Machine()
+    return tuple(in_tree(tree, root, distro) for root in roots if not (base and _belongs_to(tree, root, base)))
 
 
 def in_tree(tree: Tree, root: str, distro: str = "") -> Underlay:
@@ -195,14 +188,22 @@ def _prefixes(tree: Tree, root: str) -> Iterator[Prefix]:
             yield prefix
 
 
-def _belongs_to(root: str, base: str) -> bool:
-    inside, base = os.path.realpath(root), os.path.realpath(base)
+def _belongs_to(tree: Tree, root: str, base: str) -> bool:
+    inside, base = tree.identity(root), tree.identity(base)
     if _below(inside, base):
         return True
     for install in (inside, os.path.dirname(inside)):
-        if os.path.isfile(f"{install}/.colcon_install_layout") and _below(base, os.path.dirname(install)):
+        if _has_file(tree, f"{install}/.colcon_install_layout") and _below(base, os.path.dirname(install)):
             return True
     return False
+
+
+def _has_file(tree: Tree, path: str) -> bool:
+    try:
+        tree.read(path)
+    except OSError:
+        return False
+    return True
 
 
 def _below(path: str, folder: str) -> bool:

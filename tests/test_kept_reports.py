@@ -115,13 +115,35 @@ def test_how_it_is_written_needs_no_run(workspace: Path, monkeypatch: pytest.Mon
     assert runs.count == 6
 
 
-def test_underlays_are_looked_at_anew(workspace: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    (tmp_path / "install" / "share" / "p").mkdir(parents=True)
-    (tmp_path / "install" / "share" / "p" / "package.xml").write_text("<package><name>p</name></package>")
+@pytest.mark.parametrize("asked", [True, False], ids=["asked for", "in the environment"])
+def test_underlays_are_watched(workspace: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, asked: bool) -> None:
+    manifest = tmp_path / "install" / "share" / "sensor_msgs" / "package.xml"
+    manifest.parent.mkdir(parents=True)
+    manifest.write_text("<package><name>sensor_msgs</name><version>1.0.0</version></package>")
+    arguments = ("--underlay", str(tmp_path / "install")) if asked else ()
+    if not asked:
+        monkeypatch.setenv("AMENT_PREFIX_PATH", f"{tmp_path}/install:{tmp_path}/nowhere")
     runs = Runs(monkeypatch)
-    for _ in range(2):
-        said(workspace, "--underlay", str(tmp_path / "install"))
-    assert runs.count == 2
+    before = said(workspace, *arguments)
+    assert (said(workspace, *arguments), runs.count) == (before, 1)
+    manifest.write_text("<package><name>sensor_msgs</name><version>1.0.0</version><depend>nav_msgs</depend></package>")
+    said(workspace, *arguments)
+    (tmp_path / "install" / "share" / "sensor_msgs" / "msg").mkdir()
+    (tmp_path / "install" / "share" / "ament_index" / "resource_index" / "packages").mkdir(parents=True)
+    after = said(workspace, *arguments)
+    assert (said(workspace, *arguments), runs.count) == (after, 3)
+    (tmp_path / "nowhere").mkdir()
+    (workspace / "install").symlink_to(tmp_path / "install")
+    assert said(workspace, *arguments) == said(workspace, "--no-cache", *arguments)
+
+
+def test_warnings_are_said_again(workspace: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(workspace.parent / "nowhere"))
+    said(workspace)
+    first = capsys.readouterr().err
+    said(workspace)
+    assert capsys.readouterr().err == first
+    assert "AMENT_PREFIX_PATH" in first
 
 
 def test_what_is_planted_is_not_obeyed(workspace: Path, tmp_path: Path) -> None:

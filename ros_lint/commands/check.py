@@ -12,7 +12,7 @@ from ros_lint.progress import Progress
 from ros_lint.report import Hidden, RefusalError, Report, Unseen
 from ros_lint.rule import Severity
 from ros_lint.text import Text, read
-from ros_lint.tree import DiskTree, RecordedTree
+from ros_lint.tree import DiskTree, Machine, RecordedTree
 
 if TYPE_CHECKING:
     from ros_lint import engine
@@ -37,41 +37,32 @@ def run(said: Said) -> int:
                 print(asked.settings.show(), end="")
                 return 0
             if asked.settings["fix"] or asked.settings["diff"]:
-                report, code, warnings = _mended(asked, progress)
+                from ros_lint.commands import mend  # noqa: PLC0415
+
+                report, code = mend.run(opening.opened(asked, progress.tell), select(asked.settings))
             else:
-                report, warnings = _checked(asked, progress)
-                code = 0
+                report, code = _checked(asked, progress), 0
     except RefusalError as error:
         print(f"ros-lint: {error}", file=sys.stderr)
         return 2
-    for warning in warnings:
+    for warning in report.warnings:
         print(f"ros-lint: {warning}", file=sys.stderr)
     if asked.settings["diff"]:  # standard output holds a patch and nothing else
         return max(code, exit_code(report, asked.settings["fail-on"]))
     return max(code, _print(report, asked))
 
 
-def _checked(asked: Asked, progress: Progress) -> tuple[Report, tuple[str, ...]]:
-    """Return the report of a run, or the one of an earlier run if nothing that it depends on has changed; and warnings."""
+def _checked(asked: Asked, progress: Progress) -> Report:
+    """Return the report of a run, or the one of an earlier run if nothing that it depends on has changed."""
     reports = opening.reports(asked)
-    tree = DiskTree(asked.base)
-    kept = reports.fetch(tree)
-    if kept is not None:
-        return kept, asked.warnings
-    recorded = RecordedTree(tree)
-    opened = opening.opened(asked, progress.tell, recorded if reports else tree)
-    selection = select(asked.settings)
-    report = check(opened, opened.loader.load(), selection)
+    disks = DiskTree(asked.base), Machine()
+    if kept := reports.fetch(disks):
+        return kept
+    recorded = [RecordedTree(disk) for disk in disks]
+    opened = opening.opened(asked, progress.tell, *(recorded if reports else disks))
+    report = check(opened, opened.loader.load(), select(asked.settings))
     reports.store(recorded, report)
-    return report, opened.warnings
-
-
-def _mended(asked: Asked, progress: Progress) -> tuple[Report, int, tuple[str, ...]]:
-    from ros_lint.commands import mend  # noqa: PLC0415
-
-    opened = opening.opened(asked, progress.tell)
-    report, code = mend.run(opened, select(asked.settings))
-    return report, code, opened.warnings
+    return report
 
 
 def select(settings: Settings) -> engine.Selection:
@@ -110,6 +101,7 @@ def check(opened: Opened, workspace: Workspace, selection: engine.Selection) -> 
         unseen=_unseen(workspace),
         crashes=checked.crashes,
         workspace=opened.roots[0] if len(opened.roots) == 1 else "",
+        warnings=opened.warnings,
     )
 
 
