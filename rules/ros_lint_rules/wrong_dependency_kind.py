@@ -22,8 +22,12 @@ Use the tag that the message names. The fix does this.
 - Only launch files name it, for what they start, include or look up: see `launch-outside-closure`.
 - Launch files import what comes with `ros2 launch`, and what packages of tests declare serves tests anyhow.
 - A tag has a condition, or a declared dependency is itself not known, so that the package might come with it.
-- With both `<build_depend>` and `<exec_depend>` the confidence is medium: what is installed is then there to build against,
-  too, but REP 149 wants `<build_export_depend>`. So it is for rosdep keys that only headers ask for.
+- Headers are not installed, or only under a condition: then nobody else includes them.
+- What tests are made of, such as `ament_cmake_gtest`, is named by installed headers: they help tests elsewhere.
+- With both `<build_depend>` and `<exec_depend>` the confidence is low, for rosdep keys medium: what is installed is then there
+  to build against, too, but REP 149 wants `<build_export_depend>`.
+- The confidence is medium for rosdep keys that only headers ask for, and where only installed headers include what
+  `<build_export_depend>` names.
 - Only ROS packages count for run time: a rosdep key for building may have another one for running, and build tools and
   vendor packages have nothing to run.
 """
@@ -35,8 +39,10 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from ros_lint.api import (
+    BuildScript,
     Confidence,
     Declared,
+    Facet,
     Finding,
     Fix,
     Need,
@@ -52,11 +58,17 @@ from ros_lint.api import (
     covered,
     is_unseen_by_name,
     needs,
+    relative,
     tag_for,
     unguarded_tests,
 )
 
 _MOST_RELATED = 4
+_OF_TESTS = frozenset({
+    "ament_cmake_gmock", "ament_cmake_google_benchmark", "ament_cmake_gtest", "benchmark", "gmock_vendor", "google-mock",
+    "google_benchmark_vendor", "gtest", "gtest_vendor", "libgmock-dev", "libgtest-dev",
+})  # fmt: skip
+"""Who gives the libraries that tests in C++ are made of."""
 _TESTS = re.compile(r"(^|_)(tests?|testing)(_|$)")
 _BUILT = ("include", "cmake", "interface", "symbol", "macro", "target")
 _RUN = ("import", "package")
@@ -79,11 +91,16 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for declared in package.declared:
         by_name.setdefault(declared.name, []).append(declared)
     for need in needs(package, workspace):
-        tags = [declared for name in need.declared for declared in by_name[name]]
-        if not tags or any(declared.depend.tag == "depend" or declared.depend.condition for declared in tags):
+        if not need.declared:
+            continue
+        # A key to build with and another one to run with are complete together.
+        names = dict.fromkeys((*need.declared, *(name for use in need.uses for name in use.providers if name in by_name)))
+        tags = [declared for name in names for declared in by_name[name]]
+        if any(declared.depend.tag == "depend" or declared.depend.condition for declared in tags):
             continue
         if comes_with_launching(package, need.uses):
             continue
+        need = need._replace(uses=tuple(_outside(package, need)))  # noqa: PLW2901
         lacking = _lacks(package, workspace, need, tags)
         if lacking is None:
             continue
@@ -103,6 +120,35 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             Fix(f"declare {name} as <{tag}>", change_dependency(package, mine, tag)),
             lacking.confidence,
         )
+
+
+def _outside(package: Package, need: Need) -> Iterator[Use]:
+    """Yield the uses of a need as they look to others: nobody includes headers that are not installed."""
+    script = package.script
+    if script is None or package.hidden(Facet.LIBRARIES):
+        yield from need.uses
+        return
+    installed: dict[str, bool] | None = None
+    for use in need.uses:
+        if use.via != "include" or not use.role & Role.EXPORT:
+            yield use
+            continue
+        if installed is None:
+            installed = _installed_headers(script)
+        always = installed.get(relative(package, use.span.path))
+        if always is None:
+            yield use._replace(role=use.role & ~Role.EXPORT)
+        elif always and not _OF_TESTS.issuperset(need.declared):
+            yield use
+
+
+def _installed_headers(script: BuildScript) -> dict[str, bool]:
+    """Return the sources of installed headers, and whether they are installed in every build."""
+    found: dict[str, bool] = {}
+    for provided in script.provides:
+        if provided.path.startswith("include/"):
+            found[provided.source] = found.get(provided.source, False) or not provided.conditional
+    return found
 
 
 class _Lack(NamedTuple):
@@ -139,7 +185,10 @@ def _lacks(package: Package, workspace: Workspace, need: Need, tags: Sequence[De
         role = next((role for role in _ASKED if asked(role)), None)
         return None if role is None or comes_along(~_TEST) else _Lack(role, "but it is used outside tests")
     if not given & _TEST and missing(Role.BUILD, _TO_BUILD):
-        return _Lack(Role.BUILD, "but it is needed to build this package")
+        # Its own sources may do without those of its headers that include it.
+        handed_on = given & Role.EXPORT and all(use.role & Role.EXPORT for use in need.uses if _is_about(use, Role.BUILD))
+        why = "but it is needed to build this package"
+        return _Lack(Role.BUILD, why, Confidence.MEDIUM if handed_on else Confidence.HIGH)
     world = workspace.world
     packages = [name for name in need.declared if world.is_package(name)]
     if any(is_unseen_by_name(world, name) for name in packages):
@@ -152,6 +201,9 @@ def _lacks(package: Package, workspace: Workspace, need: Need, tags: Sequence[De
         why = "but it is part of what this package exports, and whoever builds against that needs it"
         return _Lack(Role.EXPORT, why, Confidence.HIGH if sure else Confidence.MEDIUM)
     if missing(Role.EXPORT, Role.EXPORT):
+        if packages:
+            why = "which is enough to install it, but by REP 149 whoever builds against this package needs it, too"
+            return _Lack(Role.EXPORT, why, Confidence.LOW)
         return _Lack(Role.EXPORT, "but whoever builds against this package needs it, too", Confidence.MEDIUM)
     return None
 
