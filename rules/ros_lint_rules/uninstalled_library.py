@@ -42,6 +42,7 @@ from ros_lint.api import (
     cmake_edits,
     evaluated_name,
     hidden,
+    relative,
 )
 
 
@@ -62,7 +63,8 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         if any("OBJECT" in call.texts[1:2] for call in _made(package, target.name)):
             continue
         shared = _is_shared(package, target.name)
-        lone = _is_lone(package, target.name)
+        loaded = any(relative(package, made.span.path) in target.sources for made in package.registrations)
+        lone = _is_lone(package, target.name, loaded=loaded)
         users = [(name, span) for name, span in _linked_by(script, target.name) if name in installed] if shared else []
         exported = _exported(package, target.name)
         related = tuple(Related(f"{name} links it here", span) for name, span in users[:3])
@@ -93,8 +95,11 @@ def _is_shared(package: Package, name: str) -> bool:
     return False
 
 
-def _is_lone(package: Package, name: str) -> bool:
-    """Whether a library is shared by its own words, and no target links it that stays in the build folder as well."""
+def _is_lone(package: Package, name: str, *, loaded: bool) -> bool:
+    """Whether a library is shared by its own words, and no target links it that stays in the build folder as well.
+
+    With plugins or components in it, it is ``loaded`` at run time, whoever links it.
+    """
     script = package.script
     assert script is not None
     installed = {provided.target for provided in script.provides}
@@ -102,7 +107,7 @@ def _is_lone(package: Package, name: str) -> bool:
     left.update(target.name for target in script.targets if target.test)
     linking = {target.name for target in script.targets for linked, _ in target.links if linked == name}
     calls = list(_made(package, name))
-    return not linking & left and any({"SHARED", "MODULE"}.intersection(call.texts) and not call.blocks for call in calls)
+    return (loaded or not linking & left) and any({"SHARED", "MODULE"}.intersection(call.texts) and not call.blocks for call in calls)
 
 
 def _made(package: Package, name: str) -> Iterator[Call]:
