@@ -107,7 +107,8 @@ def _is_lone(package: Package, name: str, *, loaded: bool) -> bool:
     left.update(target.name for target in script.targets if target.test)
     linking = {target.name for target in script.targets for linked, _ in target.links if linked == name}
     calls = list(_made(package, name))
-    return (loaded or not linking & left) and any({"SHARED", "MODULE"}.intersection(call.texts) and not call.blocks for call in calls)
+    shared = any({"SHARED", "MODULE"}.intersection(call.texts) and not call.blocks for call in calls)
+    return shared and (loaded or not linking & left)
 
 
 def _made(package: Package, name: str) -> Iterator[Call]:
