@@ -187,6 +187,8 @@ class _Uses:
             providers, known, usual = answer(via, name)
             if not providers or package in providers:
                 continue
+            if via == "include" and providers[0] in self._own.include_folders and name.startswith(f"{providers[0]}/"):
+                continue
             needed = _TEST if test else looked_up if via == "package" else role
             found[span, providers[0], via] = _make(
                 Use, (providers[0], providers, needed, what or usual, via, optional, span, sure and known)

@@ -107,6 +107,12 @@ class Liveness:
         """Return the headers that a file includes and that are of the package, generated ones included."""
         return self._includes(path)[0]
 
+    @cached_property
+    def include_folders(self) -> frozenset[str]:
+        """The folders that the package has in its include directories: a header in one of them is its own, if it is generated."""
+        inner = (f"/{file}".partition("/include/")[2] for file in self._files)
+        return frozenset([folder.partition("/")[0] for folder in inner if "/" in folder])
+
     def _own_headers(self, header: str, folder: str) -> tuple[str, ...]:
         """Return the files of the package that an include in a file of a folder can mean."""
         candidates = self._by_name.get(header.rpartition("/")[2])

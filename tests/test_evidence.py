@@ -58,6 +58,20 @@ def test_roles_come_from_where_a_file_goes() -> None:
     assert [use.sure for use in uses(workspace, "shape_msgs")] == [False]
 
 
+def test_a_folder_of_its_own_in_include_has_its_own_headers() -> None:
+    workspace = load(
+        cmake(
+            "talker",
+            "",
+            "add_library(talker src/talker.cpp)",
+            src__talker_dot_cpp="#include <gazebo_ros/ui_main.h>\n#include <nav_msgs/msg/path.hpp>\n",
+            include__gazebo_ros__talker_dot_hpp="",
+        ),
+        "humble",
+    )
+    assert [use.package for use in workspace.packages[0].uses if use.via == "include"] == ["nav_msgs"]
+
+
 def test_what_a_hand_wrote_into_a_map_is_less_than_sure() -> None:
     workspace = load(cmake("talker", "", "find_package(CUDA REQUIRED)\nfind_package(Eigen3 REQUIRED)"))
     assert [use.sure for use in uses(workspace, "nvidia-cuda")] == [False]
@@ -264,3 +278,31 @@ def test_recipes_of_other_tools_are_less_than_sure() -> None:
     }
     found = {use.span.path: use.sure for use in load(files).packages[0].uses if use.via == "import"}
     assert found == {"talker/conanfile.py": False, "talker/nodes/main.py": True}
+
+
+def _python(**files: str) -> Workspace:
+    lines = "install(PROGRAMS scripts/a.py scripts/b.py DESTINATION lib/${PROJECT_NAME})"
+    return load(cmake("talker", "", lines, **files))
+
+
+def test_a_module_that_may_be_missing_in_one_file_may_be_missing_in_all() -> None:
+    guarded = "try:\n    import serial.tools\nexcept ImportError:\n    pass\n"
+    plain = "import serial\nimport serial.tools.list_ports\n"
+    found = uses(_python(scripts__a_dot_py=guarded, scripts__b_dot_py=plain), "python3-serial")
+    assert [(use.span.path, use.optional) for use in found] == [
+        ("talker/scripts/a.py", True),
+        ("talker/scripts/b.py", False),
+        ("talker/scripts/b.py", True),
+    ]
+    in_test = uses(_python(test__test_a_dot_py=guarded, scripts__b_dot_py=plain), "python3-serial")
+    assert [use.optional for use in in_test if "scripts" in use.span.path] == [False, False]
+
+
+def test_what_comes_from_folders_that_are_not_there_is_not_sure() -> None:
+    added = "import sys\nsys.path.append('/opt/serial')\nimport serial\nimport std_msgs\n"
+    workspace = _python(scripts__a_dot_py=added, scripts__b_dot_py="import serial\n")
+    assert [use.optional for use in uses(workspace, "python3-serial")] == [True, False]
+    files = cmake("talker", "", "install(PROGRAMS a.py DESTINATION lib/${PROJECT_NAME})", a_dot_py="import serial\nimport cv2\n")
+    workspace = load({**files, ".gitmodules": '[submodule "x"]\n\tpath = talker/deps/serial\n'})
+    assert [use.sure for use in uses(workspace, "python3-serial")] == [False]
+    assert [use.sure for use in uses(workspace, "python3-opencv")] == [True]
