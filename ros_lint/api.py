@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING
 
 from ros_lint import cmake_edits, conditions, manifest_edits, setup_edits
+from ros_lint.advice import Advice, advice, lacks_rule
 from ros_lint.apart import is_apart
 from ros_lint.build_scripts import (
     called,
@@ -97,6 +98,7 @@ __all__ = [
     "ANYTHING",
     "PYTHON_LIKE",
     "ROLES",
+    "Advice",
     "BuildScript",
     "BuildTarget",
     "Call",
@@ -150,6 +152,7 @@ __all__ = [
     "Use",
     "Workspace",
     "add_dependency",
+    "advice",
     "agree",
     "builds_something",
     "called",
@@ -178,6 +181,7 @@ __all__ = [
     "is_seen_whole",
     "is_unseen_by_name",
     "knots",
+    "lacks_rule",
     "launchable",
     "launched",
     "leaves_trace",

@@ -68,6 +68,7 @@ class Graph:
         self.needs = {
             name: {other: tuple(needs[name][other]) for other in sorted(needs.get(name, ()))} for name in self.places
         }
+        self._closures: dict[str, frozenset[str]] = {}
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -131,7 +132,9 @@ class Graph:
 
     def closure(self, name: str) -> frozenset[str]:
         """Return everything that a package needs, directly or not; itself only when it lies on a cycle."""
-        return reachable(self.arcs, name)
+        if name not in self._closures:
+            self._closures[name] = reachable(self.arcs, name)
+        return self._closures[name]
 
 
 def build(packages: Iterable[Package]) -> Graph:

@@ -192,12 +192,18 @@ def _in_underlay(world: World, owners: Sequence[tuple[str, ...]]) -> tuple[str, 
 
 
 def _of(world: World, names: Iterable[str], keys: Iterable[str] = ()) -> Providers:
-    """Return the providers among names: packages that there are, and those of ``keys`` that are rosdep keys."""
+    """Return the providers among names: packages that there are, and those of ``keys`` that are rosdep keys.
+
+    Keys without a rule for the distribution come last, for what is to be declared must resolve.
+    """
     ordered = dict.fromkeys(name for name in names if name != NOTHING_NEEDED)
     allowed = set(keys)
     packages = tuple(name for name in ordered if world.is_package(name))
     as_keys = tuple(name for name in ordered if name in allowed and name not in packages and world.is_key(name))
-    return Providers(tuple(name for name in ordered if name in packages or name in as_keys), packages, as_keys)
+    found = [name for name in ordered if name in packages or name in as_keys]
+    if as_keys and len(found) > 1:
+        found.sort(key=lambda name: name in as_keys and world.knowledge.resolves(name) is False)
+    return Providers(tuple(found), packages, as_keys)
 
 
 def _gone(world: World, name: str) -> Providers:

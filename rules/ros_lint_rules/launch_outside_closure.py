@@ -22,8 +22,8 @@ Add `<exec_depend>` to `package.xml`. The fix does this.
   any will do, and what brings it along there counts.
 - Launch files of tests and examples, and those that are not installed.
 - What a declared dependency brings along is not known: then the confidence is medium.
-- The other package needs this one itself, so that declaring it would close a cycle: then the confidence is medium, too; the
-  launch file may be at home there.
+- The other package needs this one itself, in whatever tag, so that declaring it would close a cycle that colcon refuses: then
+  the confidence is medium, too; the launch file may be at home there.
 """
 
 from __future__ import annotations
@@ -34,7 +34,6 @@ from ros_lint.api import (
     Confidence,
     Facet,
     Finding,
-    Fix,
     LaunchReference,
     Package,
     Related,
@@ -42,12 +41,11 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
-    add_dependency,
+    advice,
     comes_elsewhere,
     declared_closure,
     launchable,
     may_bring,
-    tag_for,
     undeclared,
 )
 
@@ -79,16 +77,15 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         best, *others = sorted(references, key=lambda r: (r.conditional, _ORDER.index(r.kind), r.span))
         says = _SAYS[best.kind].format(name=best.name, package=name)
         only = ", if only under a condition" if best.conditional else ""
-        tag = tag_for(package, workspace, name, Role.EXEC)
-        circular = package.name in workspace.world.closure((name,))
-        way_out = "it needs this package itself, so it cannot be declared" if circular else f"add <{tag}>{name}</{tag}>"
+        way_out = advice(package, workspace, name, Role.EXEC)
+        then = f"it cannot be declared: {way_out.obstacle}" if way_out.obstacle else f"add {way_out.written}"
         yield Finding(
-            f"{says}{only}, but does not come with {package.name}: {way_out}",
+            f"{says}{only}, but does not come with {package.name}: {then}",
             best.package_span,
             name,
             tuple(Related("also needed here", other.package_span) for other in others[:_MOST_RELATED]),
-            None if circular else Fix(f"declare {name} as <{tag}>", add_dependency(package, tag, name)),
-            Confidence.MEDIUM if circular or may_bring(closure.unknown, name, workspace) else Confidence.HIGH,
+            way_out.fix,
+            Confidence.MEDIUM if way_out.circular or may_bring(closure.unknown, name, workspace) else Confidence.HIGH,
         )
 
 

@@ -18,6 +18,8 @@ Declare what is used, in the tag that the message names. The fix does this.
 - It is off unless asked for: most of ROS relies on what other packages bring along, such as `rclcpp` on `rcl`.
 - The files that use it are perhaps not built or installed, or colcon rejects `package.xml`: then the confidence is
   medium. The use is optional: then it is low, and nothing is fixed.
+- The package needs this one itself, in whatever tag, so that declaring it would close a cycle that colcon refuses: then, too,
+  the confidence is medium, and nothing is fixed. Nor is it where no key resolves for the distribution.
 - The package merely gives CMake commands, and comes along with the build tool.
 - Nothing declared brings it along: that is `undeclared-dependency` or `launch-outside-closure`.
 """
@@ -29,16 +31,14 @@ from collections.abc import Iterator, Sequence
 from ros_lint.api import (
     Confidence,
     Finding,
-    Fix,
     Need,
     Package,
     Related,
     Rule,
     Severity,
     Workspace,
-    add_dependency,
+    advice,
     needs,
-    tag_for,
     tells,
     wishes,
 )
@@ -65,15 +65,16 @@ def _finding(package: Package, workspace: Workspace, declared: Sequence[str], ne
     ways = (workspace.world.path(declared, name) for name in best.providers)
     way = next((way for way in ways if way), (need.name,))
     name = way[-1]
-    tag = tag_for(package, workspace, name, need.role)
+    way_out = advice(package, workspace, name, need.role)
     rejected = bool(package.manifest and package.manifest.problems)
+    then = f"it cannot be declared: {way_out.obstacle}" if way_out.obstacle else f"add {way_out.written}"
     return Finding(
-        f"{name} is used here, but comes along only by way of {' > '.join(way[:-1])}: add <{tag}>{name}</{tag}>",
+        f"{name} is used here, but comes along only by way of {' > '.join(way[:-1])}: {then}",
         best.span,
         name,
         tuple(Related(f"also used here: {use.what}", use.span) for use in others[:_MOST_RELATED]),
-        None if rejected else Fix(f"declare {name} as <{tag}>", add_dependency(package, tag, name)),
-        min(confidence, Confidence.MEDIUM) if rejected else confidence,
+        None if rejected else way_out.fix,
+        min(confidence, Confidence.MEDIUM) if way_out.circular or rejected else confidence,
     )
 
 

@@ -26,7 +26,8 @@ needed at run time, `<exec_depend>` for what is needed at run time only, `<test_
   nobody said which distribution is meant. What brings it along there counts.
 - A declared dependency is itself not known, so that the package might come with it: then the confidence is medium.
 - All evidence is in files that are perhaps not built or installed: then, too, the confidence is medium.
-- The package needs this one itself, so that declaring it would close a cycle: then, too, the confidence is medium.
+- The package needs this one itself, in whatever tag, so that declaring it would close a cycle that colcon refuses: then,
+  too, the confidence is medium, and nothing is fixed. Nor is it where no key resolves for the distribution.
 - Of `launch`, the confidence is medium where `launch_ros` is missing as well, which brings it.
 - Modules of launch itself that only launch files import come with `ros2 launch`: then the severity is info.
 - Only launch files that are no tests name it, for what they start, include or look up: that is the business of
@@ -40,17 +41,15 @@ from collections.abc import Iterator
 from ros_lint.api import (
     Confidence,
     Finding,
-    Fix,
     Need,
     Package,
     Related,
     Rule,
     Severity,
     Workspace,
-    add_dependency,
+    advice,
     comes_with_launching,
     is_available,
-    tag_for,
     tells,
     undeclared,
     wishes,
@@ -81,23 +80,24 @@ def _finding(package: Package, workspace: Workspace, need: Need, says: str, conf
     """Return what is to say of a need. A manifest that colcon rejects has to be mended first: then nothing is certain."""
     best, *others = need.uses
     name = need.name
-    tag = tag_for(package, workspace, name, need.role)
-    circular = package.name in workspace.world.closure((name,))
+    way_out = advice(package, workspace, name, need.role)
     rejected = bool(package.manifest and package.manifest.problems)
     where = _where(name, workspace)
-    if circular:
-        message = f"{name} is used here, but cannot be declared: it needs this package itself"
+    if way_out.circular:
+        message = f"{name} is used here, but cannot be declared: {way_out.obstacle}"
     elif where:
         message = f"{name} {says}, nor could it: {workspace.target.distro} has no such package, only {where}"
+    elif way_out.obstacle:
+        message = f"{name} {says}, nor could it: {way_out.obstacle}"
     else:
-        message = f"{name} {says}: add <{tag}>{name}</{tag}>"
+        message = f"{name} {says}: add {way_out.written}"
     return Finding(
         message,
         best.span,
         name,
         tuple(Related(f"also used here: {use.what}", use.span) for use in others[:_MOST_RELATED]),
-        None if circular or rejected or where else Fix(f"declare {name} as <{tag}>", add_dependency(package, tag, name)),
-        min(confidence, Confidence.MEDIUM) if circular or rejected else confidence,
+        None if rejected or where else way_out.fix,
+        min(confidence, Confidence.MEDIUM) if way_out.circular or rejected else confidence,
     )
 
 

@@ -25,7 +25,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Confidence, Finding, Rule, Severity, Stranger, Workspace, declared_names, strangers
+from ros_lint.api import Confidence, Finding, Rule, Severity, Stranger, Workspace, declared_names, lacks_rule, strangers
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
@@ -34,15 +34,10 @@ def check(workspace: Workspace) -> Iterator[Finding]:
         if world.is_package(name):
             continue
         if world.is_key(name):
-            if _lacks_rule(workspace, name):
+            if lacks_rule(workspace, name):
                 yield from (_key(stranger, workspace) for stranger in strangers(name, packages))
         elif workspace.target.told and world.standing(name) == "elsewhere":
             yield from (_package(stranger, workspace) for stranger in strangers(name, packages))
-
-
-def _lacks_rule(workspace: Workspace, name: str) -> bool:
-    knowledge = workspace.world.knowledge
-    return knowledge.resolves(name) is False and (workspace.target.told or not knowledge.resolving(name))
 
 
 def _key(stranger: Stranger, workspace: Workspace) -> Finding:

@@ -1,0 +1,74 @@
+"""What to say of a name that ought to be declared: which tag to write, or why it cannot be declared."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.declare import add_dependency, tag_for
+from ros_lint.rule import Fix
+
+if TYPE_CHECKING:
+    from ros_lint.facts import Role
+    from ros_lint.workspace import Package, Workspace
+
+
+class Advice(NamedTuple):
+    """The way out of a need, as far as there is one."""
+
+    written: str
+    """The element to add, followed by what is to be known of it."""
+    fix: Fix | None
+    """None when it cannot be declared."""
+    obstacle: str
+    """Why it cannot be declared: goes on from "it cannot be declared: ". "" when it can."""
+    circular: bool
+    """Whether the obstacle is that it needs the package itself."""
+
+
+def advice(package: Package, workspace: Workspace, name: str, role: Role) -> Advice:
+    """Return what to do about a package or key that is needed and is to be declared. The package has a manifest."""
+    tag = tag_for(package, workspace, name, role)
+    written = f"<{tag}>{name}</{tag}>"
+    if way := circle(package, workspace, name):
+        between = f", by way of {' > '.join(way[1:-1])}" if len(way) > 2 else ""
+        return Advice(written, None, f"it needs this package itself{between}", circular=True)
+    if lacks_rule(workspace, name):
+        return Advice(written, None, f"rosdep has no rule for it{_where(workspace, name)}", circular=False)
+    if is_of_pip(workspace, name):
+        written += " (from pip: what is released cannot depend on it)"
+    return Advice(written, Fix(f"declare {name} as <{tag}>", add_dependency(package, tag, name)), "", circular=False)
+
+
+def circle(package: Package, workspace: Workspace, name: str) -> tuple[str, ...]:
+    """Return a way by which a name needs a package itself, both ends included, or ().
+
+    Either as colcon orders the workspace, where each tag counts (reference, section B2.2), or when it is installed.
+    """
+    graph = workspace.graph if name in workspace.by_name else None
+    if graph is not None and package.name in graph.closure(name):
+        from ros_lint.graph_paths import paths  # noqa: PLC0415  (few needs are circular)
+
+        return paths(lambda each: sorted(graph.arcs[each]), name, package.name, 1).found[0]
+    return workspace.world.path((name,), package.name)
+
+
+def lacks_rule(workspace: Workspace, name: str) -> bool:
+    """Whether a name is a key that resolves nowhere where the workspace is meant to run.
+
+    If nobody said for which distribution it is, any of them will do.
+    """
+    world, knowledge = workspace.world, workspace.world.knowledge
+    if world.is_package(name) or not world.is_key(name) or knowledge.resolves(name) is not False:
+        return False
+    return workspace.target.told or not knowledge.resolving(name)
+
+
+def is_of_pip(workspace: Workspace, name: str) -> bool:
+    """Whether a name is a key that only pip installs, which the build farm does not take."""
+    key = None if workspace.world.is_package(name) else workspace.world.knowledge.rosdep.get(name)
+    return key is not None and bool(key.pip) and not key.apt
+
+
+def _where(workspace: Workspace, name: str) -> str:
+    knowledge = workspace.world.knowledge
+    return f" on {knowledge.platform}, where {workspace.target.distro} runs" if knowledge.resolving(name) else ""
