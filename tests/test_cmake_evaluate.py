@@ -382,6 +382,22 @@ def test_what_another_system_has() -> None:
     assert hidden(script) == Facet.USES
 
 
+def test_what_a_download_says_of_itself_is_not_known() -> None:
+    script = run(
+        "file(DOWNLOAD https://a.b/c data/c STATUS state LOG said)\nlist(GET state 0 code)\n"
+        "if(NOT ${code} EQUAL 0)\nmessage(FATAL_ERROR ${said})\nendif()\n"
+        "install(FILES a.yaml DESTINATION share/pkg)\n",
+        ("a.yaml",),
+    )
+    assert paths(script) == {"share/pkg/a.yaml": False}
+    assert not hidden(script)
+
+
+def test_where_all_that_goes_on_ends_in_an_error_all_is_hidden() -> None:
+    stopped = run("find_package(x)\nif(NOT x_FOUND)\nreturn()\nendif()\nmessage(FATAL_ERROR no)\nadd_executable(a a.cpp)\n")
+    assert hidden(stopped) & Facet.EXECUTABLES
+
+
 def test_a_target_that_nobody_defines_hides_nothing_else() -> None:
     script = run("add_executable(a a.cpp)\ninstall(TARGETS a b DESTINATION lib/pkg)\n", ("a.cpp",))
     assert paths(script)["lib/pkg/a"] is False

@@ -75,7 +75,7 @@ def evaluate(sources: Sources, distro: str = "", helpers: Mapping[str, Helper] =
         run.hide(ANYTHING, "the script runs longer than can be followed", frame.command and frame.command.place(path))
     else:
         run.frames[:] = [frame]
-        if ended == STOP:
+        if ended & STOP:
             run.hide(ANYTHING, "the script stops with an error before its end", frame.command and frame.command.place(path))
     return _result(run, path)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import posixpath
 import re
+from itertools import pairwise
 from typing import Final
 
 from ros_lint.interpret.cmake_basic import nothing
@@ -21,8 +22,12 @@ def _file(run: Run, args: list[str]) -> None:
         outputs = args[1:2] if mode not in ("GENERATE", "CONFIGURE") else args[args.index("OUTPUT") + 1 :][:1]
         for output in outputs:
             generate(run, output)
-    elif mode == "DOWNLOAD":
-        generate(run, args[2] if len(args) > 2 else "")
+    elif mode in ("DOWNLOAD", "UPLOAD"):
+        if mode == "DOWNLOAD":
+            generate(run, args[2] if len(args) > 2 else "")
+        for word, variable in pairwise(args):
+            if word in ("STATUS", "LOG"):
+                run.set(variable, HOLE)
     elif mode == "RELATIVE_PATH" and len(args) == 4:
         run.set(args[1], _relative(args[3], args[2]))
     elif mode in ("TO_CMAKE_PATH", "TO_NATIVE_PATH") and len(args) > 2:

@@ -136,7 +136,7 @@ def call(run: Run, procedure: Procedure | Choice, args: list[str]) -> Exit:
     finally:
         frames.pop()
         run.scopes.pop()
-    return NEXT if ended & (NEXT | RETURN) else ended
+    return NEXT | ended & STOP if ended & (NEXT | RETURN) else ended
 
 
 def _call_one_of(run: Run, choice: Choice, args: list[str]) -> Exit:
@@ -197,4 +197,4 @@ def run_file(run: Run, commands: Sequence[Command], frame: Frame) -> Exit:
     finally:
         run.frames.pop()
         run.place_file()
-    return NEXT if ended & (NEXT | RETURN) else ended
+    return NEXT | ended & STOP if ended & (NEXT | RETURN) else ended
