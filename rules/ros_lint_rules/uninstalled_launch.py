@@ -23,6 +23,7 @@ written out.
   packages that are called tests.
 - Files that are installed under a condition, and those that a rule leaves out which installs others of their kind
   (`PATTERN x EXCLUDE`).
+- A file of the same name is installed from another folder: these are variants, of which one is chosen.
 """
 
 from __future__ import annotations
@@ -51,7 +52,7 @@ _SUFFIX = re.compile(r"(?:[._-]?launch\.(?:py|xml|ya?ml)|\.launch)$")
 _TEST_PACKAGE = re.compile(r"(?:^|_)(?:tests?|testing)(?:_|$)")
 
 
-def check(package: Package, _: Workspace) -> Iterator[Finding]:
+def check(package: Package, _workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with not in ("ament_cmake", "ament_python"):
         return
@@ -59,11 +60,12 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         return
     missing: dict[str, list[str]] = {}
     kept: set[str] = set()
+    names = {provided.path.rpartition("/")[2] for provided in script.provides}
     for launch in launchable(package):
-        folder = launch.path.rpartition("/")[0]
+        folder, _, name = launch.path.rpartition("/")
         if launch.installed:
             kept.update(_above(folder))
-        else:
+        elif name not in names:
             missing.setdefault(folder, []).append(launch.path)
     for folder, paths in _together(missing, kept).items():
         whole = folder not in kept and folder != ""
