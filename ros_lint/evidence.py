@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import accumulate
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
-from ros_lint.facts import BuildScript, FileFacts, LaunchFile, Mention, Opaque, Role, Use, Via
+from ros_lint.facts import ADDED, CAUGHT, BuildScript, FileFacts, LaunchFile, Mention, Opaque, Role, Use, Via
 from ros_lint.liveness import HEADERS, Liveness
 from ros_lint.text import Span
 
@@ -47,6 +47,8 @@ class Source(NamedTuple):
     """By path relative to the package."""
     launch: tuple[LaunchFile, ...]
     builds_with: str
+    absent: frozenset[str] = frozenset()
+    """Names of the folders of git submodules that are not cloned: they may be Python modules."""
 
 
 _BUILD_MODULES = frozenset({"setuptools", "distutils", "pkg_resources", "pip"})
@@ -136,7 +138,7 @@ def resolve(source: Source, resolver: Resolver) -> tuple[Use, ...]:
     launched = frozenset(_relative(source, launch.path) for launch in source.launch)
     tests = frozenset(_relative(source, launch.path) for launch in source.launch if launch.test)
     own = Liveness(source.name, source.files, source.script, source.facts, launched)
-    uses = _Uses(source.name, own, resolver)
+    uses = _Uses(source, own, resolver)
     if source.script is not None:
         by_role: dict[tuple[str, Role], list[Mention]] = {}
         for mention in source.script.mentions:
@@ -165,10 +167,12 @@ def resolve(source: Source, resolver: Resolver) -> tuple[Use, ...]:
 class _Uses:
     """The uses found in a package so far. Of two of one package in one place by one way the last counts."""
 
-    def __init__(self, package: str, own: Liveness, resolver: Resolver) -> None:
-        self.package = package
+    def __init__(self, source: Source, own: Liveness, resolver: Resolver) -> None:
+        self.package = source.name
         self.resolver = resolver
         self._own = own
+        self._absent = source.absent
+        self._caught = _caught(source, own)
         self._found: dict[tuple[Span, str, Via], Use] = {}
 
     def put(self, use: Use) -> None:
@@ -190,13 +194,35 @@ class _Uses:
             if via == "include" and providers[0] in self._own.include_folders and name.startswith(f"{providers[0]}/"):
                 continue
             needed = _TEST if test else looked_up if via == "package" else role
+            spared = optional
+            if via == "import":
+                spared = spared or self._is_spared(name, what, providers[0])
+                known = known and name.partition(".")[0] not in self._absent
             found[span, providers[0], via] = _make(
-                Use, (providers[0], providers, needed, what or usual, via, optional, span, sure and known)
+                Use, (providers[0], providers, needed, what or usual, via, spared, span, sure and known)
             )
+
+    def _is_spared(self, name: str, what: str, best: str) -> bool:
+        """Whether a module can be missing, or be what nobody knows: elsewhere in the package its absence is allowed for."""
+        if what.endswith(ADDED):
+            return not self.resolver.names.is_package(best)
+        return bool(self._caught) and any(name == each or name.startswith(f"{each}.") for each in self._caught)
 
     def _is_own_module(self, name: str, path: str) -> bool:
         top = name.partition(".")[0]
         return self._own.has_module(top, path) or (top in _BUILD_MODULES and path.endswith("setup.py"))
+
+
+def _caught(source: Source, own: Liveness) -> frozenset[str]:
+    """Return the modules that a file of the package imports and goes on without, tests aside."""
+    found = set()
+    for path, facts in source.facts.items():
+        names = [
+            name for name, via, _, what, optional, _ in facts.mentions if optional and via == "import" and what.endswith(CAUGHT)
+        ]
+        if names and own.place(path)[0] is not _TEST:
+            found.update(names)
+    return frozenset(found)
 
 
 def _unspoken(source: Source, uses: _Uses) -> None:
@@ -234,7 +260,9 @@ def _launch_uses(launch: LaunchFile, role: Role, uses: _Uses, sure: bool) -> Non
         answer = uses.resolver.answer("launch", package)
         if package != uses.package and answer.providers:
             what = package if reference.kind == "package" else f"{reference.kind} {reference.name}"
-            uses.put(Use(package, (package,), role, what, "launch", False, reference.package_span, sure and answer.sure))
+            uses.put(
+                Use(package, (package,), role, what, "launch", reference.optional, reference.package_span, sure and answer.sure)
+            )
 
 
 def include_index(sources: Iterable[Source]) -> dict[str, tuple[str, ...]]:

@@ -84,7 +84,8 @@ class Loader:
         discovery = discover(tree, self._roots, self.target.context)
         founds = [self._without_excluded(found) for found in discovery.packages if not self._exclude(found.path)]
         lists = source_lists.find(tree, self._roots, (join(found.path, file) for found in founds for file in found.files))
-        founds = _without_submodules(founds, source_lists.submodules(tree, lists))
+        submodules = source_lists.submodules(tree, lists)
+        founds = _without_submodules(founds, submodules)
         collected = self._collect(founds, changed or {}) if sources else {}
         reads = (
             self._read(tree, founds, collected)
@@ -92,7 +93,8 @@ class Loader:
             else [_Read(found, self._declared(found.manifest), None, {}, ()) for found in founds]
         )
         world = World(tuple(self._members(reads, discovery.rejected)), self._underlays, self._knowledge)
-        packages = tuple(self._join(tree, reads, world, sources))
+        absent = frozenset(folder.rpartition("/")[2] for folder in submodules)
+        packages = tuple(self._join(tree, reads, world, absent, sources))
         unusable = tuple(self._unusable(manifest) for manifest in discovery.rejected if not self._exclude(manifest.path))
         not_checked = (*discovery.not_checked, *_unreadable(collected), *_failed(reads))
         return Workspace(packages, unusable, world, self.target, tuple(not_checked), lists)
@@ -174,10 +176,10 @@ class Loader:
             if manifest.name:
                 yield _member(manifest.name, manifest, self._declared(manifest))
 
-    def _join(self, tree: Tree, reads: Sequence[_Read], world: World, search: bool) -> Iterator[Package]:
+    def _join(self, tree: Tree, reads: Sequence[_Read], world: World, absent: frozenset[str], search: bool) -> Iterator[Package]:
         sources = [
             evidence.Source(
-                r.found.name, r.found.path, r.found.files, r.script, r.facts, r.launch, r.found.type.removeprefix("ros.")
+                r.found.name, r.found.path, r.found.files, r.script, r.facts, r.launch, r.found.type.removeprefix("ros."), absent
             )
             for r in reads
         ]

@@ -16,7 +16,7 @@ from ros_lint.collectors.python_excerpt import excerpt
 from ros_lint.collectors.python_imports import scan, walk
 from ros_lint.collectors.python_look_ups import in_excerpt, literals, look_ups
 from ros_lint.collectors.python_syntax import NotPythonError, parse
-from ros_lint.facts import Facet, FileFacts
+from ros_lint.facts import ADDED, CAUGHT, Facet, FileFacts
 from ros_lint.text import Text, read
 
 
@@ -183,6 +183,12 @@ def test_any_text_is_read(text: str) -> None:
         ("import a\ndef f():\n    import b\n", [("a", False), ("b", False)]),
         ("if TYPE_CHECKING:\n    import a\nelse:\n    import b\n", [("a", True), ("b", False)]),
         ("if typing.TYPE_CHECKING:\n    from a.b import c\n", [("a.b", True)]),
+        ("DEBUG = False\nif DEBUG:\n    import a\nelse:\n    import b\n", [("a", True), ("b", False)]),
+        ("DEBUG: bool = False  # slow\ndef f():\n    if x and DEBUG:\n        import a\n", [("a", True)]),
+        ("DEBUG = False\nif x or DEBUG:\n    import a\n", [("a", False)]),
+        ("DEBUG = False\nDEBUG = f()\nif DEBUG:\n    import a\n", [("a", False)]),
+        ("DEBUG = False\ndef f(DEBUG):\n    if DEBUG:\n        import a\n", [("a", False)]),
+        ("DEBUG = True\nif DEBUG:\n    import a\n", [("a", False)]),
         ("try:\n    import a\nexcept ImportError:\n    a = None\n", [("a", True)]),
         ("try:\n    import a\nexcept ModuleNotFoundError:\n    import b\n", [("a", True), ("b", True)]),
         ("try:\n    import a\nexcept (ImportError, OSError) as e:\n    pass\n", [("a", True)]),
@@ -251,6 +257,23 @@ def test_unreadable_sources(path: str, text: str, problems: int) -> None:
 def test_newer_python_is_no_problem() -> None:
     facts = python.collect(Text("a.py", "import a; x = 1\ntype X = int\n"))
     assert not facts.problems
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("try:\n    import a\nexcept ImportError:\n    import b\nimport c\n", [CAUGHT, CAUGHT, ""]),
+        ("try:\n    import a\nexcept Exception:\n    pass\n", [""]),
+        ("with contextlib.suppress(ImportError):\n    import a\n", [CAUGHT]),
+        ("if TYPE_CHECKING:\n    import a\n", [""]),
+        ("import a, sys\nsys.path.append(os.path.join(d, 'a'))\nimport a.x\nimport b\n", ["", "", ADDED, ""]),
+        ("p = f'{x}/lib/a'\nsys.path.insert(\n    0, p)\nimport a\nimport lib.c\nimport d\n", [ADDED, ADDED, ""]),
+        ("sys.path += ['/opt/a']\nimport a\n", [ADDED]),
+    ],
+)
+def test_what_is_remarked_about_an_import(text: str, expected: list[str]) -> None:
+    mentions = python.collect(Text("a.py", text)).mentions
+    assert [mention.what.removeprefix(f"import of {mention.name}") for mention in mentions] == expected
 
 
 # --- look-ups

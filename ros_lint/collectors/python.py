@@ -6,12 +6,14 @@ import re
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from ros_lint.collectors.python_imports import scan, walk
+from ros_lint.collectors.python_imports import added_folders, scan, walk
 from ros_lint.collectors.python_look_ups import Found, in_excerpt, literals, look_ups
 from ros_lint.collectors.python_syntax import NotPythonError, parse, syntax_problem
-from ros_lint.facts import Facet, FileFacts, Mention, Opaque
+from ros_lint.facts import ADDED, CAUGHT, Facet, FileFacts, Mention, Opaque
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from ros_lint.text import Text
 
 _IMPORT_LINE = re.compile(r"^[ \t]*(?:from|import)[ \t]+([A-Za-z_][\w.]*)", re.MULTILINE)
@@ -44,9 +46,10 @@ def collect(source: Text, *, launch: bool = False) -> FileFacts:
             looked_up = look_ups(source, tree)
     named = [item for item in found if item.module]
     spans = source.spans([(item.start, item.start + len(item.module)) for item in named])
+    added = added_folders(source.text) if "sys.path" in source.text else ()
     mentions = [
-        Mention(module, "import", span, f"import of {module}", optional)
-        for (_, module, optional), span in zip(named, spans, strict=True)
+        Mention(module, "import", span, f"import of {module}{_remark(module, start, caught, added)}", optional)
+        for (start, module, optional, caught), span in zip(named, spans, strict=True)
     ]
     opaque = [
         Opaque(Facet.USES, "which module is imported here is computed", source.span(item.start, item.start))
@@ -56,6 +59,14 @@ def collect(source: Text, *, launch: bool = False) -> FileFacts:
     if looked_up.mentions:
         mentions = sorted([*mentions, *looked_up.mentions], key=lambda mention: mention.span)
     return FileFacts(source.path, tuple(mentions), (*opaque, *looked_up.opaque), look_ups=looked_up.files)
+
+
+def _remark(module: str, start: int, caught: bool, added: Sequence[tuple[int, frozenset[str]]]) -> str:
+    """Return what is to be said of an import, besides its name."""
+    if caught:
+        return CAUGHT
+    top = module.partition(".")[0]
+    return ADDED if any(at < start and top in parts for at, parts in added) else ""
 
 
 def _unreadable(source: Text, error: NotPythonError) -> FileFacts:

@@ -26,7 +26,9 @@ class Import(NamedTuple):
     module: str
     """Dotted, "" when it is computed."""
     optional: bool
-    """Whether the program does without: for type checkers only, or with the error caught."""
+    """Whether the program does without: for type checkers only, never as it is written, or with the error caught."""
+    caught: bool = False
+    """Whether it is optional because just that error is caught."""
 
 
 _IMPORT = re.compile(r"import(?=[ \t(*\\]|_module\(|orskip\(|__\()")
@@ -47,9 +49,15 @@ _DECIDES = re.compile(
 )
 
 
+_SWITCH = re.compile(r"^([^\W\d]\w*)[ \t]*(?::[^=\n]*)?=[ \t]*(?:False|None|0|''|\"\")[ \t]*(?:#.*)?\r?$", re.MULTILINE)
+
+
 def scan(text: str) -> list[Import] | None:
     """Return the imports of a source, or None when only a parser can tell."""
     if "\r" in text and text.count("\r") != text.count("\r\n"):
+        return None
+    switches = {match[1] for match in _SWITCH.finditer(text)}
+    if switches and re.search(rf"^[ \t]*(?:el)?if\b[^\n]*\b(?:{'|'.join(switches)})\b", text, re.MULTILINE):
         return None
     found: list[Import] = []
     places: list[int] = []  # none of which may lie in a string
@@ -178,6 +186,22 @@ def _fragment(text: str, start: int) -> list[Import] | None:
     return [item._replace(start=item.start + start - len(head)) for item in found]
 
 
+_EXTENDS = re.compile(r"\bsys\.path(?:\.(?:append|insert|extend)[ \t]*\(|[ \t]*\+?=|\[)([^\n]*(?:\n[^\n()]*\)?)?)")
+_WRITTEN = re.compile(r"""["']([^"'\n]*)["']""")
+
+
+def added_folders(text: str) -> list[tuple[int, frozenset[str]]]:
+    """Return where a source adds folders to those in which modules are sought, each with the parts of their names."""
+    found = []
+    for match in _EXTENDS.finditer(text):
+        given = match[1]
+        for name in re.findall(r"\b[^\W\d]\w*\b", _WRITTEN.sub("", given)):
+            given += "\n".join(re.findall(rf"^[ \t]*{name}[ \t]*=([^=\n].*)$", text, re.MULTILINE))
+        parts = [part for written in _WRITTEN.findall(given) for part in written.split("/")]
+        found.append((match.start(), frozenset(parts) - {""}))
+    return found
+
+
 def outside_strings(text: str, places: list[int]) -> bool:
     """Return whether it is sure that none of the places, one at least, lies in a string of several lines."""
     places = sorted(places)
@@ -202,7 +226,8 @@ def outside_strings(text: str, places: list[int]) -> bool:
 # --- the exact way
 
 
-_IMPORT_ERRORS = frozenset({"ImportError", "ModuleNotFoundError", "Exception", "BaseException"})
+_MISSING = frozenset({"ImportError", "ModuleNotFoundError"})
+_IMPORT_ERRORS = _MISSING | {"Exception", "BaseException"}
 _EXITS = frozenset({"exit", "quit", "_exit", "fail"})
 
 
@@ -214,14 +239,38 @@ def walk(source: Text, tree: ast.Module) -> list[Import]:
     inside of others that raises another error instead, which says what is missing, makes them optional, too. Calls of
     ``importlib.import_module()`` and the like are imports, too; whoever calls one is taken to be able to go without.
     """
+    walker = _Walker(_off(tree))
     found = [
-        Import(start, module, optional)
-        for statement, optional in _imports(tree.body, inside=False)
+        Import(start, module, bool(optional), optional == _CAUGHT)
+        for statement, optional in walker.imports(tree.body, inside=False)
         for start, module in _modules(source, statement)
     ]
     if any(name in source.text for name in _DYNAMIC):
         found += _calls(source, tree)
     return sorted(found)
+
+
+def _off(tree: ast.Module) -> frozenset[str]:
+    """Return the names of a module that are false and stay so: nothing else binds them anywhere."""
+    bound: dict[str, int] = {}
+    off: set[str] = set()
+    for statement in tree.body:
+        target = statement.targets[0] if isinstance(statement, ast.Assign) else getattr(statement, "target", None)
+        value = getattr(statement, "value", None)
+        if isinstance(target, ast.Name) and isinstance(value, ast.Constant) and not value.value:
+            off.add(target.id)
+    if not off:
+        return frozenset()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name) and not isinstance(node.ctx, ast.Load):
+            bound[node.id] = bound.get(node.id, 0) + 1
+        elif isinstance(node, (ast.Import, ast.ImportFrom)):
+            bound.update({alias.asname or alias.name: 2 for alias in node.names})
+        elif isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+            bound[node.name] = 2
+        elif isinstance(node, ast.arg):
+            bound[node.arg] = 2
+    return frozenset(name for name in off if bound.get(name) == 1)
 
 
 def _calls(source: Text, tree: ast.Module) -> Iterator[Import]:
@@ -238,61 +287,77 @@ def _calls(source: Text, tree: ast.Module) -> Iterator[Import]:
                 yield Import(max(start, 0), given.value, True)
 
 
-_Found = tuple[ast.Import | ast.ImportFrom, bool]
+_Found = tuple["ast.Import | ast.ImportFrom", int]
+"""A statement, and whether it is optional: 0, 1, or _CAUGHT."""
+
+_CAUGHT = 2
+"""How an import is optional whose error is caught, and not just any error of the block."""
 
 
-def _imports(body: Iterable[ast.stmt], inside: bool = True) -> Iterator[_Found]:
-    for statement in body:
-        if isinstance(statement, (ast.Import, ast.ImportFrom)):
-            yield statement, False
-        elif isinstance(statement, ast.If):
-            yield from _conditional(statement)
-        elif isinstance(statement, ast.Try) or type(statement).__name__ == "TryStar":
-            yield from _try(statement, inside)  # type: ignore[arg-type]  # of the same fields
-        elif isinstance(statement, (ast.With, ast.AsyncWith)) and any(_suppresses(item) for item in statement.items):
-            yield from ((found, True) for found, _ in _imports(statement.body))
+class _Walker:
+    """Walks through statements. ``off`` are names that are always false."""
+
+    def __init__(self, off: frozenset[str]) -> None:
+        self._off = off
+
+    def imports(self, body: Iterable[ast.stmt], inside: bool = True) -> Iterator[_Found]:
+        for statement in body:
+            if isinstance(statement, (ast.Import, ast.ImportFrom)):
+                yield statement, 0
+            elif isinstance(statement, ast.If):
+                yield from self._conditional(statement)
+            elif isinstance(statement, ast.Try) or type(statement).__name__ == "TryStar":
+                yield from self._try(statement, inside)  # type: ignore[arg-type]  # of the same fields
+            elif isinstance(statement, (ast.With, ast.AsyncWith)) and any(_suppresses(item) for item in statement.items):
+                yield from ((found, _CAUGHT) for found, _ in self.imports(statement.body))
+            else:
+                for block in ("body", "orelse"):
+                    yield from self.imports(getattr(statement, block, ()))
+                for case in getattr(statement, "cases", ()):
+                    yield from self.imports(case.body)
+
+    def _conditional(self, statement: ast.If) -> Iterator[_Found]:
+        test = statement.test
+        words = {
+            str(getattr(node, "id", None) or getattr(node, "attr", None) or getattr(node, "value", "")) for node in ast.walk(test)
+        }
+        if _is_off(test, self._off) or (isinstance(test, (ast.Name, ast.Attribute)) and "TYPE_CHECKING" in words):
+            yield from ((found, optional or 1) for found, optional in self.imports(statement.body))
+            yield from self.imports(statement.orelse)
+        elif not _GUARD.search(" ".join(words)):
+            yield from self.imports(statement.body)
+            yield from self.imports(statement.orelse)
         else:
-            for block in ("body", "orelse"):
-                yield from _imports(getattr(statement, block, ()))
-            for case in getattr(statement, "cases", ()):
-                yield from _imports(case.body)
+            yield from _alternatives([list(self.imports(statement.body)), list(self.imports(statement.orelse))], 1)
+
+    def _try(self, statement: ast.Try, inside: bool) -> Iterator[_Found]:
+        branches = [[*self.imports(statement.body), *self.imports(statement.orelse)]]
+        others: list[_Found] = []
+        for handler in statement.handlers:
+            if _catches_import_error(handler) and (not _gives_up(handler) or (inside and _explains(handler))):
+                branches.append(list(self.imports(handler.body)))
+            else:
+                others += self.imports(handler.body)
+        kind = _CAUGHT if any(_catches_import_error(handler, _MISSING) for handler in statement.handlers) else 1
+        yield from _alternatives(branches, kind) if len(branches) > 1 else branches[0]
+        yield from others
+        yield from self.imports(statement.finalbody)
 
 
-def _conditional(statement: ast.If) -> Iterator[_Found]:
-    test = statement.test
-    words = {
-        str(getattr(node, "id", None) or getattr(node, "attr", None) or getattr(node, "value", "")) for node in ast.walk(test)
-    }
-    if not _GUARD.search(" ".join(words)):
-        yield from _imports(statement.body)
-        yield from _imports(statement.orelse)
-    elif isinstance(test, (ast.Name, ast.Attribute)) and "TYPE_CHECKING" in words:
-        yield from ((found, True) for found, _ in _imports(statement.body))
-        yield from _imports(statement.orelse)
-    else:
-        yield from _alternatives([list(_imports(statement.body)), list(_imports(statement.orelse))])
+def _is_off(test: ast.expr, off: frozenset[str]) -> bool:
+    """Whether a test is never true: a name that is always false, alone or with more."""
+    if isinstance(test, ast.BoolOp):
+        return (any if isinstance(test.op, ast.And) else all)(_is_off(part, off) for part in test.values)
+    return isinstance(test, ast.Name) and test.id in off
 
 
-def _try(statement: ast.Try, inside: bool) -> Iterator[_Found]:
-    branches = [[*_imports(statement.body), *_imports(statement.orelse)]]
-    others: list[_Found] = []
-    for handler in statement.handlers:
-        if _catches_import_error(handler) and (not _gives_up(handler) or (inside and _explains(handler))):
-            branches.append(list(_imports(handler.body)))
-        else:
-            others += _imports(handler.body)
-    yield from _alternatives(branches) if len(branches) > 1 else branches[0]
-    yield from others
-    yield from _imports(statement.finalbody)
-
-
-def _alternatives(branches: list[list[_Found]]) -> Iterator[_Found]:
-    """Yield the imports of branches one of which runs; not optional is what each needs."""
+def _alternatives(branches: list[list[_Found]], kind: int) -> Iterator[_Found]:
+    """Yield the imports of branches one of which runs; not optional is what each needs, of that kind everything else."""
     needed = [{root for found, optional in branch if not optional for root in _roots(found)} for branch in branches]
     always = set.intersection(*needed)
     for branch in branches:
         for found, optional in branch:
-            yield found, optional or not always.issuperset(_roots(found))
+            yield found, optional or (0 if always.issuperset(_roots(found)) else kind)
 
 
 def _roots(statement: ast.Import | ast.ImportFrom) -> set[str]:
@@ -300,13 +365,13 @@ def _roots(statement: ast.Import | ast.ImportFrom) -> set[str]:
     return {name.partition(".")[0] for name in names}
 
 
-def _catches_import_error(handler: ast.ExceptHandler) -> bool:
+def _catches_import_error(handler: ast.ExceptHandler, errors: frozenset[str] = _IMPORT_ERRORS) -> bool:
     kind = handler.type
     kinds = kind.elts if isinstance(kind, ast.Tuple) else [kind]
     return any(
-        kind is None
-        or (isinstance(kind, ast.Name) and kind.id in _IMPORT_ERRORS)
-        or (isinstance(kind, ast.Attribute) and kind.attr in _IMPORT_ERRORS)
+        (kind is None and errors is _IMPORT_ERRORS)
+        or (isinstance(kind, ast.Name) and kind.id in errors)
+        or (isinstance(kind, ast.Attribute) and kind.attr in errors)
         for kind in kinds
     )
 

@@ -94,7 +94,7 @@ def _run(program: Program, source: Text, start: Span) -> BuildScript:
     script = script._replace(
         mentions=tuple(
             Mention(module, "import", span, f"import of {module}", optional)
-            for (_, module, optional), span in zip(imports, spans, strict=True)
+            for (_, module, optional, _), span in zip(imports, spans, strict=True)
         )
     )
     if program.end or not program.setups:
