@@ -22,7 +22,8 @@ Use the tag that the message names. The fix does this.
 - Only launch files name it, for what they start, include or look up: see `launch-outside-closure`.
 - Launch files import what comes with `ros2 launch`, and what packages of tests declare serves tests anyhow.
 - A tag has a condition, or a declared dependency is itself not known, so that the package might come with it.
-- Headers are not installed, or only under a condition: then nobody else includes them.
+- Headers are not installed, or only under a condition: then nobody else includes them. If there is a library to link with, they
+  may have been forgotten, and the confidence is low.
 - What tests are made of, such as `ament_cmake_gtest`, is named by installed headers: they help tests elsewhere.
 - With both `<build_depend>` and `<exec_depend>` the confidence is low, for rosdep keys medium: what is installed is then there
   to build against, too, but REP 149 wants `<build_export_depend>`.
@@ -40,6 +41,7 @@ from typing import NamedTuple
 
 from ros_lint.api import (
     BuildScript,
+    BuildTarget,
     Confidence,
     Declared,
     Facet,
@@ -100,17 +102,20 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             continue
         if comes_with_launching(package, need.uses):
             continue
-        need = need._replace(uses=tuple(_outside(package, need)))  # noqa: PLW2901
-        lacking = _lacks(package, workspace, need, tags)
+        seen = need._replace(uses=tuple(_outside(package, need, hopeful=False)))
+        lacking = _lacks(package, workspace, seen, tags)
+        if lacking is None and any(target.kind == "library" and not target.test for target in _targets(package)):
+            seen = need._replace(uses=tuple(_outside(package, need, hopeful=True)))
+            lacking = _once_installed(_lacks(package, workspace, seen, tags))
         if lacking is None:
             continue
-        uses = [use for use in need.uses if use.sure and _is_about(use, lacking.role)]
+        uses = [use for use in seen.uses if use.sure and _is_about(use, lacking.role)]
         name = next((name for name in uses[0].providers if name in need.declared), need.declared[0])
         if name in said or name in unguarded:
             continue  # unguarded-test tells where to put it
         said.add(name)
         mine = [declared.depend for declared in tags if declared.name == name]
-        tag = tag_for(package, workspace, name, need.role | (_given(tags, name) & ~_TEST))
+        tag = tag_for(package, workspace, name, seen.role | (_given(tags, name) & ~_TEST))
         written = " and ".join(dict.fromkeys(f"<{depend.tag}>" for depend in mine))
         yield Finding(
             f"{name} is declared as {written} only, {lacking.why}: make it <{tag}>{name}</{tag}>",
@@ -122,8 +127,15 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         )
 
 
-def _outside(package: Package, need: Need) -> Iterator[Use]:
-    """Yield the uses of a need as they look to others: nobody includes headers that are not installed."""
+def _targets(package: Package) -> tuple[BuildTarget, ...]:
+    return package.script.targets if package.script else ()
+
+
+def _outside(package: Package, need: Need, *, hopeful: bool) -> Iterator[Use]:
+    """Yield the uses of a need as they look to others: nobody includes headers that are not installed.
+
+    ``hopeful``: headers that are not installed in any build will be one day.
+    """
     script = package.script
     if script is None or package.hidden(Facet.LIBRARIES):
         yield from need.uses
@@ -137,7 +149,7 @@ def _outside(package: Package, need: Need) -> Iterator[Use]:
             installed = _installed_headers(script)
         always = installed.get(relative(package, use.span.path))
         if always is None:
-            yield use._replace(role=use.role & ~Role.EXPORT)
+            yield use if hopeful else use._replace(role=use.role & ~Role.EXPORT)
         elif always and not _OF_TESTS.issuperset(need.declared):
             yield use
 
@@ -157,6 +169,14 @@ class _Lack(NamedTuple):
     role: Role
     why: str
     confidence: Confidence = Confidence.HIGH
+
+
+def _once_installed(lacking: _Lack | None) -> _Lack | None:
+    """Return what is lacking once headers are installed that are not, if it is that."""
+    if lacking is None or lacking.role is not Role.EXPORT:
+        return None
+    why = "but its headers in include/ have it, and whoever builds against them needs it once they are installed"
+    return lacking._replace(why=why, confidence=Confidence.LOW)
 
 
 def _given(tags: Sequence[Declared], name: str = "") -> Role:
