@@ -15,7 +15,7 @@ from ros_lint.build_scripts import (
     top_file,
     unguarded_tests,
 )
-from ros_lint.cmake_finds import come_along, found_names, given_to
+from ros_lint.cmake_finds import come_along, found_along, found_names, given_to
 from ros_lint.collectors.launch_text import agree, is_plain
 from ros_lint.declare import (
     PYTHON_LIKE,
@@ -169,6 +169,7 @@ __all__ = [
     "evaluated_name",
     "everything",
     "filled",
+    "found_along",
     "found_names",
     "given_to",
     "hidden",

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
 
 from ros_lint.facts import BuildScript, Mention
 from ros_lint.workspace import Package, Workspace
+
+if TYPE_CHECKING:
+    from ros_lint.world import Closure
 
 _FIND_DECLARED = frozenset({"ament_auto_find_build_dependencies", "autoware_package"})
 _FIND_TESTS = frozenset({"ament_auto_find_test_dependencies", "ament_lint_auto_find_test_dependencies"})
@@ -28,17 +32,18 @@ def come_along(workspace: Workspace, names: Iterable[str]) -> frozenset[str] | N
 
     None when nobody knows of one of them whose it is, or what it brings.
     """
+    closure = found_along(workspace, names)
+    return closure.names.union(names) if closure.complete else None
+
+
+def found_along(workspace: Workspace, names: Iterable[str]) -> Closure:
+    """Return what is found together with names of find_package(), as far as it is known whose they are and what they bring."""
     starts: set[str] = set()
     for name in names:
-        if workspace.world.is_package(name):
-            starts.add(name)
-            continue
         providers = workspace.world.by_cmake(name)
-        if not providers.known:
-            return None
-        starts.update(providers.packages)
-    closure = workspace.world.closure(sorted(starts))
-    return closure.names.union(names) if closure.complete else None
+        mapped = providers.known and not workspace.world.is_package(name)
+        starts.update(providers.packages if mapped else (name,))
+    return workspace.world.closure(sorted(starts))
 
 
 def given_to(script: BuildScript, macro: str) -> Iterator[Mention]:

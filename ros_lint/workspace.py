@@ -95,6 +95,8 @@ class Package(NamedTuple):
     """Files that its models, displays and parameters look up in packages."""
     parameter_files: tuple[ParameterFile, ...] = ()
     """Its YAML files."""
+    unusable_headers: tuple[str, ...] = ()
+    """Those installed headers, relative to it, that do not compile anywhere else: what they include is not installed."""
 
     @property
     def place(self) -> Span:

@@ -10,15 +10,20 @@ compile there, unless they happen to find the other package themselves.
 
 ## How to fix it
 
-Add `ament_export_dependencies(other)` before `ament_package()`.
+Add `ament_export_dependencies(other)` before `ament_package()`, with the name that `find_package()` calls it by: `gz-sim` and
+not `gz_sim_vendor`.
 
 ## When it keeps silent
 
-- `ament_auto_package()` does the exporting.
-- The package exports nothing at all, so that its headers may be there for itself: then the confidence is medium.
-- The other package comes along with one that is exported: then, too, the confidence is medium.
+- `ament_auto_package()` does the exporting, or `rosidl_generate_interfaces()` that of its `DEPENDENCIES`.
 - The header is not installed, or perhaps not, or the script cannot be followed everywhere.
+- The header compiles nowhere else: it includes a file that is not installed, or a package that only ROS 1 has.
 - The script does not find the other package: that is another mistake.
+- What the header includes comes with the tools that tests are built with, such as `ament_cmake_gtest`.
+
+The confidence is medium when the other package comes along, or may come along, with one that is exported, when the package
+exports no include directories, so that its headers may be there for itself, and when an exported target has the include
+directories of the other one written out.
 """
 
 from __future__ import annotations
@@ -26,6 +31,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros_lint.api import (
+    BuildScript,
     Confidence,
     Facet,
     Finding,
@@ -36,15 +42,18 @@ from ros_lint.api import (
     Severity,
     Use,
     Workspace,
-    come_along,
+    called,
+    found_along,
     found_names,
     given_to,
+    may_bring,
     relative,
 )
 
 _MOST_RELATED = 4
-_EXPORTS = ("ament_export_dependencies", "ament_export_targets", "ament_export_libraries", "ament_export_interfaces")
+_EXPORTS = frozenset({"ament_export_include_directories", "ament_export_targets", "ament_export_interfaces"})
 _EXPORTS_ALL = frozenset({"ament_auto_package", "autoware_ament_auto_package"})
+_OF_TOOLS = "ament_cmake_"
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -53,36 +62,66 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     if package.hidden(Facet.USES | Facet.LIBRARIES) or _EXPORTS_ALL.intersection(script.calls):
         return
-    exports = any(call in script.calls for call in _EXPORTS)
-    exported = {mention.name for mention in given_to(script, "ament_export_dependencies")}
-    along = come_along(workspace, exported) or frozenset(exported)
-    finds = found_names(package, script)
+    by_cmake = workspace.world.by_cmake
+    exported = {mention.name for macro in _EXPORTING for mention in given_to(script, macro)}
+    exported_packages = exported.union(*(by_cmake(name).names for name in exported))
+    finds = sorted(found_names(package, script))
     for name, uses in _public(package, workspace).items():
-        if name in exported or name not in finds:
+        found = [each for each in finds if each == name or name in by_cmake(each).names[:1]]
+        if name in exported_packages or not found:
             continue
         first, *others = uses
+        # A vendor package mostly hands on nothing but the folder in which CMake finds what it stands for.
+        written = next((each for each in found if each != name), name) if name.endswith("_vendor") else found[0]
         yield Finding(
-            f"{name} is included by this installed header, but not exported: add ament_export_dependencies({name})",
+            f"{name} is included by this installed header, but not exported: add ament_export_dependencies({written})",
             first.span,
             name,
             tuple(Related(f"also included here: {use.what}", use.span) for use in others[:_MOST_RELATED]),
             None,
-            Confidence.MEDIUM if name in along or not exports else Confidence.HIGH,
+            _confidence(package, workspace, name, exported),
         )
 
 
-def _public(package: Package, workspace: Workspace) -> dict[str, list[Use]]:
-    """Return the ROS packages that installed headers include, with the places."""
+_EXPORTING = ("ament_export_dependencies", "interfaces of")
+
+
+def _confidence(package: Package, workspace: Workspace, name: str, exported: set[str]) -> Confidence:
     script = package.script
     assert script is not None
-    installed = {provided.source for provided in script.provides if provided.path.startswith("include/")}
+    along = found_along(workspace, exported)
+    if name in along or (not along.complete and may_bring(along.unknown, name, workspace)):
+        return Confidence.MEDIUM
+    sure = _EXPORTS.intersection(script.calls) and not _is_written_out(package, name)
+    return Confidence.HIGH if sure else Confidence.MEDIUM
+
+
+def _is_written_out(package: Package, name: str) -> bool:
+    """Whether a target hands on the include directories of a package as they are on this machine."""
+    directories = f"${{{name}_INCLUDE_DIRS}}"
+    calls = called(package, "target_include_directories", anywhere=True)
+    return any(directories in call.texts and "PRIVATE" not in call.texts for call in calls)
+
+
+def _public(package: Package, workspace: Workspace) -> dict[str, list[Use]]:
+    """Return the ROS packages that headers which others can include include, with the places."""
+    script = package.script
+    assert script is not None
+    world = workspace.world
+    includes = [use for use in package.uses if use.via == "include" and not use.optional and use.role & Role.EXPORT]
+    usable = _installed(script).difference(package.unusable_headers)
+    usable -= {relative(package, use.span.path) for use in includes if world.standing(use.package) == "end-of-life"}
     uses: dict[str, list[Use]] = {}
-    for use in package.uses:
-        if use.via != "include" or use.optional or not (use.sure and use.role & Role.EXPORT):
-            continue
-        if relative(package, use.span.path) in installed and workspace.world.is_package(use.package):
+    for use in includes:
+        known = use.sure and world.is_package(use.package) and not use.package.startswith(_OF_TOOLS)
+        if known and relative(package, use.span.path) in usable:
             uses.setdefault(use.package, []).append(use)
     return uses
+
+
+def _installed(script: BuildScript) -> set[str]:
+    """Return the headers that are installed in every build."""
+    return {each.source for each in script.provides if each.path.startswith("include/") and not each.conditional}
 
 
 RULE = Rule(

@@ -1,0 +1,51 @@
+"""Which installed headers others can include: what they include themselves must be installed, too."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from ros_lint.facts import BuildScript, FileFacts
+
+
+def unusable(script: BuildScript | None, facts: Mapping[str, FileFacts], files: tuple[str, ...]) -> tuple[str, ...]:
+    """Return the installed headers that do not compile anywhere else, sorted.
+
+    They include a file of the package that is not installed, or one that Qt makes of a form (``ui_*.h``), or another such
+    header. ``facts`` are by path relative to the package, as are ``files`` and what is returned.
+    """
+    provided = [each for each in script.provides if each.path.startswith("include/")] if script else []
+    headers = sorted({each.source for each in provided if each.source in facts})
+    if not headers:
+        return ()
+    installed = {_name(each.path) for each in provided}
+    private = {_name(file): file for file in files if _name(file) not in installed}
+    lost = {header for header in headers if any(_is_private(name, private, installed) for name in _includes(facts[header]))}
+    waiting = list(lost)
+    while waiting:
+        wrong = f"/{waiting.pop()}"
+        more = [each for each in headers if each not in lost and any(map(wrong.endswith, _endings(facts[each])))]
+        lost.update(more)
+        waiting += more
+    return tuple(sorted(lost))
+
+
+def _is_private(header: str, private: Mapping[str, str], installed: set[str]) -> bool:
+    name = _name(header)
+    if name in installed:
+        return False
+    return (name.startswith("ui_") and name.endswith(".h")) or f"/{private.get(name, '')}".endswith(f"/{header}")
+
+
+def _endings(facts: FileFacts) -> Iterator[str]:
+    return (f"/{name}" for name in _includes(facts))
+
+
+def _includes(facts: FileFacts) -> Iterator[str]:
+    """Yield the headers that a file cannot do without, less what leads to another folder."""
+    for mention in facts.mentions:
+        if mention.via == "include" and not mention.optional:
+            yield mention.name.rpartition("../")[2].removeprefix("./")
+
+
+def _name(path: str) -> str:
+    return path.rpartition("/")[2]
