@@ -19,10 +19,12 @@ def called(package: Package, *names: str, anywhere: bool = False) -> Iterator[Ca
     """Yield the calls of commands in the package's own CMakeLists.txt, or ``anywhere`` in its CMake files, in order."""
     if package.script is None:
         return
-    top = top_file(package)
-    for call in package.script.written:
-        if call.name in names and (anywhere or call.path == top):
-            yield call
+    found = [call for call in package.script.written if call.name in names]
+    if anywhere or not found:
+        yield from found
+    else:
+        top = top_file(package)
+        yield from (call for call in found if call.path == top)
 
 
 _UNDEFINED = re.compile(r"what the target [^:\s]+ is, is not known")

@@ -7,10 +7,7 @@ but what the tree said to everything that it was asked, the settings, the code, 
 
 from __future__ import annotations
 
-import hashlib
-import io
 import os
-import pickle
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
@@ -29,15 +26,6 @@ _MODULES = frozenset({
 
 _MOST_REPORTS = 8
 """Of one workspace: somebody may check it in different ways by turns."""
-
-
-class _Facts(pickle.Unpickler):
-    """Loads values of our own fact classes, and refuses everything else."""
-
-    def find_class(self, module: str, name: str) -> Any:
-        if module in _MODULES and "." not in name:
-            return super().find_class(module, name)
-        raise pickle.UnpicklingError(f"{module}.{name} is no fact")
 
 
 class Cache:
@@ -82,7 +70,7 @@ class Reports:
     """
 
     def __init__(self, folder: str, base: str, asked: str, data: Iterable[str]) -> None:
-        self._start = f"{_digest(os.path.realpath(base))}-"
+        self._start = f"{_digest(os.path.realpath(base))}-" if folder else ""
         self._folder = folder
         self._file = os.path.join(folder, f"{self._start}{_digest(asked)}.report") if folder else ""
         own = files_below(os.path.dirname(os.path.abspath(__file__)))
@@ -130,15 +118,25 @@ def folder(environment: Mapping[str, str]) -> str:
 
 def _load(path: str, state: str) -> Any:
     """Return what a file keeps, None when it was written in another state or is damaged."""
+    import pickle  # noqa: PLC0415  (a run that keeps nothing needs none of it)
+
+    class Facts(pickle.Unpickler):
+        """Loads values of our own fact classes, and refuses everything else."""
+
+        def find_class(self, module: str, name: str) -> Any:
+            if module in _MODULES and "." not in name:
+                return super().find_class(module, name)
+            raise pickle.UnpicklingError(f"{module}.{name} is no fact")
+
     try:
         with open(path, "rb") as file:
-            written, _, data = file.read().partition(b"\n")
-        return _Facts(io.BytesIO(data)).load() if written == state.encode() else None
+            return Facts(file).load() if file.readline() == state.encode() + b"\n" else None
     except (OSError, pickle.UnpicklingError, EOFError, AttributeError, TypeError, ValueError, IndexError):
         return None
 
 
 def _save(path: str, state: str, value: Any) -> None:
+    import pickle  # noqa: PLC0415
     import tempfile  # noqa: PLC0415  (a run that finds all that it needs writes nothing)
 
     temporary = ""
@@ -179,6 +177,8 @@ def _stamp(tree: Tree, path: str) -> Stamp | None:
 
 
 def _digest(text: str) -> str:
+    import hashlib  # noqa: PLC0415
+
     return hashlib.sha256(text.encode("utf-8", "surrogateescape")).hexdigest()[:24]
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import fnmatch
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from ros_lint import suppress
@@ -12,7 +12,7 @@ from ros_lint.registry import matching, suggest
 from ros_lint.report import Crash, Hidden, Issue, RefusalError
 from ros_lint.rule import Confidence, Rule, Severity
 from ros_lint.suppress import Suppression
-from ros_lint.workspace import Package, Workspace
+from ros_lint.workspace import Workspace
 
 
 class SelectionError(RefusalError):
@@ -78,7 +78,12 @@ def run(workspace: Workspace, rules: Iterable[Rule]) -> tuple[tuple[Issue, ...],
     for rule in rules:
         for package in workspace.packages if rule.package else (None,):
             try:
-                issues.update(_check(rule, package, workspace))
+                if rule.package is not None and package is not None:
+                    for finding in rule.package(package, workspace):
+                        issues.add(Issue(rule, package.name, finding))
+                elif rule.workspace is not None:
+                    for finding in rule.workspace(workspace):
+                        issues.add(Issue(rule, finding.package or owner(workspace, finding.span.path), finding))
             except KnowledgeError:
                 raise  # no rule can do its job, and the user must act
             except Exception:
@@ -147,15 +152,6 @@ def matches(path: str, pattern: str) -> bool:
     if "/" in pattern:
         return fnmatch.fnmatchcase(path, pattern) or fnmatch.fnmatchcase(path, f"{pattern}/*")
     return any(fnmatch.fnmatchcase(part, pattern) for part in path.split("/"))
-
-
-def _check(rule: Rule, package: Package | None, workspace: Workspace) -> Iterator[Issue]:
-    if rule.package is not None and package is not None:
-        for finding in rule.package(package, workspace):
-            yield Issue(rule, package.name, finding)
-    elif rule.workspace is not None:
-        for finding in rule.workspace(workspace):
-            yield Issue(rule, finding.package or owner(workspace, finding.span.path), finding)
 
 
 def owner(workspace: Workspace, path: str) -> str:

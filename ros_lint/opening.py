@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping, Sequence
-from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros_lint import cache
@@ -124,6 +123,8 @@ def reports(asked: Asked) -> cache.Reports:
     settings = asked.settings
     if not asked.cache or settings["plugins"]:
         return cache.Reports("", asked.base, "", ())
+    from importlib.util import find_spec  # noqa: PLC0415
+
     values = [(option.name, settings[option.name]) for option in OPTIONS if option.name not in _OF_NO_MATTER]
     rules = find_spec(BUILTIN)
     folders = [*(rules.submodule_search_locations or () if rules else ()), *asked.places]

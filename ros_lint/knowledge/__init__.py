@@ -81,6 +81,7 @@ class Knowledge:
         self.distro = distro
         self._store = Store(places)
         self._elsewhere: dict[str, frozenset[str]] = {}
+        self._having: dict[str, tuple[Index, ...]] = {}
 
     @property
     def covered(self) -> bool:
@@ -117,15 +118,21 @@ class Knowledge:
 
     def elsewhere(self, name: str) -> tuple[str, ...]:
         """Return the other distributions that have a package, oldest first."""
-        return tuple(other.distro for other in self.others if name in other)
+        return tuple(other.distro for other in self._where(name))
+
+    def _where(self, name: str) -> tuple[Index, ...]:
+        having = self._having.get(name)
+        if having is None:
+            having = self._having[name] = tuple([other for other in self.others if name in other])
+        return having
 
     def brings_elsewhere(self, package: str, name: str) -> bool | None:
         """Return whether a name comes along with a package in any of the other distributions that have it.
 
         None when none has it, or when the name means nothing there.
         """
-        having = [other for other in self.others if package in other]
-        if not having or not (name in self.rosdep or any(name in other for other in having)):
+        having = self._where(package)
+        if not having or not (name in self.rosdep or any(other in having for other in self._where(name))):
             return None
         if package not in self._elsewhere:
             found = set().union(*(other.brought(package) for other in having))
