@@ -15,6 +15,7 @@ from ros_lint.build_scripts import (
     top_file,
     unguarded_tests,
 )
+from ros_lint.carriers import Carried, carriers
 from ros_lint.cmake_finds import come_along, found_along, found_names, given_to
 from ros_lint.collectors.launch_text import agree, is_plain
 from ros_lint.declare import (
@@ -102,6 +103,7 @@ __all__ = [
     "BuildScript",
     "BuildTarget",
     "Call",
+    "Carried",
     "Component",
     "Confidence",
     "Declared",
@@ -156,6 +158,7 @@ __all__ = [
     "agree",
     "builds_something",
     "called",
+    "carriers",
     "change_dependency",
     "cmake_edits",
     "come_along",

@@ -96,8 +96,18 @@ def works_unseen(package: Package, workspace: Workspace, name: str) -> bool:
     mine = workspace.by_name.get(name, ())
     if mine:
         return any(_gives_macros(each) or not makes_something(each) for each in mine)
+    return _only_brings(world, name)
+
+
+def _only_brings(world: World, name: str) -> bool:
+    """Whether a released package is a metapackage: it says so, or has nothing but what it brings to be run."""
     released = world.released(name)
-    return released is not None and "m" in released.flags[1:]
+    if released is None or "m" in released.flags[1:]:
+        return released is not None
+    if released.build_type != "ament_cmake" or released.interfaces or not released.on("x") or released.on("beu"):
+        return False
+    known = (world.executables, world.launch_files, world.components, world.plugins, world.python_modules, world.programs)
+    return not any(provides(name).names or provides(name).maybe for provides in known)
 
 
 def is_mostly_run(workspace: Workspace, name: str) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ros_lint.carriers import carriers
 from ros_lint.declare import builds_something, is_built_in_sight, is_library, is_mostly_run, leaves_trace, works_unseen
 from ros_lint.facts import Facet, Role, Use
 from ros_lint.needs import all_declared, may_bring, only_launched, tells
@@ -90,6 +91,10 @@ def _not_unused(package: Package, workspace: Workspace, name: str, uses: list[Us
         return "silent, for it may do its work without being named"
     if not any(depend.tag in ("depend", "build_depend") for depend in tags):
         return "silent unless it is declared for tests and there are none: this tag says that it leaves no trace"
+    carried = carriers(package, workspace, [each for each in package.declared if each.name == name]).get(name)
+    if carried:
+        whom = "" if carried.package == package.name else f" to {carried.package}"
+        return f"less than certain, for it alone brings {carried.name}{whom}; shown with --pedantic"
     return "reported"
 
 

@@ -17,7 +17,7 @@ from ros_lint.knowledge.spelling import Spelling
 from ros_lint.providers import Meant, Providers
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Container, Iterable, Mapping, Sequence
 
     from ros_lint.knowledge import Facet, Knowledge, Known, Released
     from ros_lint.underlay import Installed, Underlay
@@ -149,6 +149,15 @@ class World:
         members of groups that are in the workspace, too. A key brings the keys that its system package depends on.
         """
         return self._reach.closure(names)
+
+    def closure_without(self, names: Iterable[str], package: str, gone: Container[str]) -> Closure:
+        """Return the closure of names as it would be if a package did not bring some of the others itself."""
+
+        def brings(name: str) -> tuple[str, ...] | None:
+            found = self._brings(name)
+            return tuple(each for each in found if each not in gone) if found and name == package else found
+
+        return Reach(brings).closure(names)
 
     def path(self, starts: Iterable[str], goal: str) -> tuple[str, ...]:
         """Return a shortest chain by which a name comes along with one of others, both ends included, or ()."""

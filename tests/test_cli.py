@@ -216,6 +216,17 @@ def test_fixes_that_together_would_close_a_cycle(tmp_path: Path) -> None:
     assert run("order", tmp_path).returncode == 0
 
 
+def test_what_is_less_than_certain_is_removed_only_if_asked_for(demo: Path) -> None:
+    manifest = demo / "src" / "rover_driver" / "package.xml"
+    text = manifest.read_text().replace("<depend>rclcpp</depend>", "<depend>rclcpp</depend><depend>of_the_house</depend>")
+    manifest.write_text(text)
+    run(demo, "--fix", "--select", "unused-dependency")
+    assert "diagnostic_updater" not in manifest.read_text()
+    assert "of_the_house" in manifest.read_text()
+    run(demo, "--fix", "--unsafe-fixes", "--select", "unused-dependency")
+    assert "of_the_house" not in manifest.read_text()
+
+
 def test_graph_commands(demo: Path) -> None:
     done = run("order", demo)
     assert done.returncode == 1

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from random import Random
+from types import SimpleNamespace
 
 import pytest
 
@@ -10,6 +11,7 @@ from ros_lint.patch import line_before
 from ros_lint.report import Issue
 from ros_lint.rule import Edit, Finding, Fix, Rule, Severity
 from ros_lint.text import Span
+from ros_lint.tree import MemoryTree
 
 RULE = Rule("r", "ROS999", "s", Severity.ERROR, "0.1", "", package=lambda package, workspace: ())
 
@@ -70,6 +72,14 @@ def test_a_few_trials_find_who_is_to_blame() -> None:
     done = mend._mended(proof)
     assert {issue.finding.subject for issue, _ in done.withheld} == {"s11", "s51", "s101", "s151"}
     assert len(proof.trials) <= 2, "all, and all but these"
+
+
+def test_what_is_not_mended_stands_where_the_file_has_it() -> None:
+    proof = object.__new__(mend._Proof)
+    loader = SimpleNamespace(tree=MemoryTree({"f": "a\nb\nc\n"}))
+    proof._opened = SimpleNamespace(loader=loader)  # type: ignore[assignment]  # nothing else is asked of it
+    assert proof.as_it_is({"f": b"b\nc\n"}, issue(1, "p")).finding.span == Span("f", 3, 1, 3, 2)
+    assert proof.as_it_is({"g": b""}, issue(1, "p")).finding.span == Span("f", 2, 1, 2, 2)
 
 
 def test_the_line_as_it_was() -> None:

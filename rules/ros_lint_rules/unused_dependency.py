@@ -12,7 +12,7 @@ every machine, and tells readers something wrong.
 
 ## How to fix it
 
-Remove the tag. The fix does this.
+Remove the tag. The fix does this, and needs `--unsafe-fixes` where the confidence is less than high.
 
 ## When it keeps silent
 
@@ -21,6 +21,9 @@ under a condition, packages whose build scripts cannot be followed everywhere, m
 without code, and dependencies that give CMake macros or plugins. For rosdep keys of libraries, which others' headers may
 need, for packages that nobody knows, and for messages and Python packages that are mostly declared to be run, the
 confidence is medium.
+
+So it is where nothing uses the dependency, but something else that is used and not declared comes along with it alone, in
+this package or in another one of the workspace. That is to be declared instead, and nothing is removed.
 """
 
 from __future__ import annotations
@@ -30,13 +33,16 @@ from collections.abc import Iterator
 from ros_lint.api import (
     PYTHON_LIKE,
     BuildScript,
+    Carried,
     Confidence,
+    Declared,
     Finding,
     Fix,
     Package,
     Rule,
     Severity,
     Workspace,
+    carriers,
     is_built_in_sight,
     is_library,
     is_mostly_run,
@@ -53,6 +59,35 @@ _NO_TEST = ("enable_testing", "ament_lint_auto_find_test_dependencies", "ament_a
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    found = list(_unused(package, workspace))
+    carried = carriers(package, workspace, [declared for declared, _, _ in found]) if found else {}
+    for declared, says, confidence in found:
+        depend = declared.depend
+        name, sure = depend.name, confidence is Confidence.HIGH
+        if name in carried:
+            told = _told(package, name, carried[name])
+            yield Finding(told, depend.span, name, confidence=min(confidence, Confidence.MEDIUM))
+            continue
+        written = f"<{depend.tag}>{name}</{depend.tag}>"
+        yield Finding(
+            f"{name} is declared, but {says}: remove {written}",
+            depend.span,
+            name,
+            fix=Fix(f"remove {written}", remove_dependency(package, depend), safe=sure),
+            confidence=confidence,
+        )
+
+
+def _told(package: Package, name: str, carried: Carried) -> str:
+    if carried.package == package.name:
+        return f"{name} is declared in place of {carried.name}: declare that instead"
+    if carried.name == name:
+        return f"{name} is declared, but only {carried.package} uses it: declare it there instead"
+    return f"{name} is declared, but only brings {carried.name} to {carried.package}: declare that there instead"
+
+
+def _unused(package: Package, workspace: Workspace) -> Iterator[tuple[Declared, str, Confidence]]:
+    """Yield the tags of dependencies that nothing in the package uses, with what to say and how sure it is."""
     script = package.script
     if script is None or not is_built_in_sight(package):
         return
@@ -80,14 +115,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             says = "there is no test that could use it"
         else:
             continue
-        written = f"<{depend.tag}>{name}</{depend.tag}>"
-        yield Finding(
-            f"{name} is declared, but {says}: remove {written}",
-            depend.span,
-            name,
-            fix=Fix(f"remove {written}", remove_dependency(package, depend)),
-            confidence=Confidence.MEDIUM if unknown or mostly_run else Confidence.HIGH,
-        )
+        yield declared, says, Confidence.MEDIUM if unknown or mostly_run else Confidence.HIGH
 
 
 def _can_test_with(package: Package, script: BuildScript, workspace: Workspace, name: str) -> bool:
