@@ -73,7 +73,7 @@ class Liveness:
         python = name.endswith((".py", ".py.in")) or "." not in name
         resource = name.endswith(_RESOURCES)
         folders = set(path.split("/")[:-1])
-        if TEST_FOLDERS & folders or (python and _is_test(name)):
+        if TEST_FOLDERS & folders or (python and _is_test(name) and path not in self._started):
             # pytest takes what is called test, and beside it lie its helpers; elsewhere lies anything.
             taken = self._runs_python_tests and (_is_test(name) or path.rpartition("/")[0] in self._folders_with_tests)
             return Role.TEST, (taken or path in self._launched) if python else not (self._sees_targets or resource)
@@ -202,6 +202,17 @@ class Liveness:
     @cached_property
     def _installed(self) -> frozenset[str]:
         return frozenset(p.source for p in self._script.provides if p.source) if self._script else frozenset()
+
+    @cached_property
+    def _started(self) -> frozenset[str]:
+        """What people start, whatever its name: launch files and programs that are always installed, and entry points."""
+        if self._script is None:
+            return frozenset()
+        always = [(p.source, p.path) for p in self._script.provides if p.source and not p.conditional]
+        found = {source for source, path in always if source in self._launched or path.startswith(_PROGRAMS)}
+        commands = [entry for entry in self._script.entry_points if entry.group in ("console_scripts", "gui_scripts")]
+        modules = [entry.target.partition(":")[0].strip().replace(".", "/") for entry in commands]
+        return frozenset([*found, *(f"{folder}{module}.py" for module in modules for folder in ("", "src/"))])
 
     @cached_property
     def _beside_launch_files(self) -> frozenset[str]:

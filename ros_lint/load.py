@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
-from ros_lint import conditions, evidence, launch_around, public_headers, scripts, source_lists
+from ros_lint import conditions, evidence, launch_around, scripts, source_lists
 from ros_lint.cache import Cache
 from ros_lint.collect import FAILED, Collected, collect_all, kind_of
 from ros_lint.declare import is_built_in_sight, is_unseen_by_name
@@ -17,6 +17,7 @@ from ros_lint.discover import Found, Skipped, discover
 from ros_lint.facts import ROLES, BuildScript, FileFacts, LaunchFile, Manifest, Role
 from ros_lint.knowledge import Knowledge
 from ros_lint.knowledge.index import TAG_KINDS
+from ros_lint.providers import offered
 from ros_lint.suppress import Suppression
 from ros_lint.text import Span, Text, read
 from ros_lint.tree import OverlayTree, Tree, join
@@ -170,7 +171,7 @@ class Loader:
 
     def _members(self, reads: Sequence[_Read], rejected: Sequence[Manifest]) -> Iterator[Member]:
         for found, declared, script, _, _ in reads:
-            modules = tuple(dict.fromkeys(name.partition(".")[0] for name in script.python_packages)) if script else ()
+            modules = offered(script.python_packages, found.files) if script else ()
             yield _member(found.name, found.manifest, declared)._replace(modules=modules)
         for manifest in rejected:
             if manifest.name:
@@ -209,7 +210,6 @@ class Loader:
                 registrations=tuple([made for facts in done.facts.values() for made in facts.registrations]),
                 look_ups=tuple([look_up for facts in done.facts.values() for look_up in facts.look_ups]),
                 parameter_files=tuple([f.parameters for f in done.facts.values() if f.parameters is not None]),
-                unusable_headers=public_headers.unusable(done.script, done.facts, found.files),
             )
             yield package._replace(traces=self._traces(tree, package, source, world)) if search else package
 

@@ -110,12 +110,46 @@ def by_import(world: World, module: str) -> Providers:
         return _NONE_NEEDED
     offering = world.offering(top)
     if offering:
-        return _of(world, offering)
+        return _of(world, _with_released(world, top, offering))
     owners = _in_underlay(world, [underlay.modules(top) for underlay in world.underlays])
     differing = names.module_packages(module, world.knowledge.distro)
     named = () if any(world.is_package(name) for name in differing) or not _has_module(world, top) else (top,)
     found = _of(world, (*owners, *differing, *named, *keys), keys=keys)
     return found if found.known else _gone(world, top)
+
+
+def _with_released(world: World, module: str, offering: tuple[str, ...]) -> tuple[str, ...]:
+    """Return the packages of the workspace that offer a module, and the one that everybody knows it of."""
+    if module in offering or world.layer(module) == "workspace":
+        return offering
+    answer = world.python_modules(module).ask(module) if world.is_package(module) else "missing"
+    return (module, *offering) if answer == "exists" else offering if answer == "missing" else (*offering, module)
+
+
+def offered(names: Iterable[str], files: Iterable[str]) -> tuple[str, ...]:
+    """Return the modules at the top of what a package installs that are meant to be imported.
+
+    ``names`` are dotted, ``files`` those of the package. ``find_namespace_packages()`` takes any folder for a package: those
+    without Python modules and those that hold data, going by their name, are none.
+    """
+    tops = dict.fromkeys(name.partition(".")[0] for name in names)
+    modules: dict[str, bool] = {}
+    for file in files if tops else ():
+        top, slash, rest = file.removeprefix("src/").partition("/")
+        if slash and top in tops:
+            is_module = rest == "__init__.py" or (rest.endswith(".py") and top not in _DATA)
+            modules[top] = modules.get(top, False) or is_module
+    return tuple(top for top in tops if modules.get(top, True))
+
+
+_DATA = frozenset(
+    {
+        "launch", "config", "configs", "cfg", "params", "param", "resource", "resources", "urdf", "meshes", "models", "worlds",
+        "world", "maps", "map", "rviz", "scenarios", "test", "tests", "doc", "docs", "examples", "images", "scripts", "include",
+        "msg", "srv", "action", "build", "install", "log",
+    }
+)  # fmt: skip
+"""Folders of packages that are there for everything but modules."""
 
 
 def meant(world: World, name: str, *, python: bool) -> Meant | None:

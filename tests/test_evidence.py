@@ -306,3 +306,42 @@ def test_what_comes_from_folders_that_are_not_there_is_not_sure() -> None:
     workspace = load({**files, ".gitmodules": '[submodule "x"]\n\tpath = talker/deps/serial\n'})
     assert [use.sure for use in uses(workspace, "python3-serial")] == [False]
     assert [use.sure for use in uses(workspace, "python3-opencv")] == [True]
+
+
+def test_what_is_installed_to_be_started_is_no_test_whatever_its_name() -> None:
+    launch = "import launch_ros\ndef generate_launch_description():\n    return []\n"
+    files = {
+        "launch__test_all_dot_launch_dot_py": launch,
+        "test__test_some_dot_launch_dot_py": launch,
+        "launch__test_not_dot_launch_dot_py": launch,
+        "scripts__test_motor_dot_py": "import serial\n",
+    }
+    lines = (
+        "install(FILES launch/test_all.launch.py DESTINATION share/${PROJECT_NAME}/launch)\n"
+        "install(FILES test/test_some.launch.py DESTINATION share/${PROJECT_NAME}/test)\n"
+        "install(PROGRAMS scripts/test_motor.py DESTINATION lib/${PROJECT_NAME})"
+    )
+    workspace = load(cmake("talker", "", lines, **files))
+    roles = {use.span.path[7:]: use.role for use in workspace.packages[0].uses}
+    assert roles == {
+        "launch/test_all.launch.py": Role.EXEC,
+        "launch/test_not.launch.py": Role.TEST,
+        "scripts/test_motor.py": Role.EXEC,
+        "test/test_some.launch.py": Role.TEST,
+        "CMakeLists.txt": Role.TOOL,
+    }
+
+
+def test_folders_of_data_are_no_modules_that_others_import() -> None:
+    example = {
+        "example/package.xml": HEAD.format(name="example", depends="", kind="ament_python"),
+        "example/setup.py": "from setuptools import find_namespace_packages, setup\nsetup(packages=find_namespace_packages())\n",
+        "example/launch/a.launch.py": "import launch\n",
+        "example/models/a.sdf": "",
+        "example/arms/left.py": "",
+        "example/yaml/__init__.py": "",
+    }
+    names = {name: load(example).world.by_import(name).names for name in ("launch", "models", "arms", "yaml")}
+    assert names == {"launch": ("launch",), "models": (), "arms": ("example",), "yaml": ("example",)}
+    workspace = load({**example, "example/rclpy/__init__.py": ""})
+    assert workspace.world.by_import("rclpy").names == ("rclpy", "example")
