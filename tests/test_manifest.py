@@ -141,6 +141,11 @@ def test_kinds_of_problems(text: str | bytes, expected: list[str]) -> None:
             "8:1-8:2",
             "the file goes on after the end of its root element; remove what follows, one <package> is all there may be",
         ),
+        (
+            "<license>MIT</license>\n" + GOOD,
+            "1:1-1:10",
+            "<license> stands before <package>; remove it, one <package> is all there may be",
+        ),
         (GOOD.replace("email=", "email='' email="), "5:24-5:25", "the attribute email is there twice; remove one"),
         (with_("<x:a/>"), "7:1-7:2", "the prefix before ':' belongs to no namespace; remove it"),
         ("<launch/>", "1:2-1:8", "the root element is <launch>, but a manifest has <package>"),

@@ -323,6 +323,10 @@ def _conflicts(text: str, fault: int) -> tuple[Fault, ...]:
     return tuple(Fault("merge-conflict", message, marker.start(), marker.end()) for marker in starts)
 
 
+_MARKUP = re.compile(r"<!--.*?-->|<\?.*?\?>|<!.*?>|<([^\s>/!?]+)[^>]*>?", re.DOTALL)
+"""Group 1 is the name of an element."""
+
+
 def _explain(text: str, code: int, at: int) -> Fault:
     """Return an expat error in words that say how to get out of it. ``at`` is the offset that expat gives."""
     start, end = at, min(at + 1, len(text))
@@ -346,6 +350,10 @@ def _explain(text: str, code: int, at: int) -> Fault:
         message = f"{text[at:end]} is not defined in xml; write the character itself"
     elif code == errors[expat.errors.XML_ERROR_JUNK_AFTER_DOC_ELEMENT]:
         message = "the file goes on after the end of its root element; remove what follows, one <package> is all there may be"
+        first = next(found for found in _MARKUP.finditer(text) if found[1])
+        if first[1] != "package" and text.find("<package", at) >= 0:
+            message = f"<{first[1]}> stands before <package>; remove it, one <package> is all there may be"
+            start, end = first.span()
     elif code == errors[expat.errors.XML_ERROR_DUPLICATE_ATTRIBUTE]:
         message = f"the attribute {re.split('[ =]', text[at:], maxsplit=1)[0]} is there twice; remove one"
     elif code == errors[expat.errors.XML_ERROR_UNBOUND_PREFIX]:
