@@ -10,7 +10,8 @@ The package was not ported to the end. `rosdep install` stops at the name, and s
 
 ## How to fix it
 
-Depend on what took its place in ROS 2, which the message names where there is one, or drop the dependency.
+Depend on what took its place in ROS 2, which the message names where there is one, or drop the dependency: where that is
+declared already, or where nothing is generated that would need it.
 
 ## When it keeps silent
 
@@ -23,7 +24,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Confidence, Finding, Rule, Severity, Workspace, declared_names, strangers
+from ros_lint.api import Confidence, Facet, Finding, Package, Rule, Severity, Workspace, declared_names, strangers
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
@@ -34,16 +35,36 @@ def check(workspace: Workspace) -> Iterator[Finding]:
             continue
         successor = names.successor(name)
         successor = successor if world.is_package(successor) else ""
-        way_out = f"use {successor}" if successor else "replace it, or add its sources to the workspace"
         last = names.end_of_life(name)[0]
         for stranger in strangers(name, packages):
             yield Finding(
-                f"{name} was last released for {last} (as of {world.knowledge.date}): {way_out}",
+                f"{name} was last released for {last} (as of {world.knowledge.date}): {_way_out(stranger.package, successor)}",
                 stranger.declared.depend.name_span,
                 name,
                 confidence=Confidence.HIGH if successor else Confidence.MEDIUM,
                 package=stranger.package.name,
             )
+
+
+def _way_out(package: Package, successor: str) -> str:
+    if not successor:
+        return "replace it, or add its sources to the workspace"
+    if package.declares(successor):
+        return f"remove it, {successor} is declared, too"
+    if successor.startswith(_FOR_INTERFACES) and not _has_interfaces(package):
+        return "remove it, no interfaces are generated here"
+    return f"use {successor}"
+
+
+_FOR_INTERFACES = "rosidl_default_"
+
+
+def _has_interfaces(package: Package) -> bool:
+    """Whether code is generated from messages, services or actions, or may be one day."""
+    script = package.script
+    if script is None or script.interfaces or package.hidden(Facet.INTERFACES):
+        return True
+    return any(file.endswith((".msg", ".srv", ".action", ".idl")) for file in package.files)
 
 
 RULE = Rule(
