@@ -63,11 +63,14 @@ def _entry(package: Package, entry: EntryPoint) -> Iterator[Finding]:
         yield Finding(f"{entry.name} = {entry.target} is not of the form name = module:function", entry.span, entry.name)
         return
     name, attribute = match[1], match[2]
+    module = next((module for module in script.modules if module.name == name), None)
     if attribute is None:
         if runs:
-            yield Finding(f"{entry.name} names a module and no function; write {name}:main", entry.span, entry.name)
+            way_out = f"write {name}:main"
+            if module is not None and not module.open and "main" not in module.names:
+                way_out = f"{module.path} has no main, so define one there and {way_out}"
+            yield Finding(f"{entry.name} names a module and no function; {way_out}", entry.span, entry.name)
         return
-    module = next((module for module in script.modules if module.name == name), None)
     if module is None:
         yield from _no_module(package, entry, name)
         return
