@@ -71,12 +71,18 @@ def _python(manifest: Manifest, script: BuildScript) -> Iterator[Finding]:
         message = _PLACES[what].format(name)
         if all(place.message != message for place in places):
             places.append(Related(message, provided.span))
-    for first, *others in wrong.values():
+    entries = {entry.span for entry in script.entry_points}
+    scripts = next((text.span for text in script.texts if (text.kind, text.text) == _SCRIPTS), None)
+    for places in wrong.values():
+        first, *others = [place._replace(span=scripts) if scripts and place.span in entries else place for place in places]
         message = f"{first.message}, but package.xml calls it {manifest.name}; use one name"
         found = _finding(message, manifest, script, first.span)._replace(related=tuple(others))
         harmless = not others and first.span == script.name_span
         yield found._replace(severity=Severity.WARNING) if harmless else found
 
+
+_SCRIPTS = ("option", "install.install_scripts")
+"""What setup.cfg says of where programs go, which are written in setup.py."""
 
 _PLACES = {
     "marker": "the package is entered into the index as {}",
