@@ -63,8 +63,12 @@ def elements(value: str) -> list[str]:
     if ";" not in value:
         return [value]
     if "\\" not in value and "[" not in value and "]" not in value and "\3" not in value:
-        return value.split(";")
-    return _split(value)
+        found = value.split(";")
+    else:
+        found = _split(value)
+    if MAYBE in value and found.count("") == 1 and all(element[:1] in ("", MAYBE) for element in found):
+        return [element or MAYBE for element in found]  # where it turns out to be the only one, it is none
+    return found
 
 
 def _split(value: str) -> list[str]:
