@@ -322,3 +322,20 @@ def test_both_ways_agree_on_real_sources() -> None:
         source = read(str(path), path.read_bytes())
         found, precise = mentions(source), exact(source)
         assert (found.mentions, found.computed) == (precise.mentions, precise.computed), path
+
+
+@pytest.mark.parametrize(
+    ("handler", "optional"),
+    [
+        ("catch (const ament_index_cpp::PackageNotFoundError & e) { warn(); return; }", True),
+        ("catch (ament_index_cpp::PackageNotFoundError &) {\n  if (x) { y(); }\n}", True),
+        ("catch (const ament_index_cpp::PackageNotFoundError & e) { throw std::runtime_error(e.what()); }", False),
+        ("catch (const ament_index_cpp::PackageNotFoundError & e) { exit(1); }", False),
+        ("catch (const std::out_of_range & e) { /* PackageNotFoundError */ }", False),
+    ],
+)
+def test_a_look_up_that_may_fail_is_optional(handler: str, optional: bool) -> None:
+    text = f'void f() {{\n  try {{\n    if (a) {{ d = get_package_share_directory("meshes"); }}\n  }}\n  {handler}\n}}\n'
+    facts = cpp.collect(Text("a.cpp", text + 'void g() { get_package_share_directory("maps"); }\n'))
+    found = {mention.name: mention.optional for mention in facts.mentions if mention.via == "package"}
+    assert found == {"meshes": optional, "maps": False}

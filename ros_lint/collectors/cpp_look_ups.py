@@ -45,10 +45,51 @@ def look_ups(source: Text, loads_plugins: bool, code: Sequence[int] = ()) -> tup
     ]
     named.sort()
     spans = source.spans([place for place, _, _ in named])
-    mentions = [Mention(name, "package", span, what) for (_, name, what), span in zip(named, spans, strict=True)]
+    tried = _tried(text) if "PackageNotFoundError" in text else []
+    mentions = [
+        Mention(name, "package", span, what, any(place[0] in block for block in tried))
+        for (place, name, what), span in zip(named, spans, strict=True)
+    ]
     files = sorted(_files(text, calls))
     spans = source.spans([place for place, _, _ in files])
     return mentions, tuple(LookUp(package, path, span) for (_, package, path), span in zip(files, spans, strict=True))
+
+
+def _tried(text: str) -> list[range]:
+    """Return the blocks after which somebody goes on who has caught that a package is not there."""
+    found = []
+    for catch in _CATCH.finditer(text):
+        handler = text[catch.end() : _closing(text, catch.end())]
+        begin = _opening(text, catch.start())
+        if begin >= 0 and not _GIVES_UP.search(handler):
+            found.append(range(begin, catch.start()))
+    return found
+
+
+_CATCH = re.compile(r"\}\s*catch\s*\([^()]*\bPackageNotFoundError\b[^()]*\)\s*\{")
+_GIVES_UP = re.compile(r"\b(?:throw|abort|exit|_Exit|quick_exit|terminate|FAIL|GTEST_FAIL|FATAL|RCLCPP_FATAL\w*)\b")
+_BRACE = re.compile(r"[{}]")
+
+
+def _closing(text: str, at: int) -> int:
+    """Return where the block ends that is open at an offset."""
+    depth = 1
+    for brace in _BRACE.finditer(text, at):
+        depth += 1 if brace[0] == "{" else -1
+        if not depth:
+            return brace.start()
+    return len(text)
+
+
+def _opening(text: str, end: int) -> int:
+    """Return where the block begins that a closing brace ends, -1 if it is not one of try."""
+    depth = 0
+    at = end + 1
+    while (at := max(text.rfind("{", 0, at), text.rfind("}", 0, at))) >= 0:
+        depth += 1 if text[at] == "}" else -1
+        if not depth:
+            return at if text[:at].rstrip().endswith("try") else -1
+    return -1
 
 
 def _files(text: str, calls: list[re.Match[str]]) -> Iterator[tuple[tuple[int, int], str, str]]:
