@@ -79,7 +79,8 @@ def _gathered(package: Package, workspace: Workspace, uses: Iterable[Use]) -> tu
     declared = frozenset([declared.depend.name for declared in package.declared])
     closure = all_declared(package, workspace)
     bring = workspace.world.closure
-    result = [need for name, uses in found.items() for need in _needs(name, uses, declared, closure, bring)]
+    only_runs = workspace.world.only_runs
+    result = [need for name, uses in found.items() for need in _needs(name, uses, declared, closure, bring, only_runs)]
     result.sort(key=_place)
     return tuple(result)
 
@@ -91,11 +92,17 @@ def _is_ament(package: Package) -> bool:
 
 
 def _needs(
-    name: str, uses: list[Use], declared: frozenset[str], closure: Closure, bring: Callable[[tuple[str, ...]], Closure]
+    name: str,
+    uses: list[Use],
+    declared: frozenset[str],
+    closure: Closure,
+    bring: Callable[[tuple[str, ...]], Closure],
+    only_runs: Callable[[str], bool],
 ) -> Iterator[Need]:
     """Yield what uses of a name amount to; they come sorted by place.
 
-    Each place has to be satisfied: Eigen3 of CMake by its find module, a header of Eigen by the library.
+    Each place has to be satisfied: Eigen3 of CMake by its find module, a header of Eigen by the library, and what is built
+    by more than a key that ``only_runs``.
     """
     if len(uses) > 1:
         uses.sort(key=_rank)
@@ -104,7 +111,14 @@ def _needs(
         yield Need(name, tuple(uses), (name,) if name in declared else (), name in closure)
         return
     found = {names: [each for each in names if each in declared and _is_meant(each, names[0], bring)] for names in answers}
-    lacking = [names for names, direct in found.items() if not direct and not any(each in closure for each in names)]
+    for names in {use.providers for use in uses if use.role & Role.BUILD}:
+        if found[names] and all(map(only_runs, found[names])) and not only_runs(name):
+            found[names] = []
+    lacking = [
+        names
+        for names, direct in found.items()
+        if not direct and not any(each in closure and not (each in declared and only_runs(each)) for each in names)
+    ]
     brought = [names for names, direct in found.items() if not direct and names not in lacking]
     if names := tuple(dict.fromkeys([each for direct in found.values() for each in direct])):
         others = {*lacking, *brought}

@@ -6,6 +6,7 @@ package hides the others, as it does when everything is installed (reference, se
 
 from __future__ import annotations
 
+import re
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
     from ros_lint.underlay import Installed, Underlay
 
 __all__ = ["Closure", "Layer", "Meant", "Member", "Providers", "Standing", "World"]
+
+_SHARED = re.compile(r"lib(?!.*-dev\b).*[0-9][a-z]?\Z")
+"""Names of system packages with shared libraries: they end with a version. Headers are in others."""
 
 Layer = Literal["workspace", "underlay", "index"]
 Standing = Literal["known", "elsewhere", "end-of-life", "unknown", "unknowable"]
@@ -94,6 +98,13 @@ class World:
     def is_key(self, name: str) -> bool:
         """Return whether a name is a rosdep key, whatever platform it resolves on."""
         return self._look_up(name)[1]
+
+    def only_runs(self, name: str) -> bool:
+        """Return whether a name is a key for shared libraries without what is needed to build against them."""
+        if not name.startswith("lib") or self.is_package(name):
+            return False
+        key = self.knowledge.rosdep.get(name)
+        return key is not None and bool(key.apt) and all(map(_SHARED.match, key.apt))
 
     def standing(self, name: str) -> Standing:
         """Return what a declared name is."""
