@@ -70,6 +70,8 @@ class Answer(NamedTuple):
 
 
 _NOBODY = Answer(())
+_OF_TESTS = ("gtest/", "gmock/")
+"""Headers that a header without a source of its own can include for nobody but tests."""
 
 
 class Resolver:
@@ -148,6 +150,8 @@ def resolve(source: Source, resolver: Resolver) -> tuple[Use, ...]:
             ours.append(mention._replace(optional=True) if only_named else mention)
         for (path, role), mentions in by_role.items():
             uses.add(_relative(source, path), mentions, role, role, sure=True)
+        for mention, always in source.script.handed_on:
+            uses.add(_relative(source, mention.span.path), [mention], Role.EXPORT, Role.EXPORT, always)
         _unspoken(source, uses)
     for path, facts in source.facts.items():
         if not facts.mentions:
@@ -155,6 +159,8 @@ def resolve(source: Source, resolver: Resolver) -> tuple[Use, ...]:
         role, sure = own.place(path)
         role = _TEST if path in tests else role
         mentions = list(facts.mentions)
+        if own.is_optional(path):
+            mentions = [mention._replace(optional=True) for mention in mentions]
         if path in launched:  # the launch collector has the packages, too
             mentions = [mention for mention in mentions if mention.via != "package"]
         uses.add(path, mentions, role, _TEST if role is _TEST else _LOOKED_UP, sure)
@@ -173,6 +179,8 @@ class _Uses:
         self._own = own
         self._absent = source.absent
         self._caught = _caught(source, own)
+        script = source.script
+        self._bundled = frozenset([name.lower() for name in script.bundled]) if script else frozenset()
         self._found: dict[tuple[Span, str, Via], Use] = {}
 
     def put(self, use: Use) -> None:
@@ -186,7 +194,9 @@ class _Uses:
         package, answer, found = self.package, self.resolver.answer, self._found
         own = self._own.own_includes(path)
         for name, via, span, what, optional, test in mentions:
-            if (via == "include" and name in own) or (via == "import" and self._is_own_module(name, path)):
+            if (via == "include" and (name in own or self._is_bundled(name))) or (
+                via == "import" and self._is_own_module(name, path)
+            ):
                 continue
             providers, known, usual = answer(via, name)
             if not providers or package in providers:
@@ -194,6 +204,8 @@ class _Uses:
             if via == "include" and providers[0] in self._own.include_folders and name.startswith(f"{providers[0]}/"):
                 continue
             needed = _TEST if test else looked_up if via == "package" else role
+            if via == "include" and name.startswith(_OF_TESTS) and self._own.serves_tests(path):
+                needed = _TEST
             spared = optional
             if via == "import":
                 spared = spared or self._is_spared(name, what, providers[0])
@@ -207,6 +219,10 @@ class _Uses:
         if what.endswith(ADDED):
             return not self.resolver.names.is_package(best)
         return bool(self._caught) and any(name == each or name.startswith(f"{each}.") for each in self._caught)
+
+    def _is_bundled(self, header: str) -> bool:
+        """Whether a header is of a project that is built along with the package."""
+        return bool(self._bundled) and header.partition("/")[0].lower() in self._bundled
 
     def _is_own_module(self, name: str, path: str) -> bool:
         top = name.partition(".")[0]

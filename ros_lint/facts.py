@@ -264,6 +264,10 @@ class Target(NamedTuple):
     span: Span
     links: tuple[tuple[str, Span], ...] = ()
     """What it is linked with for sure, by name, each with the place that says so."""
+    optional: tuple[str, ...] = ()
+    """Those of its sources that are not compiled in every build: all of them where it is not built in every one."""
+    whole: bool = True
+    """Whether all of its sources are known."""
 
 
 class Provided(NamedTuple):
@@ -280,6 +284,8 @@ class Provided(NamedTuple):
     span: Span
     target: str = ""
     """The CMake target that builds it."""
+    test: bool = False
+    """Whether it is installed only where tests are wanted."""
 
 
 class Component(NamedTuple):
@@ -492,6 +498,15 @@ class BuildScript(NamedTuple):
     """Resources that it does not install and that its CMake files name all the same: what it is built from. Folders of
     them end with a slash."""
     texts: tuple[WrittenText, ...] = ()
+    entered: tuple[str, ...] = ()
+    """Folders below the package whose CMakeLists.txt is part of every build, relative to it."""
+    handed_on: tuple[tuple[Mention, bool], ...] = ()
+    """Packages that the CMake files for those who find this one search, and whether they do so under no condition."""
+    bundled: tuple[str, ...] = ()
+    """Projects that are built along with the package, by name: fetched ones, and those of its own folders."""
+    runs: tuple[str, ...] | None = None
+    """Files and folders that are run as tests by an interpreter, relative to the package, "" for any; None where nobody
+    knows."""
 
 
 # --- launch files --------------------------------------------------------------------------------------------------

@@ -18,6 +18,7 @@ _IDLE_FOLDERS = frozenset({"doc", "docs", "example", "examples", "tutorial", "tu
 """Folders whose files are often not part of what the package builds and installs."""
 
 HEADERS = (".h", ".hh", ".hpp", ".hxx", ".inl", ".ipp", ".tpp", ".cuh")
+_SOURCES = (".c", ".cc", ".cpp", ".cxx", ".cu")
 _INTERFACES = (".msg", ".srv", ".action", ".idl")
 _RESOURCES = (".urdf", ".xacro", ".sdf", ".world", ".rviz", ".yaml", ".yml", ".xml")
 _RUNNERS = ("pytest", "launch_test", "ros_test", "add_test", "nose")
@@ -25,6 +26,9 @@ _RUNNERS = ("pytest", "launch_test", "ros_test", "add_test", "nose")
 
 _RECIPES = frozenset({"conanfile.py", "noxfile.py", "conf.py"})
 """Files of tools that have no part in a build by colcon."""
+
+_PROJECTS = frozenset({"CMakeLists.txt", "setup.py", "pyproject.toml", "package.xml"})
+"""Files that make a folder a project."""
 
 _PROGRAMS = ("lib/", "bin/")
 
@@ -61,22 +65,37 @@ class Liveness:
 
     def place(self, path: str) -> tuple[Role, bool]:
         """Return what a file is needed for, and whether it is sure to be alive."""
+        role, sure = self._place(path)
+        return role, sure and not (self._idle and self._is_idle(path))
+
+    def is_optional(self, path: str) -> bool:
+        """Return whether only some builds compile a file, going by a condition that need not be true."""
+        return path in self._optional and (path not in self._public or _stem(path) in self._optional_stems)
+
+    def serves_tests(self, path: str) -> bool:
+        """Return whether a header is there for tests: nothing that is built and no test takes it, unless by including it."""
+        return path not in self._production
+
+    def _place(self, path: str) -> tuple[Role, bool]:
         name = path.rpartition("/")[2]
         if path in self._public:
-            return PUBLIC, True
+            if path in self._installed_for_tests and path not in self._production:
+                return Role.TEST, True
+            return PUBLIC, path in self._production or path not in self._left_over
         if path in self._production:
             return PRODUCTION, True
         if path in self._tests:
             return Role.TEST, True
         if name.endswith(_INTERFACES):
-            return PUBLIC, True
+            return PUBLIC, self._generates is None or path in self._generates
         python = name.endswith((".py", ".py.in")) or "." not in name
         resource = name.endswith(_RESOURCES)
         folders = set(path.split("/")[:-1])
         if TEST_FOLDERS & folders or (python and _is_test(name) and path not in self._started):
             # pytest takes what is called test, and beside it lie its helpers; elsewhere lies anything.
-            taken = self._runs_python_tests and (_is_test(name) or path.rpartition("/")[0] in self._folders_with_tests)
-            return Role.TEST, (taken or path in self._launched) if python else not (self._sees_targets or resource)
+            taken = self._runs_python_tests and self._is_run(path)
+            alive = not (self._sees_targets or resource or self._is_left_out(path))
+            return Role.TEST, (taken or path in self._launched) if python else alive
         if path in self._launched and (path in self._installed or path in self._installed_python):
             return Role.EXEC, True
         idle = bool(_IDLE_FOLDERS & folders)
@@ -88,8 +107,54 @@ class Liveness:
             return Role.EXEC, path in self._installed or not (self._sees_share or idle)
         if python:
             alive = path in self._installed_python or (path in self._installed and path in self._beside_launch_files)
-            return Role.EXEC, alive or not (self._sees_python or idle or name in _RECIPES)
-        return PRODUCTION, not (self._sees_targets or idle)
+            return Role.EXEC, alive or not (self._sees_python or idle or name in _RECIPES or self._is_left_out(path))
+        return PRODUCTION, not (self._sees_targets or idle or self._is_left_out(path))
+
+    def _is_run(self, path: str) -> bool:
+        """Whether a file in Python is run as a test, or lies beside one."""
+        folder, _, name = path.rpartition("/")
+        runs = self._script.runs if self._script else None
+        if runs is None:
+            return _is_test(name) or folder in self._folders_with_tests
+        if path in runs or "" in runs or path.startswith(tuple([f"{each}/" for each in runs])):
+            return True
+        return (not _is_test(name) or name.endswith(".in")) and any(each.rpartition("/")[0] == folder for each in runs)
+
+    def _is_left_out(self, path: str) -> bool:
+        """Whether others in the folder of a file are built or installed by name, and this one is not."""
+        folder, _, name = path.rpartition("/")
+        return f"{folder}/*{name[name.rfind('.') :]}" in self._named and (name.endswith(".py") or self._sees_sources)
+
+    @cached_property
+    def _sees_sources(self) -> bool:
+        """Whether it is known of every target what it is made of."""
+        return self._script is not None and all(target.whole for target in self._script.targets)
+
+    @cached_property
+    def _named(self) -> frozenset[str]:
+        """Folders out of which the script takes files, each with what the names of these end with."""
+        if self._script is None:
+            return frozenset()
+        files = {source for target in self._script.targets for source in target.sources}
+        files.update([p.source for p in self._script.provides if p.source])
+        split = [file.rpartition("/") for file in files]
+        return frozenset([f"{folder}/*{name[name.rfind('.') :]}" for folder, _, name in split])
+
+    def _is_idle(self, path: str) -> bool:
+        """Whether a file lies in a project of its own that is no sure part of the build, and nothing takes it out of there."""
+        if path in self._production or path in self._tests or path in self._always_installed:
+            return False
+        while path := path.rpartition("/")[0]:
+            if path in self._idle:
+                return True
+        return False
+
+    @cached_property
+    def _idle(self) -> frozenset[str]:
+        """Folders with projects of their own that are no sure part of the build of this one."""
+        entered = self._script.entered if self._script else ()
+        split = (file.rpartition("/") for file in self._files)
+        return frozenset([folder for folder, _, name in split if folder and name in _PROJECTS]).difference(entered)
 
     def has_module(self, module: str, importer: str) -> bool:
         """Whether an import in a file can mean a file of the package.
@@ -183,21 +248,77 @@ class Liveness:
         return frozenset([name.partition(".")[0] for name in names])
 
     @cached_property
+    def _offered(self) -> frozenset[str]:
+        """Headers that are installed, or lie where installed ones do."""
+        installed = {p.source for p in self._script.provides if p.path.startswith("include/")} if self._script else set()
+        headers = (file for file in self._files if file.endswith(HEADERS))
+        return frozenset([file for file in headers if file in installed or file.startswith("include/")])
+
+    @cached_property
     def _public(self) -> frozenset[str]:
         """Headers that are installed, and those that they include."""
-        installed = {p.source for p in self._script.provides if p.path.startswith("include/")} if self._script else set()
-        roots = {file for file in self._files if file.endswith(HEADERS) and (file in installed or file.startswith("include/"))}
-        return self._reached(roots)
+        return self._reached(self._offered)
+
+    @cached_property
+    def _left_over(self) -> frozenset[str]:
+        """Headers that only sources include which nothing compiles."""
+        if not self._sees_targets or not self._sees_sources:
+            return frozenset()
+        compiled = self._production | self._tests | self._optional
+        apart = TEST_FOLDERS | _IDLE_FOLDERS
+        dead = {file for file in self._files if file.endswith(_SOURCES) and apart.isdisjoint(file.split("/"))} - compiled
+        left = self._reached(dead) - compiled if dead and self._production else frozenset()
+        return left - self._reached(self._offered - left) if left else left
+
+    @cached_property
+    def _installed_for_tests(self) -> frozenset[str]:
+        """Files that are installed only where tests are wanted."""
+        provides = self._script.provides if self._script else ()
+        always = {p.source for p in provides if not p.test}
+        return frozenset([p.source for p in provides if p.test and p.source not in always])
+
+    @cached_property
+    def _generates(self) -> frozenset[str] | None:
+        """Interface files that code is generated from, None where nobody knows."""
+        script = self._script
+        if script is None or any(opaque.hides & Facet.INTERFACES for opaque in script.opaque):
+            return None
+        files = (file for file in self._files if file.endswith(_INTERFACES))
+        return frozenset([file for file in files if _interface(file) in script.interfaces])
 
     @cached_property
     def _production(self) -> frozenset[str]:
-        targets = self._script.targets if self._script else ()
-        return self._reached({source for target in targets if not target.test for source in target.sources})
+        return self._reached(self._compiled(test=False))
 
     @cached_property
     def _tests(self) -> frozenset[str]:
+        return self._reached(self._compiled(test=True))
+
+    @cached_property
+    def _optional(self) -> frozenset[str]:
+        """Files that are compiled, or included by what is, in some builds only."""
         targets = self._script.targets if self._script else ()
-        return self._reached({source for target in targets if target.test for source in target.sources})
+        sources = {source for target in targets for source in target.optional}
+        return self._reached(sources) - self._production - self._tests if sources else frozenset()
+
+    @cached_property
+    def _optional_stems(self) -> frozenset[str]:
+        """Names of headers, without suffix and below any folder, that have a source which only some builds compile."""
+        return frozenset([_stem(file) for file in self._optional if file.endswith(_SOURCES)])
+
+    def _compiled(self, *, test: bool) -> set[str]:
+        """Return the sources of targets that are compiled in every build: also by one of two targets of a name."""
+        found: set[str] = set()
+        sometimes: dict[str, list[set[str]]] = {}
+        for target in self._script.targets if self._script else ():
+            if target.test is test:
+                found.update(target.sources if not target.optional else set(target.sources).difference(target.optional))
+                sometimes.setdefault(target.name, []).append(set(target.optional))
+        for alternatives in sometimes.values():
+            if len(alternatives) > 1:
+                found |= set.intersection(*alternatives)
+        # Where everything hangs on a condition, the package is there for those for whom it holds.
+        return found or {source for alternatives in sometimes.values() for one in alternatives for source in one}
 
     @cached_property
     def _installed(self) -> frozenset[str]:
@@ -215,6 +336,13 @@ class Liveness:
         return frozenset([*found, *(f"{folder}{module}.py" for module in modules for folder in ("", "src/"))])
 
     @cached_property
+    def _always_installed(self) -> frozenset[str]:
+        script = self._script
+        if script is None:
+            return frozenset()
+        return frozenset([p.source for p in script.provides if p.source and not p.conditional]) | self._in_python_packages
+
+    @cached_property
     def _beside_launch_files(self) -> frozenset[str]:
         """What launch files may import from their own folder, having put it on the path."""
         found = set()
@@ -230,12 +358,14 @@ class Liveness:
         if self._script is None:
             return frozenset()
         found = {p.source for p in self._script.provides if p.source and p.path.startswith(_PROGRAMS)}
-        packages = [name.replace(".", "/") for name in self._script.python_packages]
+        return self._in_python_packages | found
+
+    @cached_property
+    def _in_python_packages(self) -> frozenset[str]:
+        packages = [name.replace(".", "/") for name in self._script.python_packages] if self._script else []
         inside = tuple(f"{package}/" for package in packages)
         modules = {f"{package}{suffix}" for package in packages for suffix in (".py", ".py.in")}
-        if packages:
-            found.update([file for file in self._files if file in modules or file.startswith(inside)])
-        return frozenset(found)
+        return frozenset([file for file in self._files if file in modules or file.startswith(inside)] if packages else ())
 
     def _reached(self, roots: Iterable[str]) -> frozenset[str]:
         reached: set[str] = set()
@@ -268,6 +398,17 @@ class Liveness:
                 files += means
         self._included[path] = (headers, files)
         return headers, files
+
+
+def _interface(path: str) -> str:
+    """Return what a build script calls the interface that a file is for."""
+    folder, _, name = path.rpartition("/")
+    stem, _, suffix = name.rpartition(".")
+    return f"{folder.rpartition('/')[2] if suffix == 'idl' else suffix}/{stem}"
+
+
+def _stem(path: str) -> str:
+    return path.rpartition("/")[2].rpartition(".")[0]
 
 
 def _is_test(name: str) -> bool:

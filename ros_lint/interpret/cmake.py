@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Final
 
+from ros_lint.collectors.cmake_syntax import Command
 from ros_lint.facts import ANYTHING, BuildScript, Facet, Mention, Opaque, Problem, Provided
 from ros_lint.interpret import (
     cmake_basic,
@@ -21,10 +24,11 @@ from ros_lint.interpret import (
     cmake_string,
     cmake_targets,
 )
-from ros_lint.interpret.cmake_run import BudgetError, Run
+from ros_lint.interpret.cmake_run import BudgetError, Run, folded
 from ros_lint.interpret.cmake_sources import Helper, Sources
 from ros_lint.interpret.cmake_state import STOP, Frame
 from ros_lint.interpret.cmake_values import SOURCE
+from ros_lint.knowledge.cmake_commands import macros
 from ros_lint.text import Span
 from ros_lint.tree import join
 
@@ -109,7 +113,58 @@ def _result(run: Run, path: str) -> BuildScript:
         tuple(problems),
         run.end,
         tuple(run.extras),
+        entered=tuple(run.entered),
+        handed_on=tuple(_handed_on(run)),
+        bundled=tuple(run.bundled),
+        runs=_runs(run),
     )
+
+
+def _handed_on(run: Run) -> Iterator[tuple[Mention, bool]]:
+    """Yield what CONFIG_EXTRAS and templates of a CMake package search, macros left out: those ask when they are called."""
+    for file in dict.fromkeys([*run.extras, *run.templates]):
+        blocks: list[bool | None] = []  # for each block around, whether everybody comes by; None: whoever calls it
+        for command in run.sources.scripts[file].commands if file in run.sources.scripts else ():
+            words = [argument[0] for argument in command.args]
+            if command.name in ("function", "macro"):
+                blocks.append(None)
+            elif command.name in ("if", "foreach", "while", "block"):
+                blocks.append(command.name == "if" and _asks_if_there(words))
+            elif command.name.startswith("end") and blocks:
+                blocks.pop()
+            elif command.name in ("else", "elseif") and blocks:
+                blocks[-1] = False
+            elif command.name in ("find_package", "find_dependency") and words and _PLAIN_NAME.fullmatch(words[0]):
+                if None in blocks or words[0] in (run.name, run.sources.name) or words[0] in run.modules:
+                    continue
+                needed = "REQUIRED" in words or command.name == "find_dependency"
+                path = join(run.sources.path, file)
+                what = f"{command.name}({words[0]}) for those who find this package"
+                yield Mention(words[0], "cmake", _first(path, command), what, not needed), all(blocks)
+
+
+_PLAIN_NAME: Final = re.compile(r"[A-Za-z][\w+.-]*")
+
+
+def _asks_if_there(words: Sequence[str]) -> bool:
+    """Whether a condition only asks if a target, a package or a policy is there already."""
+    return len(words) <= 3 and ("TARGET" in words or "POLICY" in words or words[-1].endswith("_FOUND"))
+
+
+def _first(path: str, command: Command) -> Span:
+    _, _, start, end = command.args[0]
+    return command.span(path, start, end)
+
+
+def _runs(run: Run) -> tuple[str, ...] | None:
+    """Return what is run as tests, None if that is not known: no command is called that does it, or one that nobody knows."""
+    strange = (call for call in run.calls if call not in cmake_ros.RUNNERS and call not in run.procedures)
+    if not run.calls & cmake_ros.RUNNERS or any(_RUNS_TESTS.search(call) for call in strange):
+        return None
+    return tuple(run.ran)
+
+
+_RUNS_TESTS: Final = re.compile(r"pytest|launch_test|ros_test|add_test\Z|nose|isolated_test\Z")
 
 
 def _installed_files(run: Run) -> list[Provided]:
@@ -124,14 +179,51 @@ def _installed_files(run: Run) -> list[Provided]:
 
 
 def _mentions(run: Run) -> tuple[Mention, ...]:
-    """Return the mentions; a package that is not required and asked for with X_FOUND is optional (section C2.2)."""
-    guarded = {span for name in run.loose if f"{name}_FOUND" in run.tested for span in run.loose[name]}
-    if not guarded:
+    """Return the mentions.
+
+    A package that is not required is optional where X_FOUND is asked for, and where nothing takes what was found; it serves
+    tests where these alone take it (reference, section C2.2).
+    """
+    if not run.loose:
         return tuple(run.mentions)
+    guarded = {span for name in run.loose if f"{name}_FOUND" in run.tested for span in run.loose[name]}
+    taken: dict[str, bool] = {}
+    for mention in run.mentions:
+        if mention.via in ("target", "macro"):
+            name = folded(mention.name.partition("::")[0])
+            taken[name] = mention.test and taken.get(name, True)
+    tests = {span for name in run.loose if taken.get(folded(name)) for span in run.loose[name]}
+    known = {macro.package for macro in macros().values()}
+    asked = [
+        name
+        for name in run.loose
+        if folded(name) not in taken
+        and not (name.startswith("ament_") or (name not in known and _WORKS_BY_BEING_FOUND.search(name)))
+    ]
+    guarded.update(span for name in _unnamed(run, asked) for span in run.loose[name])
     return tuple(
-        mention._replace(optional=True) if mention.via == "cmake" and mention.span in guarded else mention
-        for mention in run.mentions
+        [
+            mention._replace(optional=mention.optional or mention.span in guarded, test=mention.test or mention.span in tests)
+            if mention.via == "cmake"
+            else mention
+            for mention in run.mentions
+        ]
     )
+
+
+_WORKS_BY_BEING_FOUND: Final = re.compile(r"cmake|rosidl|^PkgConfig$|backward")
+"""Names of what brings commands, find modules or settings, and need not be named again."""
+
+
+def _unnamed(run: Run, names: Iterable[str]) -> list[str]:
+    """Return those names that stand in no command of the package but find_package()."""
+    left = list(names)
+    if not left:
+        return left
+    commands = (command for parsed in run.sources.scripts.values() for command in parsed.commands)
+    words = [argument[0] for command in commands if command.name != "find_package" for argument in command.args]
+    text = "\n".join(words).replace("_", "").replace("-", "").lower()
+    return [name for name in left if folded(name) not in text]
 
 
 def _missing(run: Run) -> list[Problem]:

@@ -129,6 +129,8 @@ def _project(run: Run, args: list[str]) -> None:
     if "VERSION" in args[1:-1]:
         number = args[args.index("VERSION") + 1]
     top = not run.name and not run.directory
+    if run.directory and is_known(name):
+        run.bundled[name] = None
     if top:
         run.name = name if is_known(name) else ""
         run.name_span = run.where(args[0]) if run.name else None
@@ -285,7 +287,7 @@ COMMANDS.update(
             "target_compile_definitions", "target_compile_features", "target_compile_options", "target_link_options",
             "target_link_directories", "target_precompile_headers", "gtest_discover_tests", "gtest_add_tests",
             "check_ipo_supported", "cmake_push_check_state", "cmake_pop_check_state", "cmake_host_system_information",
-            "cmake_file_api", "write_file", "make_directory", "add_test", "check_struct_has_member",
+            "cmake_file_api", "write_file", "make_directory", "check_struct_has_member",
         ),
         nothing,
     )

@@ -165,10 +165,17 @@ def _configure(run: Run, args: list[str]) -> None:
             run.configured[path] = run.configured.get(path, False) or not run.conditional
 
 
+def _configure_config(run: Run, args: list[str]) -> None:
+    """``configure_package_config_file(input output ...)``."""
+    path = run.source(args[0]) if args else None
+    if path in run.files and not run.unsure and not run.testing:
+        run.templates[path] = None
+
+
 COMMANDS: Final[dict[str, Handler]] = {
     "file": _file,
     "get_filename_component": _component,
     "configure_file": _configure,
-    "configure_package_config_file": nothing,
+    "configure_package_config_file": _configure_config,
     "write_basic_package_version_file": nothing,
 }

@@ -9,7 +9,7 @@ from ros_lint.collectors.cmake_syntax import QUOTED, UNQUOTED
 from ros_lint.facts import ANYTHING, Facet
 from ros_lint.interpret.cmake_include import include_foreign, include_own
 from ros_lint.interpret.cmake_run import Handler, Run, folded
-from ros_lint.interpret.cmake_values import FOREIGN, HOLE, PREFIX, SOURCE, is_known, join, maybe, split, sure
+from ros_lint.interpret.cmake_values import ATOM, FOREIGN, HOLE, PREFIX, SOURCE, is_known, maybe, split, sure
 
 _FOREIGN_VARIABLE = re.compile(
     r"\$\{([A-Za-z0-9_+.-]+?)_(?:TARGETS|LIBRARIES|LIBRARY|LIBS|INCLUDE_DIRS?|INCLUDES|DEFINITIONS|LDFLAGS|CFLAGS)\}"
@@ -19,6 +19,10 @@ _FOREIGN_TARGET = re.compile(r"(?<!\w)(?<!::)[A-Za-z_][\w.+-]*::[\w.+:-]*\w")
 
 _SHARED_LIBRARIES: Final = frozenset({"ament_cmake_ros", "ament_cmake_ros_core"})
 """Packages that turn BUILD_SHARED_LIBS on (reference, section C1.6)."""
+_FOUND_DECLARED: Final = f"{ATOM}found-build-depends"
+"""What stands for all that ament_auto_find_build_dependencies() finds: a target that is given it uses none of it for sure."""
+_PYTHON: Final = frozenset({"Python", "Python3"})
+"""What finds the interpreter, which is always there, and as a component the headers and libraries, which are not."""
 
 
 def find_package(run: Run, args: list[str]) -> int | None:
@@ -31,10 +35,12 @@ def find_package(run: Run, args: list[str]) -> int | None:
         return None
     required = "REQUIRED" in args
     module = run.modules.get(name) if run.modules and "CONFIG" not in args and "NO_MODULE" not in args else None
-    if name and module is None and run.at_home():
+    if name and module is None and run.at_home() and not run.is_bundled(name):
         span = run.where(args[0])
         optional = not certain or ("QUIET" in args and not required)
         run.mention(name, "cmake", span, optional=optional)
+        if name in _PYTHON and any(arg.startswith("Development") for arg in args):
+            run.mention(f"{name}/Development", "cmake", span, f"find_package({name} ... Development)", optional=optional)
         if not required and not run.muted:
             run.loose.setdefault(name, []).append(span)
     found(run, name, required=required and certain)
@@ -80,7 +86,7 @@ def _find_all(run: Run, args: list[str]) -> None:
     names = run.sources.test_depends
     if args[:1] == ["build"]:
         names = run.sources.build_depends
-        run.set(f"{run.get('PROJECT_NAME') or ''}_FOUND_BUILD_DEPENDS", join(map(maybe, names)))  # keys are not found
+        run.set(f"{run.get('PROJECT_NAME') or ''}_FOUND_BUILD_DEPENDS", _FOUND_DECLARED)
     run.open_world = True
     run.prefixes.update(dict.fromkeys(names))
     packages = run.packages
@@ -97,10 +103,12 @@ def _uses(run: Run, args: list[str]) -> None:
         name, certain = sure(arg)
         if name in ("PUBLIC", "INTERFACE", "PRIVATE", "SYSTEM"):
             continue
+        if name == _FOUND_DECLARED and args[0] == "interfaces of":
+            _uses(run, [args[0], *map(maybe, run.sources.build_depends)])  # keys are not found
         if HOLE in name:
             if may_be_package(name):
                 run.hide(Facet.USES, "the name of a package is not known")
-        elif is_known(name):
+        elif is_known(name) and not run.is_bundled(name):
             what = f"{args[0]} {name}" if args[0] != "-" else ""
             run.mention(name, "target", run.where(arg), what, optional=not certain)
 
@@ -125,8 +133,10 @@ def link(run: Run, args: list[str]) -> None:
             continue
         plain, certain = sure(arg)
         for name in [plain] if is_known(plain) and "$" not in plain else _FOREIGN_TARGET.findall(plain):
-            if name not in run.targets and name.partition("::")[0] not in (run.name, run.sources.name):
-                run.mention(name, "target", run.where(arg), optional=not certain)
+            space, _, inner = name.partition("::")
+            if name in run.targets or space in (run.name, run.sources.name) or _brings(run, space, inner):
+                continue
+            run.mention(name, "target", run.where(arg), optional=not certain)
     if not run.at_home():
         return
     frame = run.frames[-1]
@@ -142,6 +152,11 @@ def link(run: Run, args: list[str]) -> None:
             package = _package_of(run, match[1])
             if package:
                 run.mention(package, "target", command.span(frame.path, start, end), match[0])
+
+
+def _brings(run: Run, space: str, inner: str) -> bool:
+    """Return whether a target is of what is built along, or of a package that is found by the name of the target itself."""
+    return run.is_bundled(space) or (space not in run.prefixes and inner in run.prefixes)
 
 
 def _link_libraries(run: Run, args: list[str]) -> None:
@@ -171,13 +186,20 @@ def _hide(run: Run, args: list[str]) -> None:
     run.hide(facet, args[1])
 
 
-def _external_project(run: Run, args: list[str]) -> None:
+def _external_project(run: Run, args: list[str], *, fetched: bool = False) -> None:
     """A project from elsewhere: it knows neither lib/<package> nor share/<package> unless it is told."""
     run.open_world = True
+    if not run.muted:
+        run.bundled.update(dict.fromkeys([arg for arg in args if is_known(arg)] if fetched else args[:1]))
     hidden = Facet.USES | Facet.LIBRARIES
     if any(PREFIX in arg or "lib/" in arg or "share/" in arg for arg in args):
         hidden |= Facet.EXECUTABLES | Facet.SHARE
     run.hide(hidden, "what a project from elsewhere builds and installs is not in sight")
+
+
+def _fetched(run: Run, args: list[str]) -> None:
+    """``fetchcontent_makeavailable(names...)``."""
+    _external_project(run, args, fetched=True)
 
 
 COMMANDS: Final[dict[str, Handler]] = {
@@ -190,7 +212,7 @@ COMMANDS: Final[dict[str, Handler]] = {
     "include_directories": link,
     "link_libraries": link,
     "externalproject_add": _external_project,
-    "fetchcontent_makeavailable": _external_project,
+    "fetchcontent_makeavailable": _fetched,
     "fetchcontent_populate": _external_project,
     "ros_lint_find": _find_all,
     "ros_lint_uses": _uses,

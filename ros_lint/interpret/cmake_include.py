@@ -112,6 +112,11 @@ def _add_subdirectory(run: Run, args: list[str]) -> int | None:
         run.hide(ANYTHING, "add_subdirectory() of a folder that is not in sight")
         return None
     script = f"{path}/CMakeLists.txt" if path else "CMakeLists.txt"
+    if not run.unsure and not run.muted:
+        run.entered[path] = None
+    last = posixpath.basename(path)
+    if last and (script not in run.sources.scripts or run.is_folder(f"{path}/include/{last}")):
+        run.bundled[last] = None  # a library with a folder of its own, or one that is not checked out
     if script not in run.sources.scripts:
         if run.is_folder(path):
             run.open_world = run.wild = True

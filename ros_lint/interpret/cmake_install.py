@@ -196,7 +196,7 @@ def _install_file(run: Run, value: str, path: str, program: bool, certain: bool,
             run.installed.append(Provided(path, source, program, True, span))
             return
         source = ""
-    run.installed.append(Provided(path, source or "", program, conditional, span))
+    run.installed.append(Provided(path, source or "", program, conditional, span, test=run.testing))
 
 
 def _destination(run: Run, parts: dict[str, list[str]]) -> str | None:
@@ -280,7 +280,8 @@ def _install_directory(run: Run, value: str, source: str, target: str, rule: _Ru
             if not wanted:
                 continue
             program = program if given is None else given
-        run.installed.append(Provided(f"{start}{file[skip:]}", file if file in run.files else "", program, conditional, span))
+        source = file if file in run.files else ""
+        run.installed.append(Provided(f"{start}{file[skip:]}", source, program, conditional, span, test=run.testing))
 
 
 def _install_configured(run: Run, value: str, destination: str, rule: _Rule) -> None:

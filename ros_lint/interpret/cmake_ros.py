@@ -239,6 +239,23 @@ def _vendor(run: Run, args: list[str]) -> None:
     run.hide(Facet.USES | Facet.LIBRARIES, "what ament_vendor() builds comes from elsewhere")
 
 
+def _tests(run: Run, args: list[str]) -> None:
+    """``ros_lint_runs(files or folders...)``: an interpreter runs these as tests."""
+    for arg in args:
+        path = run.source(sure(arg)[0])
+        if path is None and HOLE in arg:
+            run.ran[""] = None
+        elif path in run.files or (path and run.is_folder(path)):
+            run.ran[path] = None
+
+
+RUNNERS: Final = frozenset({
+    "ament_add_pytest_test", "ament_add_nose_test", "add_launch_test", "add_ros_test", "ament_add_ros_isolated_pytest_test",
+    "ament_add_test", "nav2_add_pytest_test", "add_test", "add_ros_isolated_launch_test", "add_launch_ros_test",
+})  # fmt: skip
+"""Commands that run tests which are not compiled, all of them through ros_lint_runs()."""
+
+
 def run_handler(run: Run, name: str, args: list[str]) -> None:
     """Carry out one of CMake's own commands."""
     HANDLERS[name](run, args)
@@ -257,4 +274,6 @@ COMMANDS: Final[dict[str, Handler]] = {
     "ros_lint_package_xml": _package_xml,
     "ros_lint_test_executable": _test_executable,
     "ros_lint_vendor": _vendor,
+    "ros_lint_runs": _tests,
+    "add_test": _tests,
 }

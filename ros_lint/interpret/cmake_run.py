@@ -168,6 +168,14 @@ class Run(State):
         self.directories: list[str] = [""]
         """The folder whose CMakeLists.txt runs, relative to the package; outer ones before it."""
         self.extras: list[str] = []
+        self.templates: dict[str, None] = {}
+        """What files for those who find the package are made of, relative to it."""
+        self.entered: dict[str, None] = {}
+        """Folders below the package whose CMakeLists.txt runs for sure."""
+        self.bundled: dict[str, None] = {}
+        """Projects that are built along with the package."""
+        self.ran: dict[str, None] = {}
+        """Files and folders that an interpreter runs as tests."""
         self.name = ""
         self.name_span: Span | None = None
         self.version = ""
@@ -407,6 +415,10 @@ class Run(State):
                 break
 
     # --- findings
+
+    def is_bundled(self, name: str) -> bool:
+        """Return whether a project of a name is built along with the package."""
+        return bool(self.bundled) and folded(name) in {folded(bundled) for bundled in self.bundled}
 
     @property
     def conditional(self) -> bool:

@@ -60,10 +60,10 @@ def _add_sources(run: Run, target: Properties, sources: list[str]) -> None:
         plain, certain = sure(source)
         path = run.source(plain)
         if path in run.files:
-            have.append(path)
+            have.append(path if certain else source[0] + path)
         elif path is not None and "$<" not in plain:
             path = next((f"{path}{suffix}" for suffix in _SUFFIXES if f"{path}{suffix}" in run.files), path)
-            have.append(path)
+            have.append(path if certain else source[0] + path)
             if certain and path not in run.files:
                 run.missing.append((path, run.where(source), bool(run.muted or run.unsure)))
         elif HOLE in plain:
@@ -199,9 +199,14 @@ def targets(run: Run) -> tuple[Target, ...]:
         kind = target["KIND"]
         if kind == "imported":
             continue
-        sources = tuple(dict.fromkeys([sure(path)[0] for path in elements(target["SOURCES"]) if HOLE not in path]))
+        listed = elements(target["SOURCES"])
+        named = [sure(path) for path in listed if HOLE not in path]
+        sources = tuple(dict.fromkeys([path for path, _ in named]))
+        firm = frozenset() if "CONDITIONAL" in target else {path for path, certain in named if certain}
+        optional = tuple([path for path in sources if path not in firm])
         links = _links(run, name) if name in run.links else ()
-        found.append(Target(name, _KINDS.get(kind, "library"), sources, "TEST" in target, span, links))
+        whole = len(named) == len(listed)
+        found.append(Target(name, _KINDS.get(kind, "library"), sources, "TEST" in target, span, links, optional, whole))
     return tuple(dict.fromkeys(found)) if len(found) > 1 else tuple(found)
 
 

@@ -1,0 +1,267 @@
+"""Where files live: in targets, among what is installed, in projects of their own, or nowhere."""
+
+from __future__ import annotations
+
+import pytest
+
+from ros_lint.facts import Role, Use
+from ros_lint.load import Loader
+from ros_lint.needs import needs, undeclared
+from ros_lint.tree import MemoryTree
+from ros_lint.workspace import Target, Workspace
+
+MANIFEST = """<package format="3"><name>robot</name><version>1.0.0</version><description>Does it.</description>
+<maintainer email="ada@robots.example">Ada</maintainer><license>Apache-2.0</license>{depends}
+<export><build_type>ament_cmake</build_type></export></package>
+"""
+
+BUILT = Role.BUILD | Role.EXEC
+PUBLIC = BUILT | Role.EXPORT
+
+
+def load(lines: str, files: dict[str, str], depends: str = "") -> Workspace:
+    """Return a workspace with one package of ament_cmake, given what its CMakeLists.txt has in the middle."""
+    script = f"project(robot)\nfind_package(ament_cmake REQUIRED)\n{lines}\nament_package()\n"
+    files = {"package.xml": MANIFEST.format(depends=depends), "CMakeLists.txt": script, **files}
+    tree = MemoryTree({f"robot/{path}": text for path, text in files.items()})
+    return Loader(tree, ("",), Target("jazzy", "test")).load()
+
+
+def include(package: str) -> str:
+    return f"#include <{package}/msg/a.hpp>\n"
+
+
+def use(workspace: Workspace, package: str) -> Use:
+    """Return the only use of a package."""
+    (found,) = (use for use in workspace.packages[0].uses if use.package == package)
+    return found
+
+
+def placed(workspace: Workspace, package: str) -> tuple[Role, bool, bool]:
+    """Return the role of the only use of a package, whether it is sure and whether it is optional."""
+    found = use(workspace, package)
+    return found.role, found.sure, found.optional
+
+
+HIDDEN = "include(${UNHEARD_OF}/all.cmake)\n"
+"""A line after which nobody knows which targets there are, nor what is installed."""
+
+
+@pytest.mark.parametrize(
+    ("lines", "sure"),
+    [
+        (HIDDEN, False),
+        ("add_subdirectory(sdk)", True),
+        (HIDDEN + "add_subdirectory(sdk)", True),
+        ('add_executable(a a.cpp)\noption(SDK "" OFF)\nif(SDK)\nadd_subdirectory(sdk)\nendif()\n' + HIDDEN, False),
+        (HIDDEN + "add_executable(talker sdk/talker.cpp)", True),
+    ],
+)
+def test_a_project_of_its_own_is_alive_where_the_build_comes_to_it(lines: str, sure: bool) -> None:
+    files = {"sdk/CMakeLists.txt": "project(sdk)\nadd_library(sdk talker.cpp)\n", "sdk/talker.cpp": include("nav_msgs")}
+    assert use(load(lines, files), "nav_msgs").sure is sure
+
+
+@pytest.mark.parametrize("project", ["CMakeLists.txt", "setup.py", "pyproject.toml"])
+def test_tests_of_a_project_of_its_own_are_idle(project: str) -> None:
+    lines = HIDDEN + "ament_add_pytest_test(robot test/test_robot.py)"
+    files = {"test/test_robot.py": "import launch\n", "sdk/tests/test_sdk.py": "import requests\n", f"sdk/{project}": ""}
+    workspace = load(lines, files)
+    assert use(workspace, "launch").sure
+    assert not use(workspace, "python3-requests").sure
+
+
+def test_beside_what_is_installed_by_name_lies_what_is_not() -> None:
+    lines = HIDDEN + "install(PROGRAMS scripts/talk.py DESTINATION lib/robot)"
+    files = {"scripts/talk.py": "import rclpy\n", "scripts/plot.py": "import scipy\n", "tools2/b.py": "import pandas\n"}
+    workspace = load(lines, files)
+    assert use(workspace, "rclpy").sure
+    assert not use(workspace, "python3-scipy").sure
+    assert use(workspace, "python3-pandas").sure  # nobody knows
+
+
+def test_beside_what_is_compiled_by_name_lies_what_is_not() -> None:
+    lines = HIDDEN + "ament_add_gtest(t test/a.cpp)"
+    files = {"test/a.cpp": include("nav_msgs"), "test/b.cpp": include("shape_msgs")}
+    workspace = load(lines, files)
+    assert use(workspace, "nav_msgs").sure
+    assert not use(workspace, "shape_msgs").sure
+
+
+@pytest.mark.parametrize(
+    ("line", "sure"),
+    [
+        ("ament_add_pytest_test(unit test/test_a.py)", True),
+        ("ament_add_pytest_test(unit test/test_b.py)", False),
+        ("ament_add_pytest_test(unit test)", True),
+        ("foreach(name a b)\nament_add_pytest_test(${name} test/test_${name}.py)\nendforeach()", True),
+        ("add_launch_test(test/test_b.py)", False),
+        ("add_test(NAME a COMMAND python3 ${CMAKE_CURRENT_SOURCE_DIR}/test/test_a.py)", True),
+        ("acme_add_pytest_test(unit test/test_b.py)", True),  # nobody knows what that runs
+        ("add_launch_test(${UNHEARD_OF})\nfind_package(acme)\nadd_launch_test(${acme_TESTS})", True),
+        ("", False),
+    ],
+)
+def test_a_test_is_alive_where_it_is_run(line: str, sure: bool) -> None:
+    files = {"test/test_a.py": "import requests\n", "test/test_b.py": "import pandas\n"}
+    assert use(load(f"if(BUILD_TESTING)\n{line}\nendif()", files), "python3-requests").sure is sure
+
+
+def test_helpers_lie_beside_tests_that_are_run() -> None:
+    files = {"test/test_a.py": "", "test/helper.py": "import requests\n", "other/test/helper.py": "import pandas\n"}
+    workspace = load("ament_add_pytest_test(unit test/test_a.py)", files)
+    assert use(workspace, "python3-requests").sure
+    assert not use(workspace, "python3-pandas").sure
+
+
+INSTALLED = "install(DIRECTORY include/ DESTINATION include)\n"
+
+
+@pytest.mark.parametrize(
+    ("lines", "sure"),
+    [
+        ("add_library(robot src/robot.cpp)", False),
+        ("add_library(robot src/robot.cpp src/old.cpp)", True),
+        ("", True),  # nothing is compiled, so no header can be
+        (HIDDEN + "add_library(robot src/robot.cpp)", True),
+        ("file(READ list.txt MORE)\nadd_library(robot src/robot.cpp ${MORE})", True),
+    ],
+)
+def test_the_header_of_a_source_that_nothing_compiles_is_left_over(lines: str, sure: bool) -> None:
+    files = {
+        "src/robot.cpp": "#include <robot/robot.hpp>\n",
+        "src/old.cpp": "#include <robot/old.hpp>\n",
+        "include/robot/robot.hpp": include("nav_msgs"),
+        "include/robot/old.hpp": include("shape_msgs"),
+        "include/robot/alone.hpp": include("sensor_msgs"),
+    }
+    workspace = load(INSTALLED + lines, files)
+    assert placed(workspace, "nav_msgs") == (PUBLIC, True, False)
+    assert placed(workspace, "shape_msgs") == (PUBLIC, sure, False)
+    assert placed(workspace, "sensor_msgs") == (PUBLIC, True, False)
+
+
+@pytest.mark.parametrize(
+    ("lines", "optional"),
+    [
+        ("find_package(acme QUIET)\nif(acme_FOUND)\nset(MORE src/acme.cpp)\nendif()\nadd_library(r src/r.cpp ${MORE})", True),
+        ('option(EXAMPLES "" OFF)\nadd_library(r src/r.cpp)\nif(EXAMPLES)\nadd_library(acme src/acme.cpp)\nendif()', True),
+        ('option(ALL "" ON)\nadd_library(r src/r.cpp)\nif(ALL)\nadd_library(acme src/acme.cpp)\nendif()', False),
+        ("add_library(r src/r.cpp)\nif(WIN32)\nadd_library(b src/acme.cpp)\nelse()\nadd_library(b src/acme.cpp)\nendif()", False),
+        ("find_package(acme)\nif(acme_FOUND)\nadd_library(r src/r.cpp src/acme.cpp)\nendif()", False),  # the whole package is
+    ],
+)
+def test_what_only_some_builds_compile_is_optional(lines: str, optional: bool) -> None:
+    files = {
+        "src/r.cpp": "",
+        "src/acme.cpp": "#include <robot/acme.hpp>\n#include <robot/common.hpp>\n" + include("nav_msgs"),
+        "include/robot/acme.hpp": include("shape_msgs"),
+        "include/robot/common.hpp": include("sensor_msgs"),
+    }
+    workspace = load(INSTALLED + lines, files)
+    assert use(workspace, "nav_msgs").optional is optional
+    assert use(workspace, "shape_msgs").optional is optional
+    assert not use(workspace, "sensor_msgs").optional
+
+
+def test_headers_that_are_installed_for_tests_serve_tests() -> None:
+    lines = "if(BUILD_TESTING)\ninstall(DIRECTORY test/ DESTINATION include/robot)\nendif()\n" + INSTALLED
+    files = {"test/common.hpp": include("nav_msgs"), "include/robot/robot.hpp": include("shape_msgs")}
+    workspace = load(lines, files)
+    assert placed(workspace, "nav_msgs") == (Role.TEST, True, False)
+    assert placed(workspace, "shape_msgs") == (PUBLIC, True, False)
+
+
+def test_interfaces_are_alive_where_code_is_generated_from_them() -> None:
+    lines = "rosidl_generate_interfaces(robot msg/A.msg srv/C.srv DEPENDENCIES nav_msgs)"
+    files = {"msg/A.msg": "nav_msgs/Path a\n", "msg/B.msg": "shape_msgs/Plane b\n", "srv/C.srv": "sensor_msgs/Imu a\n---\n"}
+    workspace = load(lines, files)
+    assert [use.sure for use in workspace.packages[0].uses if use.package == "nav_msgs"] == [True, True]
+    assert placed(workspace, "shape_msgs") == (PUBLIC, False, False)
+    assert placed(workspace, "sensor_msgs") == (PUBLIC, True, False)
+    assert use(load("rosidl_generate_interfaces(robot ${UNHEARD_OF}/A.msg)\n" + HIDDEN, files), "shape_msgs").sure
+
+
+@pytest.mark.parametrize(
+    ("lines", "files"),
+    [
+        ("include(FetchContent)\nFetchContent_Declare(fcl URL x)\nFetchContent_MakeAvailable(fcl)", {}),
+        ("include(ExternalProject)\nExternalProject_Add(fcl URL x)", {}),
+        ("add_subdirectory(thirdparty/lib)", {"thirdparty/lib/CMakeLists.txt": "project(fcl)\n"}),
+        ("add_subdirectory(thirdparty/fcl)", {"thirdparty/fcl/CMakeLists.txt": "", "thirdparty/fcl/include/fcl/b.h": ""}),
+    ],
+)
+def test_what_is_built_along_is_no_need(lines: str, files: dict[str, str]) -> None:
+    files = {"src/a.cpp": "#include <fcl/collision.h>\n#include <yaml-cpp/yaml.h>\n", **files}
+    found = "find_package(fcl REQUIRED)\nadd_library(r src/a.cpp)\ntarget_link_libraries(r fcl::fcl)"
+    workspace = load(f"{lines}\n{found}", files)
+    assert {use.package for use in workspace.packages[0].uses} == {"ament_cmake", "ament_cmake_core", "yaml_cpp_vendor"}
+    assert "libfcl-dev" in {use.package for use in load("add_library(r src/a.cpp)", files).packages[0].uses}
+
+
+def test_the_namespace_of_a_target_need_not_be_its_package() -> None:
+    lines = "find_package(std_msgs REQUIRED)\nadd_library(r a.cpp)\ntarget_link_libraries(r nav_msgs::std_msgs shape_msgs::a)"
+    found = {use.package for use in load(lines, {"a.cpp": ""}).packages[0].uses}
+    assert found == {"ament_cmake", "ament_cmake_core", "std_msgs", "shape_msgs"}
+
+
+def test_what_tests_are_written_with_is_needed_by_tests() -> None:
+    lines = INSTALLED + "add_library(r src/r.cpp)\nadd_library(harness src/harness.cpp)"
+    files = {
+        "src/r.cpp": "",
+        "src/harness.cpp": "#include <gmock/gmock.h>\n",
+        "include/robot/matchers.hpp": "#include <gtest/gtest.h>\n",
+    }
+    workspace = load(lines, files)
+    assert placed(workspace, "ament_cmake_gtest") == (Role.TEST, True, False)
+    assert placed(workspace, "ament_cmake_gmock") == (BUILT, True, False)
+    declared = load(lines, files, "<depend>ament_cmake</depend><build_depend>libgmock-dev</build_depend>")
+    assert not undeclared(declared.packages[0], declared)
+
+
+def test_cmake_files_for_others_name_what_these_need() -> None:
+    lines = (
+        "configure_package_config_file(cmake/robotConfig.cmake.in x INSTALL_DESTINATION share)\n"
+        'list(APPEND robot_CONFIG_EXTRAS "robot-extras.cmake")'
+    )
+    files = {
+        "cmake/robotConfig.cmake.in": "find_dependency(nav_msgs)\nif(NOT TARGET a)\nfind_package(OpenGL REQUIRED)\nendif()\n"
+        "find_package(std_msgs)\nif(WIN32)\nfind_package(ZLIB REQUIRED)\nendif()\n",
+        "robot-extras.cmake": "find_package(shape_msgs REQUIRED)\nmacro(f)\nfind_package(rclcpp REQUIRED)\nendmacro()\n",
+    }
+    workspace = load(lines, files)
+    for package in ("nav_msgs", "shape_msgs", "opengl"):
+        assert placed(workspace, package) == (Role.EXPORT, True, False)
+    assert placed(workspace, "std_msgs") == (Role.EXPORT, True, True)
+    assert placed(workspace, "zlib") == (Role.EXPORT, False, False)
+    assert "rclcpp" not in {use.package for use in workspace.packages[0].uses}
+
+
+def test_all_that_is_found_together_is_no_use_of_each() -> None:
+    lines = (
+        "find_package(ament_cmake_auto REQUIRED)\nament_auto_find_build_dependencies()\nadd_library(r a.cpp)\n"
+        "ament_target_dependencies(r ${${PROJECT_NAME}_FOUND_BUILD_DEPENDS})"
+    )
+    workspace = load(lines, {"a.cpp": ""}, "<depend>nav_msgs</depend><depend>ament_cmake_auto</depend>")
+    assert "nav_msgs" not in {use.package for use in workspace.packages[0].uses}
+    assert not [opaque for opaque in workspace.packages[0].opaque if "known" in opaque.reason]
+
+
+@pytest.mark.parametrize(
+    ("line", "depends", "missing"),
+    [
+        ("find_package(Python3 REQUIRED)", "", []),
+        ("find_package(Python3 REQUIRED COMPONENTS Interpreter)", "", []),
+        ("find_package(Python3 REQUIRED COMPONENTS Interpreter Development)", "", ["python3-dev"]),
+        ("find_package(Python3 REQUIRED COMPONENTS Development.Module)", "", ["python3-dev"]),
+        ("find_package(Python3 REQUIRED COMPONENTS Development)", "<build_depend>pybind11_vendor</build_depend>", []),
+        ("find_package(Python3 REQUIRED COMPONENTS Development)", "<depend>rosidl_default_generators</depend>", []),
+        ("find_package(Qt5 REQUIRED COMPONENTS Core)", "<depend>libqt5-core</depend>", ["qtbase5-dev"]),
+        ("find_package(Qt5 REQUIRED)", "<build_depend>qtbase5-dev</build_depend><exec_depend>libqt5-core</exec_depend>", []),
+        ("find_package(Qt5 REQUIRED COMPONENTS Core)", "<depend>rviz_common</depend>", []),
+    ],
+)
+def test_to_build_takes_more_than_to_run(line: str, depends: str, missing: list[str]) -> None:
+    workspace = load(line, {}, f"<buildtool_depend>ament_cmake</buildtool_depend>{depends}")
+    assert [need.name for need, _ in undeclared(workspace.packages[0], workspace)] == missing
+    assert not [need for need in needs(workspace.packages[0], workspace) if need.name == "libqt5-core"]
