@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
-from ros_lint import conditions, evidence, launch_around, scripts, source_lists
+from ros_lint import conditions, evidence, launch_around, scripts, source_lists, type_names
 from ros_lint.cache import Cache
 from ros_lint.collect import FAILED, Collected, collect_all, kind_of
 from ros_lint.declare import is_built_in_sight, is_unseen_by_name
@@ -185,6 +185,7 @@ class Loader:
             for r in reads
         ]
         resolver = evidence.Resolver(sources, world)
+        types = type_names.Types(sources, tree.read, lambda name: world.closure((name,)).names)
         for number, (done, source) in enumerate(zip(reads, sources, strict=True)):
             self._progress("joining", number, len(reads))
             found = done.found
@@ -211,9 +212,11 @@ class Loader:
                 look_ups=tuple([look_up for facts in done.facts.values() for look_up in facts.look_ups]),
                 parameter_files=tuple([f.parameters for f in done.facts.values() if f.parameters is not None]),
             )
-            yield package._replace(traces=self._traces(tree, package, source, world)) if search else package
+            yield package._replace(traces=self._traces(tree, package, source, world, types)) if search else package
 
-    def _traces(self, tree: Tree, package: Package, source: evidence.Source, world: World) -> Mapping[str, Span]:
+    def _traces(
+        self, tree: Tree, package: Package, source: evidence.Source, world: World, types: type_names.Types
+    ) -> Mapping[str, Span]:
         """Look for the names of what seems unused in every text of the package (reference, section F3, condition 7)."""
         if not is_built_in_sight(package):
             return {}
@@ -225,7 +228,10 @@ class Loader:
         libraries = {name: names.called(name) for name in wanted if world.is_key(name)}
         found = evidence.mentioned(wanted, source, libraries, _may_trace) if wanted else {}
         left = [name for name in wanted if name not in found]
-        return {**found, **evidence.traces(left, _contents(tree, package), libraries)} if left else found
+        if left:
+            found = {**found, **evidence.traces(left, _contents(tree, package), libraries)}
+            left = [name for name in left if name not in found]
+        return {**found, **types.used(source, left)} if left else found
 
     def _declared(self, manifest: Manifest | None) -> tuple[Declared, ...]:
         """Return every dependency element whose condition is not false, groups, conflicts and replaces included."""
