@@ -69,6 +69,31 @@ def test_logic_in_logic_is_worked_out() -> None:
     assert said(run(node, {"b": "true"})) == []
 
 
+def test_an_executable_by_branch_is_the_one_of_that_branch() -> None:
+    file = collect(
+        "pkg/launch/a.launch.py",
+        """
+import os
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription, OpaqueFunction
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+def setup(context):
+    package, executable = "real", "driver"
+    if LaunchConfiguration("sim").perform(context) == "true":
+        package, executable = "fake", "simulator"
+    other = "new" if os.environ["ROS_DISTRO"] != "foxy" else "old"
+    return [Node(package=package, executable=executable), Node(package="p", executable=other)]
+
+def generate_launch_description():
+    return LaunchDescription([DeclareLaunchArgument("sim", default_value="false"), OpaqueFunction(function=setup)])
+""",
+    )[1]
+    assert said(expand(file, {}, lambda _: None, "jazzy")) == ["node real driver", "node p new"]
+    assert said(expand(file, {"sim": "true"}, lambda _: None, "foxy")) == ["node fake simulator", "node p old"]
+
+
 def test_a_required_argument_is_not_known() -> None:
     file = xml('<arg name="sim"/><node pkg="p" exec="a" if="$(var sim)"/><node pkg="p" exec="b"/>')
     assert said(run(file)) == ["node p a ?", "node p b"]

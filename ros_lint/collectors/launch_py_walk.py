@@ -6,6 +6,7 @@ import ast
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from ros_lint.collectors import launch_text
 from ros_lint.collectors.launch_py_objects import (
     Conditions,
     Frame,
@@ -21,7 +22,7 @@ from ros_lint.collectors.launch_py_objects import (
     plain,
 )
 from ros_lint.collectors.launch_py_texts import Within, conditions_of, texts
-from ros_lint.collectors.launch_text import installed
+from ros_lint.collectors.launch_text import UNKNOWN, installed
 from ros_lint.facts import LaunchAction, LaunchValue, Problem
 from ros_lint.text import Span
 
@@ -122,7 +123,32 @@ class Walker:
             conditions = (*conditions, *conditions_of(condition, Within(self.machine.spend)))
         if made.name == "LaunchDescription":
             return self._description(made, conditions)
-        return self._rules.get(made.name, self._otherwise)(self, made, conditions)
+        found = self._rules.get(made.name, self._otherwise)(self, made, conditions)
+        if found and found[0].target is not None and len(found[0].target.texts) > 1 and made.name in _TARGETS:
+            return [*self._apart(found[0], made), *found[1:]]
+        return found
+
+    def _apart(self, action: LaunchAction, made: Made) -> list[LaunchAction]:
+        """Return an action once for each target, where it is known what each depends on."""
+        targets = self._alternatives(_target(made))
+        if not all(_depends(text) for text in targets):
+            return [action]
+        packages = self._alternatives(made.get(-1, "package")) if action.package is not None else ()
+        found: list[LaunchAction] = []
+        for text in targets:
+            held = launch_text.conditions_of(text)
+            together = tuple(str(one) for one in packages if launch_text.agree((*held, *launch_text.conditions_of(one))))
+            found.append(
+                action._replace(
+                    target=LaunchValue((str(text),), action.target.span) if action.target is not None else None,
+                    package=action.package._replace(texts=together or action.package.texts) if action.package else None,
+                    conditions=_merged(action.conditions, held),
+                )
+            )
+        return found
+
+    def _alternatives(self, value: Value) -> tuple[str, ...]:
+        return texts(value, Within(self.machine.spend)) if value is not None else ()
 
     def _description(self, made: Made, conditions: Conditions) -> list[LaunchAction]:
         found: list[LaunchAction] = []
@@ -191,6 +217,27 @@ class Walker:
 
 def _merged(left: Conditions, right: Conditions) -> Conditions:
     return (*left, *(one for one in right if one not in left))
+
+
+_TARGETS: Mapping[str, tuple[str, ...]] = {
+    **dict.fromkeys(("Node", "LifecycleNode", "ComposableNodeContainer"), ("executable", "node_executable")),
+    "ComposableNode": ("plugin", "node_plugin"),
+    "IncludeLaunchDescription": ("launch_description_source",),
+}
+"""What says what is started, by class."""
+
+
+def _target(made: Made) -> Value:
+    found = made.get(0 if made.name == "IncludeLaunchDescription" else -1, *_TARGETS[made.name])
+    while isinstance(source := plain(found), Made) and source.name.endswith("LaunchDescriptionSource"):
+        found = source.get(0, "launch_file_path", "location", "launch_description")
+    return found
+
+
+def _depends(text: str) -> bool:
+    """Whether a text holds under conditions, all of which can be worked out once arguments have values."""
+    conditions = launch_text.conditions_of(text)
+    return bool(conditions) and not any(UNKNOWN in one for condition in conditions for one in condition.texts)
 
 
 Rule = Callable[[Walker, Made, Conditions], list[LaunchAction]]
