@@ -24,14 +24,21 @@ _SOURCES = (*HEADERS, ".c", ".cc", ".cpp", ".cxx", ".cu")
 _TYPE = re.compile(
     rb"\b(?:class|struct|union|enum(?:\s+(?:class|struct))?)\s+(?:[A-Z][A-Z0-9_]*\s+)?([A-Za-z_]\w+)(?=\s*(?:final\b|\{|:(?!:)))"
 )
-_ALIAS = re.compile(rb"\busing\s+(\w+)\s*=|\btypedef\s+[^;{}]*?\b(\w+)\s*;")
-_QUALIFIED = re.compile(rb"(\w+)::(\w+)")
 _NAMESPACE = re.compile(rb"\bnamespace\s+([\w:]+)\s*\{")
-_WORDS = re.compile(rb"[A-Za-z_]\w+")
+_OWN = (
+    (
+        re.compile(rb"\b(?:class|struct|union|enum(?:\s+(?:class|struct))?)\s+(?:[A-Z][A-Z0-9_]*\s+)?\Z"),
+        re.compile(rb"\s*(?:final\b|\{|:(?!:))"),
+    ),
+    (re.compile(rb"\busing\s+\Z"), re.compile(rb"\s*=")),
+    (re.compile(rb"\bnamespace\s+(?:\w+::)*\Z"), re.compile(rb"\s*\{")),
+    (re.compile(rb"\btypedef\s[^;{}]*\Z"), re.compile(rb"\s*;")),
+)
+"""What stands before and after a name where code gives it a meaning of its own."""
+_CHAIN = re.compile(rb"(?:\w+\s*::\s*)+\Z")
+_NEAR = 120
+"""How many bytes before a name are looked at."""
 _NO_CODE = re.compile(rb'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
-_QUALIFIER = re.compile(rb"(\w+)\s*::\s*\Z")
-_NEAR = 80
-"""How many bytes before a name are looked at for what qualifies it."""
 _SHORTEST = 4
 """Of shorter names too many mean something else."""
 
@@ -59,12 +66,12 @@ class _Wanted(NamedTuple):
 
 
 class Types:
-    """Looks for bare names of types, in the packages of a workspace. ``brought`` says what comes along with a package."""
+    """Looks for bare names of types, in the packages of a workspace. ``brings`` says whether one brings another."""
 
-    def __init__(self, sources: Sequence[Source], read: Callable[[str], bytes], brought: Callable[[str], Container[str]]) -> None:
+    def __init__(self, sources: Sequence[Source], read: Callable[[str], bytes], brings: Callable[[str, str], bool]) -> None:
         self._by_name = {source.name: source for source in sources}
         self._read = read
-        self._brought = brought
+        self._brings = brings
         self._public: dict[str, _Wanted] = {}
         self._introduced: dict[tuple[str, str], frozenset[bytes]] = {}
 
@@ -77,19 +84,17 @@ class Types:
         sought = {name: wanted for name in names if (wanted := self._wanted(source, name)).types or wanted.spaces}
         if not sought:
             return {}
-        texts = [(path, _code(text)) for path, text in self._texts(source, source.files)]
-        own = frozenset(name for _, text in texts for name in _own(text))
-        qualified = {pair for _, text in texts for pair in _QUALIFIED.findall(text)}
-        words = {path: frozenset(_WORDS.findall(text)) for path, text in texts}
+        texts = list(self._texts(source, source.files))
+        code: dict[str, bytes] = {}
         found: dict[str, Span] = {}
         for name, wanted in sought.items():
-            others = frozenset(word for space, word in qualified if space not in wanted.spaces)
-            tail = frozenset([name.partition("_")[2].encode()]) & wanted.spaces
-            for path, text in texts:
-                types = words[path] & (wanted.types - own - others)
-                place = _first_type(text, sorted(types), wanted.spaces) or _first_space(text, words[path] & (tail - own))
+            tail = name.partition("_")[2].encode()
+            for word in (*sorted(wanted.types), *([tail] if tail in wanted.spaces else [])):
+                having = [(path, text) for path, text in texts if word in text]  # few have it, and this is fast
+                code.update((path, _code(text)) for path, text in having if path not in code)
+                place = _first([(path, code[path]) for path, _ in having], word, wanted.spaces)
                 if place:
-                    found[name] = _span(path, text, *place)
+                    found[name] = place
                     break
         return found
 
@@ -97,7 +102,7 @@ class Types:
         other = self._by_name.get(name)
         if other is not None and not (other.script and other.script.interfaces):
             return self._declared(other)
-        places = [place for place in self._naming.get(name, ()) if place[0] in self._brought(source.name)]
+        places = [place for place in self._naming.get(name, ()) if self._brings(source.name, place[0])]
         types = [self._of_messages(name, *place) for place in places]
         return _Wanted(frozenset(name for of_header in types for name in of_header), frozenset())
 
@@ -110,11 +115,11 @@ class Types:
 
     def _of_messages(self, name: str, package: str, file: str) -> frozenset[bytes]:
         source = self._by_name[package]
-        for path, text in self._texts(source, [file]):
-            if (path, name) not in self._introduced:
-                self._introduced[path, name] = introduced(text, name)
-            return self._introduced[path, name]
-        return frozenset()
+        key = join(source.path, file), name
+        if key not in self._introduced:
+            texts = [text for _, text in self._texts(source, [file])]
+            self._introduced[key] = frozenset().union(*(introduced(text, name) for text in texts))
+        return self._introduced[key]
 
     @cached_property
     def _naming(self) -> Mapping[str, Sequence[tuple[str, str]]]:
@@ -147,29 +152,39 @@ def _code(text: bytes) -> bytes:
     return _NO_CODE.sub(lambda match: re.sub(rb"[^\n]", b" ", match[0]), text)
 
 
-def _own(text: bytes) -> Iterator[bytes]:
-    """Yield the names that a file gives a meaning itself."""
-    yield from declared(text)
-    yield from (name for match in _ALIAS.findall(text) for name in match if name)
-    yield from (name.rpartition(b"::")[2] for name in _NAMESPACE.findall(text))
+def _first(texts: Iterable[tuple[str, bytes]], name: bytes, spaces: Container[bytes]) -> Span | None:
+    """Return the first place where a name stands for what is in some namespaces: alone or behind them.
+
+    None where the code means something else by it, or takes it from elsewhere as well. Of a namespace itself it is the first
+    place where something is taken from it.
+    """
+    found: Span | None = None
+    for path, text in texts:
+        for start in _places(text, name):
+            end = start + len(name)
+            before = text[max(start - _NEAR, 0) : start]
+            if any(left.search(before) and right.match(text, end) for left, right in _OWN):
+                return None
+            chain = _CHAIN.search(before)
+            if chain and not any(part.strip() in spaces for part in chain[0].split(b"::")):
+                return None
+            if not found and (name not in spaces or text.startswith(b"::", end)):
+                found = _span(path, text, start, end)
+    return found
 
 
-def _first_type(text: bytes, names: Iterable[bytes], spaces: Container[bytes]) -> tuple[int, int] | None:
-    """Return start and end of the first of some names that stands alone, or behind one of the namespaces."""
-    for name in names:
-        for match in re.finditer(rb"(?<![\w.>])" + name + rb"\b", text):
-            qualifier = _QUALIFIER.search(text, max(match.start() - _NEAR, 0), match.start())
-            if qualifier is None or qualifier[1] in spaces:
-                return match.span()
-    return None
+def _places(text: bytes, name: bytes) -> Iterator[int]:
+    """Yield where a word stands that is no member of something."""
+    start = text.find(name)
+    while start >= 0:
+        before, after = text[max(start - 1, 0) : start], text[start + len(name) : start + len(name) + 1]
+        if not (before.isalnum() or before in _JOINED or after.isalnum() or after == b"_"):
+            yield start
+        start = text.find(name, start + 1)
 
 
-def _first_space(text: bytes, names: Iterable[bytes]) -> tuple[int, int] | None:
-    """Return start and end of the first of some namespaces that something is taken from."""
-    for name in names:
-        if match := re.search(rb"\b" + name + rb"(?=::)", text):
-            return match.span()
-    return None
+_JOINED = (b"_", b".", b">")
+"""What joins a name to what stands before it."""
 
 
 def _span(path: str, text: bytes, start: int, end: int) -> Span:

@@ -7,9 +7,7 @@ from ros_lint.facts import FileFacts, Mention
 from ros_lint.text import Span
 from ros_lint.type_names import Types, declared, introduced
 
-ROUTE = (
-    b"namespace house::route_handler {\nclass HOUSE_PUBLIC RouteHandler : Base {};\nstruct Node\n{};\nclass Other;\n}\n"
-)
+ROUTE = b"namespace house::route_handler {\nclass HOUSE_PUBLIC RouteHandler : Base {};\nstruct Node\n{};\nclass Other;\n}\n"
 DATA = b"using nav_msgs::msg::Odometry;\nusing Line = nav_msgs::msg::Path;\n"
 
 
@@ -41,7 +39,7 @@ def places(code: bytes) -> dict[str, tuple[int, int]]:
     }
     sources = {name: source(name, of, ("nav_msgs/msg/path.hpp",) if name == "common" else ()) for name, of in files.items()}
     texts = {f"{name}/{file}": text for name, of in files.items() for file, text in of.items()}
-    types = Types(list(sources.values()), texts.__getitem__, lambda name: ("common", "house_route_handler"))
+    types = Types(list(sources.values()), texts.__getitem__, lambda name, other: name == "node")
     found = types.used(sources["node"], ["house_route_handler", "nav_msgs", "sensor_msgs"])
     assert all(span.path == "node/src/node.cpp" for span in found.values())
     return {name: span[1:3] for name, span in found.items()}
