@@ -9,58 +9,69 @@ from __future__ import annotations
 
 import os
 import sys
+import zlib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ros_lint import __version__
-from ros_lint.tree import Stamp, says_the_same
+from ros_lint.tree import Stamp
 
 if TYPE_CHECKING:
     from ros_lint.report import Report
-    from ros_lint.tree import DiskTree, RecordedTree, Tree
+    from ros_lint.tree import RecordedTree, Tree
 
 _MODULES = frozenset({
     "ros_lint.collect", "ros_lint.collectors.cmake_syntax", "ros_lint.facts", "ros_lint.report", "ros_lint.rule",
     "ros_lint.suppress", "ros_lint.text", "ros_lint.tree", "ros_lint.workspace",
 })  # fmt: skip
 
+_PARTS = 16
+"""How many files keep the facts of a workspace."""
+
 _MOST_REPORTS = 8
 """Of one workspace: somebody may check it in different ways by turns."""
 
 
 class Cache:
-    """Facts by path and stamp. An empty ``folder`` keeps nothing. Nothing here raises: a cache that fails is empty."""
+    """Facts by path and stamp. An empty ``folder`` keeps nothing. Nothing here raises: a cache that fails is empty.
+
+    They are kept in several files, so that a run after a small change writes little.
+    """
 
     def __init__(self, folder: str, base: str) -> None:
-        self._file = os.path.join(folder, f"{_digest(os.path.realpath(base))}.facts") if folder else ""
-        self._kept: dict[str, tuple[Stamp, Any]] = {}
+        start = os.path.join(folder, _digest(os.path.realpath(base))) if folder else ""
+        self._files = [f"{start}.{number:x}.facts" for number in range(_PARTS if folder else 0)]
+        self._parts: list[dict[str, tuple[Stamp, Any]]] = [{} for _ in self._files]
         self._stamps: dict[str, Stamp] = {}
 
     def fetch(self, tree: Tree, paths: Sequence[str]) -> dict[str, Any]:
         """Return what is kept of those files that have not changed."""
-        if not self._file:
+        if not self._files:
             return {}
-        kept = _load(self._file, _state(_collectors()))
-        self._kept = kept if isinstance(kept, dict) else {}
+        state = _state(_collectors())
+        self._parts = [found if isinstance(found := _load(file, state), dict) else {} for file in self._files]
         # Before anything is read, so that what changes meanwhile counts as changed.
         self._stamps = {path: stamp for path in paths if (stamp := _stamp(tree, path)) is not None}
-        found = {}
-        for path, stamp in self._stamps.items():
-            known = self._kept.get(path)
-            if known is not None and known[0] == stamp:
-                found[path] = known[1]
-        return found
+        kept = {path: known for part in self._parts for path, known in part.items()}
+        return {path: kept[path][1] for path, stamp in self._stamps.items() if path in kept and kept[path][0] == stamp}
 
     def store(self, tree: Tree, fresh: Mapping[str, Any]) -> None:
         """Keep what was read now, besides what was kept of files that are still there."""
-        if not self._file or not fresh:
+        if not self._files or not fresh:
             return
-        there = {path: known for path, known in self._kept.items() if path in self._stamps or _stamp(tree, path) is not None}
-        for path, collected in fresh.items():
+        changed = set()
+        for number, part in enumerate(self._parts):
+            for path in [path for path in part if path not in self._stamps and _stamp(tree, path) is None]:
+                del part[path]
+                changed.add(number)
+        for path, facts in fresh.items():
             if path in self._stamps:
-                there[path] = (self._stamps[path], collected)
-        self._kept = there
-        _save(self._file, _state(_collectors()), there)
+                number = _part(path)
+                self._parts[number][path] = (self._stamps[path], facts)
+                changed.add(number)
+        state = _state(_collectors())
+        for number in sorted(changed):
+            _save(self._files[number], state, self._parts[number])
 
 
 class Reports:
@@ -80,13 +91,13 @@ class Reports:
         """Whether any report is kept at all."""
         return bool(self._file)
 
-    def fetch(self, trees: Sequence[DiskTree]) -> Report | None:
+    def fetch(self, trees: Sequence[RecordedTree]) -> Report | None:
         """Return the report that a run would make now, or None when only the run can tell."""
         kept = _load(self._file, self._state) if self._file else None
         if not isinstance(kept, tuple) or len(kept) != 1 + len(trees):
             return None
         report, *said = kept
-        return report if all(map(says_the_same, trees, said)) else None
+        return report if all(tree.still_says(of_tree) for tree, of_tree in zip(trees, said, strict=True)) else None
 
     def store(self, trees: Sequence[RecordedTree], report: Report) -> None:
         """Keep a report that was made from what some trees said. It loses the functions of its rules."""
@@ -167,6 +178,11 @@ def _parts(fact: tuple[Any, ...]) -> tuple[type, tuple[Any, ...]]:
 def _bare(told: Any) -> Any:
     """Return the entries of a directory as plain tuples, which are equal to them and read faster."""
     return [tuple(entry) for entry in told] if isinstance(told, list) else told
+
+
+def _part(path: str) -> int:
+    """Return which part keeps the facts of a file: that of its folder."""
+    return zlib.crc32(path.rpartition("/")[0].encode("utf-8", "surrogateescape")) % _PARTS
 
 
 def _stamp(tree: Tree, path: str) -> Stamp | None:

@@ -56,9 +56,9 @@ def _checked(asked: Asked, progress: Progress) -> Report:
     """Return the report of a run, or the one of an earlier run if nothing that it depends on has changed."""
     reports = opening.reports(asked)
     disks = DiskTree(asked.base), Machine()
-    if kept := reports.fetch(disks):
-        return kept
     recorded = [RecordedTree(disk) for disk in disks]
+    if kept := reports.fetch(recorded):
+        return kept
     opened = opening.opened(asked, progress.tell, *(recorded if reports else disks))
     report = check(opened, opened.loader.load(), select(asked.settings))
     reports.store(recorded, report)
