@@ -143,9 +143,10 @@ def resolve(source: Source, resolver: Resolver) -> tuple[Use, ...]:
     uses = _Uses(source, own, resolver)
     if source.script is not None:
         by_role: dict[tuple[str, Role], list[Mention]] = {}
+        untaken = frozenset(source.script.untaken)
         for mention in source.script.mentions:
             role = _TEST if mention.test else _script_role(source, mention)
-            only_named = mention.what.startswith(_BY_NAME_ONLY)
+            only_named = mention.what.startswith(_BY_NAME_ONLY) or (mention.via == "cmake" and mention.span in untaken)
             ours = by_role.setdefault((mention.span.path, role), [])
             ours.append(mention._replace(optional=True) if only_named else mention)
         for (path, role), mentions in by_role.items():

@@ -502,6 +502,8 @@ class BuildScript(NamedTuple):
     """Folders below the package whose CMakeLists.txt is part of every build, relative to it."""
     handed_on: tuple[tuple[Mention, bool], ...] = ()
     """Packages that the CMake files for those who find this one search, and whether they do so under no condition."""
+    untaken: tuple[Span, ...] = ()
+    """Where packages are searched that need not be there, and of which nothing is taken."""
     bundled: tuple[str, ...] = ()
     """Projects that are built along with the package, by name: fetched ones, and those of its own folders."""
     runs: tuple[str, ...] | None = None

@@ -77,7 +77,7 @@ def test_mentions_stand_where_the_name_is_written() -> None:
     ("text", "optional", "test"),
     [
         ("find_package(a REQUIRED)", False, False),
-        ("find_package(a)", True, False),  # nothing takes what it finds
+        ("find_package(a)", False, False),
         ("find_package(a)\ntarget_link_libraries(t a::a)", False, False),
         ("find_package(a)\nset(X ${a_LIBRARIES})", False, False),
         ("find_package(a)\nif(BUILD_TESTING)\nament_target_dependencies(t a)\nendif()", False, True),

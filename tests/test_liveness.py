@@ -237,6 +237,28 @@ def test_cmake_files_for_others_name_what_these_need() -> None:
     assert "rclcpp" not in {use.package for use in workspace.packages[0].uses}
 
 
+@pytest.mark.parametrize(
+    ("lines", "optional"),
+    [
+        ("find_package(nav_msgs)", True),
+        ("find_package(nav_msgs REQUIRED)", False),
+        ("find_package(nav_msgs)\nset(X ${nav_msgs_LIBRARIES})", False),
+        ("find_package(nav_msgs)\nament_export_dependencies(nav_msgs)", False),
+    ],
+)
+def test_what_need_not_be_found_and_nothing_takes_is_optional(lines: str, optional: bool) -> None:
+    found = [use for use in load(lines, {}).packages[0].uses if use.what == "find_package(nav_msgs)"]
+    assert [use.optional for use in found] == [optional]
+
+
+def test_tools_work_by_being_found() -> None:
+    uses = load("find_package(python_cmake_module)\nfind_package(launch_testing_ament_cmake)", {}).packages[0].uses
+    assert {use.package: use.optional for use in uses if use.via == "cmake" and use.package != "ament_cmake"} == {
+        "python_cmake_module": False,
+        "launch_testing_ament_cmake": True,  # it has commands, and none is called
+    }
+
+
 def test_all_that_is_found_together_is_no_use_of_each() -> None:
     lines = (
         "find_package(ament_cmake_auto REQUIRED)\nament_auto_find_build_dependencies()\nadd_library(r a.cpp)\n"

@@ -115,6 +115,7 @@ def _result(run: Run, path: str) -> BuildScript:
         tuple(run.extras),
         entered=tuple(run.entered),
         handed_on=tuple(_handed_on(run)),
+        untaken=tuple(_untaken(run)),
         bundled=tuple(run.bundled),
         runs=_runs(run),
     )
@@ -181,26 +182,14 @@ def _installed_files(run: Run) -> list[Provided]:
 def _mentions(run: Run) -> tuple[Mention, ...]:
     """Return the mentions.
 
-    A package that is not required is optional where X_FOUND is asked for, and where nothing takes what was found; it serves
-    tests where these alone take it (reference, section C2.2).
+    A package that is not required is optional where X_FOUND is asked for, and serves tests where these alone take what was
+    found (reference, section C2.2).
     """
     if not run.loose:
         return tuple(run.mentions)
+    taken = _taken(run)
     guarded = {span for name in run.loose if f"{name}_FOUND" in run.tested for span in run.loose[name]}
-    taken: dict[str, bool] = {}
-    for mention in run.mentions:
-        if mention.via in ("target", "macro"):
-            name = folded(mention.name.partition("::")[0])
-            taken[name] = mention.test and taken.get(name, True)
     tests = {span for name in run.loose if taken.get(folded(name)) for span in run.loose[name]}
-    known = {macro.package for macro in macros().values()}
-    asked = [
-        name
-        for name in run.loose
-        if folded(name) not in taken
-        and not (name.startswith("ament_") or (name not in known and _WORKS_BY_BEING_FOUND.search(name)))
-    ]
-    guarded.update(span for name in _unnamed(run, asked) for span in run.loose[name])
     return tuple(
         [
             mention._replace(optional=mention.optional or mention.span in guarded, test=mention.test or mention.span in tests)
@@ -209,6 +198,27 @@ def _mentions(run: Run) -> tuple[Mention, ...]:
             for mention in run.mentions
         ]
     )
+
+
+def _taken(run: Run) -> dict[str, bool]:
+    """Return the folded names of packages whose targets, variables or macros are used, and whether only tests use them."""
+    taken: dict[str, bool] = {}
+    for mention in run.mentions:
+        if mention.via in ("target", "macro"):
+            name = folded(mention.name.partition("::")[0])
+            taken[name] = mention.test and taken.get(name, True)
+    return taken
+
+
+def _untaken(run: Run) -> Iterator[Span]:
+    """Yield where packages are searched that are not required, and whose names stand nowhere else."""
+    if not run.loose:
+        return
+    taken = _taken(run)
+    known = {macro.package for macro in macros().values()}
+    for name in _unnamed(run, [name for name in run.loose if folded(name) not in taken]):
+        if not name.startswith("ament_") and (name in known or not _WORKS_BY_BEING_FOUND.search(name)):
+            yield from run.loose[name]
 
 
 _WORKS_BY_BEING_FOUND: Final = re.compile(r"cmake|rosidl|^PkgConfig$|backward")
