@@ -566,10 +566,11 @@ class LaunchAction(NamedTuple):
 class LaunchReference(NamedTuple):
     """A line of a launch file that names a package, and mostly something in it."""
 
-    kind: Literal["node", "component", "include", "file", "package"]
+    kind: Literal["node", "component", "include", "command", "file", "package"]
     package: str
     name: str
-    """The executable, the component class, or a path below share/<package>; "" for a plain look-up of the package."""
+    """The executable, the component class, the command of a shell, or a path below share/<package>; "" for a plain look-up of
+    the package."""
     span: Span
     """Of the name, or of the package where there is no name."""
     package_span: Span
@@ -583,6 +584,8 @@ class LaunchReference(NamedTuple):
     """Whether the launch file asks first if the package is there, and does without."""
     by_default: bool = False
     """Whether it holds only as long as nobody gives the arguments of the launch file other values than their defaults."""
+    package_by_default: bool = False
+    """The same of the package: its name is made of the default of an argument, and stands nowhere as it is."""
 
 
 class LaunchFile(NamedTuple):

@@ -3,7 +3,7 @@
 import pytest
 
 from ros_lint.collectors import launch
-from tests.launch_cases import collect, said
+from tests.launch_cases import collect, said, short
 
 HEAD = "def generate_launch_description():\n"
 
@@ -87,9 +87,12 @@ def test_what_it_is_for(text: str, test: bool, helper: bool) -> None:
         (
             "d = Command(['xacro ', os.path.join(get_package_share_directory('a'), 'b.xacro')])\n"
             "return [Node(package='c', executable='d', parameters=[{'robot_description': d}])]",
-            ["node c d", "file a b.xacro", "package xacro"],
+            ["command xacro xacro", "node c d", "file a b.xacro"],
         ),
-        ("return [DeclareLaunchArgument('d', default_value=Command([FindExecutable(name='xacro'), ' ', x]))]", ["package xacro"]),
+        (
+            "return [DeclareLaunchArgument('d', default_value=Command([FindExecutable(name='xacro'), ' ', x]))]",
+            ["command xacro xacro"],
+        ),
         ("m = MoveItConfigsBuilder('a')\nreturn []", ["package a_moveit_config"]),
         ("m = MoveItConfigsBuilder('a', package_name='b').to_moveit_configs()\nreturn []", ["package b"]),
     ],
@@ -275,3 +278,54 @@ def test_what_a_file_does_without(body: str, wanted: dict[str, bool]) -> None:
     _, found = collect("a.launch.py", f"{HEAD}    ld = LaunchDescription()\n{indented}")
     packages = {reference.package for reference in found.references}
     assert {p: all(r.optional for r in found.references if r.package == p) for p in packages} == wanted
+
+
+@pytest.mark.parametrize(
+    ("body", "wanted"),
+    [
+        (
+            "s = get_package_share_directory('a')\nt = get_package_share_directory('b')\n"
+            "return [Node(package='c', executable='d', parameters=[s + '/x.yaml', {'m': t + '/y.urdf'}],\n"
+            "  arguments=['-d',\n    t + '/z.rviz'])]",
+            {"file a x.yaml": 1, "file b y.urdf": 2, "file b z.rviz": 2, "node c d": 3},
+        ),
+        (
+            "p = DeclareLaunchArgument('p', default_value=get_package_share_directory('a') + '/x.rviz', condition=i)\n"
+            "q = DeclareLaunchArgument('p', default_value=get_package_share_directory('b') + '/y.rviz', condition=j)\n"
+            "return [p, q, Node(package='c', executable='d', arguments=[LaunchConfiguration('p')])]",
+            {"file? a x.rviz": 1, "package a": 1, "file? b y.rviz": 2, "file b y.rviz": 2, "node c d": 3},
+        ),
+        (
+            "d = Command([\n  'xacro ', get_package_share_directory('a') + '/x.xacro'])\n"
+            "return [Node(package='c', executable='d', parameters=[{'robot_description': d}])]",
+            {"command xacro xacro": 2, "file a x.xacro": 2, "node c d": 3},
+        ),
+        (
+            "if X == 'one':\n    p, f = get_package_share_directory('a'), '/x.launch.py'\n"
+            "elif X == 'two':\n    p, f = get_package_share_directory('b'), '/y.launch.py'\n"
+            "else:\n    p, f = get_package_share_directory('a'), '/x.launch.py'\nreturn [IncludeLaunchDescription([p, f])]",
+            {"include? a x.launch.py": 2, "include? b y.launch.py": 4},
+        ),
+        (
+            "if X == 'one':\n    p = LaunchConfiguration('p', default=get_package_share_directory('a'))\n    f = '/x.launch.py'\n"
+            "else:\n    p = LaunchConfiguration('p', default=get_package_share_directory('b'))\n    f = '/y.launch.py'\n"
+            "return [DeclareLaunchArgument('p', default_value=p), IncludeLaunchDescription([p, f])]",
+            {"include? a x.launch.py": 2, "include? b y.launch.py": 5, "package? a": 2, "package? b": 5},
+        ),
+    ],
+)
+def test_where_a_package_is_looked_up(body: str, wanted: dict[str, int]) -> None:
+    indented = "".join(f"    {line}\n" for line in body.splitlines())
+    _, found = collect("a.launch.py", f"import os\nX = os.environ['X']\n{HEAD}{indented}")
+    assert {short(reference): reference.package_span.line - 3 for reference in found.references} == wanted
+
+
+def test_a_package_that_only_a_default_names() -> None:
+    text = (
+        '<launch><arg name="kit" default="a"/><arg name="file" default="$(find-pkg-share b)/x.yaml"/>'
+        '<include file="$(find-pkg-share $(var kit)_description)/y.launch.xml"/>'
+        '<node pkg="c" exec="d" args="$(var file)"/></launch>'
+    )
+    _, found = collect("a.launch.xml", text)
+    named = {reference.package: reference.package_by_default for reference in found.references}
+    assert named == {"a_description": True, "b": False, "c": False}

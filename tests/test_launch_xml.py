@@ -61,7 +61,7 @@ def test_recognised_by_content(path: str, text: str, wanted: str | None) -> None
         ('<executable cmd="$(exec-in-pkg b a)"/>', ["node a b"]),
         (
             """<let name="d" value="$(command 'xacro $(find-pkg-share a)/urdf/b.xacro c:=$(var c)')"/>""",
-            ["file a urdf/b.xacro", "package xacro"],
+            ["file a urdf/b.xacro", "command xacro xacro"],
         ),
         ('<node pkg="$(var p)" exec="b"/>', []),
         ('<node pkg="a" exec="$(var e)"/>', ["package a"]),

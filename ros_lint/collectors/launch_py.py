@@ -57,7 +57,7 @@ def collect(
         reading.read(tree, helper)
     except (OutOfBudget, RecursionError, MemoryError):
         reading.stopped("following the file takes too many steps")
-    references = References(reading.actions)
+    references = References(reading.actions, reading.places())
     reading.add_to(references)
     return LaunchFile(
         source.path,
@@ -152,6 +152,10 @@ class _Reading:
             if not asks_first(conditions):
                 asked.pop(package, None)
         references.spare(asked)
+
+    def places(self) -> dict[str, Span]:
+        """Return where packages are looked up that paths lie in, or that have a command that is run."""
+        return {package: self._walker.look_up_span(package) for package in self._machine.named}
 
     def stopped(self, reason: str) -> None:
         """Note that the file could not be followed to its end: anything that it makes may be launched."""

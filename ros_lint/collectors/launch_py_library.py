@@ -70,9 +70,19 @@ def _make(call: Call, name: str) -> Made:
         _note(call, made.get(0, "package"), made.written(0, "package"), eager=False)
     elif name == "ExecutableInPackage":
         _note(call, made.get(1, "package"), made.written(1, "package"), eager=False)
+    elif name == "Command":
+        _note_command(call, made)
     elif name in ("MoveItConfigsBuilder", "ParameterBuilder"):
         _note_builder(call, made)
     return made
+
+
+def _note_command(call: Call, made: Made) -> None:
+    """Note where a command that belongs to a package is run first."""
+    given, at = made.get(0, "command"), made.written(0, "command")
+    if any(text.partition(" ")[0] == "xacro" for text in call.machine.texts(given)):
+        first = at.elts[0] if isinstance(at, (ast.List, ast.Tuple)) and at.elts else at
+        call.machine.named.setdefault("xacro", (first, call.frame.source))
 
 
 def _note_builder(call: Call, made: Made) -> None:

@@ -353,7 +353,9 @@ class Machine:
     def look_up(self, package: str, at: ast.expr, source: Source, eager: bool) -> None:
         """Note that a package is looked up."""
         if UNKNOWN not in package:
-            self.named.setdefault(package, (at, source))
+            known = self.named.get(package)
+            if known is None or (_says(at, package) and not _says(known[0], package)):
+                self.named[package] = (at, source)
         if eager:
             self.looked_up.append((package, at, source, self.conditions))
         else:
@@ -364,6 +366,10 @@ class Machine:
 
     def negated(self, value: Value) -> Value:
         return negated(self, value)
+
+
+def _says(node: ast.expr, text: str) -> bool:
+    return isinstance(node, ast.Constant) and node.value == text
 
 
 def _yields(node: ast.FunctionDef | ast.AsyncFunctionDef) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors import launch_text
@@ -175,7 +175,7 @@ class Walker:
 
     def text(self, given: Value, node: ast.expr, source: Source) -> LaunchValue:
         """Return a value as a text with the place where it is written."""
-        found = (str(given),) if isinstance(given, str) else tuple(map(str, texts(given, Within(self.machine.spend))))
+        found = (str(given),) if isinstance(given, str) else _plain(texts(given, Within(self.machine.spend)))
         origin = plain(given)
         while isinstance(origin, Made) and origin.name in ("TextSubstitution", "ParameterFile", "ParameterValue"):
             origin = plain(origin.get(0, "text", "param_file", "value"))
@@ -200,11 +200,14 @@ class Walker:
             if text.isascii():
                 continue
             for found in installed(text):
-                named = self.machine.named.get(found.package)
-                if named is not None:
-                    node, source = named
-                    return self.text(found.package, node, source).span if isinstance(node, ast.Constant) else span_of(*named)
+                if found.package in self.machine.named:
+                    return self.look_up_span(found.package)
         return None
+
+    def look_up_span(self, package: str) -> Span:
+        """Return where a package is looked up first; it is looked up somewhere."""
+        node, source = self.machine.named[package]
+        return self.text(package, node, source).span if isinstance(node, ast.Constant) else span_of(node, source)
 
     def run(self, function: Value, arguments: Sequence[Value], keywords: Mapping[str, Value], made: Made) -> Value:
         """Return what a function returns that launch calls."""
@@ -213,6 +216,10 @@ class Walker:
             return self.machine.call(plain(function), list(arguments), dict(keywords), made.node, frame)
         except Raised:
             return Unknown("a function that raises")
+
+
+def _plain(texts: Iterable[str]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys([str(text) for text in texts]))
 
 
 def _merged(left: Conditions, right: Conditions) -> Conditions:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from posixpath import normpath
+from types import MappingProxyType
 from typing import Literal
 
+from ros_lint.collectors import launch_text
 from ros_lint.collectors.launch_expression import evaluate
 from ros_lint.collectors.launch_text import (
     UNKNOWN,
@@ -21,15 +23,17 @@ from ros_lint.collectors.launch_text import (
 from ros_lint.facts import Facet, LaunchAction, LaunchCondition, LaunchReference, LaunchValue, Opaque
 from ros_lint.text import Span
 
-Kind = Literal["node", "component", "include", "file", "package"]
+Kind = Literal["node", "component", "include", "command", "file", "package"]
 
 
 class References:
     """What the actions of a launch file refer to, in the order of the file, and what is hidden."""
 
-    def __init__(self, actions: Iterable[LaunchAction]) -> None:
+    def __init__(self, actions: Iterable[LaunchAction], places: Mapping[str, Span] = MappingProxyType({})) -> None:
+        """Read actions. ``places`` are where packages are looked up, as far as that is not where paths in them are used."""
         self.found: dict[LaunchReference, None] = {}
         self.opaque: dict[Opaque, None] = {}
+        self._places = places
         actions = tuple(actions)
         self._defaults = _defaults(actions)
         self._carriers = carriers_of_places(self._defaults)
@@ -74,9 +78,12 @@ class References:
                 continue
             for name in names if len(packages) == 1 or len(names) == 1 else (UNKNOWN,):
                 if action.target is not None and is_plain(name) and name:
-                    self._add(kind, package, name, action.target, action.package, conditional, package_default or name_default)
+                    default = package_default or name_default
+                    self._add(kind, package, name, action.target, action.package, conditional, default, package_default)
                 else:
-                    self._add("package", package, "", action.package, action.package, conditional, package_default)
+                    self._add(
+                        "package", package, "", action.package, action.package, conditional, package_default, package_default
+                    )
 
     def _include(self, action: LaunchAction, conditional: bool) -> None:
         target = action.target
@@ -87,13 +94,14 @@ class References:
             places = [place for place in installed(text) if place.known]
             conditional = conditional or len(texts) > 1
             for place in places:
-                span = action.package_span or target.span
+                span = self._place(place.package, target, action.package_span)
                 package = LaunchValue((place.package,), span)
                 path = place.share
+                made = default and self._is_made(place.package, target)
                 if path and normpath(text) == f"{share(place.package)}/{path}":
-                    self._add("include", place.package, path, target, package, conditional, default)
+                    self._add("include", place.package, path, target, package, conditional, default, made)
                 else:
-                    self._add("package", place.package, "", package, package, conditional, default)
+                    self._add("package", place.package, "", package, package, conditional, default, made)
             if not places and not is_settled(text):
                 self.hide("which launch file is included is computed", target.span)
 
@@ -105,7 +113,7 @@ class References:
                 texts, default = self._filled(value)
                 words += [(word, value, default) for word in _words(texts[0] if len(texts) == 1 else UNKNOWN)]
         if [word for word, _, _ in words[:1]] == ["xacro"]:
-            self._add("package", "xacro", "", words[0][1], words[0][1], conditional, by_default=False)
+            self._add("command", "xacro", "xacro", words[0][1], words[0][1], conditional, by_default=False)
         if [word for word, _, _ in words[:2]] not in (["ros2", "run"], ["ros2", "launch"]):
             return
         rest = [one for one in words[2:] if not one[0].startswith("-")][:2]
@@ -127,17 +135,36 @@ class References:
                 if not place.known:
                     self.hide("the package that is looked up is computed", value.span)
                     continue
-                package = LaunchValue((place.package,), package_span or value.span)
+                package = LaunchValue((place.package,), self._place(place.package, value, package_span))
                 several = conditional or len(texts) > 1
                 path = place.share
+                made = default and self._is_made(place.package, value)
                 if path:
-                    self._add("file", place.package, path, value, package, several, default)
+                    self._add("file", place.package, path, value, package, several, default, made)
                 elif place.executable:
-                    self._add("node", place.package, place.executable, value, package, several, default)
+                    self._add("node", place.package, place.executable, value, package, several, default, made)
                 else:
-                    self._add("package", place.package, "", package, package, several, default)
+                    self._add("package", place.package, "", package, package, several, default, made)
             if "\ue014xacro" in text or text.startswith("xacro "):
-                self._add("package", "xacro", "", value, value, conditional, by_default=False)
+                self._runs("xacro", value, conditional)
+
+    def _place(self, package: str, value: LaunchValue, package_span: Span | None) -> Span:
+        """Return where a package is named that a path lies in, at best where it is looked up."""
+        if package in self._places:
+            return self._places[package]
+        path, line, _, last, _ = value.span
+        inside = package_span is not None and package_span.path == path and line <= package_span.line <= last
+        return package_span if package_span is not None and inside else value.span
+
+    def _is_made(self, package: str, value: LaunchValue) -> bool:
+        """Whether the name of a package is put together of what configurations hold, and stands in no text as it is."""
+        prefix = f"{launch_text.prefix(package)}/"
+        texts = [value.texts, *self._defaults.values()]
+        return not any(prefix in f"{text}/" for one in texts for text in one)
+
+    def _runs(self, command: str, value: LaunchValue, conditional: bool) -> None:
+        place = LaunchValue((command,), self._places[command]) if command in self._places else value
+        self._add("command", command, command, place, place, conditional, by_default=False)
 
     def _filled(self, value: LaunchValue) -> tuple[tuple[str, ...], bool]:
         """Return what a value is with the defaults of the launch arguments, and whether it needed them."""
@@ -168,13 +195,31 @@ class References:
             ] = None
 
     def _add(
-        self, kind: Kind, package: str, name: str, at: LaunchValue, owner: LaunchValue, conditional: bool, by_default: bool
+        self,
+        kind: Kind,
+        package: str,
+        name: str,
+        at: LaunchValue,
+        owner: LaunchValue,
+        conditional: bool,
+        by_default: bool,
+        package_by_default: bool = False,
     ) -> None:
         exact, package_exact = at.exact and at.texts == (name,), owner.exact and owner.texts == (package,)
         if kind == "package":
             exact = package_exact
         reference = LaunchReference(
-            kind, package, name, at.span, owner.span, conditional, exact, package_exact, self._optional, by_default
+            kind,
+            package,
+            name,
+            at.span,
+            owner.span,
+            conditional,
+            exact,
+            package_exact,
+            self._optional,
+            by_default,
+            package_by_default and package not in self._places,
         )
         self.found[reference] = None
 

@@ -282,12 +282,13 @@ def agree(conditions: Iterable[LaunchCondition]) -> bool:
 
 
 def distinct(texts: Iterable[str]) -> tuple[str, ...]:
-    """Return each text once; one that comes under different conditions holds under none."""
+    """Return each text once, or once for each set of conditions that it holds under; if that is too many, under none."""
+    every = {(text, conditions_of(text)): text for text in texts}
+    if len(every) <= MOST:
+        return tuple([text for (plain, conditions), text in every.items() if not conditions or (plain, ()) not in every])
     found: dict[str, str] = {}
-    for text in texts:
-        other = found.setdefault(text, text)
-        if other is not text and conditions_of(other) != conditions_of(text):
-            found[text] = str(text)
+    for (plain, _), text in every.items():
+        found[plain] = str(text) if plain in found else text
     return tuple(found.values())
 
 
@@ -348,6 +349,9 @@ class _Filling:
 
     def _one(self, configuration: str, busy: frozenset[str]) -> tuple[str, ...]:
         name, mark, default = configuration.partition(_DEFAULT)
+        given = None if not mark else self._values(name)
+        if given is not None and f"{_CONFIGURATION[0]}{configuration}{_CONFIGURATION[1]}" in given:
+            return (default,)  # the default of the argument is this one, whichever of several it is
         # A default that names its own argument is asked for while that has no value yet.
         given = None if name in busy or len(busy) > _DEEPEST else self._values(name)
         if given is None:

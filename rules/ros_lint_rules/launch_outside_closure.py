@@ -28,7 +28,8 @@ Add `<exec_depend>` to `package.xml`. The fix does this.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import islice
 
 from ros_lint.api import (
     Confidence,
@@ -40,6 +41,7 @@ from ros_lint.api import (
     Role,
     Rule,
     Severity,
+    Span,
     Workspace,
     advice,
     comes_elsewhere,
@@ -50,11 +52,12 @@ from ros_lint.api import (
 )
 
 _MOST_RELATED = 4
-_ORDER = ("node", "component", "include", "file", "package")
+_ORDER = ("node", "component", "include", "command", "file", "package")
 _SAYS = {
     "node": "{name} of {package} is started here",
     "component": "{name} of {package} is loaded here",
     "include": "{name} of {package} is included here",
+    "command": "{name} is run here",
     "file": "{name} of {package} is used here",
     "package": "{package} is looked up here",
 }
@@ -74,19 +77,29 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             continue
         if not workspace.world.is_package(name) and comes_elsewhere(package, workspace, name):
             continue
-        best, *others = sorted(references, key=lambda r: (r.conditional, _ORDER.index(r.kind), r.span))
+        best, *others = sorted(references, key=lambda r: (r.package_by_default, r.conditional, _ORDER.index(r.kind), r.span))
         says = _SAYS[best.kind].format(name=best.name, package=name)
         only = ", if only under a condition" if best.conditional else ""
+        only = ", by the default of an argument" if best.package_by_default else only
         way_out = advice(package, workspace, name, Role.EXEC)
         then = f"it cannot be declared: {way_out.obstacle}" if way_out.obstacle else f"add {way_out.written}"
         yield Finding(
             f"{says}{only}, but does not come with {package.name}: {then}",
             best.package_span,
             name,
-            tuple(Related("also needed here", other.package_span) for other in others[:_MOST_RELATED]),
+            tuple(Related("also needed here", span) for span in islice(_elsewhere(best.package_span, others), _MOST_RELATED)),
             way_out.fix,
             Confidence.MEDIUM if way_out.circular or may_bring(closure.unknown, name, workspace) else Confidence.HIGH,
         )
+
+
+def _elsewhere(best: Span, others: Sequence[LaunchReference]) -> Iterator[Span]:
+    """Yield other places, one of each line."""
+    said = {(best.path, best.line)}
+    for span in [other.package_span for other in others]:
+        if (span.path, span.line) not in said:
+            said.add((span.path, span.line))
+            yield span
 
 
 def _named(package: Package, workspace: Workspace) -> Mapping[str, list[LaunchReference]]:
