@@ -82,9 +82,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         only = ", if only under a condition" if best.conditional else ""
         only = ", by the default of an argument" if best.package_by_default else only
         way_out = advice(package, workspace, name, Role.EXEC)
-        then = f"it cannot be declared: {way_out.obstacle}" if way_out.obstacle else f"add {way_out.written}"
+        then = f", and cannot be declared: {way_out.obstacle}" if way_out.obstacle else f": add {way_out.written}"
         yield Finding(
-            f"{says}{only}, but does not come with {package.name}: {then}",
+            f"{says}{only}, but does not come with {package.name}{then}",
             best.package_span,
             name,
             tuple(Related("also needed here", span) for span in islice(_elsewhere(best.package_span, others), _MOST_RELATED)),

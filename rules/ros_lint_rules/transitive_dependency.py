@@ -67,9 +67,9 @@ def _finding(package: Package, workspace: Workspace, declared: Sequence[str], ne
     name = way[-1]
     way_out = advice(package, workspace, name, need.role)
     rejected = bool(package.manifest and package.manifest.problems)
-    then = f"it cannot be declared: {way_out.obstacle}" if way_out.obstacle else f"add {way_out.written}"
+    then = f", and cannot be declared: {way_out.obstacle}" if way_out.obstacle else f": add {way_out.written}"
     return Finding(
-        f"{name} is used here, but comes along only by way of {' > '.join(way[:-1])}: {then}",
+        f"{name} is used here, but comes along only by way of {' > '.join(way[:-1])}{then}",
         best.span,
         name,
         tuple(Related(f"also used here: {use.what}", use.span) for use in others[:_MOST_RELATED]),
