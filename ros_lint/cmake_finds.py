@@ -27,6 +27,11 @@ def found_names(package: Package, script: BuildScript) -> frozenset[str]:
     return frozenset(names)
 
 
+def finds_declared(package: Package) -> bool:
+    """Return whether CMake finds whatever the manifest declares for building, and gives it to every target."""
+    return package.script is not None and not _FIND_DECLARED.isdisjoint(package.script.calls)
+
+
 def come_along(workspace: Workspace, names: Iterable[str]) -> frozenset[str] | None:
     """Return what is found together with names of find_package(), these included: what their packages bring along.
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from ros_lint import manifest_edits
+from ros_lint.cmake_finds import finds_declared
 from ros_lint.facts import Depend, Facet, Role
 from ros_lint.rule import Edit
 from ros_lint.workspace import Package, Workspace
@@ -17,15 +18,16 @@ if TYPE_CHECKING:
 def tag_for(package: Package, workspace: Workspace, name: str, role: Role) -> str:
     """Return the one tag that a careful maintainer writes for all that a name is needed for (reference, section E2).
 
-    Where the manifest says ``<depend>`` of everything, it goes on saying so. For a manifest of format 1, where nothing means
-    "build and run", it is the tag for building, see :func:`add_dependency`.
+    Where the manifest says ``<depend>`` of everything, it goes on saying so, unless CMake finds and links all that it says
+    it of. For a manifest of format 1, where nothing means "build and run", it is the tag for building, see
+    :func:`add_dependency`.
     """
     form = package.manifest.format if package.manifest else 3
     if role == Role.TEST:
         return "test_depend"
     needed = _without(role, Role.TEST)
     if needed == Role.EXEC:
-        habit = "depend" if form > 1 and _always_depend(package) else "exec_depend"
+        habit = "depend" if form > 1 and _always_depend(package) and not finds_declared(package) else "exec_depend"
         return "run_depend" if form == 1 else habit
     if needed == Role.TOOL or (_has(needed, Role.BUILD) and _is_tool(workspace, name)):
         return "buildtool_depend"

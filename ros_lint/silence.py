@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from ros_lint.carriers import carriers
 from ros_lint.declare import builds_something, is_built_in_sight, is_library, is_mostly_run, leaves_trace, works_unseen
@@ -16,16 +16,21 @@ _MOST = 5
 def explain(package: Package, workspace: Workspace, name: str) -> Iterator[str]:
     """Yield lines: where the dependency is used, how it is declared, and why each rule is silent, if it is."""
     uses = [use for use in package.uses if name in use.providers]
-    for use in uses[:_MOST]:
-        yield f"{use.span}: {use.what}, {_needed_for(use)}"
-    if len(uses) > _MOST:
-        yield f"and {len(uses) - _MOST} more uses"
+    yield from used_in(uses)
     tags = [each.depend for each in package.declared if each.name == name]
     for depend in tags:
         condition = f" if {depend.condition}" if depend.condition else ""
         yield f"{depend.span}: <{depend.tag}>{depend.name}</{depend.tag}>{condition}"
     yield f"undeclared-dependency: {_not_undeclared(package, workspace, name, uses)}"
     yield f"unused-dependency: {_not_unused(package, workspace, name, uses)}"
+
+
+def used_in(uses: Sequence[Use]) -> Iterator[str]:
+    """Yield lines: where something is used, and for what."""
+    for use in uses[:_MOST]:
+        yield f"{use.span}: {use.what}, {_needed_for(use)}"
+    if len(uses) > _MOST:
+        yield f"and {len(uses) - _MOST} more uses"
 
 
 def _needed_for(use: Use) -> str:

@@ -16,7 +16,9 @@ from ros_lint import underlay
 from ros_lint.commands import graph, order, overlay, why
 from ros_lint.facts import Role, Use
 from ros_lint.knowledge import Knowledge
+from ros_lint.load import Loader
 from ros_lint.text import Span
+from ros_lint.tree import MemoryTree
 from ros_lint.workspace import Package, Target, Workspace
 from ros_lint.world import Member, World
 from tests.packages import manifest_text, package
@@ -241,3 +243,17 @@ def test_overlay_knows_what_is_released_and_what_is_refused() -> None:
 
 def test_overlay_with_nothing_to_tell() -> None:
     assert overlay.run(workspace([package("own")])) == ("No package hides another one.\n", "", 0)
+
+
+def test_why_shows_the_uses_of_what_is_not_declared() -> None:
+    files = {
+        "a/package.xml": manifest_text("a"),
+        "a/CMakeLists.txt": "project(a)\nfind_package(nav_msgs REQUIRED)\nament_package()\n",
+    }
+    found = Loader(MemoryTree(files), ("",), Target("jazzy", "test")).load()
+    assert why.run(found, "a", "nav_msgs") == (
+        "a uses nav_msgs, but neither declares it nor anything that brings it:\n"
+        "   a/CMakeLists.txt:2:14: find_package(nav_msgs), needed to build\n",
+        "",
+        1,
+    )

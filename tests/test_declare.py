@@ -51,6 +51,15 @@ def test_the_tag_holds_all_that_is_needed(role: Role, depends: str, tag: str) ->
     assert tag_for(package, workspace, "nav_msgs", role) == tag
 
 
+def test_what_is_run_is_not_found_and_linked_with_all_that_is_declared() -> None:
+    text = f"{HEAD.format(form=3)}{ALWAYS}<export><build_type>ament_cmake</build_type></export></package>"
+    lines = "project(talker)\nfind_package(ament_cmake_auto REQUIRED)\nament_auto_find_build_dependencies()\n"
+    workspace = Loader(MemoryTree({"a/package.xml": text, "a/CMakeLists.txt": lines}), ("",), Target("jazzy", "test")).load()
+    package = workspace.packages[0]
+    assert tag_for(package, workspace, "nav_msgs", Role.EXEC) == "exec_depend"
+    assert tag_for(package, workspace, "nav_msgs", Role.BUILD) == "depend"
+
+
 def test_what_others_declare_as_a_tool_is_a_tool() -> None:
     package, workspace = loaded(MIXED)
     assert tag_for(package, workspace, "ament_cmake_python", Role.BUILD) == "buildtool_depend"

@@ -6,6 +6,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.graph_paths import Paths, paths
+from ros_lint.silence import used_in
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -43,6 +44,11 @@ def run(workspace: Workspace, start: str, end: str, most: int = 10) -> tuple[str
     found = paths(model.needs, start, end, most)
     if not found.found:
         back = paths(model.needs, end, start, 1).found
+        uses = [use for package in workspace.by_name.get(start, ()) for use in package.uses if end in use.providers]
+        if uses:
+            hint = f" ({end} needs {start}: ros-lint why {end} {start})" if back else ""
+            head = f"{start} uses {end}, but neither declares it nor anything that brings it{hint}:"
+            return "".join(f"{line}\n" for line in (head, *(f"   {line}" for line in used_in(uses)))), "", 1
         hint = f"; but {end} needs {start}: ros-lint why {end} {start}" if back else ""
         return f"{start} does not need {end}{hint}\n", "", 1
     return "".join(f"{line}\n" for line in _tell(model, found, start, end)), "", 0
