@@ -2,7 +2,7 @@
 ## What it finds
 
 Console scripts of nodes that land in `bin/`, because `setup.cfg` is missing or does not say
-`install_scripts=$base/lib/<package>`; those that land in `lib/` of another name than that of the package.
+`install_scripts=$base/lib/<package>`. Another name than that of the package there is a matter of `name-mismatch`.
 
 ## Why it matters
 
@@ -52,12 +52,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if script is None or package.builds_with != "ament_python" or package.hidden(Facet.EXECUTABLES):
         return
     inside = {p.path.rpartition("/")[2] for p in script.provides if p.path.startswith(f"lib/{package.name}/")}
-    elsewhere = {
-        p.path.rpartition("/")[2]: p.path.rpartition("/")[0]
-        for p in script.provides
-        if p.program and not p.source and p.path.startswith(("bin/", "lib/"))
-    }
-    outside = {name: folder for name, folder in elsewhere.items() if name not in inside}
+    outside = {p.path.rpartition("/")[2] for p in script.provides if p.path.startswith("bin/")} - inside
     using = {relative(package, use.span.path) for use in package.uses if use.package == "rclpy"}
     modules = {module.name: module.path for module in script.modules}
     started = workspace.started.get(package.name, {})
@@ -66,26 +61,18 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         for entry in script.entry_points
         if entry.group == "console_scripts"
         and entry.name in outside
-        and (
-            modules.get(entry.target.partition(":")[0].strip()) in using
-            or entry.name in started
-            or outside[entry.name] != "bin"
-        )
+        and (modules.get(entry.target.partition(":")[0].strip()) in using or entry.name in started)
     ]
     if not nodes or any(entry.group.startswith("ros2cli.") for entry in script.entry_points):
         return
     defining = {module.name for module in script.modules if _NODES.intersection(module.names)}
-    folder = outside[nodes[0].name]
-    another = folder != "bin" and not any(folder == f"lib/{other.name}" for other in workspace.packages)
-    sure = another or any(
-        entry.name in started or entry.target.partition(":")[0].strip() in defining for entry in nodes
-    )
+    sure = any(entry.name in started or entry.target.partition(":")[0].strip() in defining for entry in nodes)
     config = f"{package.path}/setup.cfg" if package.path else "setup.cfg"
     there = "setup.cfg" in package.files
     names = [entry.name for entry in nodes]
     named = ", ".join(names[:3]) + (" ..." if len(names) > 3 else "")
     yield Finding(
-        f"{named} {'land' if len(names) > 1 else 'lands'} in {folder}/, where ros2 run does not look; "
+        f"{named} {'land' if len(names) > 1 else 'lands'} in bin/, where ros2 run does not look; "
         f"{'say' if there else 'add a setup.cfg with'} install_scripts=$base/lib/{package.name}",
         Span(config, 1, 1, 1, 1) if there else nodes[0].span,
         "setup.cfg",

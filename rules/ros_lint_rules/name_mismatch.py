@@ -81,6 +81,7 @@ def _python(manifest: Manifest, script: BuildScript) -> Iterator[Finding]:
         yield found._replace(severity=Severity.WARNING) if harmless else found
 
 
+_FOLDERS = ("develop.script_dir", "install.install_scripts")
 _SCRIPTS = ("option", "install.install_scripts")
 """What setup.cfg says of where programs go, which are written in setup.py."""
 
@@ -113,6 +114,10 @@ def _finding(message: str, manifest: Manifest, script: BuildScript, span: Span) 
             # In setup.py the same variable may name folders and files that would have to be renamed, too.
             safe = not script.path.endswith(".py")
             fix = Fix(f"write {manifest.name}", (Edit(inner, manifest.name),), safe)
+    places = [text.span for text in script.texts if text.kind == "option" and text.text in _FOLDERS]
+    if span in places:
+        folder = f"$base/lib/{manifest.name}"
+        fix = Fix(f"write {folder}", tuple(Edit(place, folder) for place in places))
     return Finding(message, span, manifest.name, fix=fix)
 
 
