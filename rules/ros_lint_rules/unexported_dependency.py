@@ -17,13 +17,13 @@ not `gz_sim_vendor`.
 
 - `ament_auto_package()` does the exporting, or `rosidl_generate_interfaces()` that of its `DEPENDENCIES`.
 - The header is not installed, or perhaps not, or the script cannot be followed everywhere.
-- The header compiles nowhere else: it includes a file that is not installed, or a package that only ROS 1 has.
 - The script does not find the other package: that is another mistake.
 - What the header includes comes with the tools that tests are built with, such as `ament_cmake_gtest`.
 
 The confidence is medium when the other package comes along, or may come along, with one that is exported, when the package
 exports no include directories, so that its headers may be there for itself, and when an exported target has the include
-directories of the other one written out.
+directories of the other one written out. It is low when the header compiles nowhere else, because it includes a file that is not
+installed, or a package that only ROS 1 has.
 """
 
 from __future__ import annotations
@@ -54,6 +54,7 @@ _MOST_RELATED = 4
 _EXPORTS = frozenset({"ament_export_include_directories", "ament_export_targets", "ament_export_interfaces"})
 _EXPORTS_ALL = frozenset({"ament_auto_package", "autoware_ament_auto_package"})
 _OF_TOOLS = "ament_cmake_"
+_VENDOR = "_vendor"
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -66,20 +67,25 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     exported = {mention.name for macro in _EXPORTING for mention in given_to(script, macro)}
     exported_packages = exported.union(*(by_cmake(name).names for name in exported))
     finds = sorted(found_names(package, script))
-    for name, uses in _public(package, workspace).items():
+    usable = _usable(package, workspace, script)
+    for name, uses in _public(package, workspace, script).items():
         found = [each for each in finds if each == name or name in by_cmake(each).names[:1]]
         if name in exported_packages or not found:
             continue
-        first, *others = uses
+        compiled = [use for use in uses if relative(package, use.span.path) in usable]
+        first, *others = compiled or uses
         # A vendor package mostly hands on nothing but the folder in which CMake finds what it stands for.
-        written = next((each for each in found if each != name), name) if name.endswith("_vendor") else found[0]
+        written = next((each for each in found if each != name), name) if name.endswith(_VENDOR) else found[0]
+        way_out = f"add ament_export_dependencies({written})"
+        if not compiled:
+            way_out += ", or do not install it, for it includes what others do not have"
         yield Finding(
-            f"{name} is included by this installed header, but not exported: add ament_export_dependencies({written})",
+            f"{name} is included by this installed header, but not exported: {way_out}",
             first.span,
             name,
             tuple(Related(f"also included here: {use.what}", use.span) for use in others[:_MOST_RELATED]),
             None,
-            _confidence(package, workspace, name, exported),
+            _confidence(package, workspace, name, exported) if compiled else Confidence.LOW,
         )
 
 
@@ -103,20 +109,30 @@ def _is_written_out(package: Package, name: str) -> bool:
     return any(directories in call.texts and "PRIVATE" not in call.texts for call in calls)
 
 
-def _public(package: Package, workspace: Workspace) -> dict[str, list[Use]]:
-    """Return the ROS packages that headers which others can include include, with the places."""
-    script = package.script
-    assert script is not None
-    world = workspace.world
-    includes = [use for use in package.uses if use.via == "include" and not use.optional and use.role & Role.EXPORT]
-    usable = _installed(script).difference(package.unusable_headers)
-    usable -= {relative(package, use.span.path) for use in includes if world.standing(use.package) == "end-of-life"}
+def _public(package: Package, workspace: Workspace, script: BuildScript) -> dict[str, list[Use]]:
+    """Return what installed headers include of ROS packages, and of libraries that vendor packages wrap, with the places."""
+    is_package = workspace.world.is_package
+    installed = _installed(script)
     uses: dict[str, list[Use]] = {}
-    for use in includes:
-        known = use.sure and world.is_package(use.package) and not use.package.startswith(_OF_TOOLS)
-        if known and relative(package, use.span.path) in usable:
+    for use in _includes(package):
+        known = any(is_package(name) for name in use.providers if name == use.package or name.endswith(_VENDOR))
+        tool = any(name.startswith(_OF_TOOLS) for name in use.providers)
+        if use.sure and known and not tool and relative(package, use.span.path) in installed:
             uses.setdefault(use.package, []).append(use)
     return uses
+
+
+def _usable(package: Package, workspace: Workspace, script: BuildScript) -> set[str]:
+    """Return the installed headers that compile elsewhere."""
+    standing = workspace.world.standing
+    old = {relative(package, use.span.path) for use in _includes(package) if standing(use.package) == "end-of-life"}
+    return _installed(script).difference(package.unusable_headers, old)
+
+
+def _includes(package: Package) -> Iterator[Use]:
+    for use in package.uses:
+        if use.via == "include" and not use.optional and use.role & Role.EXPORT:
+            yield use
 
 
 def _installed(script: BuildScript) -> set[str]:
