@@ -220,12 +220,14 @@ def comes_elsewhere(package: Package, workspace: Workspace, name: str) -> bool:
 
 
 def _joined(found: Sequence[Need]) -> list[Need]:
-    """Return needs without those that an earlier one satisfies: what CMake finds and what is included may have two names."""
+    """Return needs without those that another one satisfies: what CMake finds and what is included may have two names."""
     result: list[Need] = []
     for need in found:
         for number, other in enumerate(result):
-            if all(other.name in use.providers for use in need.uses):
-                result[number] = other._replace(uses=tuple(sorted((*other.uses, *need.uses), key=_rank)))
+            before = all(other.name in use.providers for use in need.uses)
+            if before or all(need.name in use.providers for use in other.uses):
+                kept = other if before else need
+                result[number] = kept._replace(uses=tuple(sorted((*other.uses, *need.uses), key=_rank)))
                 break
         else:
             result.append(need)

@@ -181,7 +181,7 @@ def near(world: World, name: str, *, python: bool) -> tuple[str, ...]:
 def _other_names(world: World, name: str, *, python: bool) -> Iterator[Meant | None]:
     """Yield what the name stands for where it is right: as a CMake package, a module, a package of apt or pip."""
     names, rosdep = world.knowledge.names, world.knowledge.rosdep
-    bare = name.removeprefix("python3-").removeprefix("python-").removesuffix("-pip")
+    bare = name.removeprefix("python3-").removeprefix("python-").removesuffix("-pip").removesuffix("-python")
     if python or bare != name:
         yield _first(world, [f"python3-{bare}", f"python3-{bare}-pip"], "spelling")
         yield _first(world, (*names.module_packages(bare, world.knowledge.distro), *names.module(bare)), "python")

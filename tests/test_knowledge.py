@@ -177,7 +177,7 @@ def test_rosdep_keys_are_asked_for_the_platform_of_the_distribution() -> None:
     ("header", "first"),
     [
         ("Eigen/Dense", "eigen"),
-        ("yaml-cpp/yaml.h", "yaml_cpp_vendor"),
+        ("yaml-cpp/yaml.h", "yaml-cpp"),
         ("boost/filesystem/path.hpp", "libboost-filesystem-dev"),
         ("boost/optional.hpp", "boost"),
         ("OgreVector3.h", "rviz_ogre_vendor"),

@@ -378,6 +378,8 @@ def test_modules_of_the_language_need_nothing() -> None:
     [
         # What maintainers wrote instead, in commits that mended these names.
         ("Eigen3", "eigen"),
+        ("ALSA", "libasound2-dev"),
+        ("opencv-python", "python3-opencv"),
         ("GeographicLib", "geographiclib"),
         ("PkgConfig", "pkg-config"),
         ("gz-sim8", "gz_sim_vendor"),
