@@ -94,6 +94,33 @@ def generate_launch_description():
     assert said(expand(file, {"sim": "true"}, lambda _: None, "foxy")) == ["node fake simulator", "node p old"]
 
 
+def test_comparisons_with_and_and_or_are_worked_out() -> None:
+    file = collect(
+        "pkg/launch/a.launch.py",
+        """
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, OpaqueFunction
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+def setup(context):
+    sim = LaunchConfiguration("sim").perform(context)
+    robot = LaunchConfiguration("robot").perform(context)
+    simulated = sim == "true" or sim == "True"
+    nodes = [Node(package="p", executable="simulator" if simulated else "driver")]
+    if robot != "" and sim != "true":
+        nodes.append(Node(package="p", executable="motors"))
+    return nodes
+
+def generate_launch_description():
+    arguments = [DeclareLaunchArgument("sim", default_value="false"), DeclareLaunchArgument("robot", default_value="r")]
+    return LaunchDescription([*arguments, OpaqueFunction(function=setup)])
+""",
+    )[1]
+    assert said(run(file)) == ["node p driver", "node p motors"]
+    assert said(run(file, {"sim": "True", "robot": ""})) == ["node p simulator"]
+
+
 def test_a_required_argument_is_not_known() -> None:
     file = xml('<arg name="sim"/><node pkg="p" exec="a" if="$(var sim)"/><node pkg="p" exec="b"/>')
     assert said(run(file)) == ["node p a ?", "node p b"]

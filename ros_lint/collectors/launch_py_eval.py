@@ -33,7 +33,8 @@ from ros_lint.collectors.launch_py_operations import (
     truth,
     with_format,
 )
-from ros_lint.collectors.launch_text import joined
+from ros_lint.collectors.launch_text import UNKNOWN, expression, joined, quoted
+from ros_lint.facts import LaunchCondition
 
 if TYPE_CHECKING:
     from ros_lint.collectors.launch_py_run import Machine
@@ -147,7 +148,20 @@ def _boolean(machine: Machine, node: ast.BoolOp, frame: Frame) -> Value:
             perhaps.append(value)
     if len(perhaps) == 1:
         return perhaps[0]
-    return union(perhaps)
+    together = _together(perhaps, "or" if stop_at else "and")
+    return union(perhaps) if together is None else together
+
+
+def _together(values: list[Value], word: str) -> Value:
+    """Return comparisons, all of which wait for arguments, as one truth; None for anything else."""
+    parts: list[str] = []
+    for value in values:
+        condition = value.condition if isinstance(value, Unknown) else None
+        if condition is None or condition.equals is None or len(condition.texts) != 1 or UNKNOWN in condition.texts[0]:
+            return None
+        sign = "==" if condition.wanted else "!="
+        parts.append(f"{quoted(condition.texts[0])} {sign} {quoted(condition.equals)}")
+    return Unknown("a truth", LaunchCondition((expression(f" {word} ".join(parts)),), None))
 
 
 def _compare(machine: Machine, node: ast.Compare, frame: Frame) -> Value:
