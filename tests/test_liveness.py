@@ -278,6 +278,7 @@ def test_all_that_is_found_together_is_no_use_of_each() -> None:
         ("find_package(Python3 REQUIRED COMPONENTS Development.Module)", "", ["python3-dev"]),
         ("find_package(Python3 REQUIRED COMPONENTS Development)", "<build_depend>pybind11_vendor</build_depend>", []),
         ("find_package(Python3 REQUIRED COMPONENTS Development)", "<depend>rosidl_default_generators</depend>", []),
+        ("find_package(Python3 REQUIRED COMPONENTS Development)", "<build_depend>python_qt_binding</build_depend>", []),
         ("find_package(Qt5 REQUIRED COMPONENTS Core)", "<depend>libqt5-core</depend>", ["qtbase5-dev"]),
         ("find_package(Qt5 REQUIRED)", "<build_depend>qtbase5-dev</build_depend><exec_depend>libqt5-core</exec_depend>", []),
         ("find_package(Qt5 REQUIRED COMPONENTS Core)", "<depend>rviz_common</depend>", []),
