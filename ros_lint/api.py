@@ -33,7 +33,7 @@ from ros_lint.declare import (
     tag_for,
     works_unseen,
 )
-from ros_lint.evidence import used_names
+from ros_lint.evidence import satisfying, used_names
 from ros_lint.facts import (
     ANYTHING,
     ROLES,
@@ -198,6 +198,7 @@ __all__ = [
     "referred",
     "relative",
     "remove_dependency",
+    "satisfying",
     "setup_edits",
     "stranded",
     "strangers",

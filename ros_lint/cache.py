@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 _MODULES = frozenset({
     "ros_lint.collect", "ros_lint.collectors.cmake_syntax", "ros_lint.facts", "ros_lint.report", "ros_lint.rule",
-    "ros_lint.suppress", "ros_lint.text", "ros_lint.tree", "ros_lint.workspace",
+    "ros_lint.suppress", "ros_lint.text", "ros_lint.tree",
 })  # fmt: skip
 
 _PARTS = 16

@@ -21,9 +21,9 @@ from ros_lint.identify import (
     ignored_everywhere,
     product,
 )
+from ros_lint.report import NotChecked
 from ros_lint.text import Span, read
 from ros_lint.tree import join, parent
-from ros_lint.workspace import NotChecked
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

@@ -316,6 +316,11 @@ def unused_names(declared: Sequence[str], uses: Sequence[Use]) -> tuple[str, ...
     return tuple(name for name in dict.fromkeys(declared) if name not in used)
 
 
+def satisfying(uses: Iterable[Use]) -> frozenset[str]:
+    """Return every name that satisfies some use when it is declared."""
+    return frozenset([name for answer in {use.providers for use in uses} for name in answer])
+
+
 def used_names(declared: Iterable[str], uses: Iterable[Use]) -> frozenset[str]:
     """Return the names that satisfy a use. Of several that would do, the best that is declared does it."""
     names = frozenset(declared)

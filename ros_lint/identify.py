@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint import conditions
 from ros_lint.facts import ColconSettings
+from ros_lint.report import NotChecked
 from ros_lint.text import Span, Text, read
 from ros_lint.tree import join
-from ros_lint.workspace import NotChecked
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Mapping

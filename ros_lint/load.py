@@ -223,7 +223,7 @@ class Loader:
         built = [d.name for d in package.declared if d.depend.tag in ("depend", "build_depend") and not d.depend.condition]
         unused = evidence.unused_names(built, package.uses)
         names = world.knowledge.names
-        satisfied = {name for use in package.uses for name in use.providers}
+        satisfied = evidence.satisfying(package.uses)
         wanted = [n for n in unused if not (names.works_unseen(n) or (n in satisfied and is_unseen_by_name(world, n)))]
         libraries = {name: names.called(name) for name in wanted if world.is_key(name)}
         found = evidence.mentioned(wanted, source, libraries, _may_trace) if wanted else {}

@@ -11,9 +11,8 @@ from ros_lint.config import Settings, settle
 from ros_lint.knowledge import Knowledge, distros, newest_lts, user_directory
 from ros_lint.options import OPTIONS
 from ros_lint.registry import BUILTIN
-from ros_lint.report import RefusalError
+from ros_lint.report import RefusalError, Target
 from ros_lint.tree import DiskTree
-from ros_lint.workspace import Target
 
 if TYPE_CHECKING:
     from ros_lint import underlay

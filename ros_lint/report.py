@@ -5,8 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from ros_lint.rule import Finding, Rule, Severity
-    from ros_lint.workspace import NotChecked, Target
+    from ros_lint.text import Span
 
 
 class RefusalError(Exception):
@@ -57,6 +59,34 @@ class Crash(NamedTuple):
     def error(self) -> str:
         """The last line of the traceback: type and message."""
         return self.traceback.strip().rpartition("\n")[2]
+
+
+class Target(NamedTuple):
+    """The ROS distribution that the workspace is checked for."""
+
+    distro: str
+    source: str
+    """Where the choice comes from, such as "--distro" or "newest long-term release known"."""
+    told: bool = True
+    """False when nobody chose it: then what only another distribution has is no mistake."""
+
+    @property
+    def context(self) -> Mapping[str, str]:
+        """Return the variables of package.xml conditions that are known (REP 149; reference, section A3)."""
+        return {
+            "ROS_VERSION": "2",
+            "ROS_PYTHON_VERSION": "3",
+            "ROS_DISTRO": self.distro,
+            "DISABLE_GROUPS_WORKAROUND": "1",
+        }
+
+
+class NotChecked(NamedTuple):
+    """Something that the run could not look at: a file, or a whole class of questions."""
+
+    what: str
+    reason: str
+    span: Span | None
 
 
 class Report(NamedTuple):

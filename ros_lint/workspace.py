@@ -21,6 +21,7 @@ from ros_lint.facts import (
     Role,
     Use,
 )
+from ros_lint.report import NotChecked, Target
 from ros_lint.text import Span
 
 if TYPE_CHECKING:
@@ -29,24 +30,7 @@ if TYPE_CHECKING:
     from ros_lint.world import World
 
 
-class Target(NamedTuple):
-    """The ROS distribution that the workspace is checked for."""
-
-    distro: str
-    source: str
-    """Where the choice comes from, such as "--distro" or "newest long-term release known"."""
-    told: bool = True
-    """False when nobody chose it: then what only another distribution has is no mistake."""
-
-    @property
-    def context(self) -> Mapping[str, str]:
-        """Return the variables of package.xml conditions that are known (REP 149; reference, section A3)."""
-        return {
-            "ROS_VERSION": "2",
-            "ROS_PYTHON_VERSION": "3",
-            "ROS_DISTRO": self.distro,
-            "DISABLE_GROUPS_WORKAROUND": "1",
-        }
+__all__ = ["Declared", "NotChecked", "Package", "Target", "Workspace", "per_package", "per_workspace"]
 
 
 class Declared(NamedTuple):
@@ -124,14 +108,6 @@ class Package(NamedTuple):
             if declared.depend.name == name:
                 role |= declared.role
         return role
-
-
-class NotChecked(NamedTuple):
-    """Something that the run could not look at: a file, or a whole class of questions."""
-
-    what: str
-    reason: str
-    span: Span | None
 
 
 class Workspace:

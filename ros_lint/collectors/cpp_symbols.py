@@ -44,7 +44,8 @@ def symbols(source: Text, known: Collection[str], directives: Found) -> list[Men
     are ``via="symbol"``, of the package.
     """
     text = source.text
-    ends = {text[max(match.start() - _LONGEST, 0) : match.start()] for match in _KIND.finditer(text)}
+    *pieces, _ = _KIND.split(text)  # faster than to look at each match
+    ends = {piece[-_LONGEST:] for piece in pieces}
     names = {end[len(end.rstrip(_WORD)) :] for end in ends}.difference(known)
     if not names:
         return []

@@ -10,8 +10,7 @@ from ros_lint.rule import Severity
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from ros_lint.report import Crash, Report
-    from ros_lint.workspace import NotChecked
+    from ros_lint.report import Crash, NotChecked, Report
 
 _LISTED = 10
 """Entries of a list to show; the json format has all."""

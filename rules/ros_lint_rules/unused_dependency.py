@@ -51,6 +51,7 @@ from ros_lint.api import (
     is_unseen_by_name,
     leaves_trace,
     remove_dependency,
+    satisfying,
     used_names,
     works_unseen,
 )
@@ -96,7 +97,7 @@ def _unused(package: Package, workspace: Workspace) -> Iterator[tuple[Declared, 
     world = workspace.world
     built = [each.name for each in package.declared if each.depend.tag in _TAGS and not each.depend.condition]
     used = used_names(built, package.uses)
-    libraries = {name for use in package.uses for name in use.providers}
+    libraries = satisfying(package.uses)
     for declared in package.declared:
         depend = declared.depend
         name = depend.name
