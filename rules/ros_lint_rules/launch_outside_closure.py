@@ -17,7 +17,8 @@ Add `<exec_depend>` to `package.xml`. The fix does this.
 
 - The package comes with a declared dependency.
 - The package is used in other ways, too, and reported by `undeclared-dependency`.
-- The launch file asks first if the package is there (`get_packages_with_prefixes`, `PackageNotFoundError`).
+- The launch file asks first what is installed, whatever it asks for (`has_resource`, `get_packages_with_prefixes`,
+  `PackageNotFoundError`).
 - The package exists nowhere: that is `launch-unknown-package`. Where nobody said which distribution is meant, a package of
   any will do, and what brings it along there counts.
 - Launch files of tests and examples, and those that are not installed.
