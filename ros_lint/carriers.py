@@ -33,10 +33,12 @@ def carriers(package: Package, workspace: Workspace, unused: Sequence[Declared])
     A loss is something that this package, or another one of the workspace, uses without declaring it, and that comes along
     with nothing else. Where one of several will do, all but the last can go.
     """
+    found: dict[str, Carried] = {}
+    if not _lost(package, workspace, unused):  # nearly always: when all can go, each can
+        return found
     by_name: dict[str, list[Declared]] = {}
     for each in unused:
         by_name.setdefault(each.name, []).append(each)
-    found: dict[str, Carried] = {}
     for name, tags in by_name.items():
         if lost := _lost(package, workspace, tags):
             found[name] = lost
@@ -56,37 +58,31 @@ def _lost(package: Package, workspace: Workspace, removed: Sequence[Declared]) -
     return _lost_here(package, workspace, left, removed) or _lost_above(package, workspace, left, removed)
 
 
-def _lost_here(
-    package: Package, workspace: Workspace, left: Sequence[Declared], removed: Sequence[Declared]
-) -> Carried | None:
+def _lost_here(package: Package, workspace: Workspace, left: Sequence[Declared], removed: Sequence[Declared]) -> Carried | None:
     bring = workspace.world.closure
     brought = bring([each.name for each in removed])
     members = [name for group in package.group_depends for name in workspace.world.group_members(group.name)]
-    for use in hanging(package, workspace):
-        name = next((name for name in use.providers if name in brought), None)
+    for role, names in dict.fromkeys((use.role, use.providers) for use in hanging(package, workspace)):
+        name = next((name for name in names if name in brought), None)
         if name is None:
             continue
-        if use.role is _TEST:
-            starts = [each.name for each in left]
-        else:
-            role = use.role | _BUILD if use.role & _BUILD else use.role
-            starts = [each.name for each in left if each.role & role]
+        wider = role | _BUILD if role & _BUILD else role
+        starts = [each.name for each in left if role is _TEST or each.role & wider]
         rest = bring([*starts, *members])
-        if not any(each in rest for each in use.providers):
+        if not any(each in rest for each in names):
             return Carried(name, package.name)
     return None
 
 
-def _lost_above(
-    package: Package, workspace: Workspace, left: Sequence[Declared], removed: Sequence[Declared]
-) -> Carried | None:
+def _lost_above(package: Package, workspace: Workspace, left: Sequence[Declared], removed: Sequence[Declared]) -> Carried | None:
     world = workspace.world
     still = [each.name for each in left if each.role & _RUN]
     gone = frozenset(each.name for each in removed if each.role & _RUN).difference(still)
     if not gone:
         return None
-    for name in sorted(world.closure(gone).names - world.closure(still).names):
-        for other, use in _hanging_by_name(workspace).get(name, ()):
+    hung = _hanging_by_name(workspace)
+    for name in sorted(name for name in world.closure(gone).less(world.closure(still)) if name in hung):
+        for other, use in hung[name]:
             starts = [each.name for each in other.declared]
             if other.name == package.name or package.name not in world.closure(starts):
                 continue

@@ -50,7 +50,9 @@ def declared(text: bytes) -> frozenset[bytes]:
 
 def introduced(text: bytes, package: str) -> frozenset[bytes]:
     """Return the names under which C++ code makes messages of a package known: ``using pkg::msg::T;``, ``using X = ...``."""
-    name = re.escape(package.encode())
+    name = package.encode()
+    if b"using " not in text or name + b"::" not in text:
+        return frozenset()
     kinds = rb"::(?:msg|srv|action)::"
     plain = re.findall(rb"\busing\s+(?:::)?" + name + kinds + rb"(\w+)\s*;", text)
     alias = re.findall(rb"\busing\s+(\w+)\s*=\s*(?:typename\s+)?(?:::)?" + name + kinds + rb"\w+", text)

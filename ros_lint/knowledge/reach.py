@@ -35,6 +35,10 @@ class Closure:
     def names(self) -> frozenset[str]:
         return frozenset(self._reach.expand(self._bits))
 
+    def less(self, other: Closure) -> Iterator[str]:
+        """Yield the names that another closure of the same graph does not have."""
+        return self._reach.expand(self._bits & ~other._bits)
+
     @property
     def complete(self) -> bool:
         """Return whether no other name can come along: what each of them brings is known."""
