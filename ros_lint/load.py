@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
-from ros_lint import conditions, evidence, launch_around, scripts, source_lists, type_names
+from ros_lint import conditions, evidence, launch_around, public_headers, scripts, source_lists, type_names
 from ros_lint.cache import Cache
 from ros_lint.collect import FAILED, Collected, collect_all, kind_of
 from ros_lint.declare import is_built_in_sight, is_unseen_by_name
@@ -211,6 +211,7 @@ class Loader:
                 registrations=tuple([made for facts in done.facts.values() for made in facts.registrations]),
                 look_ups=tuple([look_up for facts in done.facts.values() for look_up in facts.look_ups]),
                 parameter_files=tuple([f.parameters for f in done.facts.values() if f.parameters is not None]),
+                unusable_headers=public_headers.unusable(done.script, done.facts, found.files),
             )
             yield package._replace(traces=self._traces(tree, package, source, world, types)) if search else package
 
