@@ -192,10 +192,10 @@ def test_interfaces_are_alive_where_code_is_generated_from_them() -> None:
     ],
 )
 def test_what_is_built_along_is_no_need(lines: str, files: dict[str, str]) -> None:
-    files = {"src/a.cpp": "#include <fcl/collision.h>\n#include <yaml-cpp/yaml.h>\n", **files}
+    files = {"src/a.cpp": "#include <fcl/collision.h>\n#include <Eigen/Core>\n", **files}
     found = "find_package(fcl REQUIRED)\nadd_library(r src/a.cpp)\ntarget_link_libraries(r fcl::fcl)"
     workspace = load(f"{lines}\n{found}", files)
-    assert {use.package for use in workspace.packages[0].uses} == {"ament_cmake", "ament_cmake_core", "yaml_cpp_vendor"}
+    assert {use.package for use in workspace.packages[0].uses} == {"ament_cmake", "ament_cmake_core", "eigen"}
     assert "libfcl-dev" in {use.package for use in load("add_library(r src/a.cpp)", files).packages[0].uses}
 
 
