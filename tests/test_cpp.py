@@ -7,7 +7,7 @@ import re
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from ros_lint.collectors import cpp
@@ -141,6 +141,7 @@ PIECES = st.sampled_from(
 
 
 @given(st.lists(st.tuples(PIECES, st.sampled_from(["\n", "\n", "\n", " ", ""])), max_size=14))
+@example([("*//*", "\n"), ("/*// #include <n/o.h>", "\n"), ("#include <a/b.hpp>", "\n")])
 @settings(max_examples=1500, deadline=None)
 def test_same_includes_as_a_plain_preprocessor(parts: list[tuple[str, str]]) -> None:
     # What follows a condition on its line would be an error, about which both readers may think as they like.

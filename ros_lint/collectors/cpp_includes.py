@@ -281,10 +281,9 @@ def _may_hide(text: str, starts: Sequence[int]) -> bool:
         raw = _RAW.search(text, raw.start() + 1, last)
     opened = _COMMENT.search(text, 0, last)
     while opened:
-        closed = text.find("*/", opened.end())
-        if _any_between(starts, opened.start(), closed):
+        if _any_between(starts, opened.start(), text.find("*/", opened.end())):
             return True
-        opened = _COMMENT.search(text, closed + 1, last)
+        opened = _COMMENT.search(text, opened.end(), last)
     return False
 
 
