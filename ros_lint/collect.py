@@ -100,9 +100,7 @@ def collect(text: Text, kind: Kind) -> Collected:
     return Collected(facts, launch, commands, _suppressions(text))
 
 
-def collect_all(
-    tree: Tree, paths: Sequence[str], jobs: int, cache: Cache, tick: Callable[[int], None]
-) -> dict[str, Collected]:
+def collect_all(tree: Tree, paths: Sequence[str], jobs: int, cache: Cache, tick: Callable[[int], None]) -> dict[str, Collected]:
     """Return what every file gave, by path.
 
     ``jobs`` is the number of processes, 0 decides by the number of files; ``tick`` hears how many files are done.
@@ -133,9 +131,7 @@ def collect_all(
     return {path: found[path] for path, _ in wanted}
 
 
-def _in_processes(
-    tree: DiskTree, files: list[tuple[str, Kind]], processes: int
-) -> Iterator[dict[str, Collected]]:
+def _in_processes(tree: DiskTree, files: list[tuple[str, Kind]], processes: int) -> Iterator[dict[str, Collected]]:
     from concurrent.futures import ProcessPoolExecutor  # noqa: PLC0415
 
     size = max(20, min(200, len(files) // (processes * 4)))
@@ -169,5 +165,3 @@ def _suppressions(text: Text) -> tuple[Suppression, ...]:
     from ros_lint import suppress  # noqa: PLC0415
 
     return suppress.collect(text)
-
-

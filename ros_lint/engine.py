@@ -102,9 +102,7 @@ class Checked(NamedTuple):
     crashes: tuple[Crash, ...]
 
 
-def check(
-    workspace: Workspace, rules: Sequence[Rule], suppressions: Iterable[Suppression], known: Sequence[Rule]
-) -> Checked:
+def check(workspace: Workspace, rules: Sequence[Rule], suppressions: Iterable[Suppression], known: Sequence[Rule]) -> Checked:
     """Return what the rules say once comments have been heard. ``known`` are all the rules that a comment can name."""
     heard = tuple(suppressions)
     issues, crashes = run(workspace, rules)

@@ -33,9 +33,7 @@ class Facet(Flag):
     """Component and plugin classes."""
 
 
-ANYTHING = (
-    Facet.USES | Facet.EXECUTABLES | Facet.SHARE | Facet.PYTHON | Facet.LIBRARIES | Facet.INTERFACES | Facet.COMPONENTS
-)
+ANYTHING = Facet.USES | Facet.EXECUTABLES | Facet.SHARE | Facet.PYTHON | Facet.LIBRARIES | Facet.INTERFACES | Facet.COMPONENTS
 
 
 class Opaque(NamedTuple):

@@ -61,13 +61,9 @@ class Order(NamedTuple):
 class Graph:
     """Packages by name, and why each needs the others. Iterations are in the order of names."""
 
-    def __init__(
-        self, places: Mapping[str, Sequence[Package]], needs: Mapping[str, Mapping[str, Sequence[Reason]]]
-    ) -> None:
+    def __init__(self, places: Mapping[str, Sequence[Package]], needs: Mapping[str, Mapping[str, Sequence[Reason]]]) -> None:
         self.places = {name: tuple(places[name]) for name in sorted(places)}
-        self.needs = {
-            name: {other: tuple(needs[name][other]) for other in sorted(needs.get(name, ()))} for name in self.places
-        }
+        self.needs = {name: {other: tuple(needs[name][other]) for other in sorted(needs.get(name, ()))} for name in self.places}
         self._closures: dict[str, frozenset[str]] = {}
 
     @property
@@ -111,8 +107,7 @@ class Graph:
             knots = [frozenset(component) for component in components(self.arcs)]
             inside = {name: knot for knot in knots for name in knot}
             arcs = {
-                name: others - (inside.get(name, frozenset()) - self.certain_arcs[name])
-                for name, others in self.arcs.items()
+                name: others - (inside.get(name, frozenset()) - self.certain_arcs[name]) for name, others in self.arcs.items()
             }
             names, stuck = sort(arcs)
         return Order(names, stuck)

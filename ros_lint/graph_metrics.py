@@ -77,9 +77,7 @@ def _redundant(
     for other in graph.needs[name]:
         target = knot[other]
         leading = [
-            third
-            for third in graph.needs[name]
-            if knot[third] not in (own, target) and _leads(knot[third], target, below, bits)
+            third for third in graph.needs[name] if knot[third] not in (own, target) and _leads(knot[third], target, below, bits)
         ]
         if target != own and leading:
             found.append((name, *_shortest(graph, leading, other, _on_the_way(knot, target, below, bits))))
@@ -90,9 +88,7 @@ def _leads(start: str, end: str, below: Mapping[str, int], bits: Mapping[str, in
     return start == end or bool(below[start] & bits[end])
 
 
-def _on_the_way(
-    knot: Mapping[str, str], end: str, below: Mapping[str, int], bits: Mapping[str, int]
-) -> Callable[[str], bool]:
+def _on_the_way(knot: Mapping[str, str], end: str, below: Mapping[str, int], bits: Mapping[str, int]) -> Callable[[str], bool]:
     return lambda package: _leads(knot[package], end, below, bits)
 
 

@@ -166,9 +166,7 @@ class _Layout:
         at = self.items.index(span)
         previous = self.items[at - 1] if at else self.begin
         following = self.items[at + 1] if at + 1 < len(self.items) else self.manifest.end
-        return _Line(
-            previous if previous.end_line == span.line else None, following if following.line == span.end_line else None
-        )
+        return _Line(previous if previous.end_line == span.line else None, following if following.line == span.end_line else None)
 
     def alone(self, span: Span) -> bool:
         """Whether an item has its lines for itself, and no comment right above it."""

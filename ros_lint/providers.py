@@ -204,9 +204,7 @@ def _only(world: World, names: Iterable[str], by: Literal["system"]) -> Meant | 
 def _declarable(world: World, names: Iterable[str]) -> tuple[str, ...]:
     """Return those names that can stand in a manifest: packages, and keys with a rule for the distribution."""
     resolves = world.knowledge.resolves
-    return tuple(
-        name for name in names if world.is_package(name) or (world.is_key(name) and resolves(name) is not False)
-    )
+    return tuple(name for name in names if world.is_package(name) or (world.is_key(name) and resolves(name) is not False))
 
 
 def _has_module(world: World, package: str) -> bool:

@@ -143,9 +143,7 @@ def apply(
         if idle:
             unused.append(Unused(suppression, tuple(idle)))
         unknown += [
-            Unknown(suppression, name, _nearest(name.text, names))
-            for name in suppression.names
-            if name.text.lower() not in names
+            Unknown(suppression, name, _nearest(name.text, names)) for name in suppression.names if name.text.lower() not in names
         ]
     return Outcome(tuple(kept), tuple(suppressed), tuple(unused), tuple(unknown), tuple(broken))
 

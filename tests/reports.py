@@ -100,9 +100,16 @@ FINDINGS = [
             steps=True,
         ),
     ),
-    (UNUSED, "arm", Finding("rviz2 is never used", at(ARM, "rviz2"), "rviz2", fix=Fix("remove rviz2", (
-        Edit(at(ARM, "  <exec_depend>rviz2</exec_depend>\r\n"), ""),
-    ), safe=False))),
+    (
+        UNUSED,
+        "arm",
+        Finding(
+            "rviz2 is never used",
+            at(ARM, "rviz2"),
+            "rviz2",
+            fix=Fix("remove rviz2", (Edit(at(ARM, "  <exec_depend>rviz2</exec_depend>\r\n"), ""),), safe=False),
+        ),
+    ),
     (UNDECLARED, "talker", Finding("rclcpp is used, but package.xml does not declare it", at(CMAKE, "rclcpp"), "rclcpp")),
     (
         UNDECLARED,
@@ -119,14 +126,31 @@ FINDINGS = [
             DECLARE,
         ),
     ),
-    (TRANSITIVE, "talker", Finding("foo is declared by way of hand only", at(CPP, "foo::Bar"), "foo", (
-        Related("and here", at(CPP, "bar::baz")),
-        Related("and far away", at(CPP, "far::away()")),
-    ), confidence=Confidence.MEDIUM)),
+    (
+        TRANSITIVE,
+        "talker",
+        Finding(
+            "foo is declared by way of hand only",
+            at(CPP, "foo::Bar"),
+            "foo",
+            (
+                Related("and here", at(CPP, "bar::baz")),
+                Related("and far away", at(CPP, "far::away()")),
+            ),
+            confidence=Confidence.MEDIUM,
+        ),
+    ),
     (TRANSITIVE, "talker", Finding("the end", at(CPP, "end"), "end", severity=Severity.INFO)),
-    (UNUSED, "talker", Finding("talker is installed, did you mean listener?", TALL, "talker", tuple(
-        Related(f"place {n}", at(CMAKE, f"# {n}\n").start()) for n in range(10, 24)
-    ))),
+    (
+        UNUSED,
+        "talker",
+        Finding(
+            "talker is installed, did you mean listener?",
+            TALL,
+            "talker",
+            tuple(Related(f"place {n}", at(CMAKE, f"# {n}\n").start()) for n in range(10, 24)),
+        ),
+    ),
     (UNUSED, "talker", Finding("numpy \x1b[31m [red] ] \x07 is a\nnewline", at("ws/talker/bytes.py", "numpy"), "numpy")),
     (ARGUMENT, "talker", Finding("argument 'x' is declared and never used: 100% of it, here", at(LAUNCH, "'x'"), "x")),
     (UNUSED, "talker", Finding("the whole file", at("ws/talker/resource/talker", "whole"), "whole")),
@@ -139,7 +163,7 @@ ISSUES = tuple(
         key=lambda issue: (issue.finding.span, issue.rule.code, issue.finding.message),
     )
 )
-TRACEBACK = 'Traceback (most recent call last):\n  File "rule.py", line 1, in check\nKeyError: \'x\'\n'
+TRACEBACK = "Traceback (most recent call last):\n  File \"rule.py\", line 1, in check\nKeyError: 'x'\n"
 
 EVERYTHING = Report(
     issues=ISSUES,

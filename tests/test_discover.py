@@ -103,9 +103,7 @@ def test_a_plain_python_package(tmp_path: Path, setup_py: str, more: dict[str, s
 def test_a_name_that_only_running_would_tell_is_said_to_be_unknown(setup_py: str) -> None:
     found = discover(MemoryTree({"p/setup.py": SCRIPT + setup_py, "p/q/package.xml": manifest_text("q")}), [""])
     assert [package.name for package in found.packages] == ["q"]
-    assert [(item.what, "colcon may see a package here" in item.reason) for item in found.not_checked] == [
-        ("p/setup.py", True)
-    ]
+    assert [(item.what, "colcon may see a package here" in item.reason) for item in found.not_checked] == [("p/setup.py", True)]
 
 
 def test_files_are_those_below_without_nested_packages_and_skipped_folders() -> None:
@@ -177,18 +175,14 @@ def test_a_package_that_the_outer_build_takes_in_is_a_part_of_it(scripts: dict[s
     ],
 )
 def test_products_are_skipped_by_what_is_in_them(files: dict[str, str]) -> None:
-    tree = MemoryTree(
-        {"install/p/share/p/package.xml": manifest_text("p"), "src/q/package.xml": manifest_text("q"), **files}
-    )
+    tree = MemoryTree({"install/p/share/p/package.xml": manifest_text("p"), "src/q/package.xml": manifest_text("q"), **files})
     found = discover(tree, [""])
     assert [package.path for package in found.packages] == ["src/q"]
     assert [skipped.path for skipped in found.skipped] == ["install"]
 
 
 def test_scripts_of_a_package_make_no_install_tree() -> None:
-    tree = MemoryTree(
-        {"p/package.xml": manifest_text("p"), "p/setup.bash": "", "p/local_setup.bash": "", "local_setup.sh": ""}
-    )
+    tree = MemoryTree({"p/package.xml": manifest_text("p"), "p/setup.bash": "", "p/local_setup.bash": "", "local_setup.sh": ""})
     assert [package.name for package in discover(tree, [""]).packages] == ["p"]
 
 

@@ -51,9 +51,7 @@ def test_roles_come_from_where_a_file_goes() -> None:
         )
     )
     assert [(use.role, use.sure) for use in uses(workspace, "nav_msgs")] == [(Role.BUILD | Role.EXEC, True)]
-    assert [(use.role, use.sure) for use in uses(workspace, "sensor_msgs")] == [
-        (Role.BUILD | Role.EXPORT | Role.EXEC, True)
-    ]
+    assert [(use.role, use.sure) for use in uses(workspace, "sensor_msgs")] == [(Role.BUILD | Role.EXPORT | Role.EXEC, True)]
     assert [(use.role, use.sure) for use in uses(workspace, "std_msgs")] == [(Role.TEST, True)]
     assert [use.sure for use in uses(workspace, "shape_msgs")] == [False]
 

@@ -472,7 +472,7 @@ def test_the_command_says_what_it_wrote(tmp_path: Path, capsys: pytest.CaptureFi
         ("index-v4.yaml", "distributions: {jazzy: {distribution: []}}", "names no cache for jazzy"),
         ("cache.yaml", None, "cannot be read"),
         ("cache.yaml", "\x1f\x8b", "cannot be read"),
-        ("cache.yaml", "{}", "has no mapping 'release_package_xmls'") ,
+        ("cache.yaml", "{}", "has no mapping 'release_package_xmls'"),
         ("cache.yaml", "{release_package_xmls: 3}", "has no mapping 'release_package_xmls'"),
         ("jazzy/distribution.yaml", None, "cannot be read"),
         ("jazzy/distribution.yaml", "{repositories: []}", "has no mapping 'repositories'"),

@@ -52,9 +52,7 @@ def launch(body: str, *given: str) -> list[str]:
 
 
 def test_words() -> None:
-    assert understood(["a.py", "x:=1", "y:=", "z:=a:=b"], lambda _: True) == Asked(
-        "", "a.py", {"x": "1", "y": "", "z": "a:=b"}
-    )
+    assert understood(["a.py", "x:=1", "y:=", "z:=a:=b"], lambda _: True) == Asked("", "a.py", {"x": "1", "y": "", "z": "a:=b"})
     assert understood(["p", "x:=1", "a.py"], lambda _: False) == Asked("p", "a.py", {"x": "1"})
 
 

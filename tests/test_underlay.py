@@ -98,9 +98,7 @@ def test_what_colcon_installs_is_read(layout: str, sources: Path, tmp_path: Path
     shutil.copytree(sources / "src", tmp_path / "src")
     extra = {"merged": "--merge-install", "isolated": "--symlink-install"}[layout]
     environment = {**os.environ, "COLCON_LOG_LEVEL": "error", "PYTHONWARNINGS": "ignore", "COLCON_HOME": str(tmp_path)}
-    subprocess.run(
-        [str(COLCON), "build", extra], cwd=tmp_path, check=True, capture_output=True, env=environment, timeout=120
-    )
+    subprocess.run([str(COLCON), "build", extra], cwd=tmp_path, check=True, capture_output=True, env=environment, timeout=120)
     found = {place: underlay.read([str(tmp_path / place)]) for place in ("install", ".")}
     if layout == "isolated":
         found["path"] = underlay.read([str(tmp_path / "install/talker"), str(tmp_path / "install/listener")])

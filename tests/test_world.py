@@ -359,9 +359,9 @@ def test_headers_of_an_underlay(prefix: str) -> None:
     ],
 )
 def test_modules(module: str, names: tuple[str, ...]) -> None:
-    found = world(
-        Member("mine", "1.0.0", {}, (), ("my_parts",)), Member("other", "1.0.0", {}, (), ("other_name",))
-    ).by_import(module)
+    found = world(Member("mine", "1.0.0", {}, (), ("my_parts",)), Member("other", "1.0.0", {}, (), ("other_name",))).by_import(
+        module
+    )
     assert found.names == names
     assert found.known == bool(names)
 

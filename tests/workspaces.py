@@ -110,9 +110,7 @@ def _manifest(random: Random) -> str:
         condition = random.choice(("$ROS_VERSION == 2", "$ROS_VERSION == 1", "$ROS_DISTRO >= humble"))
         return text.replace("<build_type>", f'<build_type condition="{condition}">')
     if broken < 0.9:
-        return text.replace("<export>", '<exec_depend condition="$A =">alpha</exec_depend><export>').replace(
-            name, "name", 1
-        )
+        return text.replace("<export>", '<exec_depend condition="$A =">alpha</exec_depend><export>').replace(name, "name", 1)
     if broken < 0.95:
         return text.partition("<export>")[0] + "</package>\n"
     return text[: len(text) // 2]

@@ -50,9 +50,7 @@ def _sections(text: Text, node: yaml.Node | None) -> tuple[tuple[str, ColconSett
 
 def _settings(text: Text, values: Mapping[str, yaml.Node]) -> ColconSettings:
     depends = [
-        ColconDepend(name, role, _span(text, node))
-        for key, role in _CATEGORIES.items()
-        for name, node in _items(values.get(key))
+        ColconDepend(name, role, _span(text, node)) for key, role in _CATEGORIES.items() for name, node in _items(values.get(key))
     ]
     return ColconSettings(_string(values.get("name")), _string(values.get("type")), tuple(depends))
 

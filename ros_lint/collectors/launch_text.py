@@ -200,7 +200,7 @@ def _readable_root(match: re.Match[str]) -> str:
     if path is None:
         return f"$(find-pkg-prefix {package})"
     if path == package or path.startswith(f"{package}/"):
-        return f"$(find-pkg-share {package}){path[len(package):]}"
+        return f"$(find-pkg-share {package}){path[len(package) :]}"
     return f"$(find-pkg-prefix {package})/share/{path}"
 
 

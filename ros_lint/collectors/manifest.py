@@ -87,9 +87,7 @@ class _Found:
         self.doubtful = False
 
 
-def _read_children(
-    path: str, document: Document, root: Node, allowed: Mapping[str, frozenset[str]], place: _Place
-) -> _Found:
+def _read_children(path: str, document: Document, root: Node, allowed: Mapping[str, frozenset[str]], place: _Place) -> _Found:
     found = _Found()
     text, events = document.text, document.events
     count, rfind, add_depend, add_element = text.count, text.rfind, found.depends.append, found.elements.append

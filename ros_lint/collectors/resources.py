@@ -73,9 +73,7 @@ def _packages(source: Text) -> FileFacts:
     spans = source.spans(found[name] for name in names)
     return FileFacts(
         source.path,
-        tuple(
-            Mention(name, "package", span, optional=name not in sure) for name, span in zip(names, spans, strict=True)
-        ),
+        tuple(Mention(name, "package", span, optional=name not in sure) for name, span in zip(names, spans, strict=True)),
         look_ups=looked_up,
     )
 

@@ -103,8 +103,6 @@ def collect(source: Text) -> SetupCfg:
                 better = given[1].replace("-", "_")
                 problems.append(Problem("dashed-key", f"{given[1]} with a dash; write {better}", span))
     close()
-    texts += [
-        WrittenText("option", f"{option.section}.{option.key}", option.lines[0].span) for option in options if option.lines
-    ]
+    texts += [WrittenText("option", f"{option.section}.{option.key}", option.lines[0].span) for option in options if option.lines]
     texts.append(WrittenText("section", "", last))
     return SetupCfg(source.path, tuple(options), tuple(problems), tuple(texts))

@@ -175,9 +175,7 @@ class _Scope(NamedTuple):
 
 
 class _Run:
-    def __init__(
-        self, files: Callable[[str], LaunchFile | None], brief: bool, environment: Mapping[str, Texts]
-    ) -> None:
+    def __init__(self, files: Callable[[str], LaunchFile | None], brief: bool, environment: Mapping[str, Texts]) -> None:
         self._files = files
         self._brief = brief
         self._environment = environment

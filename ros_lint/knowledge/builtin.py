@@ -10,9 +10,7 @@ __future__ __main__ _thread aifc annotationlib asynchat asyncore audioop binhex 
 distutils imghdr imp lib2to3 mailcap msilib nis nntplib ossaudiodev pipes smtpd sndhdr spwd sunau telnetlib tomllib uu
 xdrlib
 """
-PYTHON_MODULES = frozenset(
-    {*_SOME_PYTHONS.split(), *(name for name in sys.stdlib_module_names if not name.startswith("_"))}
-)
+PYTHON_MODULES = frozenset({*_SOME_PYTHONS.split(), *(name for name in sys.stdlib_module_names if not name.startswith("_"))})
 """Top-level modules of Python's standard library, of any version from 3.10 to 3.14."""
 
 _CMAKE_MODULES = """

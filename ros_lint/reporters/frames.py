@@ -52,9 +52,7 @@ def frame(marks: Sequence[Mark], texts: Texts, style: Style) -> tuple[list[str],
         if source and shown:
             rows += [bar, *_File(source, shown, digits, style).rows()]
         rows += [
-            f"{bar} {paint(style, mark.color, safe(mark.label, style))}"
-            for mark in in_file
-            if mark.label and mark not in shown
+            f"{bar} {paint(style, mark.color, safe(mark.label, style))}" for mark in in_file if mark.label and mark not in shown
         ]
     return rows, gutter
 

@@ -54,9 +54,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_cmake" or package.hidden(Facet.COMPONENTS):
         return
-    made = [
-        one for one in package.registrations if one.kind == "component" and not is_apart(relative(package, one.span.path))
-    ]
+    made = [one for one in package.registrations if one.kind == "component" and not is_apart(relative(package, one.span.path))]
     names = {one.name for one in made}
     registered = {component.name.removeprefix("::") for component in script.components}
     left = [one for one in made if one.name not in registered]

@@ -57,9 +57,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     if script is None or package.builds_with != "ament_cmake" or hidden(package, Facet.LIBRARIES | Facet.SHARE):
         return
     everything = [made for made in package.registrations if made.kind == "plugin"]
-    registered = [
-        made for made in everything if not is_apart(relative(package, made.span.path))
-    ]
+    registered = [made for made in everything if not is_apart(relative(package, made.span.path))]
     names = {made.name for made in registered}
     installed = {provided.source for provided in script.provides}
     exported = list(called(package, _EXPORT, anywhere=True))

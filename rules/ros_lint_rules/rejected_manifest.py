@@ -44,9 +44,7 @@ from ros_lint.api import (
 )
 
 _SHORT_VERSION = re.compile(r"v?(\d+)(?:\.(\d+))?(?:\.(\d+))?")
-_OF_FORMAT_1 = frozenset(
-    ("build_depend", "buildtool_depend", "test_depend", "conflict", "replace", "run_depend", "exec_depend")
-)
+_OF_FORMAT_1 = frozenset(("build_depend", "buildtool_depend", "test_depend", "conflict", "replace", "run_depend", "exec_depend"))
 """Tags that format 1 has, and the one for which it has another name."""
 
 

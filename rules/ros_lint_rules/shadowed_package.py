@@ -48,9 +48,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         message += ": build what depends on it in the workspace, too"
     elif lost:
         message += ": add what is missing, or take the package out of the workspace"
-    yield Finding(
-        message, package.place, package.name, severity=None if dependents or lost else Severity.INFO
-    )
+    yield Finding(message, package.place, package.name, severity=None if dependents or lost else Severity.INFO)
 
 
 def _lost(package: Package, workspace: Workspace) -> Iterator[str]:

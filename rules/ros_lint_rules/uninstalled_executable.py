@@ -93,9 +93,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _nodes(package: Package) -> frozenset[str]:
     """Return the sources that use a client library, relative to the package."""
-    return frozenset(
-        relative(package, use.span.path) for use in package.uses if use.via == "include" and use.package in _CLIENTS
-    )
+    return frozenset(relative(package, use.span.path) for use in package.uses if use.via == "include" and use.package in _CLIENTS)
 
 
 def _move(package: Package, span: Span, targets: tuple[BuildTarget, ...]) -> Fix | None:

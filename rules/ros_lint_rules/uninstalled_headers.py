@@ -62,8 +62,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     linked = library and not loaded and any(not call.blocks for call in called(package, "ament_export_libraries"))
     sure = Confidence.HIGH if exports or linked else Confidence.MEDIUM if library else Confidence.LOW
     yield Finding(
-        f"the headers in include/ ({headers[0].rpartition('/')[2]} ...) are not installed"
-        f"{', but exported' if exports else ''}",
+        f"the headers in include/ ({headers[0].rpartition('/')[2]} ...) are not installed{', but exported' if exports else ''}",
         script.end,
         "include/",
         tuple(Related("exported here", call.place) for call in exports),

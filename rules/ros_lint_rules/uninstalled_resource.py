@@ -136,8 +136,10 @@ def _folders(package: Package, kept: set[str], told: set[str]) -> Iterator[Findi
         files = [file for file in found if file not in launches and file not in inputs]
         if folder.partition("/")[0] in _PICTURES and not any(file in places for file in files):
             files = [file for file in files if not file.lower().endswith(_PICTURE)]
-        if not files or folder.partition("/")[0] in told or (
-            folder != "controllers" and all(file.rpartition(".")[2] in _PLAIN for file in files)
+        if (
+            not files
+            or folder.partition("/")[0] in told
+            or (folder != "controllers" and all(file.rpartition(".")[2] in _PLAIN for file in files))
         ):
             continue
         looked_up = [file for file in files if file in places]
@@ -174,9 +176,7 @@ def _of_nodes(package: Package) -> frozenset[str]:
     return frozenset(relative(package, file.path) for file in package.parameter_files if file.nodes)
 
 
-def _confidence(
-    folder: str, files: list[str], looked_up: list[str], shared: bool, of_nodes: frozenset[str]
-) -> Confidence:
+def _confidence(folder: str, files: list[str], looked_up: list[str], shared: bool, of_nodes: frozenset[str]) -> Confidence:
     if looked_up:
         return Confidence.HIGH
     if folder.partition("/")[0] in _DOCUMENTS:

@@ -68,9 +68,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
 def _of_package(package: Package, manifest: Manifest, workspace: Workspace) -> Iterator[Finding]:
     context = workspace.target.context
     active = [
-        export
-        for export in manifest.exports
-        if export.tag == "build_type" and conditions.truth(conditions.of(export), context)
+        export for export in manifest.exports if export.tag == "build_type" and conditions.truth(conditions.of(export), context)
     ]
     if len(active) > 1:
         names = " and ".join(export.text or "an empty one" for export in active)
