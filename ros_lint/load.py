@@ -185,7 +185,7 @@ class Loader:
             for r in reads
         ]
         resolver = evidence.Resolver(sources, world)
-        types = type_names.Types(sources, tree.read, lambda name, other: other in world.closure((name,)))
+        types = type_names.Types(sources, tree.read, lambda name: world.closure((name,)))
         for number, (done, source) in enumerate(zip(reads, sources, strict=True)):
             self._progress("joining", number, len(reads))
             found = done.found

@@ -216,7 +216,7 @@ def comes_elsewhere(package: Package, workspace: Workspace, name: str) -> bool:
     for name_here, having in workspace.by_name.items():
         if name_here in closure:
             starts.update(each.name for other in having for each in other.declared)
-    return any(workspace.world.knowledge.brings_elsewhere(each, name) for each in sorted(starts))
+    return workspace.world.knowledge.comes_elsewhere(starts, name)
 
 
 def _joined(found: Sequence[Need]) -> list[Need]:

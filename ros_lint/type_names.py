@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from ros_lint.liveness import HEADERS
 from ros_lint.text import Span
@@ -67,13 +67,19 @@ class _Wanted(NamedTuple):
     """The parts of its namespaces: its types may stand behind these, and behind no other."""
 
 
-class Types:
-    """Looks for bare names of types, in the packages of a workspace. ``brings`` says whether one brings another."""
+class Names(Protocol):
+    """A set of names, of which nothing is asked but what is in it."""
 
-    def __init__(self, sources: Sequence[Source], read: Callable[[str], bytes], brings: Callable[[str, str], bool]) -> None:
+    def __contains__(self, name: str, /) -> bool: ...
+
+
+class Types:
+    """Looks for bare names of types, in the packages of a workspace. ``along`` says what comes along with one."""
+
+    def __init__(self, sources: Sequence[Source], read: Callable[[str], bytes], along: Callable[[str], Names]) -> None:
         self._by_name = {source.name: source for source in sources}
         self._read = read
-        self._brings = brings
+        self._along = along
         self._public: dict[str, _Wanted] = {}
         self._introduced: dict[tuple[str, str], frozenset[bytes]] = {}
 
@@ -104,8 +110,8 @@ class Types:
         other = self._by_name.get(name)
         if other is not None and not (other.script and other.script.interfaces):
             return self._declared(other)
-        places = [place for place in self._naming.get(name, ()) if self._brings(source.name, place[0])]
-        types = [self._of_messages(name, *place) for place in places]
+        along = self._along(source.name)
+        types = [self._of_messages(name, *place) for place in self._naming.get(name, ()) if place[0] in along]
         return _Wanted(frozenset(name for of_header in types for name in of_header), frozenset())
 
     def _declared(self, source: Source) -> _Wanted:

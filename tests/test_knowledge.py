@@ -613,7 +613,7 @@ def test_the_command_line_leads_to_the_command(tmp_path: Path) -> None:
 
 def test_what_brings_a_name_is_what_walks_to_it() -> None:
     jazzy = index.load(Store(), "jazzy")
-    brought = {name: jazzy.brought(name) for name in jazzy.names()}
+    brought = {name: jazzy.brought((name,)) for name in jazzy.names()}
     for name in ("rviz2", "octomap_server", "python3-yaml", "eigen", "rclcpp"):
         having = sum(name in found for other, found in brought.items() if other != name)
         assert jazzy.bringing(name, len(jazzy)) == having

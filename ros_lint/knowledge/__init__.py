@@ -17,7 +17,7 @@ from ros_lint.knowledge.rosdep import PLATFORMS, Rosdep
 from ros_lint.knowledge.store import KnowledgeError, Store, user_directory
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Collection, Sequence
 
 __all__ = [
     "NOTHING_KNOWN",
@@ -135,7 +135,7 @@ class Knowledge:
         if not having or not (name in self.rosdep or any(other in having for other in self._where(name))):
             return None
         if package not in self._elsewhere:
-            found = set().union(*(other.brought(package) for other in having))
+            found = set().union(*(other.brought((package,)) for other in having))
             queue = list(found)
             for each in queue:  # a key brings keys
                 new = [key for key in self.names.brought(each) if key not in found]
@@ -143,6 +143,10 @@ class Knowledge:
                 queue += new
             self._elsewhere[package] = frozenset(found)
         return name in self._elsewhere[package]
+
+    def comes_elsewhere(self, packages: Collection[str], name: str) -> bool:
+        """Return whether a package comes along with any of others in one of the other distributions that have it."""
+        return any(name in other.brought(packages) for other in self._where(name))
 
     @property
     def platform(self) -> str:

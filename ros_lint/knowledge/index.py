@@ -209,10 +209,10 @@ class Index:
                 found[name].append(row[0])
         return found
 
-    def brought(self, name: str) -> set[str]:
-        """Return all that comes along with a package, at any distance."""
-        found = {name}
-        queue = [name]
+    def brought(self, names: Iterable[str]) -> set[str]:
+        """Return all that comes along with packages, at any distance, and these."""
+        found = set(names)
+        queue = list(found)
         known = self._brings
         for each in queue:
             brings = known.get(each)
