@@ -23,7 +23,7 @@ A parameter file has the full name of the node, `ros__parameters`, and then the 
 - The file is installed by no package of the workspace, or rewritten before it is given.
 - One of several nodes that the launch file gives it to is among those in the file; or the file has parameters of several
   nodes, and another launch file gives it to one of them.
-- Containers. A component also takes a file that has nothing but its parameters.
+- Containers, whose components take what is for them. A component also takes a file that has nothing but its parameters.
 - The name fits, and the namespace may come from a launch file that includes this one.
 - Launch files of tests and examples.
 """
@@ -102,7 +102,7 @@ def _full_name(given: Given) -> str:
 def _may_be_of(given: Given, rewrites: bool) -> bool:
     """Whether a file may have parameters of the node that it is given to (``rclcpp::parameter_map_from``)."""
     words = (text for _, value in given.action.arguments for text in value.texts)
-    if given.action.children or any(mark in word for word in words for mark in _RENAMES):
+    if given.action.children or _is_container(given) or any(mark in word for word in words for mark in _RENAMES):
         return True
     if len(given.names) != 1 or not given.names[0] or not is_plain(given.names[0]):
         return True
@@ -113,6 +113,12 @@ def _may_be_of(given: Given, rewrites: bool) -> bool:
         return True
     # Only a name without any namespace is surely that of another node.
     return any("*" in name or name.count("/") > 1 for name in same)
+
+
+def _is_container(given: Given) -> bool:
+    """Whether a node is a container: what it is given on its command line holds for all components that it loads."""
+    package = given.action.package
+    return package is not None and "rclcpp_components" in package.texts
 
 
 RULE = Rule(
