@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import accumulate
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
-from ros_lint.facts import ADDED, CAUGHT, BuildScript, FileFacts, LaunchFile, Mention, Opaque, Role, Use, Via
+from ros_lint.facts import BuildScript, FileFacts, LaunchFile, Mention, Opaque, Role, Use, Via
 from ros_lint.liveness import HEADERS, Liveness
 from ros_lint.text import Span
 
@@ -180,6 +180,7 @@ class _Uses:
         self._own = own
         self._absent = source.absent
         self._caught = _caught(source, own)
+        self._added = frozenset([span for facts in source.facts.values() for span in facts.added])
         script = source.script
         self._bundled = frozenset([name.lower() for name in script.bundled]) if script else frozenset()
         self._found: dict[tuple[Span, str, Via], Use] = {}
@@ -209,15 +210,15 @@ class _Uses:
                 needed = _TEST
             spared = optional
             if via == "import":
-                spared = spared or self._is_spared(name, what, providers[0])
+                spared = spared or self._is_spared(name, span, providers[0])
                 known = known and name.partition(".")[0] not in self._absent
             found[span, providers[0], via] = _make(
                 Use, (providers[0], providers, needed, what or usual, via, spared, span, sure and known)
             )
 
-    def _is_spared(self, name: str, what: str, best: str) -> bool:
+    def _is_spared(self, name: str, span: Span, best: str) -> bool:
         """Whether a module can be missing, or be what nobody knows: elsewhere in the package its absence is allowed for."""
-        if what.endswith(ADDED):
+        if span in self._added:
             return not self.resolver.names.is_package(best)
         return bool(self._caught) and any(name == each or name.startswith(f"{each}.") for each in self._caught)
 
@@ -232,13 +233,10 @@ class _Uses:
 
 def _caught(source: Source, own: Liveness) -> frozenset[str]:
     """Return the modules that a file of the package imports and goes on without, tests aside."""
-    found = set()
+    found: set[str] = set()
     for path, facts in source.facts.items():
-        names = [
-            name for name, via, _, what, optional, _ in facts.mentions if optional and via == "import" and what.endswith(CAUGHT)
-        ]
-        if names and own.place(path)[0] is not _TEST:
-            found.update(names)
+        if facts.caught and own.place(path)[0] is not _TEST:
+            found.update(facts.caught)
     return frozenset(found)
 
 

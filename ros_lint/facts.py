@@ -133,14 +133,6 @@ class Mention(NamedTuple):
     """Known to serve tests only."""
 
 
-CAUGHT = ", with the error caught"
-"""What the words for an import end with if the module may be missing: ``try: import a`` with ``except ImportError``."""
-
-
-ADDED = ", from a folder added to sys.path"
-"""The same where the file adds a folder of that name to those in which modules are sought."""
-
-
 class LookUp(NamedTuple):
     """A file that is looked up in the share directory of a package."""
 
@@ -173,6 +165,10 @@ class FileFacts(NamedTuple):
     registrations: tuple[Registration, ...] = ()
     look_ups: tuple[LookUp, ...] = ()
     parameters: ParameterFile | None = None
+    caught: tuple[str, ...] = ()
+    """Python modules that may be missing: ``try: import a`` with ``except ImportError``."""
+    added: tuple[Span, ...] = ()
+    """Imports of modules after whose names the file adds a folder to those in which modules are sought."""
 
 
 class Role(Flag):

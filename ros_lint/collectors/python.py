@@ -6,10 +6,10 @@ import re
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from ros_lint.collectors.python_imports import added_folders, scan, walk
+from ros_lint.collectors.python_imports import Import, added_folders, scan, walk
 from ros_lint.collectors.python_look_ups import Found, in_excerpt, literals, look_ups
 from ros_lint.collectors.python_syntax import NotPythonError, parse, syntax_problem
-from ros_lint.facts import ADDED, CAUGHT, Facet, FileFacts, Mention, Opaque
+from ros_lint.facts import Facet, FileFacts, Mention, Opaque
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -45,11 +45,12 @@ def collect(source: Text, *, launch: bool = False) -> FileFacts:
         if looked_up is None:
             looked_up = look_ups(source, tree)
     named = [item for item in found if item.module]
-    spans = source.spans([(item.start, item.start + len(item.module)) for item in named])
-    added = added_folders(source.text) if "sys.path" in source.text else ()
+    spans = list(source.spans([(item.start, item.start + len(item.module)) for item in named]))
+    folders = added_folders(source.text) if "sys.path" in source.text else ()
+    added = tuple([span for item, span in zip(named, spans, strict=True) if not item.caught and _is_added(item, folders)])
     mentions = [
-        Mention(module, "import", span, f"import of {module}{_remark(module, start, caught, added)}", optional)
-        for (start, module, optional, caught), span in zip(named, spans, strict=True)
+        Mention(item.module, "import", span, f"import of {item.module}{_remark(item, span in added)}", item.optional)
+        for item, span in zip(named, spans, strict=True)
     ]
     opaque = [
         Opaque(Facet.USES, "which module is imported here is computed", source.span(item.start, item.start))
@@ -58,15 +59,25 @@ def collect(source: Text, *, launch: bool = False) -> FileFacts:
     ]
     if looked_up.mentions:
         mentions = sorted([*mentions, *looked_up.mentions], key=lambda mention: mention.span)
-    return FileFacts(source.path, tuple(mentions), (*opaque, *looked_up.opaque), look_ups=looked_up.files)
+    return FileFacts(
+        source.path,
+        tuple(mentions),
+        (*opaque, *looked_up.opaque),
+        look_ups=looked_up.files,
+        caught=tuple([item.module for item in named if item.caught]),
+        added=added,
+    )
 
 
-def _remark(module: str, start: int, caught: bool, added: Sequence[tuple[int, frozenset[str]]]) -> str:
+def _is_added(item: Import, folders: Sequence[tuple[int, frozenset[str]]]) -> bool:
+    """Whether a folder of the module's name was added before to those in which modules are sought."""
+    top = item.module.partition(".")[0]
+    return any(at < item.start and top in parts for at, parts in folders)
+
+
+def _remark(item: Import, added: bool) -> str:
     """Return what is to be said of an import, besides its name."""
-    if caught:
-        return CAUGHT
-    top = module.partition(".")[0]
-    return ADDED if any(at < start and top in parts for at, parts in added) else ""
+    return ", with the error caught" if item.caught else ", from a folder added to sys.path" if added else ""
 
 
 def _unreadable(source: Text, error: NotPythonError) -> FileFacts:
