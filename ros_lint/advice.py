@@ -18,11 +18,18 @@ class Advice(NamedTuple):
     written: str
     """The element to add, followed by what is to be known of it."""
     fix: Fix | None
-    """None when it cannot be declared."""
+    """None when it cannot be declared, or when colcon rejects the manifest, which has to be mended first."""
     obstacle: str
     """Why it cannot be declared: goes on from "it cannot be declared: ". "" when it can."""
     circular: bool
     """Whether the obstacle is that it needs the package itself."""
+    certain: bool = True
+    """Whether the need is as certain as its evidence: not where it is circular or colcon rejects the manifest."""
+
+    @property
+    def ending(self) -> str:
+        """Return how a message goes on that has said what is amiss."""
+        return f", and cannot be declared: {self.obstacle}" if self.obstacle else f": add {self.written}"
 
 
 def advice(package: Package, workspace: Workspace, name: str, role: Role) -> Advice:
@@ -31,12 +38,15 @@ def advice(package: Package, workspace: Workspace, name: str, role: Role) -> Adv
     written = f"<{tag}>{name}</{tag}>"
     if way := circle(package, workspace, name):
         between = f", by way of {' > '.join(way[1:-1])}" if len(way) > 2 else ""
-        return Advice(written, None, f"it needs this package itself{between}", circular=True)
+        return Advice(written, None, f"it needs this package itself{between}", circular=True, certain=False)
+    usable = not (package.manifest and package.manifest.problems)
     if lacks_rule(workspace, name):
-        return Advice(written, None, f"rosdep has no rule for it{_where(workspace, name)}", circular=False)
+        obstacle = f"rosdep has no rule for it{_where(workspace, name)}"
+        return Advice(written, None, obstacle, circular=False, certain=usable)
     if is_of_pip(workspace, name):
         written += " (from pip: what is released cannot depend on it)"
-    return Advice(written, Fix(f"declare {name} as <{tag}>", add_dependency(package, tag, name)), "", circular=False)
+    fix = Fix(f"declare {name} as <{tag}>", add_dependency(package, tag, name)) if usable else None
+    return Advice(written, fix, "", circular=False, certain=usable)
 
 
 def circle(package: Package, workspace: Workspace, name: str) -> tuple[str, ...]:

@@ -209,6 +209,12 @@ def is_available(name: str, workspace: Workspace) -> bool:
     return workspace.world.is_package(name) or workspace.world.is_key(name)
 
 
+def is_somewhere(name: str, workspace: Workspace) -> bool:
+    """Whether there is a package of a name. If nobody said which distribution is meant, it may be one of any."""
+    world = workspace.world
+    return world.is_package(name) or (not workspace.target.told and bool(world.where_else(name)))
+
+
 def comes_elsewhere(package: Package, workspace: Workspace, name: str) -> bool:
     """Whether a package that only other distributions have comes along there with something that is declared."""
     starts = {each.name for each in package.declared}

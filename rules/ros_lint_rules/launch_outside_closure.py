@@ -47,6 +47,7 @@ from ros_lint.api import (
     advice,
     comes_elsewhere,
     declared_closure,
+    is_somewhere,
     launchable,
     may_bring,
     undeclared,
@@ -83,14 +84,13 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         only = ", if only under a condition" if best.conditional else ""
         only = ", by the default of an argument" if best.package_by_default else only
         way_out = advice(package, workspace, name, Role.EXEC)
-        then = f", and cannot be declared: {way_out.obstacle}" if way_out.obstacle else f": add {way_out.written}"
         yield Finding(
-            f"{says}{only}, but does not come with {package.name}{then}",
+            f"{says}{only}, but does not come with {package.name}{way_out.ending}",
             best.package_span,
             name,
             tuple(Related("also needed here", span) for span in islice(_elsewhere(best.package_span, others), _MOST_RELATED)),
             way_out.fix,
-            Confidence.MEDIUM if way_out.circular or may_bring(closure.unknown, name, workspace) else Confidence.HIGH,
+            Confidence.MEDIUM if not way_out.certain or may_bring(closure.unknown, name, workspace) else Confidence.HIGH,
         )
 
 
@@ -111,15 +111,9 @@ def _named(package: Package, workspace: Workspace) -> Mapping[str, list[LaunchRe
             continue
         for reference in launch.file.references:
             name = reference.package
-            if name != package.name and not reference.optional and _is_package(name, workspace):
+            if name != package.name and not reference.optional and is_somewhere(name, workspace):
                 found.setdefault(name, []).append(reference)
     return found
-
-
-def _is_package(name: str, workspace: Workspace) -> bool:
-    """Whether there is a package. If nobody said which distribution is meant, it may be one of any."""
-    world = workspace.world
-    return world.is_package(name) or (not workspace.target.told and bool(world.where_else(name)))
 
 
 RULE = Rule(

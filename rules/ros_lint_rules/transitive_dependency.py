@@ -66,15 +66,13 @@ def _finding(package: Package, workspace: Workspace, declared: Sequence[str], ne
     way = next((way for way in ways if way), (need.name,))
     name = way[-1]
     way_out = advice(package, workspace, name, need.role)
-    rejected = bool(package.manifest and package.manifest.problems)
-    then = f", and cannot be declared: {way_out.obstacle}" if way_out.obstacle else f": add {way_out.written}"
     return Finding(
-        f"{name} is used here, but comes along only by way of {' > '.join(way[:-1])}{then}",
+        f"{name} is used here, but comes along only by way of {' > '.join(way[:-1])}{way_out.ending}",
         best.span,
         name,
         tuple(Related(f"also used here: {use.what}", use.span) for use in others[:_MOST_RELATED]),
-        None if rejected else way_out.fix,
-        min(confidence, Confidence.MEDIUM) if way_out.circular or rejected else confidence,
+        way_out.fix,
+        confidence if way_out.certain else min(confidence, Confidence.MEDIUM),
     )
 
 

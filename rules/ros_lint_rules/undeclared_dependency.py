@@ -49,7 +49,7 @@ from ros_lint.api import (
     Workspace,
     advice,
     comes_with_launching,
-    is_available,
+    is_somewhere,
     tells,
     undeclared,
     wishes,
@@ -81,7 +81,6 @@ def _finding(package: Package, workspace: Workspace, need: Need, says: str, conf
     best, *others = need.uses
     name = need.name
     way_out = advice(package, workspace, name, need.role)
-    rejected = bool(package.manifest and package.manifest.problems)
     where = _where(name, workspace)
     if way_out.circular:
         message = f"{name} is used here, but cannot be declared: {way_out.obstacle}"
@@ -96,15 +95,15 @@ def _finding(package: Package, workspace: Workspace, need: Need, says: str, conf
         best.span,
         name,
         tuple(Related(f"also used here: {use.what}", use.span) for use in others[:_MOST_RELATED]),
-        None if rejected or where else way_out.fix,
-        min(confidence, Confidence.MEDIUM) if way_out.circular or rejected else confidence,
+        None if where else way_out.fix,
+        confidence if way_out.certain else min(confidence, Confidence.MEDIUM),
     )
 
 
 def _where(name: str, workspace: Workspace) -> str:
     """Return the distributions that have a package which cannot be had here: if nobody said which is meant, any will do."""
     world = workspace.world
-    if is_available(name, workspace) or (world.where_else(name) and not workspace.target.told):
+    if world.is_key(name) or is_somewhere(name, workspace):
         return ""
     return ", ".join(world.where_else(name) or world.knowledge.names.end_of_life(name))
 
