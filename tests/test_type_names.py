@@ -2,10 +2,11 @@
 
 import pytest
 
+from ros_lint.collectors.cpp_types import declared, introduced
 from ros_lint.evidence import Source
 from ros_lint.facts import FileFacts, Mention
 from ros_lint.text import Span
-from ros_lint.type_names import Types, declared, introduced
+from ros_lint.type_names import Types
 
 ROUTE = b"namespace house::route_handler {\nclass HOUSE_PUBLIC RouteHandler : Base {};\nstruct Node\n{};\nclass Other;\n}\n"
 DATA = b"using nav_msgs::msg::Odometry;\nusing Line = nav_msgs::msg::Path;\n"

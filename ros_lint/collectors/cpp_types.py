@@ -1,0 +1,99 @@
+"""Names of types in C++ code: which it declares, which of messages it makes known, and where a bare name stands for one."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from ros_lint.text import Span
+
+if TYPE_CHECKING:
+    from collections.abc import Container, Iterable, Iterator
+
+_TYPE = re.compile(
+    rb"\b(?:class|struct|union|enum(?:\s+(?:class|struct))?)\s+(?:[A-Z][A-Z0-9_]*\s+)?([A-Za-z_]\w+)(?=\s*(?:final\b|\{|:(?!:)))"
+)
+_NAMESPACE = re.compile(rb"\bnamespace\s+([\w:]+)\s*\{")
+_OWN = (
+    (
+        re.compile(rb"\b(?:class|struct|union|enum(?:\s+(?:class|struct))?)\s+(?:[A-Z][A-Z0-9_]*\s+)?\Z"),
+        re.compile(rb"\s*(?:final\b|\{|:(?!:))"),
+    ),
+    (re.compile(rb"\busing\s+\Z"), re.compile(rb"\s*=")),
+    (re.compile(rb"\bnamespace\s+(?:\w+::)*\Z"), re.compile(rb"\s*\{")),
+    (re.compile(rb"\btypedef\s[^;{}]*\Z"), re.compile(rb"\s*;")),
+)
+"""What stands before and after a name where code gives it a meaning of its own."""
+_CHAIN = re.compile(rb"(?:\w+\s*::\s*)+\Z")
+_NEAR = 120
+"""How many bytes before a name are looked at."""
+_NO_CODE = re.compile(rb'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
+_SHORTEST = 4
+"""Of shorter names too many mean something else."""
+
+
+def declared(text: bytes) -> frozenset[bytes]:
+    """Return the names of the types that C++ code declares, forward declarations left out."""
+    return frozenset(name for name in _TYPE.findall(text) if len(name) >= _SHORTEST)
+
+
+def introduced(text: bytes, package: str) -> frozenset[bytes]:
+    """Return the names under which C++ code makes messages of a package known: ``using pkg::msg::T;``, ``using X = ...``."""
+    name = package.encode()
+    if b"using " not in text or name + b"::" not in text:
+        return frozenset()
+    kinds = rb"::(?:msg|srv|action)::"
+    plain = re.findall(rb"\busing\s+(?:::)?" + name + kinds + rb"(\w+)\s*;", text)
+    alias = re.findall(rb"\busing\s+(\w+)\s*=\s*(?:typename\s+)?(?:::)?" + name + kinds + rb"\w+", text)
+    return frozenset(found for found in (*plain, *alias) if len(found) >= _SHORTEST)
+
+
+def namespaces(text: bytes) -> frozenset[bytes]:
+    """Return the parts of the names of the namespaces that C++ code opens."""
+    return frozenset(part for name in _NAMESPACE.findall(text) for part in name.split(b"::"))
+
+
+def code(text: bytes) -> bytes:
+    """Return C++ code with blanks for comments and strings, each character at its offset."""
+    return _NO_CODE.sub(lambda match: re.sub(rb"[^\n]", b" ", match[0]), text)
+
+
+def first(texts: Iterable[tuple[str, bytes]], name: bytes, spaces: Container[bytes]) -> Span | None:
+    """Return the first place where a name stands for what is in some namespaces: alone or behind them.
+
+    None where the code means something else by it, or takes it from elsewhere as well. Of a namespace itself it is the first
+    place where something is taken from it.
+    """
+    found: Span | None = None
+    for path, text in texts:
+        for start in _places(text, name):
+            end = start + len(name)
+            before = text[max(start - _NEAR, 0) : start]
+            if any(left.search(before) and right.match(text, end) for left, right in _OWN):
+                return None
+            chain = _CHAIN.search(before)
+            if chain and not any(part.strip() in spaces for part in chain[0].split(b"::")):
+                return None
+            if not found and (name not in spaces or text.startswith(b"::", end)):
+                found = _span(path, text, start, end)
+    return found
+
+
+def _places(text: bytes, name: bytes) -> Iterator[int]:
+    """Yield where a word stands that is no member of something."""
+    start = text.find(name)
+    while start >= 0:
+        before, after = text[max(start - 1, 0) : start], text[start + len(name) : start + len(name) + 1]
+        if not (before.isalnum() or before in _JOINED or after.isalnum() or after == b"_"):
+            yield start
+        start = text.find(name, start + 1)
+
+
+_JOINED = (b"_", b".", b">")
+"""What joins a name to what stands before it."""
+
+
+def _span(path: str, text: bytes, start: int, end: int) -> Span:
+    line = text.count(b"\n", 0, start) + 1
+    column = len(text[text.rfind(b"\n", 0, start) + 1 : start].decode("utf-8", "replace")) + 1
+    return Span(path, line, column, line, column + end - start)
