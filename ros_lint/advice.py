@@ -8,7 +8,7 @@ from ros_lint.declare import add_dependency, tag_for
 from ros_lint.rule import Fix
 
 if TYPE_CHECKING:
-    from ros_lint.facts import Role
+    from ros_lint.facts.manifest import Role
     from ros_lint.workspace import Package, Workspace
 
 

@@ -34,36 +34,14 @@ from ros_lint.declare import (
     works_unseen,
 )
 from ros_lint.evidence import satisfying, used_names
-from ros_lint.facts import (
-    ANYTHING,
-    ROLES,
-    BuildScript,
-    Call,
-    Component,
-    Depend,
-    Element,
-    EntryPoint,
-    Facet,
-    LaunchAction,
-    LaunchCondition,
-    LaunchFile,
-    LaunchReference,
-    LaunchValue,
-    Manifest,
-    Opaque,
-    PluginClass,
-    PluginFile,
-    PluginLibrary,
-    Problem,
-    Provided,
-    PythonModule,
-    Registration,
-    Role,
-    ScriptFile,
-    Slot,
-    Use,
-)
-from ros_lint.facts import Target as BuildTarget
+from ros_lint.facts.build import BuildScript, Component, PluginClass, PluginFile, PluginLibrary, Provided, ScriptFile
+from ros_lint.facts.cmake import Call
+from ros_lint.facts.cmake import Target as BuildTarget
+from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchFile, LaunchReference, LaunchValue
+from ros_lint.facts.manifest import ROLES, Depend, Element, Manifest, Role
+from ros_lint.facts.setup_py import EntryPoint, PythonModule, Slot
+from ros_lint.facts.sight import ANYTHING, Facet, Opaque, Problem
+from ros_lint.facts.sources import Registration, Use
 from ros_lint.graph import Edge, Graph, Reason
 from ros_lint.graph_cut import Knot, knots
 from ros_lint.launch_files import Launchable, Programs, launchable, programs, referred

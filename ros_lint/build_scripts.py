@@ -5,7 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ros_lint.facts import Call, Facet, Opaque, Problem, Role
+from ros_lint.facts.cmake import Call
+from ros_lint.facts.manifest import Role
+from ros_lint.facts.sight import Facet, Opaque, Problem
 from ros_lint.tree import join
 from ros_lint.workspace import Package
 

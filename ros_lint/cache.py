@@ -21,8 +21,9 @@ if TYPE_CHECKING:
     from ros_lint.tree import RecordedTree, Tree
 
 _MODULES = frozenset({
-    "ros_lint.collect", "ros_lint.collectors.cmake_syntax", "ros_lint.facts", "ros_lint.report", "ros_lint.rule",
-    "ros_lint.suppress", "ros_lint.text", "ros_lint.tree",
+    "ros_lint.collect", "ros_lint.collectors.cmake_syntax", "ros_lint.report", "ros_lint.rule", "ros_lint.suppress",
+    "ros_lint.text", "ros_lint.tree",
+    *(f"ros_lint.facts.{name}" for name in ("build", "cmake", "launch", "manifest", "setup_py", "sight", "sources")),
 })  # fmt: skip
 
 _PARTS = 16
@@ -213,7 +214,7 @@ def _state(files: Iterable[str]) -> str:
 def _collectors() -> Iterator[str]:
     """Yield the files that the facts of a file depend on."""
     here = os.path.dirname(os.path.abspath(__file__))
-    for place in (here, os.path.join(here, "collectors")):
+    for place in (here, os.path.join(here, "facts"), os.path.join(here, "collectors")):
         with os.scandir(place) as entries:
             yield from [entry.path for entry in entries if entry.name.endswith(".py")]
 

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.facts import Role
+from ros_lint.facts.manifest import Role
 from ros_lint.needs import needs
 from ros_lint.workspace import per_package, per_workspace
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from ros_lint.facts import Use
+    from ros_lint.facts.sources import Use
     from ros_lint.workspace import Declared, Package, Workspace
 
 _BUILD: Role = Role.BUILD | Role.TOOL | Role.EXPORT

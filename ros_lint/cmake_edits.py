@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ros_lint.build_scripts import called
-from ros_lint.facts import Call
+from ros_lint.facts.cmake import Call
 from ros_lint.rule import Edit
 from ros_lint.text import Span
 from ros_lint.workspace import Package

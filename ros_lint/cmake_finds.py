@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
-from ros_lint.facts import BuildScript, Mention
+from ros_lint.facts.build import BuildScript
+from ros_lint.facts.sources import Mention
 from ros_lint.workspace import Package, Workspace
 
 if TYPE_CHECKING:

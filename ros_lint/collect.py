@@ -12,7 +12,8 @@ from typing import Literal, NamedTuple
 
 from ros_lint.cache import Cache
 from ros_lint.collectors.cmake_syntax import Parsed
-from ros_lint.facts import FileFacts, LaunchFile
+from ros_lint.facts.launch import LaunchFile
+from ros_lint.facts.sources import FileFacts
 from ros_lint.suppress import Suppression
 from ros_lint.text import Text, read
 from ros_lint.tree import DiskTree, RecordedTree, Tree

@@ -12,7 +12,8 @@ from collections.abc import Callable, Iterator, Mapping
 from functools import lru_cache
 from typing import Final, NamedTuple
 
-from ros_lint.facts import Element, Manifest, Problem
+from ros_lint.facts.manifest import Element, Manifest
+from ros_lint.facts.sight import Problem
 
 MOST_DEPTH = 20
 """Parentheses nested deeper are refused: catkin_pkg needs time exponential in their depth."""

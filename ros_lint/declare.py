@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 from ros_lint import manifest_edits
 from ros_lint.cmake_finds import finds_declared
-from ros_lint.facts import Depend, Facet, Role
+from ros_lint.facts.manifest import Depend, Role
+from ros_lint.facts.sight import Facet
 from ros_lint.rule import Edit
 from ros_lint.workspace import Package, Workspace
 

@@ -28,7 +28,7 @@ from ros_lint.tree import join, parent
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from ros_lint.facts import ColconDepend, ColconMeta, ColconSettings, Manifest
+    from ros_lint.facts.manifest import ColconDepend, ColconMeta, ColconSettings, Manifest
     from ros_lint.tree import Entry, Kind, Tree
 
 _NEVER = frozenset((".git", ".hg", ".svn", "node_modules", "__pycache__"))

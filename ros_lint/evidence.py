@@ -12,7 +12,11 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import accumulate
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
-from ros_lint.facts import BuildScript, FileFacts, LaunchFile, Mention, Opaque, Role, Use, Via
+from ros_lint.facts.build import BuildScript
+from ros_lint.facts.launch import LaunchFile
+from ros_lint.facts.manifest import Role
+from ros_lint.facts.sight import Opaque
+from ros_lint.facts.sources import FileFacts, Mention, Use, Via
 from ros_lint.liveness import HEADERS, Liveness
 from ros_lint.text import Span
 

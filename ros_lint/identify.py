@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint import conditions
-from ros_lint.facts import ColconSettings
+from ros_lint.facts.manifest import ColconSettings
 from ros_lint.report import NotChecked
 from ros_lint.text import Span, Text, read
 from ros_lint.tree import join
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Mapping
 
     from ros_lint.collectors.colcon_python import PythonProject
-    from ros_lint.facts import ColconDepend, Manifest
+    from ros_lint.facts.manifest import ColconDepend, Manifest
     from ros_lint.tree import Kind, Tree
 
 

@@ -11,7 +11,8 @@ from collections.abc import Collection, Iterator, Sequence
 from typing import NamedTuple
 
 from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, installed
-from ros_lint.facts import BuildScript, LaunchFile
+from ros_lint.facts.build import BuildScript
+from ros_lint.facts.launch import LaunchFile
 from ros_lint.launch_links import everything
 from ros_lint.text import Text, read
 from ros_lint.tree import Tree, join, parent

@@ -6,7 +6,9 @@ from collections.abc import Container, Iterable, Iterator
 from typing import NamedTuple
 
 from ros_lint.apart import is_apart, lies_apart
-from ros_lint.facts import Facet, LaunchFile, LaunchReference, LookUp
+from ros_lint.facts.launch import LaunchFile, LaunchReference
+from ros_lint.facts.sight import Facet
+from ros_lint.facts.sources import LookUp
 from ros_lint.workspace import Package
 
 

@@ -7,7 +7,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple, TypeVar
 
 from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, fill, installed, is_plain, is_settled, named_in
-from ros_lint.facts import LaunchAction, LaunchFile, LaunchValue, ParameterFile
+from ros_lint.facts.launch import LaunchAction, LaunchFile, LaunchValue
+from ros_lint.facts.sources import ParameterFile
 from ros_lint.text import Span
 from ros_lint.workspace import Package
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
 from ros_lint.collectors.launch_text import configurations, is_plain
-from ros_lint.facts import LaunchFile
+from ros_lint.facts.launch import LaunchFile
 from ros_lint.launch_links import Links, asked_by, everything, texts_of
 from ros_lint.text import Span
 

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from ros_lint.launch_links import defaults_of, everything, filled, installed_below_share
 
 if TYPE_CHECKING:
-    from ros_lint.facts import LaunchAction, LaunchFile, LaunchValue, ParameterFile
+    from ros_lint.facts.launch import LaunchAction, LaunchFile, LaunchValue
+    from ros_lint.facts.sources import ParameterFile
     from ros_lint.workspace import Package, Workspace
 
 

@@ -9,7 +9,7 @@ from ros_lint.collectors.launch_text import share
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ros_lint.facts import LaunchFile
+    from ros_lint.facts.launch import LaunchFile
     from ros_lint.interpret.launch_expand import Expansion
     from ros_lint.workspace import Workspace
 

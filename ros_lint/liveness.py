@@ -9,7 +9,10 @@ import posixpath
 from collections.abc import Collection, Container, Iterable, Mapping
 from functools import cached_property
 
-from ros_lint.facts import BuildScript, Facet, FileFacts, Role
+from ros_lint.facts.build import BuildScript
+from ros_lint.facts.manifest import Role
+from ros_lint.facts.sight import Facet
+from ros_lint.facts.sources import FileFacts
 
 TEST_FOLDERS = frozenset({"test", "tests", "testing", "integration_tests", "benchmark", "benchmarks", "gtest", "unit_tests"})
 """Folders whose files serve tests when nothing else says what they serve."""

@@ -14,7 +14,10 @@ from ros_lint.cache import Cache
 from ros_lint.collect import FAILED, Collected, collect_all, kind_of
 from ros_lint.declare import is_built_in_sight, is_unseen_by_name
 from ros_lint.discover import Found, Skipped, discover
-from ros_lint.facts import ROLES, BuildScript, FileFacts, LaunchFile, Manifest, Role
+from ros_lint.facts.build import BuildScript
+from ros_lint.facts.launch import LaunchFile
+from ros_lint.facts.manifest import ROLES, Manifest, Role
+from ros_lint.facts.sources import FileFacts
 from ros_lint.knowledge import Knowledge
 from ros_lint.knowledge.index import TAG_KINDS
 from ros_lint.providers import offered

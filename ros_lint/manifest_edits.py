@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 from itertools import pairwise
 from typing import Final, NamedTuple
 
-from ros_lint.facts import Depend, Element, Manifest
+from ros_lint.facts.manifest import Depend, Element, Manifest
 from ros_lint.rule import Edit
 from ros_lint.text import Span
 

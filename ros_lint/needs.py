@@ -9,7 +9,8 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
-from ros_lint.facts import Role, Use, Via
+from ros_lint.facts.manifest import Role
+from ros_lint.facts.sources import Use, Via
 from ros_lint.text import Span
 from ros_lint.workspace import Package, Workspace, per_package
 from ros_lint.world import Closure

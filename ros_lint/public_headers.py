@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from ros_lint.facts import BuildScript, FileFacts
+from ros_lint.facts.build import BuildScript
+from ros_lint.facts.sources import FileFacts
 
 
 def unusable(script: BuildScript | None, facts: Mapping[str, FileFacts], files: tuple[str, ...]) -> tuple[str, ...]:

@@ -13,7 +13,9 @@ from ros_lint.collect import FAILED
 from ros_lint.collectors import cmake_calls, plugin_xml, python_names, setup_layout, setup_texts
 from ros_lint.collectors.cmake_syntax import Parsed, parse
 from ros_lint.discover import Found
-from ros_lint.facts import ANYTHING, BuildScript, Facet, Opaque, PythonModule, ScriptFile
+from ros_lint.facts.build import BuildScript, ScriptFile
+from ros_lint.facts.setup_py import PythonModule
+from ros_lint.facts.sight import ANYTHING, Facet, Opaque
 from ros_lint.text import Span, Text, read
 from ros_lint.tree import Tree, join
 

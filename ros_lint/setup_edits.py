@@ -5,7 +5,8 @@ from __future__ import annotations
 import posixpath
 from collections.abc import Sequence
 
-from ros_lint.facts import BuildScript, Slot
+from ros_lint.facts.build import BuildScript
+from ros_lint.facts.setup_py import Slot
 from ros_lint.rule import Edit
 
 

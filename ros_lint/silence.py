@@ -6,7 +6,9 @@ from collections.abc import Iterator, Sequence
 
 from ros_lint.carriers import carriers
 from ros_lint.declare import builds_something, is_built_in_sight, is_library, is_mostly_run, leaves_trace, works_unseen
-from ros_lint.facts import Facet, Role, Use
+from ros_lint.facts.manifest import Role
+from ros_lint.facts.sight import Facet
+from ros_lint.facts.sources import Use
 from ros_lint.needs import all_declared, may_bring, only_launched, tells
 from ros_lint.workspace import Package, Workspace
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
-from ros_lint.facts import Depend, Role
+from ros_lint.facts.manifest import Depend, Role
 from ros_lint.workspace import Declared, Package, Workspace, per_workspace
 
 _BUILD_TYPES = frozenset({"ros.ament_cmake", "ros.ament_python", "ros.cmake"})

@@ -6,21 +6,11 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property, wraps
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
-from ros_lint.facts import (
-    BuildScript,
-    ColconDepend,
-    Depend,
-    Facet,
-    LaunchFile,
-    LaunchReference,
-    LookUp,
-    Manifest,
-    Opaque,
-    ParameterFile,
-    Registration,
-    Role,
-    Use,
-)
+from ros_lint.facts.build import BuildScript
+from ros_lint.facts.launch import LaunchFile, LaunchReference
+from ros_lint.facts.manifest import ColconDepend, Depend, Manifest, Role
+from ros_lint.facts.sight import Facet, Opaque
+from ros_lint.facts.sources import LookUp, ParameterFile, Registration, Use
 from ros_lint.report import NotChecked, Target
 from ros_lint.text import Span
 

@@ -1,7 +1,7 @@
 """What the tests of the launch collectors share."""
 
 from ros_lint.collectors import launch
-from ros_lint.facts import LaunchFile, LaunchReference
+from ros_lint.facts.launch import LaunchFile, LaunchReference
 from ros_lint.text import Text
 
 

@@ -13,7 +13,7 @@ from catkin_pkg.package import InvalidPackage, Package, parse_package_string
 
 from ros_lint import conditions
 from ros_lint.collectors.manifest import collect
-from ros_lint.facts import Manifest
+from ros_lint.facts.manifest import Manifest
 from ros_lint.text import read
 
 CONTEXTS = (

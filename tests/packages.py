@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from ros_lint import conditions
 from ros_lint.collectors import manifest as manifests
 from ros_lint.discover import Found
-from ros_lint.facts import ROLES, ColconDepend, Depend, Manifest, Role
+from ros_lint.facts.manifest import ROLES, ColconDepend, Depend, Manifest, Role
 from ros_lint.text import Text
 from ros_lint.workspace import Declared, Package
 

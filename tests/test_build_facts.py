@@ -13,7 +13,7 @@ from ros_lint.collectors import cmake_calls, plugin_xml, python_names, setup_lay
 from ros_lint.collectors.cmake_syntax import parse
 from ros_lint.collectors.cpp_registrations import registrations
 from ros_lint.collectors.resources import collect as resource
-from ros_lint.facts import Call
+from ros_lint.facts.cmake import Call
 from ros_lint.source_lists import submodules
 from ros_lint.text import Text
 from ros_lint.tree import MemoryTree

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from pathlib import Path
+from pkgutil import iter_modules
 
+from ros_lint import cache, facts
 from ros_lint.cache import Cache
 from ros_lint.collect import collect_all
 from ros_lint.tree import DiskTree
@@ -46,3 +48,9 @@ def test_what_is_kept_is_what_was_found(tmp_path: Path) -> None:
     assert repr(kept) == repr(found)  # which tells the classes, too
     (tmp_path / "ws" / "p" / "a.cpp").write_text("#include <d/e.hpp>\n")
     assert set(Cache(str(tmp_path / "cache"), "ws").fetch(tree, list(FILES))) == set(FILES) - {"p/a.cpp"}
+
+
+def test_all_facts_can_be_kept_and_change_with_their_code() -> None:
+    modules = list(iter_modules(facts.__path__))
+    assert {f"ros_lint.facts.{module.name}" for module in modules} == {name for name in cache._MODULES if "facts" in name}
+    assert {Path(facts.__path__[0], f"{module.name}.py") for module in modules} <= set(map(Path, cache._collectors()))

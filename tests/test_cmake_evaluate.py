@@ -7,7 +7,9 @@ from collections.abc import Mapping
 import pytest
 
 from ros_lint.collectors.cmake_syntax import parse
-from ros_lint.facts import BuildScript, Facet, Mention
+from ros_lint.facts.build import BuildScript
+from ros_lint.facts.sight import Facet
+from ros_lint.facts.sources import Mention
 from ros_lint.interpret.cmake import Helper, Sources, evaluate
 from ros_lint.text import Text
 

@@ -7,7 +7,7 @@ import random
 import pytest
 
 from ros_lint.collectors.cmake_syntax import parse
-from ros_lint.facts import BuildScript
+from ros_lint.facts.build import BuildScript
 from ros_lint.interpret import cmake_ros
 from ros_lint.interpret.cmake import Sources, evaluate
 from ros_lint.interpret.cmake_flow import call

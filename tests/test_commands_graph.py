@@ -14,7 +14,8 @@ import pytest
 
 from ros_lint import underlay
 from ros_lint.commands import graph, order, overlay, why
-from ros_lint.facts import Role, Use
+from ros_lint.facts.manifest import Role
+from ros_lint.facts.sources import Use
 from ros_lint.knowledge import Knowledge
 from ros_lint.load import Loader
 from ros_lint.text import Span

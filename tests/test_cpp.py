@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from ros_lint.collectors import cpp
 from ros_lint.collectors.cpp_includes import STANDARD, Found, exact, mentions
-from ros_lint.facts import Mention
+from ros_lint.facts.sources import Mention
 from ros_lint.text import Span, Text, read
 
 

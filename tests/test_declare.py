@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from ros_lint.declare import tag_for
-from ros_lint.facts import Role
+from ros_lint.facts.manifest import Role
 from ros_lint.load import Loader
 from ros_lint.tree import MemoryTree
 from ros_lint.workspace import Package, Target, Workspace

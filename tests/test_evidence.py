@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from ros_lint.collectors import cpp
 from ros_lint.evidence import Source, mentioned, traces, used_names
-from ros_lint.facts import Role, Use
+from ros_lint.facts.manifest import Role
+from ros_lint.facts.sources import Use
 from ros_lint.knowledge.names import Names
 from ros_lint.knowledge.store import Store
 from ros_lint.load import Loader

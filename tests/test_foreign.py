@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from ros_lint.collect import collect, kind_of
-from ros_lint.facts import Mention
+from ros_lint.facts.sources import Mention
 from ros_lint.text import Text
 
 

@@ -14,7 +14,7 @@ import networkx as nx
 import pytest
 
 from ros_lint.collectors import manifest as readers
-from ros_lint.facts import ColconDepend, Manifest, Role
+from ros_lint.facts.manifest import ColconDepend, Manifest, Role
 from ros_lint.graph import Edge, Graph, Reason, build, components, is_acyclic
 from ros_lint.graph_cut import arcs_within, cheapest_cut, shortest_cycle
 from ros_lint.graph_metrics import measure

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from ros_lint import launch_around
 from ros_lint.collectors import launch
-from ros_lint.facts import BuildScript, LaunchFile, Provided
+from ros_lint.facts.build import BuildScript, Provided
+from ros_lint.facts.launch import LaunchFile
 from ros_lint.text import Span, Text
 from ros_lint.tree import MemoryTree
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from ros_lint.facts import LaunchFile
+from ros_lint.facts.launch import LaunchFile
 from ros_lint.interpret.launch_expand import Expansion, Started, expand
 from tests.launch_cases import collect
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from ros_lint.collectors import launch
-from ros_lint.facts import LaunchFile
+from ros_lint.facts.launch import LaunchFile
 from ros_lint.interpret.launch_expand import expand
 from ros_lint.opening import open_workspace
 from ros_lint.text import Text

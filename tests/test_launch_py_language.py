@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from ros_lint.collectors import launch_py, launch_text
-from ros_lint.facts import Facet
+from ros_lint.facts.sight import Facet
 from ros_lint.interpret.launch_expand import expand
 from ros_lint.text import Text
 from tests.launch_cases import collect, said
@@ -176,7 +176,7 @@ def test_facts_hold_plain_values(case: str) -> None:
     waiting: list[object] = [found]
     while waiting:
         one = waiting.pop()
-        assert type(one).__module__ in ("builtins", "ros_lint.facts", "ros_lint.text"), one
+        assert type(one).__module__ in ("builtins", "ros_lint.facts.launch", "ros_lint.facts.sight", "ros_lint.text"), one
         assert isinstance(one, tuple) or type(one) in (str, bool, int, type(None), Facet)
         waiting += one if isinstance(one, tuple) else ()
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from ros_lint.facts import Role, Use
+from ros_lint.facts.manifest import Role
+from ros_lint.facts.sources import Use
 from ros_lint.load import Loader
 from ros_lint.needs import needs, undeclared
 from ros_lint.tree import MemoryTree

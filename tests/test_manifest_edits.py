@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from ros_lint import edits, manifest_edits
 from ros_lint.collectors.manifest import collect
-from ros_lint.facts import Manifest
+from ros_lint.facts.manifest import Manifest
 from ros_lint.rule import Edit, Fix
 from ros_lint.text import Text
 from tests.manifest_oracle import KINDS, by_catkin_pkg

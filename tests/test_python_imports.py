@@ -16,7 +16,8 @@ from ros_lint.collectors.python_excerpt import excerpt
 from ros_lint.collectors.python_imports import scan, walk
 from ros_lint.collectors.python_look_ups import in_excerpt, literals, look_ups
 from ros_lint.collectors.python_syntax import NotPythonError, parse
-from ros_lint.facts import Facet, FileFacts
+from ros_lint.facts.sight import Facet
+from ros_lint.facts.sources import FileFacts
 from ros_lint.text import Text, read
 
 

@@ -12,7 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from ros_lint.facts import BuildScript, Facet
+from ros_lint.facts.build import BuildScript
+from ros_lint.facts.sight import Facet
 from ros_lint.interpret.setup_py import evaluate
 from ros_lint.text import Text
 

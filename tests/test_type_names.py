@@ -4,7 +4,7 @@ import pytest
 
 from ros_lint.collectors.cpp_types import declared, introduced
 from ros_lint.evidence import Source
-from ros_lint.facts import FileFacts, Mention
+from ros_lint.facts.sources import FileFacts, Mention
 from ros_lint.text import Span
 from ros_lint.type_names import Types
 

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from typing import Final
 
 from ros_lint.collectors.cmake_syntax import Command, Parsed
-from ros_lint.facts import Call
+from ros_lint.facts.cmake import Call
 
 WANTED: Final = frozenset({
     "add_custom_command", "add_custom_target", "add_executable", "add_launch_test", "add_library", "add_ros_test",

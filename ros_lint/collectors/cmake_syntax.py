@@ -10,7 +10,7 @@ import re
 from bisect import bisect_right
 from typing import NamedTuple
 
-from ros_lint.facts import Problem
+from ros_lint.facts.sight import Problem
 from ros_lint.text import Span, Text
 
 PLAIN = 0

@@ -11,7 +11,7 @@ import re
 from bisect import bisect_right
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.facts import ColconDepend, Role
+from ros_lint.facts.manifest import ColconDepend, Role
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

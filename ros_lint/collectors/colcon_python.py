@@ -15,7 +15,7 @@ from configparser import Error as ConfigError
 from configparser import RawConfigParser
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.facts import ColconDepend, Role
+from ros_lint.facts.manifest import ColconDepend, Role
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors import yaml_tree
-from ros_lint.facts import ColconDepend, ColconMeta, ColconSettings, Role
+from ros_lint.facts.manifest import ColconDepend, ColconMeta, ColconSettings, Role
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

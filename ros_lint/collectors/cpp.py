@@ -9,7 +9,8 @@ from ros_lint.collectors.cpp_includes import Include, mentions
 from ros_lint.collectors.cpp_look_ups import look_ups
 from ros_lint.collectors.cpp_registrations import registrations
 from ros_lint.collectors.cpp_symbols import symbols
-from ros_lint.facts import Facet, FileFacts, Mention, Opaque
+from ros_lint.facts.sight import Facet, Opaque
+from ros_lint.facts.sources import FileFacts, Mention
 
 if TYPE_CHECKING:
     from ros_lint.text import Text

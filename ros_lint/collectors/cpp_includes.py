@@ -12,7 +12,7 @@ from bisect import bisect_left, bisect_right
 from functools import cache
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.facts import Mention
+from ros_lint.facts.sources import Mention
 from ros_lint.text import Span
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.cpp_includes import blanked, in_doubt
-from ros_lint.facts import LookUp, Mention
+from ros_lint.facts.sources import LookUp, Mention
 
 if TYPE_CHECKING:
     from ros_lint.text import Text

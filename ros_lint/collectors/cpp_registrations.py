@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.cpp_includes import blanked, in_doubt
-from ros_lint.facts import Registration
+from ros_lint.facts.sources import Registration
 
 if TYPE_CHECKING:
     from ros_lint.text import Text

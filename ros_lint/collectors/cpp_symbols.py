@@ -13,7 +13,7 @@ from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.cpp_includes import Found, branches, in_doubt
-from ros_lint.facts import Mention
+from ros_lint.facts.sources import Mention
 
 if TYPE_CHECKING:
     from ros_lint.text import Text

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.cpp_includes import blanked
-from ros_lint.facts import FileFacts, Mention
+from ros_lint.facts.sources import FileFacts, Mention
 
 if TYPE_CHECKING:
     from ros_lint.text import Text

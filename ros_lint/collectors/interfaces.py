@@ -6,7 +6,8 @@ import re
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.cpp_includes import blanked
-from ros_lint.facts import FileFacts, Mention, Problem
+from ros_lint.facts.sight import Problem
+from ros_lint.facts.sources import FileFacts, Mention
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from typing import Literal
 
-from ros_lint.facts import LaunchFile
+from ros_lint.facts.launch import LaunchFile
 from ros_lint.text import Text
 
 Language = Literal["python", "xml", "yaml"]

@@ -16,7 +16,8 @@ from ros_lint.collectors.launch_markup_read import Reader, Rule
 from ros_lint.collectors.launch_references import References
 from ros_lint.collectors.launch_tags import SINCE
 from ros_lint.collectors.launch_text import UNKNOWN
-from ros_lint.facts import LaunchAction, LaunchCondition, LaunchReference, LaunchValue, Opaque, Problem
+from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchReference, LaunchValue
+from ros_lint.facts.sight import Opaque, Problem
 from ros_lint.text import Text
 
 

@@ -16,7 +16,8 @@ from ros_lint.collectors.launch_markup_texts import Pieces, package_of, simple_t
 from ros_lint.collectors.launch_tags import EXTENSIONS, SINCE, SUBSTITUTIONS
 from ros_lint.collectors.launch_text import joined
 from ros_lint.collectors.substitution import Literal, Substitution, SubstitutionError, parse
-from ros_lint.facts import LaunchAction, LaunchCondition, LaunchValue, Problem
+from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchValue
+from ros_lint.facts.sight import Problem
 from ros_lint.text import Span, Text
 
 _make = tuple.__new__  # half of what the constructor takes

@@ -19,7 +19,8 @@ from ros_lint.collectors.launch_py_texts import Within, texts
 from ros_lint.collectors.launch_py_walk import span_of
 from ros_lint.collectors.launch_references import References, asks_first
 from ros_lint.collectors.launch_text import UNKNOWN
-from ros_lint.facts import Facet, LaunchAction, LaunchFile, Opaque, Problem
+from ros_lint.facts.launch import LaunchAction, LaunchFile
+from ros_lint.facts.sight import Facet, Opaque, Problem
 from ros_lint.text import Span, Text
 
 _LONGEST = 250_000

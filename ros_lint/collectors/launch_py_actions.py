@@ -25,7 +25,8 @@ from ros_lint.collectors.launch_py_run import Machine
 from ros_lint.collectors.launch_py_texts import SUBSTITUTIONS, texts
 from ros_lint.collectors.launch_py_walk import Rule, Walker, span_of
 from ros_lint.collectors.launch_text import UNKNOWN
-from ros_lint.facts import LaunchAction, LaunchValue, Problem
+from ros_lint.facts.launch import LaunchAction, LaunchValue
+from ros_lint.facts.sight import Problem
 from ros_lint.text import Span
 
 _REMOVED = {

@@ -34,7 +34,7 @@ from ros_lint.collectors.launch_py_operations import (
     with_format,
 )
 from ros_lint.collectors.launch_text import UNKNOWN, expression, joined, quoted
-from ros_lint.facts import LaunchCondition
+from ros_lint.facts.launch import LaunchCondition
 
 if TYPE_CHECKING:
     from ros_lint.collectors.launch_py_run import Machine

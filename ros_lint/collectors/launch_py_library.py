@@ -27,7 +27,7 @@ from ros_lint.collectors.launch_py_objects import (
 from ros_lint.collectors.launch_py_operations import INSTALLED, text_of
 from ros_lint.collectors.launch_py_texts import conditions_of
 from ros_lint.collectors.launch_text import UNKNOWN, joined, presence
-from ros_lint.facts import LaunchCondition
+from ros_lint.facts.launch import LaunchCondition
 
 if TYPE_CHECKING:
     from ros_lint.collectors.launch_py_objects import Frame

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any, Final
 
 from ros_lint.collectors.launch_text import MOST, UNKNOWN, agree, conditional, conditions_of, configuration
-from ros_lint.facts import LaunchCondition
+from ros_lint.facts.launch import LaunchCondition
 from ros_lint.text import Text
 
 Value = Any

@@ -27,7 +27,7 @@ from ros_lint.collectors.launch_py_objects import (
 from ros_lint.collectors.launch_py_texts import texts
 from ros_lint.collectors.launch_text import LONGEST, UNKNOWN, certain_part, distinct, is_plain, joined, presence
 from ros_lint.collectors.python_operators import ARITHMETIC, BITWISE, COMPARISONS
-from ros_lint.facts import LaunchCondition
+from ros_lint.facts.launch import LaunchCondition
 
 if TYPE_CHECKING:
     from ros_lint.collectors.launch_py_run import Machine

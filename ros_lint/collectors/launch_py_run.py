@@ -45,7 +45,7 @@ from ros_lint.collectors.launch_py_operations import negated, text_of
 from ros_lint.collectors.launch_py_statements import LEAVE, bind, execute
 from ros_lint.collectors.launch_py_texts import Within, texts
 from ros_lint.collectors.launch_text import UNKNOWN, fill, is_settled, joined
-from ros_lint.facts import LaunchCondition
+from ros_lint.facts.launch import LaunchCondition
 from ros_lint.text import Text
 
 STEPS = 150_000

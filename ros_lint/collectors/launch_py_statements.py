@@ -35,7 +35,7 @@ from ros_lint.collectors.launch_py_texts import SUBSTITUTIONS
 from ros_lint.collectors.launch_text import presence
 from ros_lint.collectors.python_look_ups import catches_missing_package
 from ros_lint.collectors.python_values import LOOK_UPS, callee
-from ros_lint.facts import LaunchCondition
+from ros_lint.facts.launch import LaunchCondition
 
 if TYPE_CHECKING:
     from ros_lint.collectors.launch_py_run import Machine

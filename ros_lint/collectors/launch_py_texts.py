@@ -22,7 +22,7 @@ from ros_lint.collectors.launch_py_objects import (
     under,
 )
 from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, distinct, joined, quoted
-from ros_lint.facts import LaunchCondition
+from ros_lint.facts.launch import LaunchCondition
 
 _DEEPEST = 60
 _MOST_STEPS = 2_000

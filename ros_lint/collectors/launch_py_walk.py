@@ -23,7 +23,8 @@ from ros_lint.collectors.launch_py_objects import (
 )
 from ros_lint.collectors.launch_py_texts import Within, conditions_of, texts
 from ros_lint.collectors.launch_text import UNKNOWN, installed
-from ros_lint.facts import LaunchAction, LaunchValue, Problem
+from ros_lint.facts.launch import LaunchAction, LaunchValue
+from ros_lint.facts.sight import Problem
 from ros_lint.text import Span
 
 if TYPE_CHECKING:

@@ -20,7 +20,8 @@ from ros_lint.collectors.launch_text import (
     names_places,
     share,
 )
-from ros_lint.facts import Facet, LaunchAction, LaunchCondition, LaunchReference, LaunchValue, Opaque
+from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchReference, LaunchValue
+from ros_lint.facts.sight import Facet, Opaque
 from ros_lint.text import Span
 
 Kind = Literal["node", "component", "include", "command", "file", "package"]

@@ -18,7 +18,7 @@ from functools import lru_cache
 from itertools import islice, product
 from typing import NamedTuple
 
-from ros_lint.facts import LaunchCondition
+from ros_lint.facts.launch import LaunchCondition
 
 UNKNOWN = "\ue000"
 _ROOT = "\ue001"

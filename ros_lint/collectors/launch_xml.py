@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from ros_lint.collectors import launch_markup, xml_tree
 from ros_lint.collectors.launch_entity import Entity
-from ros_lint.facts import Facet, LaunchFile, Opaque, Problem
+from ros_lint.facts.launch import LaunchFile
+from ros_lint.facts.sight import Facet, Opaque, Problem
 from ros_lint.text import Text
 
 

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from ros_lint.collectors import launch_markup
 from ros_lint.collectors.launch_entity import CHILDREN, NO_VALUE, Entity
-from ros_lint.facts import Facet, LaunchFile, Opaque, Problem
+from ros_lint.facts.launch import LaunchFile
+from ros_lint.facts.sight import Facet, Opaque, Problem
 from ros_lint.text import Text
 
 if TYPE_CHECKING:

@@ -8,7 +8,8 @@ from typing import Final
 
 from ros_lint.collectors.manifest_problems import ALLOWED, VERSIONS, find_problems, read_format, surely_accepted
 from ros_lint.collectors.manifest_xml import BLANK, Document, Fault, Node, attribute, child, markup, read, value
-from ros_lint.facts import ROLES, Depend, Element, Manifest, Problem
+from ros_lint.facts.manifest import ROLES, Depend, Element, Manifest
+from ros_lint.facts.sight import Problem
 from ros_lint.text import Span, Text
 
 DEPENDENCY_TAGS: Final = frozenset((*ROLES, "doc_depend", "conflict", "replace", "group_depend", "member_of_group"))

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Final
 
 from ros_lint.collectors.manifest_xml import Document, Fault, Node, attribute, children, value
-from ros_lint.facts import Depend, Element
+from ros_lint.facts.manifest import Depend, Element
 
 _Elements = Sequence[tuple[Node, Element]]
 _Depends = Sequence[tuple[Node, Depend]]

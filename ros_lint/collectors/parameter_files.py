@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from ros_lint.facts import ParameterFile
+from ros_lint.facts.sources import ParameterFile
 
 if TYPE_CHECKING:
     from ros_lint.text import Span, Text

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.xml_tree import Element, XmlError, attribute_places, parse
-from ros_lint.facts import PluginClass, PluginFile, PluginLibrary
+from ros_lint.facts.build import PluginClass, PluginFile, PluginLibrary
 
 if TYPE_CHECKING:
     from ros_lint.text import Span, Text

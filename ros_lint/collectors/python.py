@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 from ros_lint.collectors.python_imports import Import, added_folders, scan, walk
 from ros_lint.collectors.python_look_ups import Found, in_excerpt, literals, look_ups
 from ros_lint.collectors.python_syntax import NotPythonError, parse, syntax_problem
-from ros_lint.facts import Facet, FileFacts, Mention, Opaque
+from ros_lint.facts.sight import Facet, Opaque
+from ros_lint.facts.sources import FileFacts, Mention
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -13,7 +13,8 @@ from ros_lint.collectors.python_imports import outside_strings
 from ros_lint.collectors.python_scopes import Expression, Where, nodes, scan
 from ros_lint.collectors.python_syntax import parse, span_of
 from ros_lint.collectors.python_values import LOOK_UPS, Evaluator, argument, callee
-from ros_lint.facts import Facet, LookUp, Mention, Opaque
+from ros_lint.facts.sight import Facet, Opaque
+from ros_lint.facts.sources import LookUp, Mention
 from ros_lint.text import Text
 
 _NAMED = re.compile(rf"\b({'|'.join(sorted(LOOK_UPS))})\b(?:[ \t]*\()?")

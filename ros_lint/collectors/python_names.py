@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.python_syntax import NotPythonError, parse
-from ros_lint.facts import PythonModule
+from ros_lint.facts.setup_py import PythonModule
 
 if TYPE_CHECKING:
     from ros_lint.text import Text

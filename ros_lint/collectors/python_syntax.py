@@ -7,7 +7,7 @@ import re
 import warnings
 from typing import TYPE_CHECKING
 
-from ros_lint.facts import Problem
+from ros_lint.facts.sight import Problem
 
 if TYPE_CHECKING:
     from ros_lint.text import Span, Text

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors import parameter_files
-from ros_lint.facts import FileFacts, LookUp, Mention
+from ros_lint.facts.sources import FileFacts, LookUp, Mention
 
 if TYPE_CHECKING:
     from ros_lint.text import Text

@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.facts import Problem, WrittenText
+from ros_lint.facts.setup_py import WrittenText
+from ros_lint.facts.sight import Problem
 
 if TYPE_CHECKING:
     from ros_lint.text import Span, Text

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.python_syntax import NotPythonError, parse, span_of, start_of
-from ros_lint.facts import Slot
+from ros_lint.facts.setup_py import Slot
 
 if TYPE_CHECKING:
     from ros_lint.text import Text

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.python_syntax import NotPythonError, parse, span_of
-from ros_lint.facts import WrittenText
+from ros_lint.facts.setup_py import WrittenText
 
 if TYPE_CHECKING:
     from ros_lint.text import Text

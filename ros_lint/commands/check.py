@@ -167,7 +167,7 @@ def _wants_color(settings: Settings) -> bool:
 
 
 def _unseen(workspace: Workspace) -> tuple[Unseen, ...]:
-    from ros_lint.facts import Facet  # noqa: PLC0415
+    from ros_lint.facts.sight import Facet  # noqa: PLC0415
 
     words = {
         Facet.USES: "what they use",

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.facts import Facet, Role
+from ros_lint.facts.manifest import Role
+from ros_lint.facts.sight import Facet
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator

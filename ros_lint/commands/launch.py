@@ -20,7 +20,7 @@ from ros_lint.opening import Opened, UsageError
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
-    from ros_lint.facts import LaunchFile
+    from ros_lint.facts.launch import LaunchFile
     from ros_lint.workspace import Workspace
 
 

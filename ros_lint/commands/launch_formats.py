@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
     from ros_lint.commands.launch_lookup import LookUp
-    from ros_lint.facts import LaunchCondition, LaunchFile
+    from ros_lint.facts.launch import LaunchCondition, LaunchFile
     from ros_lint.interpret.launch_expand import Argument, Expansion, Started
     from ros_lint.text import Span
 

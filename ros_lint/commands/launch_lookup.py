@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.collect import collect, kind_of
 from ros_lint.collectors.launch_text import configurations, installed, share
-from ros_lint.facts import Facet
+from ros_lint.facts.sight import Facet
 from ros_lint.launch_links import Links, Takes, everything, values
 from ros_lint.opening import UsageError
 from ros_lint.text import read
@@ -15,7 +15,7 @@ from ros_lint.text import read
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from ros_lint.facts import LaunchFile
+    from ros_lint.facts.launch import LaunchFile
     from ros_lint.tree import Tree
     from ros_lint.workspace import Package, Workspace
 

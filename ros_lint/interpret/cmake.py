@@ -7,7 +7,9 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Final
 
 from ros_lint.collectors.cmake_syntax import Command
-from ros_lint.facts import ANYTHING, BuildScript, Facet, Mention, Opaque, Problem, Provided
+from ros_lint.facts.build import BuildScript, Provided
+from ros_lint.facts.sight import ANYTHING, Facet, Opaque, Problem
+from ros_lint.facts.sources import Mention
 from ros_lint.interpret import (
     cmake_basic,
     cmake_branches,

@@ -7,7 +7,7 @@ from functools import lru_cache
 from typing import Final
 
 from ros_lint.collectors.cmake_syntax import parse
-from ros_lint.facts import ANYTHING
+from ros_lint.facts.sight import ANYTHING
 from ros_lint.interpret.cmake_arguments import parse_keywords
 from ros_lint.interpret.cmake_flow import run_file, run_named
 from ros_lint.interpret.cmake_run import Handler, Run

@@ -7,7 +7,7 @@ from functools import partial
 from typing import Any, Final
 
 from ros_lint.collectors.cmake_syntax import QUOTED, UNQUOTED, Argument, Command
-from ros_lint.facts import Facet
+from ros_lint.facts.sight import Facet
 from ros_lint.interpret.cmake_blocks import Body, Definition, If, Scope, rewritten
 from ros_lint.interpret.cmake_flow import run_body
 from ros_lint.interpret.cmake_run import Run, substituted

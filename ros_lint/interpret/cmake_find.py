@@ -6,7 +6,7 @@ import re
 from typing import Final
 
 from ros_lint.collectors.cmake_syntax import QUOTED, UNQUOTED
-from ros_lint.facts import ANYTHING, Facet
+from ros_lint.facts.sight import ANYTHING, Facet
 from ros_lint.interpret.cmake_include import include_foreign, include_own
 from ros_lint.interpret.cmake_run import Handler, Run, folded
 from ros_lint.interpret.cmake_values import ATOM, FOREIGN, HOLE, PREFIX, SOURCE, is_known, maybe, split, sure

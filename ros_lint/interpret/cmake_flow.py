@@ -7,7 +7,7 @@ from functools import partial
 from typing import Any, Final
 
 from ros_lint.collectors.cmake_syntax import Command
-from ros_lint.facts import ANYTHING
+from ros_lint.facts.sight import ANYTHING
 from ros_lint.interpret.cmake_blocks import Node, UnbalancedError, blocks
 from ros_lint.interpret.cmake_run import DEEPEST, MOST_STEPS, BudgetError, Handler, Run
 from ros_lint.interpret.cmake_state import (

@@ -5,7 +5,7 @@ from __future__ import annotations
 import posixpath
 from typing import Final
 
-from ros_lint.facts import ANYTHING, Facet
+from ros_lint.facts.sight import ANYTHING, Facet
 from ros_lint.interpret.cmake_flow import run_file
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_state import Frame, Variables

@@ -7,7 +7,8 @@ import re
 from collections.abc import Iterator
 from typing import Final, NamedTuple
 
-from ros_lint.facts import Facet, Opaque, Provided
+from ros_lint.facts.build import Provided
+from ros_lint.facts.sight import Facet, Opaque
 from ros_lint.interpret.cmake_arguments import sections
 from ros_lint.interpret.cmake_glob import glob_regex
 from ros_lint.interpret.cmake_run import Handler, InstalledTarget, Run

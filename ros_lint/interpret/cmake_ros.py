@@ -6,7 +6,8 @@ import posixpath
 import re
 from typing import Final
 
-from ros_lint.facts import ANYTHING, Component, Facet, Provided
+from ros_lint.facts.build import Component, Provided
+from ros_lint.facts.sight import ANYTHING, Facet
 from ros_lint.interpret.cmake_arguments import sections
 from ros_lint.interpret.cmake_flow import HANDLERS
 from ros_lint.interpret.cmake_install import unlisted

@@ -10,7 +10,9 @@ from functools import lru_cache
 from typing import Final, NamedTuple
 
 from ros_lint.collectors.cmake_syntax import LITERAL, OPEN, PLAIN, QUOTED, UNQUOTED, Argument, Command
-from ros_lint.facts import Component, Facet, Mention, Opaque, Problem, Provided, Via
+from ros_lint.facts.build import Component, Provided
+from ros_lint.facts.sight import Facet, Opaque, Problem
+from ros_lint.facts.sources import Mention, Via
 from ros_lint.interpret.cmake_expand import ExpansionError, expand, template, templates
 from ros_lint.interpret.cmake_sources import Helper, Sources
 from ros_lint.interpret.cmake_state import MISSING, Frame, Properties, State

@@ -7,7 +7,7 @@ from collections.abc import Set as AbstractSet
 from typing import NamedTuple
 
 from ros_lint.collectors.cmake_syntax import Parsed
-from ros_lint.facts import BuildScript
+from ros_lint.facts.build import BuildScript
 
 
 class Sources(NamedTuple):

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Final, Literal
 
-from ros_lint.facts import Facet, Target
+from ros_lint.facts.cmake import Target
+from ros_lint.facts.sight import Facet
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_state import Properties
 from ros_lint.interpret.cmake_truth import is_off

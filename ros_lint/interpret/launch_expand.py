@@ -24,7 +24,7 @@ from ros_lint.collectors.launch_text import (
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping
 
-    from ros_lint.facts import LaunchAction, LaunchCondition, LaunchFile, LaunchValue
+    from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchFile, LaunchValue
     from ros_lint.text import Span
 
 Texts = tuple[str, ...]

@@ -16,7 +16,9 @@ from typing import TYPE_CHECKING
 from ros_lint.collectors import setup_cfg as setup_cfg_collector
 from ros_lint.collectors.python_imports import walk
 from ros_lint.collectors.python_syntax import NotPythonError, parse, span_of, syntax_problem
-from ros_lint.facts import BuildScript, Facet, Mention, Opaque
+from ros_lint.facts.build import BuildScript
+from ros_lint.facts.sight import Facet, Opaque
+from ros_lint.facts.sources import Mention
 from ros_lint.interpret.setup_py_distribution import Context, Distribution
 from ros_lint.interpret.setup_py_files import Files
 from ros_lint.interpret.setup_py_options import completed

@@ -8,7 +8,9 @@ from collections.abc import Callable, Iterator, Mapping
 from collections.abc import Set as AbstractSet
 from typing import NamedTuple
 
-from ros_lint.facts import EntryPoint, Facet, Opaque, Problem, Provided
+from ros_lint.facts.build import Provided
+from ros_lint.facts.setup_py import EntryPoint
+from ros_lint.facts.sight import Facet, Opaque, Problem
 from ros_lint.interpret.setup_py_files import Files
 from ros_lint.interpret.setup_py_values import REST, Class, Globbed, Maybe, Unknown, Value
 from ros_lint.text import Span

@@ -10,7 +10,7 @@ from ros_lint.knowledge.index import BUILD_TYPES, INTERFACES, TAG_KINDS, Release
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from ros_lint.facts import Manifest
+    from ros_lint.facts.manifest import Manifest
 
 
 def context(distro: str) -> Mapping[str, str]:

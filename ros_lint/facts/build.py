@@ -1,0 +1,136 @@
+"""What the build of a package does and installs: CMakeLists.txt and setup.py in the same words."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from ros_lint.facts.cmake import Call, Target
+from ros_lint.facts.setup_py import EntryPoint, PythonModule, Slot, WrittenText
+from ros_lint.facts.sight import Opaque, Problem
+from ros_lint.facts.sources import Mention
+from ros_lint.text import Span
+
+
+class Provided(NamedTuple):
+    """A file that the package installs."""
+
+    path: str
+    """Relative to the install prefix: ``lib/<package>/talker``, ``share/<package>/launch/a.launch.py``."""
+    source: str
+    """Relative to the package, "" when it is built or generated."""
+    program: bool
+    """Whether it is installed with the executable bit."""
+    conditional: bool
+    """Whether it depends on something that is not known."""
+    span: Span
+    target: str = ""
+    """The CMake target that builds it."""
+    test: bool = False
+    """Whether it is installed only where tests are wanted."""
+
+
+class Component(NamedTuple):
+    """A class that can be loaded into a component container (rclcpp_components)."""
+
+    name: str
+    conditional: bool
+    span: Span
+
+
+class PluginClass(NamedTuple):
+    """A class that a plugin description lists (pluginlib; reference, section C5.8)."""
+
+    name: str
+    """By which it is looked up."""
+    type: str
+    base: str
+    span: Span
+    """Of the type."""
+
+
+class PluginLibrary(NamedTuple):
+    """A ``<library>`` of a plugin description."""
+
+    path: str
+    span: Span
+    """Of the path, or of the element that has none."""
+    classes: tuple[PluginClass, ...]
+
+
+class PluginFile(NamedTuple):
+    """A plugin description file."""
+
+    path: str
+    """Relative to the package."""
+    libraries: tuple[PluginLibrary, ...]
+    span: Span
+    """Of its root element."""
+
+
+class ScriptFile(NamedTuple):
+    """A script that may be meant to be started."""
+
+    path: str
+    """Relative to the package."""
+    shebang: str
+    """The interpreter line without ``#!``, "" when there is none."""
+    carriage_return: bool
+    """Whether that line ends with a carriage return, so that nothing can run it."""
+    main: bool
+    """Whether it runs something when it is started: ``if __name__ == "__main__"``, or a language other than Python."""
+    executable: bool
+    """Whether the source has the executable bit."""
+
+
+class BuildScript(NamedTuple):
+    """What the build of a package does: evaluated from CMakeLists.txt and what it includes, or from setup.py and setup.cfg."""
+
+    path: str
+    name: str = ""
+    """As project() or setup(name=) gives it; "" when not known."""
+    name_span: Span | None = None
+    version: str = ""
+    version_span: Span | None = None
+    mentions: tuple[Mention, ...] = ()
+    targets: tuple[Target, ...] = ()
+    provides: tuple[Provided, ...] = ()
+    components: tuple[Component, ...] = ()
+    entry_points: tuple[EntryPoint, ...] = ()
+    python_packages: tuple[str, ...] = ()
+    """Importable modules and packages that it installs, dotted."""
+    interfaces: tuple[str, ...] = ()
+    """Generated interfaces, as ``msg/Name``."""
+    calls: tuple[str, ...] = ()
+    """Names of the CMake commands that ran, in lower case, sorted, each once."""
+    opaque: tuple[Opaque, ...] = ()
+    problems: tuple[Problem, ...] = ()
+    end: Span | None = None
+    """Where an install rule can be added: an empty span before ament_package(), or None."""
+    extras: tuple[str, ...] = ()
+    """CMake files, relative to the package, whose code runs in every package that finds this one (CONFIG_EXTRAS)."""
+    written: tuple[Call, ...] = ()
+    """Commands of its CMake files as they stand there, file by file: those that rules and fixes ask for."""
+    modules: tuple[PythonModule, ...] = ()
+    """Modules that its entry points name."""
+    plugins: tuple[PluginFile, ...] = ()
+    """Its plugin descriptions."""
+    slots: tuple[Slot, ...] = ()
+    named: tuple[tuple[str, Span], ...] = ()
+    """Resources that it does not install, each with a place where a text of the package names it in its folder."""
+    files: tuple[ScriptFile, ...] = ()
+    """Scripts that it installs to lib/<package> or bin, and those that lie beside them or in folders for scripts."""
+    inputs: tuple[str, ...] = ()
+    """Resources that it does not install and that its CMake files name all the same: what it is built from. Folders of
+    them end with a slash."""
+    texts: tuple[WrittenText, ...] = ()
+    entered: tuple[str, ...] = ()
+    """Folders below the package whose CMakeLists.txt is part of every build, relative to it."""
+    handed_on: tuple[tuple[Mention, bool], ...] = ()
+    """Packages that the CMake files for those who find this one search, and whether they do so under no condition."""
+    untaken: tuple[Span, ...] = ()
+    """Where packages are searched that need not be there, and of which nothing is taken."""
+    bundled: tuple[str, ...] = ()
+    """Projects that are built along with the package, by name: fetched ones, and those of its own folders."""
+    runs: tuple[str, ...] | None = None
+    """Files and folders that are run as tests by an interpreter, relative to the package, "" for any; None where nobody
+    knows."""

@@ -1,0 +1,76 @@
+"""Targets of CMake, and its commands as they are written."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from typing import Literal, NamedTuple
+
+from ros_lint.text import Span
+
+
+class Target(NamedTuple):
+    """An executable or a library that CMake builds."""
+
+    name: str
+    kind: Literal["executable", "library", "interface", "other"]
+    sources: tuple[str, ...]
+    """Relative to the package."""
+    test: bool
+    span: Span
+    links: tuple[tuple[str, Span], ...] = ()
+    """What it is linked with for sure, by name, each with the place that says so."""
+    optional: tuple[str, ...] = ()
+    """Those of its sources that are not compiled in every build: all of them where it is not built in every one."""
+    whole: bool = True
+    """Whether all of its sources are known."""
+
+
+class Call(NamedTuple):
+    """A command of a CMake file as it is written, not evaluated; only those that rules and fixes ask for."""
+
+    name: str
+    """In lower case."""
+    path: str
+    args: tuple[tuple[str, int, int, int], ...]
+    """As :data:`ros_lint.collectors.cmake_syntax.Argument`: text, kind, and offsets of the whole argument."""
+    start: int
+    end: int
+    """Offset after the closing parenthesis."""
+    line: int
+    column: int
+    breaks: tuple[int, ...]
+    """Offsets at which further lines of the command begin."""
+    blocks: tuple[str, ...]
+    """What it stands in, from outside: "if", "foreach", "while", "function", "macro"."""
+    test: bool
+    """Whether one of the conditions asks if tests are wanted."""
+
+    @property
+    def texts(self) -> tuple[str, ...]:
+        """The arguments, without quotes."""
+        return tuple([argument[0] for argument in self.args])
+
+    @property
+    def place(self) -> Span:
+        """The name."""
+        return Span(self.path, self.line, self.column, self.line, self.column + len(self.name))
+
+    @property
+    def whole(self) -> Span:
+        return Span(self.path, self.line, self.column, *self._position(self.end))
+
+    @property
+    def close(self) -> Span:
+        """The empty span before the closing parenthesis."""
+        return Span(self.path, *self._position(self.end - 1), *self._position(self.end - 1))
+
+    def span(self, index: int) -> Span:
+        """Return the place of an argument, quotes included."""
+        _, _, start, end = self.args[index]
+        return Span(self.path, *self._position(start), *self._position(end))
+
+    def _position(self, offset: int) -> tuple[int, int]:
+        passed = bisect_right(self.breaks, offset)
+        if passed:
+            return self.line + passed, offset - self.breaks[passed - 1] + 1
+        return self.line, self.column + offset - self.start

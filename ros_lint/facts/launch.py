@@ -1,0 +1,109 @@
+"""What launch files do, before it is known how they are called."""
+
+from __future__ import annotations
+
+from typing import Literal, NamedTuple
+
+from ros_lint.facts.sight import Opaque, Problem
+from ros_lint.text import Span
+
+
+class LaunchValue(NamedTuple):
+    """What a text in a launch file can be when it runs."""
+
+    texts: tuple[str, ...]
+    """Each alternative, never empty; with the marks of :mod:`ros_lint.collectors.launch_text` for what is not known yet."""
+    span: Span
+    exact: bool = False
+    """Whether ``span`` covers the only text and nothing else, so that a fix can put another one there."""
+
+
+class LaunchCondition(NamedTuple):
+    """What must be so for an action to be taken."""
+
+    texts: tuple[str, ...]
+    """With the same marks."""
+    equals: str | None
+    """The text must be this one; None: it must mean true, as IfCondition takes it."""
+    wanted: bool = True
+    """False: it must not."""
+
+
+class LaunchAction(NamedTuple):
+    """What a launch file does, before it is known how it is called. Which fields count depends on the kind."""
+
+    kind: str
+    """``argument``, ``set``, ``node``, ``component``, ``include``, ``group``, ``process``, ``namespace``, ``remap``,
+    ``parameter``, ``environment``, ``later`` (what a timer or an event starts), or ``other``."""
+    span: Span
+    package: LaunchValue | None = None
+    package_span: Span | None = None
+    """Where a package is written that ``target`` looks up."""
+    target: LaunchValue | None = None
+    """The executable, class or file; the name of an argument, a configuration or a variable; the command line."""
+    value: LaunchValue | None = None
+    """The default of an argument, None if it has to be given; what is set or pushed."""
+    name: LaunchValue | None = None
+    namespace: LaunchValue | None = None
+    arguments: tuple[tuple[str, LaunchValue], ...] = ()
+    """What is passed to an included file by name; the words that a process or node is given, under "", and what else it is
+    given by name: ``$VARIABLE`` of its environment, ``cwd``, ``prefix``."""
+    choices: tuple[str, ...] = ()
+    parameters: tuple[tuple[str, LaunchValue], ...] = ()
+    """By name; a file under "", any number of parameters that are not known under UNKNOWN."""
+    remappings: tuple[tuple[LaunchValue, LaunchValue], ...] = ()
+    conditions: tuple[LaunchCondition, ...] = ()
+    """All of them must hold; an unknown one has UNKNOWN for its text."""
+    children: tuple[LaunchAction, ...] = ()
+
+
+class LaunchReference(NamedTuple):
+    """A line of a launch file that names a package, and mostly something in it."""
+
+    kind: Literal["node", "component", "include", "command", "file", "package"]
+    package: str
+    name: str
+    """The executable, the component class, the command of a shell, or a path below share/<package>; "" for a plain look-up of
+    the package."""
+    span: Span
+    """Of the name, or of the package where there is no name."""
+    package_span: Span
+    conditional: bool = False
+    """Under a condition that may be false."""
+    exact: bool = True
+    """Whether ``span`` covers the name and nothing else, so that a fix can put another one there."""
+    package_exact: bool = True
+    """The same of ``package_span`` and the package."""
+    optional: bool = False
+    """Whether the launch file asks first if the package is there, and does without."""
+    by_default: bool = False
+    """Whether it holds only as long as nobody gives the arguments of the launch file other values than their defaults."""
+    package_by_default: bool = False
+    """The same of the package: its name is made of the default of an argument, and stands nowhere as it is."""
+
+
+class LaunchFile(NamedTuple):
+    """A launch file, as far as it can be read without running it."""
+
+    path: str
+    language: Literal["python", "xml", "yaml"]
+    references: tuple[LaunchReference, ...] = ()
+    opaque: tuple[Opaque, ...] = ()
+    problems: tuple[Problem, ...] = ()
+    test: bool = False
+    """Whether it serves tests only: it has generate_test_description() (launch_testing)."""
+    helper: bool = False
+    """Whether it cannot be launched itself: a Python module without generate_launch_description() that builds actions."""
+    actions: tuple[LaunchAction, ...] = ()
+    imports: tuple[tuple[str, Span], ...] = ()
+    """Modules that a Python launch file imports whenever it is loaded, dotted as written; none if it changes where Python
+    looks for them."""
+    asks: tuple[str, ...] = ()
+    """Launch configurations that it asks for, wherever they go, sorted; with UNKNOWN for any other."""
+    wants: tuple[str, ...] = ()
+    """What a Python launch file reads besides itself, and that was not at hand when it was followed: modules, dotted, and
+    files by their install path; sorted."""
+    fills: bool = False
+    """Whether launch configurations are filled into a file of parameters (allow_substs), which can ask for any."""
+    newer: tuple[Problem, ...] = ()
+    """What not every distribution takes; ``kind`` is the first that does."""

@@ -1,0 +1,48 @@
+"""What of a file cannot be seen through, and what is wrong with it."""
+
+from __future__ import annotations
+
+from enum import Flag, auto
+from typing import NamedTuple
+
+from ros_lint.text import Span
+
+
+class Facet(Flag):
+    """A side of a package that something opaque can hide."""
+
+    USES = auto()
+    """Which packages it needs."""
+    EXECUTABLES = auto()
+    """What lands in lib/<package> and in bin."""
+    SHARE = auto()
+    """What lands in share/<package>: launch files, parameters, models."""
+    PYTHON = auto()
+    """Which Python modules it offers."""
+    LIBRARIES = auto()
+    """Libraries, headers, CMake packages and targets."""
+    INTERFACES = auto()
+    """Messages, services, actions."""
+    COMPONENTS = auto()
+    """Component and plugin classes."""
+
+
+ANYTHING = Facet.USES | Facet.EXECUTABLES | Facet.SHARE | Facet.PYTHON | Facet.LIBRARIES | Facet.INTERFACES | Facet.COMPONENTS
+
+
+class Opaque(NamedTuple):
+    """A place that could not be seen through. A rule that claims absence keeps silent about what it hides."""
+
+    hides: Facet
+    reason: str
+    """A clause without subject, such as "include() of ${name} cannot be followed"."""
+    span: Span
+
+
+class Problem(NamedTuple):
+    """Something that makes a file wrong for the tools that read it."""
+
+    kind: str
+    """A short stable name, such as "unknown-tag"."""
+    message: str
+    span: Span

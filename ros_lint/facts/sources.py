@@ -1,0 +1,94 @@
+"""What source files say about other packages."""
+
+from __future__ import annotations
+
+from typing import Literal, NamedTuple
+
+from ros_lint.facts.manifest import Role
+from ros_lint.facts.sight import Opaque, Problem
+from ros_lint.text import Span
+
+Via = Literal["package", "cmake", "macro", "target", "include", "import", "interface", "symbol", "launch", "key"]
+"""In which of the name spaces a mention is to be looked up; they differ (reference, section D6 and E3.8)."""
+
+
+class Mention(NamedTuple):
+    """A place that names something which may belong to another package."""
+
+    name: str
+    """As written: a header path, a dotted module, the argument of find_package, a package name, ``pkg/Type``."""
+    via: Via
+    span: Span
+    what: str = ""
+    """How to quote it in a message, when the name alone does not do."""
+    optional: bool = False
+    """Guarded, so that the package does without: QUIET and X_FOUND, try/except ImportError, __has_include."""
+    test: bool = False
+    """Known to serve tests only."""
+
+
+class Use(NamedTuple):
+    """A place that needs another package: a mention whose name has been resolved. Dependency rules read only these."""
+
+    package: str
+    """The package or rosdep key to declare for it: the best of the providers."""
+    providers: tuple[str, ...]
+    """Every name that satisfies the use when it is declared, ``package`` first."""
+    role: Role
+    """All that it is needed for here."""
+    what: str
+    """How a message quotes it: "#include <std_msgs/msg/string.hpp>"."""
+    via: Via
+    optional: bool
+    span: Span
+    sure: bool = True
+    """False where the file may be dead: in no target, not installed, no test."""
+
+
+class LookUp(NamedTuple):
+    """A file that is looked up in the share directory of a package."""
+
+    package: str
+    path: str
+    """Below share/<package>."""
+    span: Span
+
+
+class ParameterFile(NamedTuple):
+    """A YAML file, as far as it is one of parameters (rcl_yaml_param_parser)."""
+
+    path: str
+    nodes: tuple[tuple[str, Span], ...]
+    """Full names of the nodes that it has parameters for, with a leading slash; ``*`` and ``**`` stand for any part. Empty:
+    it has no ``ros__parameters`` at all."""
+    first: Span
+    """Of its first key."""
+    asks: tuple[str, ...] = ()
+    """Launch configurations that are filled in, if whoever gives it to a node allows that (``allow_substs``)."""
+
+
+class Registration(NamedTuple):
+    """A macro in C++ that makes a class loadable: RCLCPP_COMPONENTS_REGISTER_NODE or PLUGINLIB_EXPORT_CLASS."""
+
+    kind: Literal["component", "plugin"]
+    name: str
+    """The class as written, without a leading ``::``."""
+    base: str
+    """The base class of a plugin, "" for a component."""
+    span: Span
+
+
+class FileFacts(NamedTuple):
+    """What one source file says about other packages."""
+
+    path: str
+    mentions: tuple[Mention, ...] = ()
+    opaque: tuple[Opaque, ...] = ()
+    problems: tuple[Problem, ...] = ()
+    registrations: tuple[Registration, ...] = ()
+    look_ups: tuple[LookUp, ...] = ()
+    parameters: ParameterFile | None = None
+    caught: tuple[str, ...] = ()
+    """Python modules that may be missing: ``try: import a`` with ``except ImportError``."""
+    added: tuple[Span, ...] = ()
+    """Imports of modules after whose names the file adds a folder to those in which modules are sought."""
