@@ -208,18 +208,10 @@ class Prefix:
         return found
 
     def _plugin_classes(self, path: str) -> Iterator[str]:
-        from ros_lint.collectors.xml_tree import XmlError, parse  # noqa: PLC0415  (few runs look at plugins)
+        from ros_lint.collectors.plugin_xml import roots  # noqa: PLC0415  (few runs look at plugins)
 
-        data = self.read(path)
-        if data is None:
-            return
-        # pluginlib takes several <library> elements without a root.
-        text = re.sub(r"<\?xml.*?\?>", "", data.decode("utf-8", "replace"), flags=re.DOTALL)
-        try:
-            root = parse(f"<root>{text}</root>")
-        except XmlError:
-            return
-        for element in root.walk():
+        text = (self.read(path) or b"").decode("utf-8", "replace")
+        for element in (inner for root in roots(text) for inner in root.walk()):
             if element.tag == "class":
                 name = element.attributes.get("name") or element.attributes.get("type")
                 if name:

@@ -153,6 +153,24 @@ def test_plugin_descriptions_of_both_forms() -> None:
         assert plugin_xml.collect("p.xml", Text("p.xml", text)) is None
 
 
+def test_plugin_descriptions_that_only_pluginlib_can_read() -> None:
+    text = """<?xml version="1.0"?>
+<!-- ä -->
+<library path="a">
+  <class name="n" type="p::A<q::B>" base_class_type='b::B<q::B>'/>
+</library>
+<library path="c"/>
+"""
+    source = Text("robot/p.xml", text)
+    found = plugin_xml.collect("p.xml", source)
+    assert found
+    assert [library.path for library in found.libraries] == ["a", "c"]
+    assert [source.slice(library.span) for library in found.libraries] == ["a", "c"]
+    (only,) = found.libraries[0].classes
+    assert (only.type, only.base, source.slice(only.span)) == ("p::A<q::B>", "b::B<q::B>", "p::A<q::B>")
+    assert source.slice(found.span) == "<library"
+
+
 def test_classes_that_are_made_loadable() -> None:
     text = """
 // PLUGINLIB_EXPORT_CLASS(no::A, no::B)
