@@ -91,6 +91,7 @@ def test_syntax_errors(text: str, message: str | None, place: str) -> None:
 
 def test_templates_may_hold_placeholders() -> None:
     assert parse(Text("a.cmake.in", "@PACKAGE_INIT@\nset(a @b@)\n")).problems == ()
+    assert parse(Text("a.in.cmake", "@PACKAGE_INIT@\nset(a @b@)\n")).problems == ()
     assert parse(Text("a.cmake", "@PACKAGE_INIT@\n")).problems
 
 

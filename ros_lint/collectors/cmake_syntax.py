@@ -1,4 +1,4 @@
-"""CMake files as lists of commands: CMakeLists.txt, ``*.cmake`` and their templates (``*.cmake.in``).
+"""CMake files as lists of commands: CMakeLists.txt, ``*.cmake`` and their templates (``*.cmake.in``, ``*.in.cmake``).
 
 The syntax is that of cmake-language(7) as CMake 3.25 reads it, the legacy unquoted arguments (``-Da="b c"``) included.
 Nothing is evaluated here; :mod:`ros_lint.interpret.cmake` does that.
@@ -93,6 +93,11 @@ _NEW_LINE = re.compile(r"\n")
 _MARKS = dict.fromkeys((1, 2, 3), "\ufffd")
 
 
+def is_template(path: str) -> bool:
+    """Return whether a file is called like one that CMake makes another file of, and does not read itself."""
+    return path.endswith((".in", ".in.cmake"))
+
+
 def parse(source: Text) -> Parsed:
     """Return the commands of a CMake file, and the syntax error that makes CMake refuse it, if there is one."""
     return _Reader(source).read()
@@ -128,7 +133,7 @@ class _Reader:
         begin = end = depth = counted = position = 0
         last = glued = -1
         line, column = 1, 0
-        template = self.source.path.endswith(".in")
+        template = is_template(self.source.path)
         strange = "\r" in text or "\1" in text or "\2" in text or "\3" in text
         for match in _TOKEN.finditer(text):
             if match.start() != position:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Final
 
-from ros_lint.collectors.cmake_syntax import Command
+from ros_lint.collectors.cmake_syntax import Command, is_template
 from ros_lint.facts.build import BuildScript, Provided
 from ros_lint.facts.sight import ANYTHING, Facet, Opaque, Problem
 from ros_lint.facts.sources import Mention
@@ -93,7 +93,7 @@ def _result(run: Run, path: str) -> BuildScript:
     nowhere = {problem.span for problem in undefined}  # these are mistakes, and hide nothing
     opaques = [opaque for opaque in run.opaques if opaque.span not in nowhere or not cmake_install.is_undefined(opaque)]
     for file, parsed in run.sources.scripts.items():
-        if parsed.problems and not file.endswith(".in"):
+        if parsed.problems and not (is_template(file) or file in run.templates):
             problems += parsed.problems
             facets = ANYTHING if file == _TOP else ANYTHING & ~Facet.INTERFACES
             opaques += [Opaque(facets, "the file cannot be read to its end", problem.span) for problem in parsed.problems]
