@@ -96,7 +96,7 @@ class Liveness:
         folders = set(path.split("/")[:-1])
         if TEST_FOLDERS & folders or (python and _is_test(name) and path not in self._started):
             # pytest takes what is called test, and beside it lie its helpers; elsewhere lies anything.
-            taken = self._runs_python_tests and self._is_run(path)
+            taken = self._runs_python_tests and (self._is_run(path) or path in self._started_by_tests)
             alive = not (self._sees_targets or resource or self._is_left_out(path))
             return Role.TEST, (taken or path in self._launched) if python else alive
         if path in self._launched and (path in self._installed or path in self._installed_python):
@@ -122,6 +122,13 @@ class Liveness:
         if path in runs or "" in runs or path.startswith(tuple([f"{each}/" for each in runs])):
             return True
         return (not _is_test(name) or name.endswith(".in")) and any(each.rpartition("/")[0] == folder for each in runs)
+
+    @cached_property
+    def _started_by_tests(self) -> frozenset[str]:
+        """Python files that those which are run as tests call by their names, each the only one of its name."""
+        run = [facts for path, facts in self._facts.items() if facts.programs and self._is_run(path)]
+        named = {name for facts in run for name in facts.programs}
+        return frozenset([files[0] for files in map(self._by_name.get, named) if files is not None and len(files) == 1])
 
     def _is_left_out(self, path: str) -> bool:
         """Whether others in the folder of a file are built or installed by name, and this one is not."""

@@ -115,6 +115,20 @@ def test_helpers_lie_beside_tests_that_are_run() -> None:
     assert not use(workspace, "python3-pandas").sure
 
 
+@pytest.mark.parametrize(
+    ("line", "more", "sure"),
+    [
+        ("add_launch_test(test/test_a.py)", {}, True),
+        ("add_launch_test(test/test_b.py)", {}, False),
+        ("add_launch_test(test/test_a.py)", {"test/old/talker.py": ""}, False),  # one of two, and nobody knows which
+    ],
+)
+def test_what_a_test_starts_by_path_is_alive_with_it(line: str, more: dict[str, str], sure: bool) -> None:
+    start = 'run([sys.executable, os.path.join(HERE, "fixtures/talker.py")])\n'
+    files = {"test/test_a.py": start, "test/test_b.py": "", "test/fixtures/talker.py": "import requests\n", **more}
+    assert use(load(f"if(BUILD_TESTING)\n{line}\nendif()", files), "python3-requests").sure is sure
+
+
 INSTALLED = "install(DIRECTORY include/ DESTINATION include)\n"
 
 

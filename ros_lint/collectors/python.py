@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from ros_lint.text import Text
 
 _IMPORT_LINE = re.compile(r"^[ \t]*(?:from|import)[ \t]+([A-Za-z_][\w.]*)", re.MULTILINE)
+_PROGRAM = re.compile(r"""([\w-]+\.py)['"]""")
 
 
 def collect(source: Text, *, launch: bool = False) -> FileFacts:
@@ -67,6 +68,7 @@ def collect(source: Text, *, launch: bool = False) -> FileFacts:
         look_ups=looked_up.files,
         caught=tuple([item.module for item in named if item.caught]),
         added=added,
+        programs=tuple(dict.fromkeys(_PROGRAM.findall(source.text))),
     )
 
 

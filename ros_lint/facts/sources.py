@@ -92,3 +92,5 @@ class FileFacts(NamedTuple):
     """Python modules that may be missing: ``try: import a`` with ``except ImportError``."""
     added: tuple[Span, ...] = ()
     """Imports of modules after whose names the file adds a folder to those in which modules are sought."""
+    programs: tuple[str, ...] = ()
+    """Names of Python files that its literals end with: a test starts some of them by path."""
