@@ -16,7 +16,7 @@ from ros_lint.build_scripts import (
     unguarded_tests,
 )
 from ros_lint.carriers import Carried, carriers
-from ros_lint.cmake_finds import come_along, found_along, found_names, given_to
+from ros_lint.cmake_finds import come_along, found_along, found_names, given_for
 from ros_lint.collectors.launch_text import agree, is_plain
 from ros_lint.declare import (
     PYTHON_LIKE,
@@ -152,7 +152,7 @@ __all__ = [
     "filled",
     "found_along",
     "found_names",
-    "given_to",
+    "given_for",
     "hidden",
     "is_apart",
     "is_built_in_sight",

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from ros_lint.facts.build import BuildScript
-from ros_lint.facts.sources import Mention
+from ros_lint.facts.sources import Mention, Purpose
 from ros_lint.workspace import Package, Workspace
 
 if TYPE_CHECKING:
@@ -52,9 +52,8 @@ def found_along(workspace: Workspace, names: Iterable[str]) -> Closure:
     return workspace.world.closure(sorted(starts))
 
 
-def given_to(script: BuildScript, macro: str) -> Iterator[Mention]:
-    """Yield the packages that a macro is given by name, such as ament_export_dependencies."""
-    start = f"{macro} "
+def given_for(script: BuildScript, *purposes: Purpose) -> Iterator[Mention]:
+    """Yield the packages that macros are given by name for one of some purposes: ament_export_dependencies() those to export."""
     for mention in script.mentions:
-        if mention.via == "target" and mention.what.startswith(start):
+        if mention.via == "target" and mention.purpose in purposes:
             yield mention

@@ -150,7 +150,8 @@ def resolve(source: Source, resolver: Resolver) -> tuple[Use, ...]:
         untaken = frozenset(source.script.untaken)
         for mention in source.script.mentions:
             role = _TEST if mention.test else _script_role(source, mention)
-            only_named = mention.what.startswith(_BY_NAME_ONLY) or (mention.via == "cmake" and mention.span in untaken)
+            # Who loads plugins may as well be a package that need not be there.
+            only_named = mention.purpose == "plugins" or (mention.via == "cmake" and mention.span in untaken)
             ours = by_role.setdefault((mention.span.path, role), [])
             ours.append(mention._replace(optional=True) if only_named else mention)
         for (path, role), mentions in by_role.items():
@@ -199,7 +200,7 @@ class _Uses:
         """Add what the mentions in a file come to. ``looked_up`` is what packages are for whose files are looked up."""
         package, answer, found = self.package, self.resolver.answer, self._found
         own = self._own.own_includes(path)
-        for name, via, span, what, optional, test in mentions:
+        for name, via, span, what, optional, test, _ in mentions:
             if (via == "include" and (name in own or self._is_bundled(name))) or (
                 via == "import" and self._is_own_module(name, path)
             ):
@@ -251,7 +252,7 @@ def _unspoken(source: Source, uses: _Uses) -> None:
     if source.name == _ACTIONS or not any(each.startswith("action/") for each in script.interfaces):
         return
     for mention in script.mentions:
-        if mention.via == "macro" and mention.what == "rosidl_generate_interfaces()" and uses.resolver.names.is_package(_ACTIONS):
+        if mention.via == "macro" and mention.purpose == "interfaces" and uses.resolver.names.is_package(_ACTIONS):
             role = _TEST if mention.test else Role.BUILD | Role.EXPORT | Role.EXEC
             uses.put(Use(_ACTIONS, (_ACTIONS,), role, "an action", "interface", mention.optional, mention.span))
 
@@ -262,11 +263,7 @@ _ACTIONS = "action_msgs"
 def _script_role(source: Source, mention: Mention) -> Role:
     if source.builds_with == "ament_python" or mention.via == "macro":
         return Role.TOOL
-    return Role.EXPORT if mention.what.startswith("ament_export_dependencies") else Role.BUILD
-
-
-_BY_NAME_ONLY = "plugins for "
-"""Names the package that loads the plugin, which may as well be one that need not be there."""
+    return Role.EXPORT if mention.purpose == "export" else Role.BUILD
 
 
 def _relative(source: Source, path: str) -> str:

@@ -121,10 +121,11 @@ def test_targets_and_variables_of_other_packages() -> None:
         "ament_target_dependencies(core PUBLIC std_msgs)\nament_export_dependencies(rclcpp)\n",
         ("a.cpp",),
     )
-    targets = {(mention.name, mention.what) for mention in script.mentions if mention.via == "target"}
+    targets = {(mention.name, mention.what, mention.purpose) for mention in script.mentions if mention.via == "target"}
     assert targets == {
-        ("rclcpp::rclcpp", ""), ("fmt::fmt", ""), ("OpenCV", "${OpenCV_LIBS}"),
-        ("std_msgs", "ament_target_dependencies of std_msgs"), ("rclcpp", "ament_export_dependencies rclcpp"),
+        ("rclcpp::rclcpp", "", ""), ("fmt::fmt", "", ""), ("OpenCV", "${OpenCV_LIBS}", ""),
+        ("std_msgs", "ament_target_dependencies of std_msgs", ""),
+        ("rclcpp", "ament_export_dependencies rclcpp", "export"),
     }  # fmt: skip
 
 
@@ -244,8 +245,8 @@ def test_interfaces() -> None:
     assert script.interfaces == ("msg/A", "msg/B", "srv/C")
     assert script.python_packages == ("pkg",)
     assert {"share/pkg/msg/A.msg", "share/pkg/msg/A.idl", "share/pkg/srv/C.srv"} <= paths(script).keys()
-    assert ("target", "std_msgs") in mentioned(script)
-    assert ("macro", "rosidl_default_generators") in mentioned(script)
+    assert mentioned(script)[("target", "std_msgs")].purpose == "interfaces"
+    assert mentioned(script)[("macro", "rosidl_default_generators")].purpose == "interfaces"
 
 
 def test_python_packages() -> None:
@@ -262,7 +263,8 @@ def test_python_packages() -> None:
 def test_plugins_use_the_package_of_their_base_class() -> None:
     script = run("pluginlib_export_plugin_description_file(nav2_core plugins.xml)\n", ("plugins.xml",))
     assert paths(script).keys() >= {"share/pkg/plugins.xml"}
-    assert mentioned(script)[("target", "nav2_core")].what == "plugins for nav2_core"
+    loader = mentioned(script)[("target", "nav2_core")]
+    assert (loader.what, loader.purpose) == ("plugins for nav2_core", "plugins")
 
 
 # --- what is wrong, and what cannot be seen ----------------------------------------------------------------------------

@@ -126,7 +126,7 @@ def exact(source: Text) -> Found:
 
 def _mention(name: str, span: Span, quote: str, optional: bool) -> Mention:
     what = f"#include <{name}>" if quote == "<" else f'#include "{name}"'
-    return _make(Mention, (name, "include", span, what, optional, False))
+    return _make(Mention, (name, "include", span, what, optional, False, ""))
 
 
 def _plain(source: Text) -> Found | None:
@@ -155,7 +155,7 @@ def _plain(source: Text) -> Found | None:
                 at = sharp
                 column = lead + (len(_before(text, sharp)) if odd else 0)
                 span = _make(Span, (path, line, column, line, column + width))
-                found.append(_make(Mention, (name, "include", span, what, False, False)))
+                found.append(_make(Mention, (name, "include", span, what, False, False, "")))
                 starts.append(sharp)
         elif match.lastindex == _CONDITIONAL:
             conditional = True

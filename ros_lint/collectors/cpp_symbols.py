@@ -53,7 +53,7 @@ def symbols(source: Text, known: Collection[str], directives: Found) -> list[Men
     found = sorted(place for name in names if name.islower() and (place := _first(text, name, directives.code, conditional)))
     spans = source.spans([place[:2] for place in found])
     return [
-        _make(Mention, (package, "symbol", span, text[start:end], optional, False))
+        _make(Mention, (package, "symbol", span, text[start:end], optional, False, ""))
         for (start, end, optional, package), span in zip(found, spans, strict=True)
     ]
 

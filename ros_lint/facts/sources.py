@@ -11,6 +11,10 @@ from ros_lint.text import Span
 Via = Literal["package", "cmake", "macro", "target", "include", "import", "interface", "symbol", "launch", "key"]
 """In which of the name spaces a mention is to be looked up; they differ (reference, section D6 and E3.8)."""
 
+Purpose = Literal["", "export", "interfaces", "plugins"]
+"""What CMake takes a package for: to hand it on to those who find this one, to generate the code of interfaces, or because it
+loads the plugins of this one. Most is for code, and nothing says so."""
+
 
 class Mention(NamedTuple):
     """A place that names something which may belong to another package."""
@@ -25,6 +29,7 @@ class Mention(NamedTuple):
     """Guarded, so that the package does without: QUIET and X_FOUND, try/except ImportError, __has_include."""
     test: bool = False
     """Known to serve tests only."""
+    purpose: Purpose = ""
 
 
 class Use(NamedTuple):

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from typing import Final
 
 from ros_lint.collectors.cmake_syntax import QUOTED, UNQUOTED
 from ros_lint.facts.sight import ANYTHING, Facet
+from ros_lint.facts.sources import Purpose
 from ros_lint.interpret.cmake_include import include_foreign, include_own
 from ros_lint.interpret.cmake_run import Handler, Run, folded
 from ros_lint.interpret.cmake_values import ATOM, FOREIGN, HOLE, PREFIX, SOURCE, is_known, maybe, split, sure
@@ -97,25 +99,29 @@ def _find_all(run: Run, args: list[str]) -> None:
             found(run, name, required=True)
 
 
+_PURPOSES: Final[Mapping[str, Purpose]] = {"-": "", "export": "export", "interfaces": "interfaces", "plugins": "plugins"}
+
+
 def _uses(run: Run, args: list[str]) -> None:
-    """``ros_lint_uses(how names...)``: a macro is given the names of packages."""
-    for arg in args[1:]:
+    """``ros_lint_uses(for how names...)``: a macro is given the names of packages."""
+    purpose = _PURPOSES[args[0]]
+    for arg in args[2:]:
         name, certain = sure(arg)
         if name in ("PUBLIC", "INTERFACE", "PRIVATE", "SYSTEM"):
             continue
-        if name == _FOUND_DECLARED and args[0] == "interfaces of":
-            _uses(run, [args[0], *map(maybe, run.sources.build_depends)])  # keys are not found
+        if name == _FOUND_DECLARED and purpose == "interfaces":
+            _uses(run, [*args[:2], *map(maybe, run.sources.build_depends)])  # keys are not found
         if HOLE in name:
             if may_be_package(name):
                 run.hide(Facet.USES, "the name of a package is not known")
         elif is_known(name) and not run.is_bundled(name):
-            what = f"{args[0]} {name}" if args[0] != "-" else ""
-            run.mention(name, "target", run.where(arg), what, optional=not certain)
+            what = f"{args[1]} {name}" if args[1] != "-" else ""
+            run.mention(name, "target", run.where(arg), what, optional=not certain, purpose=purpose)
 
 
 def _target_uses(run: Run, args: list[str]) -> None:
     """``ros_lint_target_uses(how target names...)``."""
-    _uses(run, [args[0], *args[2:]])
+    _uses(run, ["-", args[0], *args[2:]])
 
 
 def _pkg_config(run: Run, args: list[str]) -> None:

@@ -8,6 +8,7 @@ from typing import Final
 
 from ros_lint.facts.build import Component, Provided
 from ros_lint.facts.sight import ANYTHING, Facet
+from ros_lint.facts.sources import Purpose
 from ros_lint.interpret.cmake_arguments import sections
 from ros_lint.interpret.cmake_flow import HANDLERS
 from ros_lint.interpret.cmake_install import unlisted
@@ -24,6 +25,7 @@ _TESTER = re.compile(
     r"(?:\A|_)(?:\w*test\w*|lint\w*|gmock|pytest|coverage|benchmark\w*|check\w*|cpplint|cppcheck|flake8)(?:_|\Z)"
 )
 """Names of unknown commands that test, and install nothing."""
+_GENERATES: Final = "rosidl_generate_interfaces"
 
 
 def foreign(run: Run, name: str, args: list[str]) -> int | None:
@@ -33,7 +35,8 @@ def foreign(run: Run, name: str, args: list[str]) -> int | None:
         frame = run.frames[-1]
         provider = macro.procedure.provider
         if frame.own and provider and frame.command is not None:
-            run.mention(provider, "macro", frame.command.place(frame.path), f"{name}()")
+            purpose: Purpose = "interfaces" if name == _GENERATES else ""
+            run.mention(provider, "macro", frame.command.place(frame.path), f"{name}()", purpose=purpose)
         return run_released(run, macro, args)
     if name.startswith("_") and name[1:] in HANDLERS and name[1:] in run.procedures:
         return HANDLERS[name[1:]](run, args)  # the original of an overridden command

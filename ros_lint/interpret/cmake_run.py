@@ -12,7 +12,7 @@ from typing import Final, NamedTuple
 from ros_lint.collectors.cmake_syntax import LITERAL, OPEN, PLAIN, QUOTED, UNQUOTED, Argument, Command
 from ros_lint.facts.build import Component, Provided
 from ros_lint.facts.sight import Facet, Opaque, Problem
-from ros_lint.facts.sources import Mention, Via
+from ros_lint.facts.sources import Mention, Purpose, Via
 from ros_lint.interpret.cmake_expand import ExpansionError, expand, template, templates
 from ros_lint.interpret.cmake_sources import Helper, Sources
 from ros_lint.interpret.cmake_state import MISSING, Frame, Properties, State
@@ -427,10 +427,10 @@ class Run(State):
         """Return whether what happens now may also not happen."""
         return self.unsure > 0
 
-    def mention(self, name: str, via: Via, span: Span, what: str = "", *, optional: bool = False) -> None:
+    def mention(self, name: str, via: Via, span: Span, what: str = "", *, optional: bool = False, purpose: Purpose = "") -> None:
         """Note that a line names a package."""
         if not self.muted:
-            self.mentions[Mention(name, via, span, what, optional or self.unsure > 0, self.testing)] = None
+            self.mentions[Mention(name, via, span, what, optional or self.unsure > 0, self.testing, purpose)] = None
 
     def hide(self, facet: Facet, reason: str, span: Span | None = None) -> None:
         """Note that something cannot be seen through.

@@ -28,7 +28,7 @@ from collections.abc import Iterator
 from ros_lint.api import Confidence, Facet, Finding, Package, Related, Rule, Severity, Workspace, come_along, found_names
 
 _MOST_RELATED = 4
-_NOT_SOUGHT = ("ament_export_dependencies", "plugins for ")
+_NOT_SOUGHT = ("export", "plugins")
 """What names packages without asking whether they have been found here."""
 
 
@@ -45,7 +45,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             continue
         if mention.via == "macro" and (along is None or not along.isdisjoint(workspace.world.by_macro(name).names)):
             continue
-        if mention.what.startswith(_NOT_SOUGHT) or not workspace.world.is_package(name):
+        if mention.purpose in _NOT_SOUGHT or not workspace.world.is_package(name):
             continue
         what = mention.what or mention.name
         missing.setdefault(name, []).append((what, Related(f"also needed here: {what}", mention.span)))

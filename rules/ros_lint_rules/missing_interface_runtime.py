@@ -45,7 +45,7 @@ from ros_lint.api import (
     add_dependency,
     called,
     come_along,
-    given_to,
+    given_for,
     manifest_edits,
     relative,
 )
@@ -62,7 +62,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script, manifest = package.script, package.manifest
     if script is None or manifest is None or manifest.problems or _GENERATE not in script.calls:
         return
-    place = next((m for m in script.mentions if m.via == "macro" and m.what == f"{_GENERATE}()"), None)
+    place = next((m for m in script.mentions if m.via == "macro" and m.purpose == "interfaces"), None)
     if place is None or not script.interfaces or not _is_installed(package):
         return
     sure = Confidence.MEDIUM if place.optional or place.test else Confidence.HIGH
@@ -124,7 +124,7 @@ def _runtime(package: Package, workspace: Workspace, place: Span, sure: Confiden
 def _fields(package: Package, workspace: Workspace, place: Span, sure: Confidence) -> Iterator[Finding]:
     script = package.script
     assert script is not None
-    listed = frozenset(mention.name for mention in given_to(script, "interfaces of"))
+    listed = frozenset(mention.name for mention in given_for(script, "interfaces"))
     along = come_along(workspace, listed)
     if along is None:
         return

@@ -45,7 +45,7 @@ from ros_lint.api import (
     called,
     found_along,
     found_names,
-    given_to,
+    given_for,
     may_bring,
     relative,
 )
@@ -64,7 +64,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if package.hidden(Facet.USES | Facet.LIBRARIES) or _EXPORTS_ALL.intersection(script.calls):
         return
     by_cmake = workspace.world.by_cmake
-    exported = {mention.name for macro in _EXPORTING for mention in given_to(script, macro)}
+    exported = {mention.name for mention in given_for(script, "export", "interfaces")}
     exported_packages = exported.union(*(by_cmake(name).names for name in exported))
     finds = sorted(found_names(package, script))
     usable = _usable(package, workspace, script)
@@ -87,9 +87,6 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             None,
             _confidence(package, workspace, name, exported) if compiled else Confidence.LOW,
         )
-
-
-_EXPORTING = ("ament_export_dependencies", "interfaces of")
 
 
 def _confidence(package: Package, workspace: Workspace, name: str, exported: set[str]) -> Confidence:

@@ -28,7 +28,7 @@ from collections.abc import Iterator
 from ros_lint.api import Facet, Finding, Package, Rule, Severity, Workspace, is_mostly_run, works_unseen
 
 _CMAKE = ("cmake", "target")
-_FOR_CODE = ("interfaces of", "plugins for")
+_FOR_CODE = ("interfaces", "plugins")
 """Targets that are linked say nothing: these packages are needed for the code that is generated or loaded."""
 
 
@@ -40,7 +40,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     used |= {
         mention.name.partition("::")[0]
         for mention in script.mentions
-        if mention.via not in _CMAKE or mention.what.startswith(_FOR_CODE)
+        if mention.via not in _CMAKE or mention.purpose in _FOR_CODE
     }
     said = set()
     for mention in script.mentions:

@@ -2,7 +2,8 @@
 #
 # package(NAME) names the package that the definitions after it come with. The evaluator runs them in place of the real
 # ones. Besides CMake's own commands they use these primitives:
-#   ros_lint_uses(how names...)              the names are packages; "how" is quoted before a name, - for nothing
+#   ros_lint_uses(for how names...)          the names are packages; "how" is quoted before a name, - for nothing;
+#                                            "for" is export, interfaces, plugins, or -
 #   ros_lint_target_uses(how target names...)  likewise, behind the name of a target
 #   ros_lint_find(build|test)                the dependencies that package.xml declares are searched
 #   ros_lint_component(classes...)           classes that a component container can load
@@ -117,7 +118,7 @@ endmacro()
 package(ament_cmake_export_dependencies)
 
 macro(ament_export_dependencies)
-  ros_lint_uses(ament_export_dependencies ${ARGN})
+  ros_lint_uses(export ament_export_dependencies ${ARGN})
 endmacro()
 
 package(ament_cmake_export_include_directories)
@@ -434,7 +435,7 @@ package(rosidl_default_generators)
 
 macro(rosidl_generate_interfaces target)
   cmake_parse_arguments(_ARG_ROSIDL "ADD_LINTER_TESTS;SKIP_INSTALL;SKIP_GROUP_MEMBERSHIP_CHECK" "LIBRARY_NAME" "DEPENDENCIES" ${ARGN})
-  ros_lint_uses("interfaces of" ${_ARG_ROSIDL_DEPENDENCIES})
+  ros_lint_uses(interfaces "interfaces of" ${_ARG_ROSIDL_DEPENDENCIES})
   if(_ARG_ROSIDL_SKIP_INSTALL)
     ros_lint_interfaces(- ${_ARG_ROSIDL_UNPARSED_ARGUMENTS})
   else()
@@ -530,7 +531,7 @@ endmacro()
 package(pluginlib)
 
 macro(pluginlib_export_plugin_description_file category file)
-  ros_lint_uses("plugins for" ${category})
+  ros_lint_uses(plugins "plugins for" ${category})
   get_filename_component(_pluginlib_folder "${file}" DIRECTORY)
   install(FILES "${file}" DESTINATION share/${PROJECT_NAME}/${_pluginlib_folder})
   ros_lint_provide(share/ament_index/resource_index/${category}__pluginlib__plugin/${PROJECT_NAME})
@@ -660,11 +661,11 @@ package(fastcdr)
 package("")
 
 macro(gz_find_package name)
-  ros_lint_uses("gz_find_package of" ${name})
+  ros_lint_uses(- "gz_find_package of" ${name})
   set(${name}_FOUND TRUE)
 endmacro()
 macro(ign_find_package name)
-  ros_lint_uses("ign_find_package of" ${name})
+  ros_lint_uses(- "ign_find_package of" ${name})
   set(${name}_FOUND TRUE)
 endmacro()
 macro(find_host_package name)
