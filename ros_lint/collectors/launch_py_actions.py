@@ -24,7 +24,7 @@ from ros_lint.collectors.launch_py_objects import (
 from ros_lint.collectors.launch_py_run import Machine
 from ros_lint.collectors.launch_py_texts import SUBSTITUTIONS, texts
 from ros_lint.collectors.launch_py_walk import Rule, Walker, span_of
-from ros_lint.collectors.launch_text import UNKNOWN
+from ros_lint.collectors.launch_text import UNKNOWN, named_in
 from ros_lint.facts.launch import LaunchAction, LaunchValue
 from ros_lint.facts.sight import Problem
 from ros_lint.text import Span
@@ -36,6 +36,9 @@ _REMOVED = {
     "node_plugin": "plugin",
 }
 """Keywords that have another name now (reference, section G2.3)."""
+
+_DISTRIBUTION = "$ROS_DISTRO"
+"""What a text calls the environment variable that says which distribution runs."""
 
 _MOST_PARAMETERS = 2_000
 _NODES = frozenset({"Node", "LifecycleNode", "ComposableNodeContainer"})
@@ -50,7 +53,10 @@ def _span(made: Made) -> Span:
     return span_of(made.node, made.source)
 
 
-def _note_removed(walker: Walker, made: Made) -> None:
+def _note_removed(walker: Walker, made: Made, conditions: Conditions) -> None:
+    """Note what is gone, unless the file itself asks for the distribution before it comes here."""
+    if any(_DISTRIBUTION in (named_in(text) or ()) for condition in conditions for text in condition.texts):
+        return
     for keyword in made.node.keywords:
         now = _REMOVED.get(keyword.arg or "")
         if now is not None:
@@ -59,7 +65,7 @@ def _note_removed(walker: Walker, made: Made) -> None:
 
 
 def _node(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
-    _note_removed(walker, made)
+    _note_removed(walker, made, conditions)
     children: list[LaunchAction] = []
     if made.name == "ComposableNodeContainer":
         children = walker.actions(made.get(-1, "composable_node_descriptions"), (), _span(made))
@@ -82,7 +88,7 @@ def _node(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchActi
 
 
 def _component(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
-    _note_removed(walker, made)
+    _note_removed(walker, made, conditions)
     return [
         LaunchAction(
             "component",
