@@ -20,8 +20,8 @@ Correct the path, add the file to the repository, or remove the line. A folder t
 
 - Paths that cannot be evaluated, files in the build folder, and files that the build generates.
 - Under a condition that may not hold, and with `OPTIONAL`.
-- The confidence is medium where the script runs other programs or downloads files, for what may be a submodule, and for what is
-  installed where custom commands or targets work in the source folder: they may make it.
+- The confidence is medium where the script runs programs that may make files or downloads them, for what may be a submodule,
+  and for what is installed where custom commands or targets work in the source folder: they may make it.
 """
 
 from __future__ import annotations
@@ -44,8 +44,16 @@ from ros_lint.api import (
 )
 
 _KINDS = ("missing-file", "file-is-directory")
+_KINDS_OF_INSTALL = ("DIRECTORY", "FILES", "PROGRAMS", "TARGETS")
 _WORKS = ("COMMAND", "ARGS", "WORKING_DIRECTORY")
-_MAKES_FILES = frozenset({"execute_process", "exec_program", "externaldata_add_target", "externaldata_expand_arguments"})
+_RUNS = ("execute_process", "exec_program")
+_MAKES_FILES = frozenset({*_RUNS, "externaldata_add_target", "externaldata_expand_arguments"})
+_TELLS = frozenset({
+    "arch", "date", "dpkg-architecture", "hostname", "lsb_release", "nproc", "nvidia-smi", "pkg-config", "uname", "which",
+    "whoami",
+})  # fmt: skip
+"""Programs that only tell something."""
+_GIT_TELLS = frozenset({"describe", "diff", "log", "ls-files", "rev-list", "rev-parse", "show", "status", "symbolic-ref"})
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -70,11 +78,29 @@ def _is_unseen(package: Package, path: str) -> bool:
 def _confidence(package: Package, workspace: Workspace, problem: Problem) -> Confidence:
     script = package.script
     assert script is not None
-    if _MAKES_FILES.intersection(script.calls) or (_is_installed(package, problem) and _builds_in_sources(package)):
+    if _makes_files(package) or (_is_installed(package, problem) and _builds_in_sources(package)):
         return Confidence.MEDIUM
     if "add_subdirectory()" in problem.message and any(path.endswith(".gitmodules") for path in workspace.source_lists):
         return Confidence.MEDIUM
     return Confidence.HIGH
+
+
+def _makes_files(package: Package) -> bool:
+    """Whether the script may make files while CMake configures."""
+    ran = _MAKES_FILES.intersection(package.script.calls) if package.script else frozenset()
+    if not ran.issubset(_RUNS):
+        return True
+    calls = list(called(package, *_RUNS, anywhere=True))
+    return bool(ran) and not (calls and all(_only_tells(call) for call in calls))
+
+
+def _only_tells(call: Call) -> bool:
+    texts = ("COMMAND", *call.texts) if call.name == "exec_program" else call.texts
+    programs = [at + 1 for at, text in enumerate(texts[:-1]) if text == "COMMAND"]
+    return bool(programs) and all(
+        texts[at] in _TELLS or (texts[at] in ("git", "${GIT_EXECUTABLE}") and not _GIT_TELLS.isdisjoint(texts[at + 1 : at + 4]))
+        for at in programs
+    )
 
 
 def _is_installed(package: Package, problem: Problem) -> bool:
@@ -98,6 +124,8 @@ def _builds_in_sources(package: Package) -> bool:
 
 def _hint(package: Package, path: str) -> str:
     """Say which file is meant: one of that name elsewhere, or one with a similar name beside it."""
+    if path in _KINDS_OF_INSTALL:
+        return f"; CMake takes the word for a path where it stands again, so write {path} once"
     folder, _, name = path.rpartition("/")
     same = [file for file in package.files if file.rpartition("/")[2] == name]
     if len(same) == 1:

@@ -1,21 +1,23 @@
 """
 ## What it finds
 
-CMake commands that the distribution has no more: `ament_target_dependencies()` in Lyrical and Rolling.
+What the distribution has no more: the CMake command `ament_target_dependencies()` in Lyrical and Rolling, and the modules of
+`ament_python`, which `setup.py` imported before Bouncy.
 
 ## Why it matters
 
-CMake stops: "Unknown CMake command "ament_target_dependencies"".
+The build stops: "Unknown CMake command "ament_target_dependencies"", or "No module named 'ament_python'".
 
 ## How to fix it
 
-Link to targets: `target_link_libraries(t PUBLIC rclcpp::rclcpp ${std_msgs_TARGETS})`. For the time being, the package
+For `ament_python`: write `data_files` out, and let `[install] install_scripts` of `setup.cfg` say where programs go. Otherwise
+link to targets: `target_link_libraries(t PUBLIC rclcpp::rclcpp ${std_msgs_TARGETS})`. For the time being, the package
 `ament_cmake_target_dependencies` brings the command back: find it and declare it as `<buildtool_depend>`.
 
 ## When it keeps silent
 
-In other distributions; where that package is found, or the command is defined in the package itself; under conditions. The
-confidence is medium where nobody said which distribution is meant.
+In other distributions; where that package is found, or the command is defined in the package itself; under conditions, and
+for imports that `try` guards. The confidence is medium where nobody said which distribution is meant.
 """
 
 from __future__ import annotations
@@ -25,12 +27,33 @@ from collections.abc import Iterator
 from ros_lint.api import Confidence, Finding, Package, Related, Rule, Severity, Workspace, called
 
 _GONE = {"ament_target_dependencies": ("ament_cmake_target_dependencies", frozenset({"lyrical", "rolling"}))}
+_MODULE = "ament_python"
 _MOST_RELATED = 4
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    if package.builds_with == "ament_cmake":
+        yield from _commands(package, workspace)
+    elif package.builds_with == "ament_python":
+        yield from _modules(package, workspace)
+
+
+def _modules(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    imports = [mention for mention in package.script.mentions if mention.via == "import"] if package.script else []
+    gone = [mention for mention in imports if mention.name.partition(".")[0] == _MODULE and not mention.optional]
+    if gone and not any(other.name == _MODULE for other in workspace.packages):
+        first, *others = gone
+        yield Finding(
+            f"{_MODULE} is gone since Bouncy, so setup.py stops here; write data_files out, and install_scripts into setup.cfg",
+            first.span,
+            _MODULE,
+            tuple(Related("also here", mention.span) for mention in others[:_MOST_RELATED]),
+        )
+
+
+def _commands(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
-    if script is None or package.builds_with != "ament_cmake":
+    if script is None:
         return
     found = {mention.name for mention in script.mentions if mention.via == "cmake"}
     for name, (provider, distros) in _GONE.items():
@@ -51,7 +74,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 RULE = Rule(
     name="removed-command",
     code="ROS308",
-    summary="a command must exist in the distribution",
+    summary="what a build script calls must exist in the distribution",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,

@@ -27,6 +27,7 @@ from collections.abc import Iterator
 
 from ros_lint.api import (
     BuildScript,
+    BuildTarget,
     Call,
     Confidence,
     Facet,
@@ -44,6 +45,8 @@ from ros_lint.api import (
     hidden,
     relative,
 )
+
+_HEADERS = (".h", ".hh", ".hpp", ".hxx")
 
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
@@ -64,7 +67,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             continue
         shared = _is_shared(package, target.name)
         loaded = any(relative(package, made.span.path) in target.sources for made in package.registrations)
-        lone = _is_lone(package, target.name, loaded=loaded)
+        lone = _is_lone(package, target, loaded=loaded)
         users = [(name, span) for name, span in _linked_by(script, target.name) if name in installed] if shared else []
         exported = _exported(package, target.name)
         related = tuple(Related(f"{name} links it here", span) for name, span in users[:3])
@@ -95,20 +98,36 @@ def _is_shared(package: Package, name: str) -> bool:
     return False
 
 
-def _is_lone(package: Package, name: str, *, loaded: bool) -> bool:
+def _is_lone(package: Package, library: BuildTarget, *, loaded: bool) -> bool:
     """Whether a library is shared by its own words, and no target links it that stays in the build folder as well.
 
-    With plugins or components in it, it is ``loaded`` at run time, whoever links it.
+    With plugins or components in it, it is ``loaded`` at run time, whoever links it. If a header of its own is installed, it
+    is for others, and a test that links it tests it. If nothing of what is built is installed, that says nothing of programs.
     """
     script = package.script
     assert script is not None
-    installed = {provided.target for provided in script.provides}
+    calls = list(_made(package, library.name))
+    if not any({"SHARED", "MODULE"}.intersection(call.texts) and not call.blocks for call in calls):
+        return False
+    installed = {provided.target for provided in script.provides if provided.target}
     left = {target.name for target in script.targets if target.kind == "executable" and target.name not in installed}
-    left.update(target.name for target in script.targets if target.test)
-    linking = {target.name for target in script.targets for linked, _ in target.links if linked == name}
-    calls = list(_made(package, name))
-    shared = any({"SHARED", "MODULE"}.intersection(call.texts) and not call.blocks for call in calls)
-    return shared and (loaded or not linking & left)
+    if not installed:
+        left.clear()
+    tests = {target.name for target in script.targets if target.test}
+    left = left - tests if _has_public_header(script, library) else left | tests
+    return loaded or not any(
+        linked == library.name for target in script.targets if target.name in left for linked, _ in target.links
+    )
+
+
+def _has_public_header(script: BuildScript, library: BuildTarget) -> bool:
+    """Whether a header is installed that is called as a source of the library is."""
+    stems = {_stem(source) for source in library.sources}
+    return any(each.path.endswith(_HEADERS) and _stem(each.path) in stems for each in script.provides)
+
+
+def _stem(path: str) -> str:
+    return path.rpartition("/")[2].partition(".")[0]
 
 
 def _made(package: Package, name: str) -> Iterator[Call]:

@@ -2,7 +2,8 @@
 ## What it finds
 
 A script with an interpreter line, in `scripts/` or beside scripts that are installed, that an `ament_cmake` package does not
-install. The confidence is medium: it may be a tool for the sources only.
+install. The confidence is high for a node beside nodes that are installed (both import `rclpy`), and else medium: it may be a
+tool for the sources only.
 
 ## Why it matters
 
@@ -35,6 +36,7 @@ from ros_lint.api import (
     cmake_edits,
     hidden,
     is_apart,
+    relative,
 )
 
 
@@ -43,10 +45,13 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     if script is None or package.builds_with != "ament_cmake" or hidden(package, Facet.EXECUTABLES | Facet.SHARE):
         return
     installed = {provided.source for provided in script.provides}
+    nodes = {relative(package, use.span.path) for use in package.uses if use.via == "import" and use.package == "rclpy"}
+    with_nodes = {file.rpartition("/")[0] for file in nodes & installed}
     for file in script.files:
         if file.path in installed or file.path in script.inputs or not (file.shebang and file.main) or is_apart(file.path):
             continue
         path = f"{package.path}/{file.path}" if package.path else file.path
+        forgotten = file.path in nodes and file.path.rpartition("/")[0] in with_nodes
         fix = None
         if script.end is not None:
             fix = Fix(f"install {file.path}", (cmake_edits.install_program(script.end, "PROGRAMS", file.path),))
@@ -55,7 +60,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             Span(path, 1, 1, 1, 1),
             file.path,
             fix=fix,
-            confidence=Confidence.MEDIUM if file.executable else Confidence.LOW,
+            confidence=Confidence.HIGH if forgotten else Confidence.MEDIUM if file.executable else Confidence.LOW,
         )
 
 
