@@ -228,8 +228,11 @@ class _Uses:
         return bool(self._caught) and any(name == each or name.startswith(f"{each}.") for each in self._caught)
 
     def _is_bundled(self, header: str) -> bool:
-        """Whether a header is of a project that is built along with the package."""
-        return bool(self._bundled) and header.partition("/")[0].lower() in self._bundled
+        """Whether a header is of a project that is built along with the package: in its folder, or owner/name.hpp."""
+        if not self._bundled:
+            return False
+        path = header.lower()
+        return path.partition("/")[0] in self._bundled or path.rpartition(".")[0] in self._bundled
 
     def _is_own_module(self, name: str, path: str) -> bool:
         top = name.partition(".")[0]

@@ -14,6 +14,7 @@ from ros_lint.interpret import (
     cmake_basic,
     cmake_branches,
     cmake_definitions,
+    cmake_fetch,
     cmake_file,
     cmake_find,
     cmake_flow,
@@ -34,10 +35,9 @@ from ros_lint.knowledge.cmake_commands import macros
 from ros_lint.text import Span
 from ros_lint.tree import join
 
-__all__ = ["Helper", "Sources", "evaluate"]
-
 for _module in (
     cmake_basic,
+    cmake_fetch,
     cmake_file,
     cmake_find,
     cmake_include,

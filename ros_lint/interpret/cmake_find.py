@@ -11,7 +11,7 @@ from ros_lint.facts.sight import ANYTHING, Facet
 from ros_lint.facts.sources import Purpose
 from ros_lint.interpret.cmake_include import include_foreign, include_own
 from ros_lint.interpret.cmake_run import Handler, Run, folded
-from ros_lint.interpret.cmake_values import ATOM, FOREIGN, HOLE, PREFIX, SOURCE, is_known, maybe, split, sure
+from ros_lint.interpret.cmake_values import ATOM, FOREIGN, HOLE, SOURCE, is_known, maybe, split, sure
 
 _FOREIGN_VARIABLE = re.compile(
     r"\$\{([A-Za-z0-9_+.-]+?)_(?:TARGETS|LIBRARIES|LIBRARY|LIBS|INCLUDE_DIRS?|INCLUDES|DEFINITIONS|LDFLAGS|CFLAGS)\}"
@@ -192,22 +192,6 @@ def _hide(run: Run, args: list[str]) -> None:
     run.hide(facet, args[1])
 
 
-def _external_project(run: Run, args: list[str], *, fetched: bool = False) -> None:
-    """A project from elsewhere: it knows neither lib/<package> nor share/<package> unless it is told."""
-    run.open_world = True
-    if not run.muted:
-        run.bundled.update(dict.fromkeys([arg for arg in args if is_known(arg)] if fetched else args[:1]))
-    hidden = Facet.USES | Facet.LIBRARIES
-    if any(PREFIX in arg or "lib/" in arg or "share/" in arg for arg in args):
-        hidden |= Facet.EXECUTABLES | Facet.SHARE
-    run.hide(hidden, "what a project from elsewhere builds and installs is not in sight")
-
-
-def _fetched(run: Run, args: list[str]) -> None:
-    """``fetchcontent_makeavailable(names...)``."""
-    _external_project(run, args, fetched=True)
-
-
 COMMANDS: Final[dict[str, Handler]] = {
     "find_package": find_package,
     "find_dependency": find_package,
@@ -217,9 +201,6 @@ COMMANDS: Final[dict[str, Handler]] = {
     "target_include_directories": link,
     "include_directories": link,
     "link_libraries": link,
-    "externalproject_add": _external_project,
-    "fetchcontent_makeavailable": _fetched,
-    "fetchcontent_populate": _external_project,
     "ros_lint_find": _find_all,
     "ros_lint_uses": _uses,
     "ros_lint_target_uses": _target_uses,

@@ -176,6 +176,8 @@ class Run(State):
         """Folders below the package whose CMakeLists.txt runs for sure."""
         self.bundled: dict[str, None] = {}
         """Projects that are built along with the package."""
+        self.fetched: dict[str, list[str]] = {}
+        """What projects that FetchContent can get are called by where they come from: owner/name and the like."""
         self.ran: dict[str, None] = {}
         """Files and folders that an interpreter runs as tests."""
         self.name = ""

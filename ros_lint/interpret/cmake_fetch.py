@@ -1,0 +1,70 @@
+"""FetchContent and ExternalProject: projects from elsewhere that are built along with the package."""
+
+from __future__ import annotations
+
+import re
+from typing import Final
+
+from ros_lint.facts.sight import Facet
+from ros_lint.interpret.cmake_run import Handler, Run
+from ros_lint.interpret.cmake_values import HOLE, PREFIX, is_known
+
+_ADDRESS: Final = re.compile(r"(?:/|@|\A)git(?:hub|lab)\.[\w.-]+[/:]([\w.-]+)/([\w.-]+?)(?:\.git)?(?:/|\Z)")
+"""Where a project is had from, up to its owner and name."""
+
+
+def _declare(run: Run, args: list[str]) -> None:
+    """``fetchcontent_declare(name options...)``: the address tells what the project is called where it is used."""
+    if args and is_known(args[0]):
+        run.fetched[args[0].lower()] = _called(args)
+
+
+def _called(args: list[str]) -> list[str]:
+    """Return what a project may be called by those who use it, going by where it is had from."""
+    found = (_ADDRESS.search(arg) for arg in args if is_known(arg))
+    places = [(place[1], place[2]) for place in found if place]
+    return [name for owner, own in places for name in (own, f"{owner}_{own}", f"{owner}/{own}")]
+
+
+def _add(run: Run, args: list[str]) -> None:
+    """``externalproject_add(name options...)``."""
+    _from_elsewhere(run, [*args[:1], *_called(args)], args)
+
+
+def _populate(run: Run, args: list[str]) -> None:
+    """``fetchcontent_populate(name options...)``."""
+    _fetch(run, args[:1], args)
+
+
+def _make_available(run: Run, args: list[str]) -> None:
+    """``fetchcontent_makeavailable(names...)``."""
+    _fetch(run, [arg for arg in args if is_known(arg)], args)
+
+
+def _fetch(run: Run, names: list[str], args: list[str]) -> None:
+    called = [other for name in names for other in run.fetched.get(name.lower(), ())]
+    _from_elsewhere(run, [*names, *called], args)
+    for name in names:
+        if is_known(name):
+            run.set(f"{name.lower()}_SOURCE_DIR", HOLE)
+            run.set(f"{name.lower()}_BINARY_DIR", HOLE)
+            run.set(f"{name.lower()}_POPULATED", "TRUE")
+
+
+def _from_elsewhere(run: Run, names: list[str], args: list[str]) -> None:
+    """Note projects from elsewhere: these know neither lib/<package> nor share/<package> unless they are told."""
+    run.open_world = True
+    if not run.muted:
+        run.bundled.update(dict.fromkeys(names))
+    hidden = Facet.USES | Facet.LIBRARIES
+    if any(PREFIX in arg or "lib/" in arg or "share/" in arg for arg in args):
+        hidden |= Facet.EXECUTABLES | Facet.SHARE
+    run.hide(hidden, "what a project from elsewhere builds and installs is not in sight")
+
+
+COMMANDS: Final[dict[str, Handler]] = {
+    "externalproject_add": _add,
+    "fetchcontent_declare": _declare,
+    "fetchcontent_makeavailable": _make_available,
+    "fetchcontent_populate": _populate,
+}

@@ -1,0 +1,65 @@
+"""What FetchContent and ExternalProject bring along."""
+
+from __future__ import annotations
+
+import pytest
+
+from ros_lint.load import Loader
+from ros_lint.report import Target
+from ros_lint.tree import MemoryTree
+from ros_lint.workspace import Package
+
+MANIFEST = """<package format="3"><name>robot</name><version>1.0.0</version><description>Does it.</description>
+<maintainer email="ada@robots.example">Ada</maintainer><license>Apache-2.0</license>
+<export><build_type>ament_cmake</build_type></export></package>
+"""
+LINKED = "add_library(r r.cpp)\ntarget_link_libraries(r nlohmann_json::nlohmann_json)"
+
+
+def load(lines: str) -> Package:
+    script = f"project(robot)\nfind_package(ament_cmake REQUIRED)\n{lines}\n{LINKED}\nament_package()\n"
+    files = {"package.xml": MANIFEST, "CMakeLists.txt": script, "r.cpp": "#include <nlohmann/json.hpp>\n"}
+    tree = MemoryTree({f"robot/{path}": text for path, text in files.items()})
+    return Loader(tree, ("",), Target("jazzy", "test")).load().packages[0]
+
+
+def uses(package: Package) -> set[str]:
+    return {use.package for use in package.uses} - {"ament_cmake", "ament_cmake_core"}
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        "FetchContent_Declare(json URL https://github.com/nlohmann/json/releases/download/v3/json.tar.xz)\n"
+        "FetchContent_MakeAvailable(json)",
+        "FetchContent_Declare(Json GIT_REPOSITORY https://github.com/nlohmann/json.git GIT_TAG v3)\nFetchContent_Populate(Json)",
+        "FetchContent_Declare(j GIT_REPOSITORY git@github.com:nlohmann/json)\nFetchContent_MakeAvailable(j)",
+        "ExternalProject_Add(j GIT_REPOSITORY https://github.com/nlohmann/json.git)",
+    ],
+)
+def test_a_project_is_known_by_where_it_is_had_from(lines: str) -> None:
+    assert uses(load(lines)) == set()
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        "",
+        "FetchContent_Declare(json URL https://github.com/nlohmann/json)",
+        "FetchContent_Declare(fmt URL https://github.com/fmtlib/fmt)\nFetchContent_MakeAvailable(fmt)",
+    ],
+)
+def test_what_is_not_fetched_is_a_need(lines: str) -> None:
+    assert uses(load(lines)) == {"nlohmann-json-dev"}
+
+
+def test_nobody_knows_where_a_project_lies_that_is_fetched() -> None:
+    lines = (
+        "FetchContent_Declare(Json GIT_REPOSITORY https://github.com/nlohmann/json.git)\n"
+        "FetchContent_GetProperties(Json)\nif(NOT json_POPULATED)\nFetchContent_Populate(Json)\n"
+        "add_subdirectory(${json_SOURCE_DIR} ${json_BINARY_DIR} EXCLUDE_FROM_ALL)\nendif()"
+    )
+    script = load(lines).script
+    assert script is not None
+    assert script.problems == ()
+    assert "add_subdirectory() of a folder that is not in sight" in {opaque.reason for opaque in script.opaque}
