@@ -12,6 +12,7 @@ from ros_lint.interpret.cmake_arguments import parse_keywords
 from ros_lint.interpret.cmake_flow import run_file, run_named
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_state import BREAK, CONTINUE, RETURN, STOP, Frame
+from ros_lint.interpret.cmake_truth import is_off
 from ros_lint.interpret.cmake_values import HOLE, certainly_set, is_fixed, is_known, join, merge, split
 from ros_lint.text import Text
 
@@ -34,8 +35,22 @@ def _set(run: Run, args: list[str]) -> None:
     if args[-1] == "PARENT_SCOPE":
         run.set_outer(name, join(args[1:-1]) if len(args) > 2 else None)
         return
-    run.set(name, join(args[1:]))
+    value = join(args[1:])
+    if len(run.scopes) == 1 and (run.testing or name in run.for_tests):
+        _note_switch(run, name, value)
+    run.set(name, value)
     run.remember(1)
+
+
+def _note_switch(run: Run, name: str, value: str) -> None:
+    """Note a variable that becomes true, if that happens only where tests are wanted."""
+    if is_off(value):
+        return
+    before = run.get(name)
+    if not run.testing:
+        run.for_tests.pop(name, None)
+    elif before is None or is_off(before):
+        run.for_tests[name] = value
 
 
 def _set_cache(run: Run, name: str, value: str, kind: str, force: bool) -> None:

@@ -200,10 +200,12 @@ def _word(run: Run, token: Token) -> Truth:
     if value is None:
         soft = token.soft or run.may_be_set(text)
         return Truth(UNLIKELY if soft else FALSE)
+    # A function may have a variable of the same name, with another value.
+    for_tests = text in run.for_tests and (value == run.for_tests[text] or not is_fixed(value))
     if not is_fixed(value):
-        return Truth(UNKNOWN)
+        return Truth(UNKNOWN, for_tests)
     answer = FALSE if is_off(value) else TRUE
-    return Truth(softened(answer) if token.soft or run.is_soft(text) else answer)
+    return Truth(softened(answer) if token.soft or run.is_soft(text) else answer, for_tests)
 
 
 @lru_cache(maxsize=1024)

@@ -89,6 +89,8 @@ class State:
         self.procedures: dict[str, Procedure | Choice] = {}
         self.targets: dict[str, Properties] = {}
         self.globals: Properties = Properties()
+        self.for_tests: dict[str, str] = {}
+        """Variables that become true only where tests are wanted, with the value that they get there."""
         self.log: list[tuple[dict[str, Any], str, Any]] | None = None
         self.unpaired = False
         """Whether some value holds a square bracket without its partner, so that unknown texts may hold one too."""
