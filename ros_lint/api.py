@@ -62,13 +62,14 @@ from ros_lint.needs import (
     undeclared,
     wishes,
 )
+from ros_lint.providers import Meant
+from ros_lint.report import Target
 from ros_lint.resource_files import uninstalled as uninstalled_resources
 from ros_lint.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
 from ros_lint.strangers import Stranger, declared_names, strangers
 from ros_lint.suppress import Outcome
 from ros_lint.text import Span
-from ros_lint.workspace import Declared, Package, Target, Workspace
-from ros_lint.world import Meant
+from ros_lint.workspace import Declared, Package, Workspace
 
 if TYPE_CHECKING:  # made only where it is asked for
     from ros_lint.interpret.launch_expand import Started as Started  # noqa: PLC0414

@@ -10,7 +10,7 @@ from ros_lint.facts.sources import Mention, Purpose
 from ros_lint.workspace import Package, Workspace
 
 if TYPE_CHECKING:
-    from ros_lint.world import Closure
+    from ros_lint.knowledge.reach import Closure
 
 _FIND_DECLARED = frozenset({"ament_auto_find_build_dependencies", "autoware_package"})
 _FIND_TESTS = frozenset({"ament_auto_find_test_dependencies", "ament_lint_auto_find_test_dependencies"})

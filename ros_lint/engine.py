@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from ros_lint import suppress
-from ros_lint.knowledge import KnowledgeError
+from ros_lint.knowledge.store import KnowledgeError
 from ros_lint.registry import matching, suggest
 from ros_lint.report import Crash, Hidden, Issue, RefusalError
 from ros_lint.rule import Confidence, Rule, Severity

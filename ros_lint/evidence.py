@@ -21,7 +21,8 @@ from ros_lint.liveness import HEADERS, Liveness
 from ros_lint.text import Span
 
 if TYPE_CHECKING:
-    from ros_lint.world import Providers, Standing
+    from ros_lint.providers import Providers
+    from ros_lint.world import Standing
 
 
 class Names(Protocol):

@@ -21,11 +21,12 @@ from ros_lint.facts.sources import FileFacts
 from ros_lint.knowledge import Knowledge
 from ros_lint.knowledge.index import TAG_KINDS
 from ros_lint.providers import offered
+from ros_lint.report import NotChecked, Target
 from ros_lint.suppress import Suppression
 from ros_lint.text import Span, Text, read
 from ros_lint.tree import OverlayTree, Tree, join
 from ros_lint.underlay import Underlay
-from ros_lint.workspace import Declared, NotChecked, Package, Target, Workspace
+from ros_lint.workspace import Declared, Package, Workspace
 from ros_lint.world import Member, World
 
 Progress = Callable[[str, int, int], None]

@@ -11,9 +11,9 @@ from typing import NamedTuple
 
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Use, Via
+from ros_lint.knowledge.reach import Closure
 from ros_lint.text import Span
 from ros_lint.workspace import Package, Workspace, per_package
-from ros_lint.world import Closure
 
 
 class Need(NamedTuple):

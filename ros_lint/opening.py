@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros_lint import cache
 from ros_lint.config import Settings, settle
-from ros_lint.knowledge import Knowledge, distros, newest_lts, user_directory
+from ros_lint.knowledge import Knowledge, distros, newest_lts
+from ros_lint.knowledge.store import user_directory
 from ros_lint.options import OPTIONS
 from ros_lint.registry import BUILTIN
 from ros_lint.report import RefusalError, Target

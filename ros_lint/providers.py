@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from ros_lint.knowledge import NOTHING_NEEDED
+from ros_lint.knowledge.names import NOTHING_NEEDED
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence

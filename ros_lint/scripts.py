@@ -20,7 +20,7 @@ from ros_lint.text import Span, Text, read
 from ros_lint.tree import Tree, join
 
 if TYPE_CHECKING:
-    from ros_lint.interpret.cmake import Helper, Sources
+    from ros_lint.interpret.cmake_sources import Helper, Sources
 
 _PLUGIN_FILE = re.compile(r"plugin.*\.xml\Z", re.IGNORECASE)
 _SCRIPTS = re.compile(r"(?:scripts|nodes|bin|script)/[^/]+\Z")
@@ -59,11 +59,12 @@ def evaluate(tree: Tree, packages: Sequence[Parts], distro: str) -> list[BuildSc
 
 def _cmake(tree: Tree, parts: Parts, distro: str, helpers: dict[str, Helper]) -> BuildScript:
     from ros_lint.interpret import cmake  # noqa: PLC0415
+    from ros_lint.interpret.cmake_sources import Helper  # noqa: PLC0415
 
     sources = _sources(tree, parts)
     script = cmake.evaluate(sources, distro, helpers)
     if script.extras:
-        helpers[parts.found.name] = cmake.Helper(sources, script)
+        helpers[parts.found.name] = Helper(sources, script)
     folder = parts.found.path
     written = (cmake_calls.collect(join(folder, file), parsed) for file, parsed in sorted(parts.commands.items()))
     return script._replace(written=tuple(chain.from_iterable(written)))
@@ -75,7 +76,7 @@ def _failed(parts: Parts, reason: str) -> BuildScript:
 
 
 def _sources(tree: Tree, parts: Parts) -> Sources:
-    from ros_lint.interpret.cmake import Sources  # noqa: PLC0415
+    from ros_lint.interpret.cmake_sources import Sources  # noqa: PLC0415
 
     found, depends = parts.found, parts.depends
     built = tuple(dict.fromkeys((*depends.get("b", ()), *depends.get("t", ()))))

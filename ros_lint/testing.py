@@ -22,12 +22,11 @@ from typing import NamedTuple
 from ros_lint import edits, engine, registry
 from ros_lint.load import Loader
 from ros_lint.patch import unified
-from ros_lint.report import Issue
+from ros_lint.report import Issue, Target
 from ros_lint.rule import Rule
 from ros_lint.text import Text, read
 from ros_lint.tree import MemoryTree, OverlayTree, Tree
 from ros_lint.underlay import in_tree
-from ros_lint.workspace import Target
 
 FENCE = re.compile(
     r"^(?:`(?P<path>[^`\n]+)`\n+)?(?P<fence>`{3,})(?P<kind>\w*)\n(?P<body>.*?)^(?P=fence)$", re.MULTILINE | re.DOTALL

@@ -20,9 +20,6 @@ if TYPE_CHECKING:
     from ros_lint.world import World
 
 
-__all__ = ["Declared", "NotChecked", "Package", "Target", "Workspace", "per_package", "per_workspace"]
-
-
 class Declared(NamedTuple):
     """A dependency tag whose condition is not false for the target."""
 

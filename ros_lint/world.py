@@ -11,8 +11,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from ros_lint import providers
-from ros_lint.knowledge import NOTHING_KNOWN
 from ros_lint.knowledge.index import INTERFACES, RUNTIME
+from ros_lint.knowledge.provides import NOTHING_KNOWN
 from ros_lint.knowledge.reach import Closure, Reach
 from ros_lint.knowledge.spelling import Spelling
 from ros_lint.providers import Meant, Providers
@@ -20,10 +20,10 @@ from ros_lint.providers import Meant, Providers
 if TYPE_CHECKING:
     from collections.abc import Container, Iterable, Mapping, Sequence
 
-    from ros_lint.knowledge import Facet, Knowledge, Known, Released
+    from ros_lint.knowledge import Knowledge
+    from ros_lint.knowledge.index import Released
+    from ros_lint.knowledge.provides import Facet, Known
     from ros_lint.underlay import Installed, Underlay
-
-__all__ = ["Closure", "Layer", "Meant", "Member", "Providers", "Standing", "World"]
 
 _SHARED = re.compile(r"lib(?!.*-dev\b).*[0-9][a-z]?\Z")
 """Names of system packages with shared libraries: they end with a version. Headers are in others."""

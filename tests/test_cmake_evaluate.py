@@ -10,7 +10,8 @@ from ros_lint.collectors.cmake_syntax import parse
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.sight import Facet
 from ros_lint.facts.sources import Mention
-from ros_lint.interpret.cmake import Helper, Sources, evaluate
+from ros_lint.interpret.cmake import evaluate
+from ros_lint.interpret.cmake_sources import Helper, Sources
 from ros_lint.text import Text
 
 HEAD = "cmake_minimum_required(VERSION 3.8)\nproject(pkg)\n"

@@ -11,8 +11,8 @@ import pytest
 
 from ros_lint.collectors.cmake_syntax import parse
 from ros_lint.interpret import cmake_flow
-from ros_lint.interpret.cmake import Sources
 from ros_lint.interpret.cmake_run import Run
+from ros_lint.interpret.cmake_sources import Sources
 from ros_lint.interpret.cmake_state import Frame
 from ros_lint.interpret.cmake_values import HOLE, SOURCE, is_fixed
 from ros_lint.text import Text

@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 
 from ros_lint.collectors.cmake_syntax import parse
-from ros_lint.interpret.cmake import Sources, evaluate
+from ros_lint.interpret.cmake import evaluate
+from ros_lint.interpret.cmake_sources import Sources
 from ros_lint.text import Text
 
 FILES = {

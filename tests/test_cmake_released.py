@@ -9,10 +9,11 @@ import pytest
 from ros_lint.collectors.cmake_syntax import parse
 from ros_lint.facts.build import BuildScript
 from ros_lint.interpret import cmake_ros
-from ros_lint.interpret.cmake import Sources, evaluate
+from ros_lint.interpret.cmake import evaluate
 from ros_lint.interpret.cmake_flow import call
 from ros_lint.interpret.cmake_released import Released, released, run_released
 from ros_lint.interpret.cmake_run import Run
+from ros_lint.interpret.cmake_sources import Sources
 from ros_lint.knowledge.cmake_commands import macros
 from ros_lint.text import Text
 

@@ -18,9 +18,10 @@ from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Use
 from ros_lint.knowledge import Knowledge
 from ros_lint.load import Loader
+from ros_lint.report import Target
 from ros_lint.text import Span
 from ros_lint.tree import MemoryTree
-from ros_lint.workspace import Package, Target, Workspace
+from ros_lint.workspace import Package, Workspace
 from ros_lint.world import Member, World
 from tests.packages import manifest_text, package
 

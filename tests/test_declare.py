@@ -7,8 +7,9 @@ import pytest
 from ros_lint.declare import tag_for
 from ros_lint.facts.manifest import Role
 from ros_lint.load import Loader
+from ros_lint.report import Target
 from ros_lint.tree import MemoryTree
-from ros_lint.workspace import Package, Target, Workspace
+from ros_lint.workspace import Package, Workspace
 
 HEAD = """<package format="{form}">
   <name>talker</name>

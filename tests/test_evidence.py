@@ -10,9 +10,10 @@ from ros_lint.knowledge.names import Names
 from ros_lint.knowledge.store import Store
 from ros_lint.load import Loader
 from ros_lint.needs import covered, may_bring, needs, undeclared
+from ros_lint.report import Target
 from ros_lint.text import read
 from ros_lint.tree import MemoryTree
-from ros_lint.workspace import Target, Workspace
+from ros_lint.workspace import Workspace
 
 HEAD = """<package format="3"><name>{name}</name><version>1.0.0</version><description>Does it.</description>
 <maintainer email="ada@robots.example">Ada</maintainer><license>Apache-2.0</license>{depends}

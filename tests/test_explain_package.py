@@ -4,8 +4,9 @@ import json
 
 from ros_lint.commands import explain_package
 from ros_lint.load import Loader
+from ros_lint.report import Target
 from ros_lint.tree import MemoryTree
-from ros_lint.workspace import Target, Workspace
+from ros_lint.workspace import Workspace
 
 FILES = {
     "robot/package.xml": """\

@@ -62,3 +62,13 @@ def test_no_case_without_a_rule() -> None:
 def test_every_fence_is_closed() -> None:
     for path in FIXTURES.glob("*.md"):
         assert "```" not in FENCE.sub("", path.read_text("utf-8")), path
+
+
+def test_only_the_api_of_rules_hands_on_names() -> None:
+    """Everybody else takes a name from the module that defines it: the type checker holds those to it that export nothing."""
+    hubs = [
+        path.name
+        for path in (ROOT / "ros_lint").rglob("*.py")
+        if re.search(r"^__all__\b|import (\w+) as \1\b", path.read_text("utf-8"), re.MULTILINE)
+    ]
+    assert hubs == ["api.py"]

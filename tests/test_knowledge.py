@@ -15,25 +15,14 @@ from catkin_pkg.package import parse_package_string
 
 from ros_lint.collectors import manifest as manifests
 from ros_lint.commands import index as command
-from ros_lint.knowledge import (
-    PLATFORMS,
-    Knowledge,
-    KnowledgeError,
-    Known,
-    distros,
-    index,
-    newest_lts,
-    provides,
-    rosdep,
-    rosdep_rules,
-    upstream,
-    user_directory,
-)
+from ros_lint.knowledge import Knowledge, distros, index, newest_lts, provides, rosdep, rosdep_rules, upstream
 from ros_lint.knowledge.builtin import PYTHON_MODULES
 from ros_lint.knowledge.manifests import context, describe
 from ros_lint.knowledge.names import NOTHING_NEEDED, Names
+from ros_lint.knowledge.provides import Known
+from ros_lint.knowledge.rosdep import PLATFORMS
 from ros_lint.knowledge.spelling import Spelling
-from ros_lint.knowledge.store import SHIPPED, Store, Table
+from ros_lint.knowledge.store import SHIPPED, KnowledgeError, Store, Table, user_directory
 from ros_lint.text import Text
 
 DISTROS = [distro.name for distro in distros()]

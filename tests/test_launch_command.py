@@ -11,9 +11,9 @@ from ros_lint.commands.launch import Asked, answer, enclosing_workspace, underst
 from ros_lint.commands.launch_lookup import LookUp
 from ros_lint.load import Loader
 from ros_lint.opening import UsageError
+from ros_lint.report import Target
 from ros_lint.tree import MemoryTree
 from ros_lint.underlay import in_tree
-from ros_lint.workspace import Target
 from tests.packages import manifest_text
 
 INSTALLS = "project({0})\nfind_package(ament_cmake REQUIRED)\ninstall(DIRECTORY {1} DESTINATION share/{0})\nament_package()\n"

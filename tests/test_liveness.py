@@ -8,8 +8,9 @@ from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Use
 from ros_lint.load import Loader
 from ros_lint.needs import needs, undeclared
+from ros_lint.report import Target
 from ros_lint.tree import MemoryTree
-from ros_lint.workspace import Target, Workspace
+from ros_lint.workspace import Workspace
 
 MANIFEST = """<package format="3"><name>robot</name><version>1.0.0</version><description>Does it.</description>
 <maintainer email="ada@robots.example">Ada</maintainer><license>Apache-2.0</license>{depends}

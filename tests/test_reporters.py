@@ -14,16 +14,15 @@ from hypothesis import strategies as st
 
 import ros_lint.reporters
 from ros_lint.options import FORMATS as OPTION_FORMATS
-from ros_lint.report import Report
-from ros_lint.reporters import FORMATS, Style, reporter, sarif
-from ros_lint.reporters.ansi import glyph, safe
+from ros_lint.report import NotChecked, Report
+from ros_lint.reporters import FORMATS, reporter, sarif
+from ros_lint.reporters.ansi import Style, glyph, safe
 from ros_lint.reporters.fingerprint import line_hashes
 from ros_lint.reporters.frames import Mark, frame
 from ros_lint.reporters.github import command
 from ros_lint.reporters.text import render_issues
 from ros_lint.rule import Severity
 from ros_lint.text import Span, Text, read
-from ros_lint.workspace import NotChecked
 from tests.reports import ARM, EVERYTHING, ISSUES, REPORTS, SOURCES, texts
 
 GOLDEN = Path(__file__).parent / "golden"

@@ -10,7 +10,8 @@ from typing import Any
 import pytest
 
 from ros_lint.cli import main
-from ros_lint.reporters import Style, sarif
+from ros_lint.reporters import sarif
+from ros_lint.reporters.ansi import Style
 from ros_lint.text import Span, Text
 from tests.reports import ISSUES, REPORTS, SOUND, SOURCES, texts
 from tests.sarif_checks import changed, complaints

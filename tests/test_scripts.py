@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from ros_lint.load import Loader
+from ros_lint.report import Target
 from ros_lint.tree import MemoryTree
-from ros_lint.workspace import Target, Workspace
+from ros_lint.workspace import Workspace
 
 XML = '<package format="3"><name>{}</name><version>1.0.0</version><description>d</description><maintainer email="a@b.c">a'
 XML += "</maintainer><license>MIT</license><buildtool_depend>ament_cmake</buildtool_depend><export><build_type>ament_cmake"

@@ -6,8 +6,9 @@ import pytest
 
 from ros_lint.commands import silence
 from ros_lint.load import Loader
+from ros_lint.report import Target
 from ros_lint.tree import MemoryTree
-from ros_lint.workspace import Target, Workspace
+from ros_lint.workspace import Workspace
 
 FILES = {
     "talker/package.xml": """<package format="3"><name>talker</name><version>1.0.0</version><description>Talks.</description>

@@ -9,9 +9,9 @@ from datetime import datetime, timezone
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros_lint import underlay
-from ros_lint.knowledge import KnowledgeError, index, provides, rosdep, rosdep_rules, upstream, user_directory
+from ros_lint.knowledge import index, provides, rosdep, rosdep_rules, upstream
 from ros_lint.knowledge.provides import LETTERS, Provided
-from ros_lint.knowledge.store import Store
+from ros_lint.knowledge.store import KnowledgeError, Store, user_directory
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from ros_lint.config import ConfigError
-from ros_lint.knowledge import KnowledgeError
+from ros_lint.knowledge.store import KnowledgeError
 from ros_lint.opening import Opened, UsageError, open_workspace
 from ros_lint.progress import Progress
 from ros_lint.workspace import Workspace

@@ -10,32 +10,14 @@ from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.knowledge import index, names, provides, rosdep
-from ros_lint.knowledge.index import Index, Released
-from ros_lint.knowledge.names import NOTHING_NEEDED, Names
-from ros_lint.knowledge.provides import NOTHING_KNOWN, Answer, Facet, Known, Provides
+from ros_lint.knowledge.index import Index
+from ros_lint.knowledge.names import Names
+from ros_lint.knowledge.provides import Provides
 from ros_lint.knowledge.rosdep import PLATFORMS, Rosdep
-from ros_lint.knowledge.store import KnowledgeError, Store, user_directory
+from ros_lint.knowledge.store import Store
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
-
-__all__ = [
-    "NOTHING_KNOWN",
-    "NOTHING_NEEDED",
-    "PLATFORMS",
-    "Answer",
-    "Distribution",
-    "Facet",
-    "Index",
-    "Knowledge",
-    "KnowledgeError",
-    "Known",
-    "Names",
-    "Released",
-    "distros",
-    "newest_lts",
-    "user_directory",
-]
 
 
 class Distribution(NamedTuple):
@@ -48,7 +30,7 @@ class Distribution(NamedTuple):
 def distros(places: Sequence[str] = ()) -> tuple[Distribution, ...]:
     """Return the distributions that there is an index of, oldest first, rolling last.
 
-    ``places`` are folders that go before the data shipped, such as :func:`user_directory`.
+    ``places`` are folders that go before the data shipped, such as :func:`ros_lint.knowledge.store.user_directory`.
     """
     found = [name for name in Store(places).names(".idx") if name != "rolling"]
     known = [Distribution(name, _is_long_term(name)) for name in found]
