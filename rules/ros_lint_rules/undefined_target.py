@@ -1,12 +1,15 @@
 """
 ## What it finds
 
-CMake targets that a CMakeLists.txt installs, links, or gives properties to, and that nothing defines.
+CMake targets that a CMakeLists.txt installs, links, or gives properties to, and that nothing defines. Sets of targets that
+`ament_export_targets()` exports, and that no `install(TARGETS ... EXPORT ...)` fills. Libraries that
+`ament_export_libraries()` names after the project or nearly like one that is built, and that are not built.
 
 ## Why it matters
 
-CMake stops: "install TARGETS given target "x" which does not exist", or "Cannot specify link libraries for target "x" which
-is not built by this project".
+CMake stops: "install TARGETS given target "x" which does not exist", "Cannot specify link libraries for target "x" which
+is not built by this project", or "install(EXPORT) given unknown export "x"". With a library that is not there, it is the
+packages that depend on this one that are told "exports the library 'x' which couldn't be found" and then do not link.
 
 ## How to fix it
 
@@ -14,13 +17,14 @@ Correct the name, or define the target before. Where one defined target has near
 
 ## When it keeps silent
 
-Where a command, a name or an included file cannot be followed; under conditions; in functions and loops.
+Where a command, a name or an included file cannot be followed; under conditions; in functions and loops; about libraries
+that may be the system's.
 """
 
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from ros_lint.api import (
     ANYTHING,
@@ -74,6 +78,43 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
                 continue
             reported.add(name)
             yield _finding(f"{call.name}() of {name}, which is no target", name, names, call.span(index))
+    yield from _unfilled(package)
+    yield from _no_libraries(package, defined)
+
+
+def _unfilled(package: Package) -> Iterator[Finding]:
+    """Yield what is to say of exported sets of targets (reference, section C3): that none is in them."""
+    filled = [_export_set(package, call) for call in called(package, "install", anywhere=True)]
+    if None in filled:
+        return
+    for call in called(package, "ament_export_targets", "ament_export_interfaces"):
+        for index, text in enumerate(call.texts):
+            name = evaluated_name(package, text)
+            if text == "NAMESPACE":
+                break
+            if text == "HAS_LIBRARY_TARGET" or name is None or call.blocks or "__rosidl" in name or name in filled:
+                continue
+            says = f"{call.name}() of {name}, and no install(TARGETS ... EXPORT {name}) puts a target there"
+            yield _finding(says, name, sorted(each for each in filled if each), call.span(index))
+
+
+def _export_set(package: Package, call: Call) -> str | None:
+    """Return the set that an install command puts targets into, "" if none, None when its name is not known."""
+    after = call.texts.index("EXPORT", 1) + 1 if "EXPORT" in call.texts[1:] else 0
+    return evaluated_name(package, call.texts[after]) if 0 < after < len(call.texts) else ""
+
+
+def _no_libraries(package: Package, defined: Collection[str]) -> Iterator[Finding]:
+    """Yield what is to say of exported libraries. Any name may be that of a library of the system, but for the own one."""
+    libraries = sorted(target.name for target in package.script.targets if target.kind == "library") if package.script else []
+    for call in called(package, "ament_export_libraries"):
+        for index, text in enumerate(call.texts):
+            name = evaluated_name(package, text)
+            if name is None or call.blocks or name in defined:
+                continue
+            if name == evaluated_name(package, "${PROJECT_NAME}") or difflib.get_close_matches(name, libraries, 1, 0.9):
+                says = f"ament_export_libraries() of {name}, which is no library of this package"
+                yield _finding(says, name, libraries, call.span(index))._replace(severity=Severity.WARNING)
 
 
 def _targets(call: Call) -> Iterator[int]:
