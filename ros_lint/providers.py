@@ -158,7 +158,7 @@ def meant(world: World, name: str, *, python: bool) -> Meant | None:
     ``python`` says whether it is needed to run Python code, where find_package has no say.
     """
     names = world.knowledge.names
-    by_cmake = None if python else _first(world, names.cmake(name), "cmake")
+    by_cmake = None if python else _first(world, _libraries(names.cmake(name)), "cmake")
     if by_cmake is not None:
         return by_cmake
     same = _declarable(world, world.spelling.same(name))
@@ -187,8 +187,13 @@ def _other_names(world: World, name: str, *, python: bool) -> Iterator[Meant | N
         yield _first(world, (*names.module_packages(bare, world.knowledge.distro), *names.module(bare)), "python")
         yield _only(world, rosdep.installing(bare), "system")
     else:
-        yield _first(world, names.cmake_any_case(name), "cmake")
+        yield _first(world, _libraries(names.cmake_any_case(name)), "cmake")
     yield _only(world, rosdep.installing(name), "system")
+
+
+def _libraries(names: Iterable[str]) -> Iterator[str]:
+    """Leave out what only tells CMake where a library is: whoever declares the library does not mean that."""
+    return (name for name in names if not name.endswith("_cmake_module"))
 
 
 def _first(world: World, names: Iterable[str], by: Literal["spelling", "cmake", "python"]) -> Meant | None:

@@ -34,10 +34,12 @@ from ros_lint.api import (
     Edit,
     Finding,
     Fix,
+    Package,
     Rule,
     Severity,
     Stranger,
     Workspace,
+    called,
     declared_names,
     remove_dependency,
     strangers,
@@ -47,6 +49,7 @@ _CALLED_SO_BY = {"cmake": "find_package", "python": "Python", "system": "the sys
 _MAY_BE_A_PACKAGE = re.compile(r"[a-z][a-z0-9_]*")
 _PYTHON_BUILD = "ament_python"
 _MOST_KEYS = 3
+_FINDS_DECLARED = "ament_auto_find_build_dependencies"
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
@@ -89,7 +92,10 @@ def _unknown(stranger: Stranger, workspace: Workspace) -> Finding:
         message = f"{what}{why}: " + (f"remove it, {meant.name} is declared, too" if again else f"write {meant.name}")
         edits = _rename(stranger, meant.name)
         title = f"remove {name}" if again else f"write {meant.name} for {name}"
-        fix = Fix(title, edits, safe=sure == Confidence.HIGH) if edits else None
+        alone = meant.by == "cmake" and _is_found_as_declared(stranger.package, name)
+        if alone:
+            message += f", and find_package({name}), which nothing but {_FINDS_DECLARED}() does"
+        fix = Fix(title, edits, safe=sure == Confidence.HIGH and not alone) if edits else None
     return Finding(
         message,
         stranger.declared.depend.name_span,
@@ -98,6 +104,13 @@ def _unknown(stranger: Stranger, workspace: Workspace) -> Finding:
         confidence=sure,
         package=stranger.package.name,
     )
+
+
+def _is_found_as_declared(package: Package, name: str) -> bool:
+    """Whether CMake finds something only because it is declared by this very name."""
+    if package.script is None or _FINDS_DECLARED not in package.script.calls:
+        return False
+    return not any(name in call.texts[:1] for call in called(package, "find_package", anywhere=True))
 
 
 def _confidence(stranger: Stranger, by: str, workspace: Workspace) -> Confidence:
