@@ -12,6 +12,7 @@ from typing import NamedTuple
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Use, Via
 from ros_lint.knowledge.reach import Closure
+from ros_lint.strangers import meant
 from ros_lint.text import Span
 from ros_lint.workspace import Package, Workspace, per_package
 
@@ -190,11 +191,16 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
     """Return the needs that nothing declared brings along, and whether that is sure.
 
     What only launch files name, to start, include or look it up, is left out, unless these are tests: it has a rule of its
-    own. Of what modules with parts of launch files name, nobody knows who takes it.
+    own. So is what is declared by another name. Of what modules with parts of launch files name, nobody knows who takes it.
     """
     unknown = all_declared(package, workspace).unknown
     found = []
-    missing = [need for need in needs(package, workspace) if not (need.declared or need.brought)]
+    otherwise = meant(package, workspace)
+    missing = [
+        need
+        for need in needs(package, workspace)
+        if not (need.declared or need.brought or any(otherwise.intersection(use.providers) for use in need.uses))
+    ]
     for need in _joined([need for need in missing if not only_launched(package, need.uses)]):
         sure = need.sure and any(use.via != "launch" or use.role is _TEST for use in need.uses)
         if not is_available(need.name, workspace):
@@ -304,12 +310,15 @@ def may_bring(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
 def _is_far(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
     """Whether it would be a strange chance if one of the unknown names brought a package along.
 
-    Few released packages bring it, no other package of this workspace does, and its name has nothing in common with theirs.
+    Few released packages bring it, of those of a distribution that has it, no other package of this workspace does, and its
+    name has nothing in common with theirs.
     """
     words = _words(name)
     if any(words & _words(each) for each in unknown):
         return False
     world = workspace.world
+    if not is_available(name, workspace) and world.where_else(name):
+        return False  # it is brought where it is
     most = int(len(world.knowledge.index) * _CHANCE / len(unknown))
     if most < 1 or any(name in world.closure((other,)) for other in workspace.by_name if other != name):
         return False

@@ -1,4 +1,4 @@
-"""Declared names that do not resolve, in packages where that is a mistake: what three rules share."""
+"""Declared names that do not resolve, in packages where that is a mistake: what several rules share."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from ros_lint.facts.manifest import Depend, Role
-from ros_lint.workspace import Declared, Package, Workspace, per_workspace
+from ros_lint.workspace import Declared, Package, Workspace, per_package, per_workspace
 
 _BUILD_TYPES = frozenset({"ros.ament_cmake", "ros.ament_python", "ros.cmake"})
 
@@ -59,3 +59,16 @@ def strangers(name: str, packages: Iterable[Package]) -> Iterator[Stranger]:
         first = next((declared for declared in tags if declared.certain), None)
         if first is not None:
             yield Stranger(package, first, tuple(declared.depend for declared in tags))
+
+
+@per_package
+def meant(package: Package, workspace: Workspace) -> frozenset[str]:
+    """Return what a package must mean by those of its declared names that do not exist: nobody else need declare it."""
+    found: set[str] = set()
+    known = declared_names(workspace)
+    for name in dict.fromkeys([declared.name for declared in package.declared]):
+        if workspace.world.standing(name) == "unknown" and package in known.get(name, ()):
+            for stranger in strangers(name, [package]):
+                what = workspace.world.meant(name, python=stranger.runs_python)
+                found.update([what.name] if what else ())
+    return frozenset(found)

@@ -18,6 +18,7 @@ needed at run time, `<exec_depend>` for what is needed at run time only, `<test_
 ## When it keeps silent
 
 - The package comes with a declared one: see `transitive-dependency` for uses that hang on such a chain.
+- It is declared by a wrong name: `unknown-dependency` says so.
 - The use is optional: `find_package(QUIET)` behind `if(X_FOUND)`, `try: import`, `__has_include`. Then the confidence is
   low, and nothing is fixed.
 - colcon rejects `package.xml`, which is to be mended first: then the confidence is medium.
