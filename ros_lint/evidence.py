@@ -6,10 +6,7 @@ spaces (reference, sections C2b, D6, E3.8). This module is the only one that goe
 
 from __future__ import annotations
 
-import re
-from bisect import bisect_right
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from itertools import accumulate
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from ros_lint.facts.build import BuildScript
@@ -313,12 +310,6 @@ def opaque_of(source: Source) -> tuple[Opaque, ...]:
     return tuple(sorted(found, key=lambda opaque: (opaque.span, opaque.reason)))
 
 
-def unused_names(declared: Sequence[str], uses: Sequence[Use]) -> tuple[str, ...]:
-    """Return the declared names that no use, sure or not, is satisfied by."""
-    used = used_names(declared, uses)
-    return tuple(name for name in dict.fromkeys(declared) if name not in used)
-
-
 def satisfying(uses: Iterable[Use]) -> frozenset[str]:
     """Return every name that satisfies some use when it is declared."""
     return frozenset([name for answer in {use.providers for use in uses} for name in answer])
@@ -329,93 +320,3 @@ def used_names(declared: Iterable[str], uses: Iterable[Use]) -> frozenset[str]:
     names = frozenset(declared)
     answers = {use.providers for use in uses}
     return frozenset([name for answer in answers for name in [each for each in answer if each in names][:1]])
-
-
-def traces(
-    names: Sequence[str], files: Iterable[tuple[str, bytes]], words: Mapping[str, Sequence[str]] | None = None
-) -> dict[str, Span]:
-    """Return a place for every name that stands as a word in one of the files, dashes and underscores taken as equal.
-
-    ``files`` are paths with contents. They are searched all at once and as they are: few of them have a name in question.
-    ``words`` are sought for some of the names instead, anywhere and whatever their capitals.
-    """
-    listed = list(files)
-    data = b"\n".join([content for _, content in listed])
-    starts = list(accumulate([len(content) + 1 for _, content in listed], initial=0))
-    found: dict[str, Span] = {}
-    words = words or {}
-    lower = data.lower() if words else b""
-    for name in names:
-        if name in words:
-            places = ((lower.find(word.lower().encode()), word.encode()) for word in words[name])
-        else:
-            places = ((_find_word(data, spelling), spelling) for spelling in _written(name, data))
-        start, spelling = next((place for place in places if place[0] >= 0), (-1, b""))
-        if start < 0:
-            continue
-        file = bisect_right(starts, start) - 1
-        line_start = max(data.rfind(b"\n", 0, start) + 1, starts[file])
-        line = data.count(b"\n", starts[file], start) + 1
-        column = len(data[line_start:start].decode("utf-8", "replace")) + 1
-        found[name] = Span(listed[file][0], line, column, line, column + len(spelling))
-    return found
-
-
-def mentioned(
-    names: Sequence[str], source: Source, words: Mapping[str, Sequence[str]], counts: Callable[[str], bool]
-) -> dict[str, Span]:
-    """Return what :func:`traces` does for those names that stand in an include or an import, without the texts.
-
-    ``counts`` says which files may leave traces.
-    """
-    mentions = [
-        mention
-        for file, facts in source.facts.items()
-        if facts.mentions and counts(file)
-        for mention in facts.mentions
-        if mention[1] in _AS_WRITTEN  # by index: there are ten thousands
-    ]
-    lines = "\n".join([mention[0] for mention in mentions]).encode("utf-8", "surrogateescape")
-    return {name: mentions[span.line - 1].span for name, span in traces(names, [("", lines)], words).items()}
-
-
-_AS_WRITTEN: frozenset[Via] = frozenset({"include", "import", "symbol"})
-"""Mentions whose name stands in the source just so."""
-
-
-def _written(name: str, data: bytes) -> Iterator[bytes]:
-    """Yield those spellings of a name whose end stands somewhere: names begin alike, and what few have is found faster."""
-    there: dict[bytes, bool] = {}
-    for spelling in _spellings(name):
-        written = spelling.encode()
-        end = _SEPARATOR.split(written, maxsplit=1)[-1]
-        if end not in there:
-            there[end] = end in data
-        if there[end]:
-            yield written
-
-
-_SEPARATOR = re.compile(rb"[-_/]|::")
-
-
-def _spellings(name: str) -> tuple[str, ...]:
-    """Return how a package may be written: with dashes, as a nested namespace or include folder.
-
-    Conversions of tf2 are found by the types of their arguments, and bear no name but tf2.
-    """
-    found = [name, name.replace("-", "_"), name.replace("_", "-"), name.replace("_", "::", 1), name.replace("_", "/", 1)]
-    return tuple(dict.fromkeys([*found, "tf2"] if name in _CONVERSIONS else found))
-
-
-_CONVERSIONS = frozenset({"tf2_bullet", "tf2_eigen", "tf2_eigen_kdl", "tf2_geometry_msgs", "tf2_kdl", "tf2_sensor_msgs"})
-
-
-def _find_word(data: bytes, word: bytes) -> int:
-    """Return the offset of a word, -1 when there is none. A search for letters is many times faster than for a pattern."""
-    start = data.find(word)
-    while start >= 0:
-        before, after = data[max(start - 1, 0) : start], data[start + len(word) : start + len(word) + 1]
-        if not (before.isalnum() or after.isalnum()):
-            return start
-        start = data.find(word, start + 1)
-    return -1

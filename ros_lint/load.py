@@ -9,10 +9,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
-from ros_lint import conditions, evidence, launch_around, public_headers, scripts, source_lists, type_names
+from ros_lint import conditions, evidence, launch_around, public_headers, scripts, source_lists, traces, type_names
 from ros_lint.cache import Cache
 from ros_lint.collect import FAILED, Collected, collect_all, kind_of
-from ros_lint.declare import is_built_in_sight, is_unseen_by_name
 from ros_lint.discover import Found, Skipped, discover
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.launch import LaunchFile
@@ -33,11 +32,6 @@ Progress = Callable[[str, int, int], None]
 """Hears what is being done, how much of it is done, and how much there is."""
 
 _NO_ROLE = Role(0)
-_NO_TEXT = (
-    ".md", ".rst", ".png", ".jpg", ".svg", ".gif", ".pdf", ".stl", ".dae", ".obj", ".pgm", ".pcd",
-    ".zip", ".onnx", ".bag", ".mcap",
-)  # fmt: skip
-_NO_TRACE = ("changelog", "readme", "license", "licence", "contributing", "quality_declaration", "copying", "notice")
 
 
 class _Read(NamedTuple):
@@ -217,26 +211,7 @@ class Loader:
                 parameter_files=tuple([f.parameters for f in done.facts.values() if f.parameters is not None]),
                 unusable_headers=public_headers.unusable(done.script, done.facts, found.files),
             )
-            yield package._replace(traces=self._traces(tree, package, source, world, types)) if search else package
-
-    def _traces(
-        self, tree: Tree, package: Package, source: evidence.Source, world: World, types: type_names.Types
-    ) -> Mapping[str, Span]:
-        """Look for the names of what seems unused in every text of the package (reference, section F3, condition 7)."""
-        if not is_built_in_sight(package):
-            return {}
-        built = [d.name for d in package.declared if d.depend.tag in ("depend", "build_depend") and not d.depend.condition]
-        unused = evidence.unused_names(built, package.uses)
-        names = world.knowledge.names
-        satisfied = evidence.satisfying(package.uses)
-        wanted = [n for n in unused if not (names.works_unseen(n) or (n in satisfied and is_unseen_by_name(world, n)))]
-        libraries = {name: names.called(name) for name in wanted if world.is_key(name)}
-        found = evidence.mentioned(wanted, source, libraries, _may_trace) if wanted else {}
-        left = [name for name in wanted if name not in found]
-        if left:
-            found = {**found, **evidence.traces(left, _contents(tree, package), libraries)}
-            left = [name for name in left if name not in found]
-        return {**found, **types.used(source, left)} if left else found
+            yield package._replace(traces=traces.of_package(tree, package, source, world, types)) if search else package
 
     def _declared(self, manifest: Manifest | None) -> tuple[Declared, ...]:
         """Return every dependency element whose condition is not false, groups, conflicts and replaces included."""
@@ -304,20 +279,3 @@ def _failed(reads: Sequence[_Read]) -> Iterator[NotChecked]:
         for opaque in done.script.opaque if done.script else ():
             if opaque.reason.startswith(FAILED.partition("{")[0]):
                 yield NotChecked(opaque.span.path, opaque.reason, opaque.span)
-
-
-def _contents(tree: Tree, package: Package) -> Iterator[tuple[str, bytes]]:
-    """Yield the files of a package that may say that it uses something: no prose, and not the manifest itself."""
-    for file in filter(_may_trace, package.files):
-        path = join(package.path, file)
-        try:
-            data = tree.read(path)
-        except OSError:
-            continue
-        if b"\0" not in data[:1024]:
-            yield path, data
-
-
-def _may_trace(file: str) -> bool:
-    name = file.rpartition("/")[2].lower()
-    return not (name == "package.xml" or name.startswith(_NO_TRACE) or name.endswith(_NO_TEXT))

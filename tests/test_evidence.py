@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from ros_lint.collectors import cpp
-from ros_lint.evidence import Source, mentioned, traces, used_names
+from ros_lint.evidence import used_names
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Use
-from ros_lint.knowledge.names import Names
-from ros_lint.knowledge.store import Store
 from ros_lint.load import Loader
 from ros_lint.needs import covered, may_bring, needs, undeclared
 from ros_lint.report import Target
-from ros_lint.text import read
 from ros_lint.tree import MemoryTree
 from ros_lint.workspace import Workspace
 
@@ -137,22 +133,6 @@ def test_a_tag_covers_what_comes_along_with_it_for_its_role() -> None:
     assert not covered(package, workspace, ("nav_msgs",), Role.BUILD)  # only what something else brings
 
 
-def test_a_name_leaves_traces_in_many_spellings() -> None:
-    files = [
-        ("a.cpp", b"// \xff\nacme::route_tools::Route route;\n"),
-        ("b.cpp", b"auto message = tf2::toMsg(transform);\n"),
-        ("c.yaml", b"key: my-own-tools\nother: nav_msgs_extra\n"),
-    ]
-    found = traces(("acme_route_tools", "tf2_eigen", "my_own_tools", "route", "nav", "std_msgs", "xnav_msgs"), files)
-    assert {name: (span.path, span.line) for name, span in found.items()} == {
-        "acme_route_tools": ("a.cpp", 2),
-        "tf2_eigen": ("b.cpp", 1),
-        "my_own_tools": ("c.yaml", 1),
-        "route": ("a.cpp", 2),
-        "nav": ("c.yaml", 2),
-    }
-
-
 def test_variables_of_ros_come_from_a_package() -> None:
     lines = 'set(distro $ENV{ROS_DISTRO})\nmessage(STATUS "for $ENV{ROS_VERSION}")'
     assert [(use.what, use.optional) for use in uses(load(cmake("talker", "", lines)), "ros_environment")] == [
@@ -230,29 +210,6 @@ def test_modules_with_parts_of_launch_files_are_less_than_sure() -> None:
     }
     workspace = load(files)
     assert [sure for need, sure in undeclared(workspace.packages[0], workspace) if need.name == "rviz2"] == [False]
-
-
-def test_words_leave_traces_whatever_their_capitals() -> None:
-    files = [("a.cpp", b"#include <cpprest/http_client.h>\n"), ("CMakeLists.txt", b"find_package(CHOLMOD)\n")]
-    names = Names(Store())
-    keys = ("libcpprest-dev", "suitesparse", "python3-open3d")
-    found = traces(keys, files, {key: names.called(key) for key in keys})
-    assert {name: (span.path, span.line) for name, span in found.items()} == {
-        "libcpprest-dev": ("a.cpp", 1),
-        "suitesparse": ("CMakeLists.txt", 1),
-    }
-
-
-def test_what_an_include_names_is_a_trace_where_the_text_has_it() -> None:
-    source = b"#include <acme/route_tools/route.hpp>\n#include <Eigen/Core>\nacme_msgs::msg::Route route;\n"
-    names, words = ("acme_route_tools", "acme_msgs", "eigen", "acme_other"), {"eigen": ("eigen",)}
-    facts = {file: cpp.collect(read(f"talker/{file}", source)) for file in ("a.cpp", "readme.cpp")}
-    package = Source("talker", "talker", tuple(facts), None, facts, (), "ament_cmake")
-    found = mentioned(names, package, words, lambda file: file != "readme.cpp")
-    texts = traces(names, [("talker/a.cpp", source)], words)
-    assert {name: span.line for name, span in found.items()} == {name: span.line for name, span in texts.items()}
-    assert found.keys() == {"acme_route_tools", "acme_msgs", "eigen"}
-    assert not mentioned(names, package, words, lambda file: False)
 
 
 def test_of_several_that_would_do_the_best_that_is_declared_is_used() -> None:

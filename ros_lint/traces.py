@@ -1,0 +1,154 @@
+"""Where the texts of a package name others that nothing in it seems to use (reference, section F3, condition 7)."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import accumulate
+from typing import TYPE_CHECKING
+
+from ros_lint.declare import is_built_in_sight, is_unseen_by_name
+from ros_lint.evidence import Source, satisfying, used_names
+from ros_lint.facts.sources import Via
+from ros_lint.text import Span
+from ros_lint.tree import Tree, join
+from ros_lint.type_names import Types
+from ros_lint.workspace import Package
+
+if TYPE_CHECKING:
+    from ros_lint.world import World
+
+_NO_TEXT = (
+    ".md", ".rst", ".png", ".jpg", ".svg", ".gif", ".pdf", ".stl", ".dae", ".obj", ".pgm", ".pcd",
+    ".zip", ".onnx", ".bag", ".mcap",
+)  # fmt: skip
+_NO_TRACE = ("changelog", "readme", "license", "licence", "contributing", "quality_declaration", "copying", "notice")
+
+
+def of_package(tree: Tree, package: Package, source: Source, world: World, types: Types) -> Mapping[str, Span]:
+    """Return a place for every declared name that stands in a text of the package though nothing in it is seen to use it."""
+    if not is_built_in_sight(package):
+        return {}
+    built = [d.name for d in package.declared if d.depend.tag in ("depend", "build_depend") and not d.depend.condition]
+    used, satisfied = used_names(built, package.uses), satisfying(package.uses)
+    names = world.knowledge.names
+    wanted = [
+        name
+        for name in dict.fromkeys(built)
+        if not (name in used or names.works_unseen(name) or (name in satisfied and is_unseen_by_name(world, name)))
+    ]
+    libraries = {name: names.called(name) for name in wanted if world.is_key(name)}
+    found = mentioned(wanted, source, libraries, _may_trace) if wanted else {}
+    left = [name for name in wanted if name not in found]
+    if left:
+        found = {**found, **traces(left, _contents(tree, package), libraries)}
+        left = [name for name in left if name not in found]
+    return {**found, **types.used(source, left)} if left else found
+
+
+def _contents(tree: Tree, package: Package) -> Iterator[tuple[str, bytes]]:
+    """Yield the files of a package that may say that it uses something: no prose, and not the manifest itself."""
+    for file in filter(_may_trace, package.files):
+        path = join(package.path, file)
+        try:
+            data = tree.read(path)
+        except OSError:
+            continue
+        if b"\0" not in data[:1024]:
+            yield path, data
+
+
+def _may_trace(file: str) -> bool:
+    name = file.rpartition("/")[2].lower()
+    return not (name == "package.xml" or name.startswith(_NO_TRACE) or name.endswith(_NO_TEXT))
+
+
+def traces(
+    names: Sequence[str], files: Iterable[tuple[str, bytes]], words: Mapping[str, Sequence[str]] | None = None
+) -> dict[str, Span]:
+    """Return a place for every name that stands as a word in one of the files, dashes and underscores taken as equal.
+
+    ``files`` are paths with contents. They are searched all at once and as they are: few of them have a name in question.
+    ``words`` are sought for some of the names instead, anywhere and whatever their capitals.
+    """
+    listed = list(files)
+    data = b"\n".join([content for _, content in listed])
+    starts = list(accumulate([len(content) + 1 for _, content in listed], initial=0))
+    found: dict[str, Span] = {}
+    words = words or {}
+    lower = data.lower() if words else b""
+    for name in names:
+        if name in words:
+            places = ((lower.find(word.lower().encode()), word.encode()) for word in words[name])
+        else:
+            places = ((_find_word(data, spelling), spelling) for spelling in _written(name, data))
+        start, spelling = next((place for place in places if place[0] >= 0), (-1, b""))
+        if start < 0:
+            continue
+        file = bisect_right(starts, start) - 1
+        line_start = max(data.rfind(b"\n", 0, start) + 1, starts[file])
+        line = data.count(b"\n", starts[file], start) + 1
+        column = len(data[line_start:start].decode("utf-8", "replace")) + 1
+        found[name] = Span(listed[file][0], line, column, line, column + len(spelling))
+    return found
+
+
+def mentioned(
+    names: Sequence[str], source: Source, words: Mapping[str, Sequence[str]], counts: Callable[[str], bool]
+) -> dict[str, Span]:
+    """Return what :func:`traces` does for those names that stand in an include or an import, without the texts.
+
+    ``counts`` says which files may leave traces.
+    """
+    mentions = [
+        mention
+        for file, facts in source.facts.items()
+        if facts.mentions and counts(file)
+        for mention in facts.mentions
+        if mention[1] in _AS_WRITTEN  # by index: there are ten thousands
+    ]
+    lines = "\n".join([mention[0] for mention in mentions]).encode("utf-8", "surrogateescape")
+    return {name: mentions[span.line - 1].span for name, span in traces(names, [("", lines)], words).items()}
+
+
+_AS_WRITTEN: frozenset[Via] = frozenset({"include", "import", "symbol"})
+"""Mentions whose name stands in the source just so."""
+
+
+def _written(name: str, data: bytes) -> Iterator[bytes]:
+    """Yield those spellings of a name whose end stands somewhere: names begin alike, and what few have is found faster."""
+    there: dict[bytes, bool] = {}
+    for spelling in _spellings(name):
+        written = spelling.encode()
+        end = _SEPARATOR.split(written, maxsplit=1)[-1]
+        if end not in there:
+            there[end] = end in data
+        if there[end]:
+            yield written
+
+
+_SEPARATOR = re.compile(rb"[-_/]|::")
+
+
+def _spellings(name: str) -> tuple[str, ...]:
+    """Return how a package may be written: with dashes, as a nested namespace or include folder.
+
+    Conversions of tf2 are found by the types of their arguments, and bear no name but tf2.
+    """
+    found = [name, name.replace("-", "_"), name.replace("_", "-"), name.replace("_", "::", 1), name.replace("_", "/", 1)]
+    return tuple(dict.fromkeys([*found, "tf2"] if name in _CONVERSIONS else found))
+
+
+_CONVERSIONS = frozenset({"tf2_bullet", "tf2_eigen", "tf2_eigen_kdl", "tf2_geometry_msgs", "tf2_kdl", "tf2_sensor_msgs"})
+
+
+def _find_word(data: bytes, word: bytes) -> int:
+    """Return the offset of a word, -1 when there is none. A search for letters is many times faster than for a pattern."""
+    start = data.find(word)
+    while start >= 0:
+        before, after = data[max(start - 1, 0) : start], data[start + len(word) : start + len(word) + 1]
+        if not (before.isalnum() or after.isalnum()):
+            return start
+        start = data.find(word, start + 1)
+    return -1
