@@ -17,7 +17,8 @@ fix adds it to the list.
 
 ## When it keeps silent
 
-For tests, for folders without modules, and where `packages` cannot be evaluated.
+For tests, for folders without modules, for those whose modules `data_files` puts elsewhere, and where `packages` cannot be
+evaluated.
 """
 
 from __future__ import annotations
@@ -36,10 +37,11 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     installed = set(script.python_packages)
     slot = setup_edits.slot(script, "packages")
     place = slot.end if slot else (script.name_span or Span(script.path, 1, 1, 1, 1))
+    beside = {provided.source.rpartition("/")[0] for provided in script.provides if provided.source.endswith(".py")}
     told: set[str] = set()
     for name, folder in _packages(package):
         parent = name.rpartition(".")[0]
-        if name in installed or parent not in installed or f"{folder}/__init__.py" not in package.files:
+        if name in installed or parent not in installed or f"{folder}/__init__.py" not in package.files or folder in beside:
             continue
         told.add(name)
         yield Finding(
