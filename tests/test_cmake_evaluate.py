@@ -381,6 +381,28 @@ def test_code_for_other_distributions_counts_as_possible() -> None:
     assert not found["cmake", "b"].optional
 
 
+@pytest.mark.parametrize(
+    ("around", "lost"),
+    [
+        ("macro(add)\n{}\nendmacro()\nadd()", False),
+        ("if(WIN32 OR 1)\n{}\nendif()", False),
+        ("foreach(i 1)\n{}\nendforeach()", False),
+        ("function(add)\n{}\nendfunction()\nadd()", True),
+        ("function(add)\n{}\nendfunction()\nfunction(all)\nadd()\nendfunction()\nall()", True),
+        (
+            "function(add)\n{}\nset(_RCLCPP_COMPONENTS_rclcpp_components__NODES "
+            "${{_RCLCPP_COMPONENTS_rclcpp_components__NODES}} PARENT_SCOPE)\nendfunction()\nadd()",
+            False,
+        ),
+        ("function(add)\n{}\nament_package()\nendfunction()\nadd()\nreturn()", False),
+    ],
+)
+def test_components_are_registered_where_ament_package_sees_them(around: str, lost: bool) -> None:
+    """A function's variables are gone when it ends, those in which rclcpp_components notes its components among them."""
+    script = run(around.format('rclcpp_components_register_nodes(core "ns::Node")') + "\nament_package()\n")
+    assert [component.lost for component in script.components] == [lost]
+
+
 def test_the_name_of_components_until_dashing() -> None:
     script = run('add_library(c SHARED c.cpp)\nrclcpp_register_node_plugins(c "pkg::A" "pkg::B")\n', ("c.cpp",))
     assert [component.name for component in script.components] == ["pkg::A", "pkg::B"]

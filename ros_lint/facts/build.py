@@ -35,6 +35,8 @@ class Component(NamedTuple):
     name: str
     conditional: bool
     span: Span
+    lost: bool = False
+    """Whether it is registered where ament_package() does not see it: in a function, or in a subfolder."""
 
 
 class PluginClass(NamedTuple):

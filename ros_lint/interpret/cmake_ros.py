@@ -58,6 +58,7 @@ def _component(run: Run, args: list[str]) -> None:
             run.hide(Facet.COMPONENTS, "the class of a component is not known")
         elif not run.muted:
             run.components.append(Component(name, run.conditional or run.testing or not certain, run.where(arg)))
+            run.registered.append(run.scopes[-1])
 
 
 def _interfaces(run: Run, args: list[str]) -> None:
@@ -183,9 +184,15 @@ def _package(run: Run, args: list[str]) -> None:
         found = [(f"share/{name}/package.xml", "package.xml")] if "package.xml" in run.files else []
         found += [(f"share/ament_index/resource_index/packages/{name}", ""), (f"share/{name}/cmake/{name}Config.cmake", "")]
         run.installed += [Provided(path, source, False, conditional, span) for path, source in found]
+    if not any(variable.startswith(_REGISTERED) for scope in run.scopes for variable in scope):
+        for number, scope in enumerate(run.registered):
+            if not any(scope is seen for seen in run.scopes):
+                run.components[number] = run.components[number]._replace(lost=True)
     _end(run)
 
 
+_REGISTERED: Final = "_RCLCPP_COMPONENTS"
+"""How the variables begin in which rclcpp_components notes what ament_package() has to write: some packages hand them on."""
 _EXTRAS: Final = ("CONFIG_EXTRAS", "CONFIG_EXTRAS_POST")
 
 

@@ -15,7 +15,7 @@ from ros_lint.facts.sight import Facet, Opaque, Problem
 from ros_lint.facts.sources import Mention, Purpose, Via
 from ros_lint.interpret.cmake_expand import ExpansionError, expand, template, templates
 from ros_lint.interpret.cmake_sources import Helper, Sources
-from ros_lint.interpret.cmake_state import MISSING, Frame, Properties, State
+from ros_lint.interpret.cmake_state import MISSING, Frame, Properties, State, Variables
 from ros_lint.interpret.cmake_values import ATOM, BINARY, HOLE, MAYBE, PREFIX, SOURCE, split, wild
 from ros_lint.knowledge.cmake_commands import SOFT_VARIABLES, UNKNOWN_VARIABLES, VARIABLES
 from ros_lint.text import Span
@@ -154,6 +154,8 @@ class Run(State):
         self.opaques: dict[Opaque, None] = {}
         self.problems: dict[Problem, None] = {}
         self.components: list[Component] = []
+        self.registered: list[Variables] = []
+        """For each of them the scope in which it is registered."""
         self.interfaces: dict[str, None] = {}
         self.python_packages: dict[str, None] = {}
         self.installed: list[Provided] = []

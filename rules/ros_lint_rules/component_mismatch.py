@@ -2,18 +2,20 @@
 ## What it finds
 
 Components that cannot be loaded: CMake registers a class that no source makes loadable under this name with
-`RCLCPP_COMPONENTS_REGISTER_NODE`; a source does so and CMake does not register the class; the library of a component is not
-installed.
+`RCLCPP_COMPONENTS_REGISTER_NODE`; a source does so and CMake does not register the class, or does so in a function or in the
+`CMakeLists.txt` of a subfolder; the library of a component is not installed.
 
 ## Why it matters
 
 `ros2 component load` and `ComposableNode` look up the name in the index, then in the library, letter by letter: "Could not
 find requested resource in ament index", or "Failed to find class with the requested plugin name". The executable that
-`rclcpp_components_register_node(... EXECUTABLE x)` builds has the same trouble.
+`rclcpp_components_register_node(... EXECUTABLE x)` builds has the same trouble. The registration is a variable of CMake that
+`ament_package()` writes into the index: what a function or a subfolder sets is gone when it ends.
 
 ## How to fix it
 
-Write the same name, with its namespaces, into both. Install the library to `lib`.
+Write the same name, with its namespaces, into both. Install the library to `lib`. Register components in the
+`CMakeLists.txt` of the package, or in a macro instead of a function.
 
 ## When it keeps silent
 
@@ -28,6 +30,7 @@ import difflib
 from collections.abc import Iterator
 
 from ros_lint.api import (
+    BuildScript,
     Component,
     Confidence,
     Edit,
@@ -47,6 +50,7 @@ from ros_lint.api import (
     relative,
 )
 
+_MOST_RELATED = 4
 _REGISTER = ("rclcpp_components_register_node", "rclcpp_components_register_nodes")
 
 
@@ -64,10 +68,27 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 alike = _alike(component, left)
                 left = [one for one in left if one not in alike]
                 yield _unmade(component, alike)
+    yield from _lost(script)
     for one in left:
         yield _unregistered(package, one, started=one.name in workspace.loaded.get(package.name, ()))
     if not package.hidden(Facet.LIBRARIES):
         yield from _libraries(package)
+
+
+def _lost(script: BuildScript) -> Iterator[Finding]:
+    """Speak of components that are registered where ament_package() does not see it, all at once."""
+    seen = {component.name for component in script.components if not component.lost}
+    lost = {component.name: component for component in script.components if component.name not in seen}
+    for first, *others in [list(lost.values())] if lost else []:
+        more = f" and {len(others)} more" if others else ""
+        yield Finding(
+            f"{first.name}{more}: registered in a function or a subfolder, which ament_package() does not see, so nobody finds "
+            "the component; register it in CMakeLists.txt of the package itself",
+            first.span,
+            first.name,
+            tuple(Related("also this one", other.span) for other in others[:_MOST_RELATED]),
+            confidence=Confidence.MEDIUM if first.conditional else Confidence.HIGH,
+        )
 
 
 def _alike(component: Component, left: list[Registration]) -> list[Registration]:
