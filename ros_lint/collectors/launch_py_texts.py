@@ -202,6 +202,12 @@ SUBSTITUTIONS = frozenset(_RULES) | {"AnonName", "Parameter", "FileContent", "Lo
 """Classes whose objects stand for a text."""
 
 
+def is_text(value: Value) -> bool:
+    """Return whether a value is a substitution."""
+    made = plain(value)
+    return isinstance(made, Made) and made.name in SUBSTITUTIONS
+
+
 def conditions_of(value: Value, within: Within | None = None) -> Conditions:
     """Return what a condition of launch asks for: IfCondition, UnlessCondition and the two that compare a configuration."""
     found: list[LaunchCondition] = []

@@ -65,6 +65,11 @@ def span_of(node: ast.AST, source: Source) -> Span:
     )
 
 
+def place_of(made: Made) -> Span:
+    """Return where an object is made."""
+    return span_of(made.node, made.source)
+
+
 class Walker:
     """Turns values into actions."""
 

@@ -1,0 +1,206 @@
+"""What Python launch files start: nodes, components and processes, and what these are given (reference, section G2)."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Mapping
+
+from ros_lint.collectors.launch_py_events import later
+from ros_lint.collectors.launch_py_methods import items
+from ros_lint.collectors.launch_py_objects import PERHAPS, Conditions, FilePath, Made, Value, alternatives, plain
+from ros_lint.collectors.launch_py_texts import is_text, texts
+from ros_lint.collectors.launch_py_walk import Rule, Walker, place_of, span_of
+from ros_lint.collectors.launch_text import UNKNOWN, named_in
+from ros_lint.facts.launch import LaunchAction, LaunchValue
+from ros_lint.facts.sight import Problem
+
+_REMOVED = {
+    "node_executable": "executable",
+    "node_name": "name",
+    "node_namespace": "namespace",
+    "node_plugin": "plugin",
+}
+"""Keywords that have another name now (reference, section G2.3)."""
+_DISTRIBUTION = "$ROS_DISTRO"
+"""What a text calls the environment variable that says which distribution runs."""
+_MOST_PARAMETERS = 2_000
+_NODES = frozenset({"Node", "LifecycleNode", "ComposableNodeContainer"})
+
+
+def _note_removed(walker: Walker, made: Made, conditions: Conditions) -> None:
+    """Note what is gone, unless the file itself asks for the distribution before it comes here."""
+    if any(_DISTRIBUTION in (named_in(text) or ()) for condition in conditions for text in condition.texts):
+        return
+    for keyword in made.node.keywords:
+        now = _REMOVED.get(keyword.arg or "")
+        if now is not None:
+            message = f"{keyword.arg}= of {made.name} is gone since Galactic: say {now}="
+            walker.problems.append(Problem("removed-keyword", message, span_of(keyword, made.source)))
+
+
+def started_node(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    """Return a node with all that it is given, and what is done when it ends."""
+    _note_removed(walker, made, conditions)
+    children: list[LaunchAction] = []
+    if made.name == "ComposableNodeContainer":
+        children = walker.actions(made.get(-1, "composable_node_descriptions"), (), place_of(made))
+    elif made.name not in _NODES:
+        children = nested(walker, made)
+    node = LaunchAction(
+        "node",
+        place_of(made),
+        package=walker.value(made, -1, "package"),
+        target=walker.value(made, -1, "executable", "node_executable"),
+        name=walker.value(made, -1, "name", "node_name"),
+        namespace=walker.value(made, -1, "namespace", "node_namespace"),
+        arguments=_given(walker, made, "arguments", "ros_arguments", "prefix", "additional_env", "env", "cwd"),
+        parameters=_parameters(walker, made),
+        remappings=_remappings(walker, made),
+        conditions=conditions,
+        children=tuple(children),
+    )
+    return [node, *later(walker, made, "on_exit")]
+
+
+def _component(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    _note_removed(walker, made, conditions)
+    return [
+        LaunchAction(
+            "component",
+            place_of(made),
+            package=walker.value(made, -1, "package"),
+            target=walker.value(made, -1, "plugin", "node_plugin"),
+            name=walker.value(made, -1, "name", "node_name"),
+            namespace=walker.value(made, -1, "namespace", "node_namespace"),
+            parameters=_parameters(walker, made),
+            remappings=_remappings(walker, made),
+            conditions=conditions,
+        )
+    ]
+
+
+def _load(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    children = walker.actions(made.get(0, "composable_node_descriptions"), (), place_of(made))
+    target = made.get(1, "target_container")
+    name = walker.value(made, 1, "target_container") if not isinstance(plain(target), Made) or is_text(target) else None
+    return [LaunchAction("group", place_of(made), name=name, conditions=conditions, children=tuple(children))]
+
+
+def _process(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    command = made.get(0, "cmd")
+    words = items(walker.machine, command) if command is not None else None
+    node = made.written(0, "cmd")
+    arguments = [("", walker.text(word, node, made.source)) for word in words or ()]
+    target = arguments[0][1] if arguments else None
+    process = LaunchAction(
+        "process",
+        place_of(made),
+        target=target,
+        arguments=(*arguments, *_given(walker, made, "additional_env", "env", "cwd", "prefix")),
+        package_span=next((span for _, one in arguments if (span := walker.package_span(one))), None),
+        conditions=conditions,
+    )
+    return [process, *later(walker, made, "on_exit")]
+
+
+def _given(walker: Walker, made: Made, *names: str) -> tuple[tuple[str, LaunchValue], ...]:
+    """Return texts of arguments that are lists or dictionaries of texts."""
+    found: list[tuple[str, LaunchValue]] = []
+    for name in names:
+        if name not in made.keywords:
+            continue
+        given = plain(made.keywords[name])
+        node = made.written(-1, name)
+        if isinstance(given, dict):
+            found += [(f"${_key(key)}", walker.text(plain(value), node, made.source)) for key, value in given.items()]
+            continue
+        word = "" if name in ("arguments", "ros_arguments") else name
+        values = items(walker.machine, given) or [given]
+        found += [(word, walker.text(plain(value), node, made.source)) for value in values]
+    return tuple(found)
+
+
+def _parameters(walker: Walker, made: Made) -> tuple[tuple[str, LaunchValue], ...]:
+    found: list[tuple[str, LaunchValue]] = []
+    if "parameters" not in made.keywords:
+        return ()
+    node = made.written(-1, "parameters")
+    for given in items(walker.machine, made.keywords["parameters"]) or [made.keywords["parameters"]]:
+        for one in alternatives(given):
+            _parameter(walker, one.value, node, made, found)
+    return tuple(found)
+
+
+def _parameter(walker: Walker, value: Value, node: ast.expr, made: Made, found: list[tuple[str, LaunchValue]]) -> None:
+    waiting = [("", value)]
+    for _ in range(_MOST_PARAMETERS):
+        if not waiting:
+            break
+        name, one = waiting.pop(0)
+        if isinstance(one, dict):
+            inner = [(f"{name}.{key}" if name else _key(key), plain(inner)) for key, inner in one.items()]
+            waiting = [*inner, *waiting]
+        elif isinstance(one, (list, tuple)) and not name and not all(_names_file(plain(part)) for part in one):
+            waiting = [*[("", plain(inner)) for inner in one], *waiting]
+        elif name:
+            found.append((name, walker.text(_list(one), node, made.source)))
+        else:
+            # What is not known is mostly a dictionary of parameters, and no file.
+            known = isinstance(one, (list, tuple)) or _names_file(one)
+            found.append(("" if known else UNKNOWN, walker.text(one, node, made.source)))
+
+
+def _names_file(value: Value) -> bool:
+    """Return whether a value is a path or a part of one."""
+    return isinstance(value, (str, FilePath)) or is_text(value)
+
+
+def _list(value: Value) -> Value:
+    """Return a list of texts as YAML has it, and anything else as it is."""
+    if not isinstance(value, (list, tuple)) or not all(isinstance(one, (str, int, float)) for one in value):
+        return value
+    return f"[{', '.join(map(str, value))}]"
+
+
+def _key(key: Value) -> str:
+    return str(texts(key)[0]) or "?"
+
+
+def _remappings(walker: Walker, made: Made) -> tuple[tuple[LaunchValue, LaunchValue], ...]:
+    found: list[tuple[LaunchValue, LaunchValue]] = []
+    if "remappings" in made.keywords:
+        node = made.written(-1, "remappings")
+        for pair in items(walker.machine, made.keywords["remappings"]) or ():
+            parts = items(walker.machine, pair)
+            if parts is not None and len(parts) == 2:
+                found.append((walker.text(parts[0], node, made.source), walker.text(parts[1], node, made.source)))
+            elif parts is not None or isinstance(plain(pair), str):
+                walker.problems.append(Problem("remapping", "a remapping is a pair of names", span_of(node, made.source)))
+    return tuple(found)
+
+
+def nested(walker: Walker, made: Made) -> list[LaunchAction]:
+    """Return the actions among the arguments of something that is not known."""
+    found: list[LaunchAction] = []
+    for value in (*made.arguments, *made.keywords.values()):
+        for one in alternatives(value):
+            inner = one.value if isinstance(one.value, (list, tuple)) else [one.value]
+            found += [
+                action
+                for each in inner
+                if isinstance(plain(each), Made) and not is_text(each)
+                for action in walker.actions(each, (*one.conditions, PERHAPS), place_of(made))
+            ]
+    return found
+
+
+RULES: Mapping[str, Rule] = {
+    "Node": started_node,
+    "LifecycleNode": started_node,
+    "ComposableNodeContainer": started_node,
+    "ComposableNode": _component,
+    "ComposableLifecycleNode": _component,
+    "LoadComposableNodes": _load,
+    "ExecuteProcess": _process,
+    "ExecuteLocal": _process,
+}
