@@ -110,8 +110,13 @@ class Liveness:
             return Role.EXEC, path in self._installed or not (self._sees_share or idle)
         if python:
             alive = path in self._installed_python or (path in self._installed and path in self._beside_launch_files)
-            return Role.EXEC, alive or not (self._sees_python or idle or name in _RECIPES or self._is_left_out(path))
+            apart = idle or name in _RECIPES or self._is_beside_script(path) or self._is_left_out(path)
+            return Role.EXEC, alive or not (self._sees_python or apart)
         return PRODUCTION, not (self._sees_targets or idle or self._is_left_out(path))
+
+    def _is_beside_script(self, path: str) -> bool:
+        """Whether a file lies at the top of a package that CMake builds: what works on the sources does, to release them, say."""
+        return "/" not in path and self._script is not None and self._script.path.endswith("CMakeLists.txt")
 
     def _is_run(self, path: str) -> bool:
         """Whether a file in Python is run as a test, or lies beside one."""

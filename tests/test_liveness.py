@@ -82,6 +82,14 @@ def test_beside_what_is_installed_by_name_lies_what_is_not() -> None:
     assert use(workspace, "python3-pandas").sure  # nobody knows
 
 
+def test_beside_the_script_of_cmake_lies_what_works_on_the_sources() -> None:
+    files = {"release.py": "import scipy\n", "tool.py": "import pandas\n", "robot/__init__.py": "import requests\n"}
+    workspace = load(HIDDEN + "install(PROGRAMS tool.py DESTINATION lib/robot)", files)
+    assert not use(workspace, "python3-scipy").sure
+    assert use(workspace, "python3-pandas").sure
+    assert use(workspace, "python3-requests").sure  # nobody knows
+
+
 def test_beside_what_is_compiled_by_name_lies_what_is_not() -> None:
     lines = HIDDEN + "ament_add_gtest(t test/a.cpp)"
     files = {"test/a.cpp": include("nav_msgs"), "test/b.cpp": include("shape_msgs")}
