@@ -21,6 +21,8 @@ class Launchable(NamedTuple):
     installed: bool
     apart: bool = False
     """Whether it is a test, an example or a template."""
+    run: bool = True
+    """Whether somebody runs it: people, unless it is apart; the tests of the package."""
 
 
 def launchable(package: Package, *, apart: bool = False) -> Iterator[Launchable]:
@@ -29,6 +31,7 @@ def launchable(package: Package, *, apart: bool = False) -> Iterator[Launchable]
         return
     script = package.script
     installed = {provided.source: provided.conditional for provided in script.provides if provided.source} if script else {}
+    tests = frozenset(script.runs or ()) if script else frozenset()
     modules = tuple(f"{module.replace('.', '/')}/" for module in script.python_packages) if script else ()
     for file in package.launch:
         path = file.path[len(package.path) + 1 :] if package.path else file.path
@@ -38,7 +41,7 @@ def launchable(package: Package, *, apart: bool = False) -> Iterator[Launchable]
         # What is merely called a test, and always installed, is for people to start.
         aside = file.test or (lies_apart(path) if is_installed and not installed.get(path) else is_apart(path))
         if apart or not aside:
-            yield Launchable(file, path, is_installed, aside)
+            yield Launchable(file, path, is_installed, aside, not aside or path in tests)
 
 
 def referred(package: Package, kinds: Container[str], *, apart: bool = False) -> dict[tuple[str, str], list[LaunchReference]]:

@@ -19,8 +19,8 @@ Correct the name. The usual slips are the suffix (a console script is called `ta
 - A part of the package's build script that cannot be followed may make the executable.
 - For a released package: the sources of its release are not known whole. What is known of another distribution's
   release does not count.
-- In launch files of tests and examples, which may not run at all, the confidence is medium; one that is merely called a
-  test and always installed counts like any other.
+- In launch files of examples, and of tests that the build script is not seen to run, the confidence is medium; one that is
+  merely called a test and always installed counts like any other.
 """
 
 from __future__ import annotations
@@ -51,14 +51,14 @@ _MOST_RELATED = 4
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    apart = frozenset(launch.file.path for launch in launchable(package, apart=True) if launch.apart)
+    idle = frozenset(launch.file.path for launch in launchable(package, apart=True) if not launch.run)
     for (owner, name), references in referred(package, ("node",), apart=True).items():
         if "/" in name:
             continue
         missing = _missing(owner, name, workspace)
         if missing is None:
             continue
-        best, *others = sorted(references, key=lambda one: (one.span.path in apart, one.by_default, one.span))
+        best, *others = sorted(references, key=lambda one: (one.span.path in idle, one.by_default, one.span))
         yield Finding(
             f"{owner} installs no executable {name}{missing.hint}",
             best.span,
@@ -68,7 +68,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 *(Related("also started here", reference.span) for reference in others[:_MOST_RELATED]),
             ),
             _fix(missing.meant, references),
-            Confidence.MEDIUM if best.by_default or best.span.path in apart else missing.confidence,
+            Confidence.MEDIUM if best.by_default or best.span.path in idle else missing.confidence,
         )
 
 

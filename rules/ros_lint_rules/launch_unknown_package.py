@@ -4,6 +4,9 @@
 A launch file that starts something from a package, includes a file of it or looks it up, while no package has that
 name: none of the workspace, none of an underlay, none that is released for the distribution.
 
+A name without the first word that the packages of a project share, `planner_utils` for `acme_planner_utils` in a package
+`acme_bringup`, is taken for that package where it exists.
+
 ## Why it matters
 
 The launch file stops there: `package 'x' not found`. The usual reasons are a slip of the pen, a package that was
@@ -24,13 +27,15 @@ elsewhere, check with the workspace that holds it as `--underlay`.
   the package is started under no condition and `package.xml` does not declare it either: wherever it comes from, whoever
   installs this package does not get it. That is a warning.
 - `package.xml` declares the name as well, and it resembles no other: then `unknown-dependency` or
-  `end-of-life-dependency` tells of it, once.
-- In launch files of tests and examples, which may not run at all, the confidence is medium; one that is merely called a
-  test and always installed counts like any other.
+  `end-of-life-dependency` tells of it, once. If it resembles one, the confidence is medium for what a package may be called
+  (REP 144: no dashes, no capitals).
+- In launch files of examples, and of tests that the build script is not seen to run, the confidence is medium; one that is
+  merely called a test and always installed counts like any other.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
@@ -54,6 +59,8 @@ from ros_lint.api import (
 )
 
 _MOST_RELATED = 4
+_MAY_BE_A_PACKAGE = re.compile(r"[a-z][a-z0-9_]*")
+"""REP 144; as sure as ``unknown-dependency`` is of what ``package.xml`` declares."""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -61,7 +68,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     declared = frozenset(one.name for one in package.declared)
     for name, places in _unknown(package, workspace).items():
-        verdict = _verdict(name, workspace)
+        verdict = _verdict(name, package, workspace)
         if verdict is None or (name in declared and not verdict.resembles):
             continue
         best, *others = sorted(places)
@@ -87,7 +94,7 @@ class _Place(NamedTuple):
     """Where a package is named; the most telling place is the least."""
 
     apart: bool
-    """Whether the launch file is a test or an example."""
+    """Whether the launch file is an example, or a test that nothing is seen to run."""
     by_default: bool
     idle: bool
     """Whether the launch file is not installed."""
@@ -131,12 +138,12 @@ def _unknown(package: Package, workspace: Workspace) -> Mapping[str, list[_Place
         for reference in launch.file.references:
             name = reference.package
             if not workspace.world.is_package(name) and name != package.name and not reference.optional:
-                place = _Place(launch.apart, reference.by_default, idle, reference.conditional, reference.span, reference)
+                place = _Place(not launch.run, reference.by_default, idle, reference.conditional, reference.span, reference)
                 found.setdefault(name, []).append(place)
     return found
 
 
-def _verdict(name: str, workspace: Workspace) -> _Verdict | None:
+def _verdict(name: str, package: Package, workspace: Workspace) -> _Verdict | None:
     world = workspace.world
     meant = world.meant(name)
     if meant is not None and world.is_package(meant.name):
@@ -150,6 +157,9 @@ def _verdict(name: str, workspace: Workspace) -> _Verdict | None:
         if not workspace.target.told:
             return None
         return _Verdict(f" in {distro}, only in {', '.join(elsewhere)} (data of {date})", Confidence.MEDIUM, resembles=False)
+    family = f"{package.name.partition('_')[0]}_{name}"
+    if "_" in name and world.is_package(family):
+        return _Verdict(f": {family} is meant", Confidence.HIGH, family)
     ended = world.knowledge.names.end_of_life(name)
     if ended:
         hint = f" in {distro}, only in {', '.join(ended)}, which are no longer supported"
@@ -157,7 +167,8 @@ def _verdict(name: str, workspace: Workspace) -> _Verdict | None:
     near = [other for other in world.suggest(name) if world.is_package(other)]
     hint = f"; did you mean {' or '.join(near)}?" if near else ""
     nowhere = f" in the workspace, the underlays or {distro} (data of {date})"
-    return _Verdict(f"{nowhere}{hint}", Confidence.MEDIUM, resembles=bool(near))
+    strange = package.declares(name) and not _MAY_BE_A_PACKAGE.fullmatch(name)
+    return _Verdict(f"{nowhere}{hint}", Confidence.HIGH if strange else Confidence.MEDIUM, resembles=bool(near))
 
 
 RULE = Rule(
