@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 
 from ros_lint.collectors.launch_expression import evaluate
+from ros_lint.collectors.launch_py_bindings import bind
 from ros_lint.collectors.launch_py_builtins import BUILTINS
 from ros_lint.collectors.launch_py_eval import EVALUATE
 from ros_lint.collectors.launch_py_library import call_library, subscript_library
@@ -42,7 +43,7 @@ from ros_lint.collectors.launch_py_objects import (
     union,
 )
 from ros_lint.collectors.launch_py_operations import negated, text_of
-from ros_lint.collectors.launch_py_statements import LEAVE, bind, execute
+from ros_lint.collectors.launch_py_statements import LEAVE, execute
 from ros_lint.collectors.launch_py_texts import Within, texts
 from ros_lint.collectors.launch_text import UNKNOWN, fill, is_settled, joined
 from ros_lint.facts.launch import LaunchCondition

@@ -10,18 +10,17 @@ import ast
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
+from ros_lint.collectors import launch_py_bindings
+from ros_lint.collectors.launch_py_bindings import bind
 from ros_lint.collectors.launch_py_methods import items
 from ros_lint.collectors.launch_py_objects import (
     PERHAPS,
-    Api,
     Bound,
     Class,
     Conditions,
     Frame,
     Function,
     Guarded,
-    Instance,
-    Made,
     OutOfBudget,
     Raised,
     Unknown,
@@ -30,8 +29,7 @@ from ros_lint.collectors.launch_py_objects import (
     plain,
     union,
 )
-from ros_lint.collectors.launch_py_operations import hashable, operation, opposite_of, truth
-from ros_lint.collectors.launch_py_texts import SUBSTITUTIONS
+from ros_lint.collectors.launch_py_operations import opposite_of, truth
 from ros_lint.collectors.launch_text import presence
 from ros_lint.collectors.python_look_ups import catches_missing_package
 from ros_lint.collectors.python_values import LOOK_UPS, callee
@@ -60,87 +58,6 @@ def execute(machine: Machine, body: Sequence[ast.stmt], frame: Frame) -> int:
 def _expression(machine: Machine, node: ast.Expr, frame: Frame) -> int:
     machine.evaluate(node.value, frame)
     return NEXT
-
-
-def _assign(machine: Machine, node: ast.Assign, frame: Frame) -> int:
-    value = machine.evaluate(node.value, frame)
-    for target in node.targets:
-        bind(machine, target, value, frame)
-    return NEXT
-
-
-def _annotated(machine: Machine, node: ast.AnnAssign, frame: Frame) -> int:
-    if node.value is not None:
-        bind(machine, node.target, machine.evaluate(node.value, frame), frame)
-    return NEXT
-
-
-def _augmented(machine: Machine, node: ast.AugAssign, frame: Frame) -> int:
-    value = machine.evaluate(node.value, frame)
-    load: ast.expr = node.target
-    before = machine.evaluate(load, frame)
-    one = plain(before)
-    if isinstance(one, list) and isinstance(node.op, ast.Add):
-        found = items(machine, value)
-        if found is None:
-            machine.lose(value)
-            found = [Unknown("elements that are not known")]
-        machine.spend(len(found))
-        one += [machine.guard(element) for element in found]
-        return NEXT
-    bind(machine, node.target, operation(machine, node.op, before, value, node.value, frame), frame)
-    return NEXT
-
-
-def bind(machine: Machine, target: ast.expr, value: Value, frame: Frame) -> None:
-    """Give a value to a target of an assignment."""
-    if isinstance(target, ast.Name):
-        frame.declared.get(target.id, frame).names[target.id] = value
-    elif isinstance(target, (ast.Tuple, ast.List)):
-        _unpack(machine, target.elts, value, frame)
-    elif isinstance(target, ast.Attribute):
-        for one in alternatives(machine.evaluate(target.value, frame)):
-            if isinstance(one.value, Instance):
-                one.value.attributes[target.attr] = value
-            elif isinstance(one.value, Made):
-                one.value.keywords[target.attr] = value
-            else:
-                machine.lose(value)
-    elif isinstance(target, ast.Subscript):
-        _store(machine, target, value, frame)
-    elif isinstance(target, ast.Starred):
-        bind(machine, target.value, value, frame)
-
-
-def _unpack(machine: Machine, targets: Sequence[ast.expr], value: Value, frame: Frame) -> None:
-    values = items(machine, value)
-    star = next((index for index, target in enumerate(targets) if isinstance(target, ast.Starred)), -1)
-    if values is None or (star < 0 and len(values) != len(targets)) or len(values) < len(targets) - 1:
-        machine.lose(value)
-        for target in targets:
-            bind(machine, target, Unknown("part of what is not known"), frame)
-        return
-    if star >= 0:
-        after = len(targets) - star - 1
-        values = [*values[:star], values[star : len(values) - after], *values[len(values) - after :]]
-    for target, one in zip(targets, values, strict=True):
-        bind(machine, target, plain(one), frame)
-
-
-def _store(machine: Machine, target: ast.Subscript, value: Value, frame: Frame) -> None:
-    key = plain(machine.evaluate(target.slice, frame)) if not isinstance(target.slice, ast.Slice) else Unknown("a slice")
-    for one in alternatives(machine.evaluate(target.value, frame)):
-        owner = one.value
-        if isinstance(owner, dict):
-            name = hashable(key)
-            if machine.conditions and name in owner:
-                owner[name] = union([owner[name], machine.guard(value)])
-            else:
-                owner[name] = value
-        elif isinstance(owner, list) and isinstance(key, int) and -len(owner) <= key < len(owner):
-            owner[key] = value
-        else:
-            machine.lose(value)
 
 
 def _if(machine: Machine, node: ast.If, frame: Frame) -> int:
@@ -350,69 +267,14 @@ def _class(machine: Machine, node: ast.ClassDef, frame: Frame) -> int:
     return NEXT
 
 
-def _import(machine: Machine, node: ast.Import, frame: Frame) -> int:
-    for alias in node.names:
-        found = machine.module(alias.name, frame.source)
-        top = alias.name.partition(".")[0]
-        if alias.asname:
-            frame.names[alias.asname] = found or Api(alias.name)
-        elif found is None or "." not in alias.name:
-            frame.names[top] = found or Api(top)
-    return NEXT
-
-
-def _import_from(machine: Machine, node: ast.ImportFrom, frame: Frame) -> int:
-    name = "." * node.level + (node.module or "")
-    found = machine.module(name, frame.source)
-    for alias in node.names:
-        if alias.name == "*":
-            frame.names.update(found.names if found is not None else {})
-            continue
-        if alias.name in SUBSTITUTIONS:
-            frame.names[alias.asname or alias.name] = Api(f"{name}.{alias.name}")
-            continue
-        inner = found.names.get(alias.name) if found is not None else None
-        if inner is None:
-            inner = machine.module(f"{name}.{alias.name}" if node.module else f"{name}{alias.name}", frame.source)
-        frame.names[alias.asname or alias.name] = inner if inner is not None else Api(f"{name}.{alias.name}")
-    return NEXT
-
-
-def _global(_machine: Machine, node: ast.Global, frame: Frame) -> int:
-    outermost = frame
-    while outermost.outer is not None:
-        outermost = outermost.outer
-    frame.declared.update(dict.fromkeys(node.names, outermost))
-    return NEXT
-
-
-def _nonlocal(_machine: Machine, node: ast.Nonlocal, frame: Frame) -> int:
-    for name in node.names:
-        around = frame.outer
-        while around is not None and name not in around.names:
-            around = around.outer
-        if around is not None:
-            frame.declared[name] = around
-    return NEXT
-
-
-def _delete(_machine: Machine, node: ast.Delete, frame: Frame) -> int:
-    for target in node.targets:
-        if isinstance(target, ast.Name):
-            frame.names.pop(target.id, None)
-    return NEXT
-
-
 def _kept(left: dict[str, Value], rest: dict[str, Value]) -> dict[str, Value]:
     """Return the names after a branch of which one side left the function."""
     return {**{name: value for name, value in left.items() if name not in rest}, **rest}
 
 
-_STATEMENTS: dict[type[ast.stmt], Callable[[Machine, Any, Frame], int]] = {
+_STATEMENTS: dict[type[ast.stmt], Callable[[Machine, Any, Frame], int | None]] = {
+    **launch_py_bindings.STATEMENTS,
     ast.Expr: _expression,
-    ast.Assign: _assign,
-    ast.AnnAssign: _annotated,
-    ast.AugAssign: _augmented,
     ast.If: _if,
     ast.For: _for,
     ast.AsyncFor: _for,
@@ -428,11 +290,6 @@ _STATEMENTS: dict[type[ast.stmt], Callable[[Machine, Any, Frame], int]] = {
     ast.FunctionDef: _function,
     ast.AsyncFunctionDef: _function,
     ast.ClassDef: _class,
-    ast.Import: _import,
-    ast.ImportFrom: _import_from,
-    ast.Global: _global,
-    ast.Nonlocal: _nonlocal,
-    ast.Delete: _delete,
 }
 if hasattr(ast, "TryStar"):
     _STATEMENTS[ast.TryStar] = _try
