@@ -22,8 +22,8 @@ In `CMakeLists.txt` add the folder to `install(DIRECTORY ... DESTINATION share/$
 - What a command of the build names, such as the file that `generate_parameter_library()` reads, is taken for its input.
 - Pictures in `images/` and `media/` that nothing names: they are there for the documentation.
 - A folder that nothing in the package names has medium confidence: it may serve documentation, or be left over. Not so if
-  other folders of the kind are installed and its files serve at run time alone: displays, maps, models, parameters; or if
-  they are parameters of nodes (`ros__parameters`), and the package has nodes.
+  other folders of the kind are installed and its files serve at run time alone: displays, maps, models, textures, parameters;
+  or if they are parameters of nodes (`ros__parameters`), and the package has nodes.
 """
 
 from __future__ import annotations
@@ -181,7 +181,7 @@ def _confidence(folder: str, files: list[str], looked_up: list[str], shared: boo
         return Confidence.HIGH
     if folder.partition("/")[0] in _DOCUMENTS:
         return Confidence.LOW
-    for_run_time = any(file.endswith(_RUN_TIME) and "example" not in file for file in files)
+    for_run_time = any((file.endswith(_RUN_TIME) or "/textures/" in file) and "example" not in file for file in files)
     for_nodes = any(file in of_nodes and "example" not in file for file in files)
     return Confidence.HIGH if (shared and for_run_time) or for_nodes else Confidence.MEDIUM
 
