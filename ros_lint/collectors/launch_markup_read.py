@@ -179,6 +179,25 @@ class Reader:
         span = entity.place(name)
         return tuple(("", LaunchValue(texts(tuple(word)), span)) for word in row if word)
 
+    def need_truth(self, entity: Entity, name: str) -> None:
+        """Refuse an attribute that is there and neither true nor false."""
+        value = self.typed(entity, name, "bool")
+        if isinstance(value, str):
+            raise Rejected("wrong-type", f"{name} of <{entity.tag}> is neither true nor false", entity.place(name))
+
+    def named(self, entity: Entity, tag: str) -> tuple[tuple[str, LaunchValue], ...]:
+        """Return children that give a value to a name."""
+        found: list[tuple[str, LaunchValue]] = []
+        children = entity.entities(tag)
+        for child in children:
+            if not child.simple or "name" not in child.attributes:
+                child.need("name")
+            given = self.text(child, "value")
+            found += [(one, given) for one in self.text(child, "name").texts]
+        for child in children:
+            child.finish()
+        return tuple(found)
+
     def conditions(self, entity: Entity) -> tuple[LaunchCondition, ...]:
         """Return what ``if`` and ``unless`` ask for. Raises Rejected."""
         if entity.simple and "if" not in entity.attributes and "unless" not in entity.attributes:
