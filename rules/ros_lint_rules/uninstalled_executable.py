@@ -4,8 +4,10 @@
 Programs that are built and land where nobody looks for them:
 
 - an executable that a launch file of the workspace starts and that is not installed at all;
-- an executable that is installed to `bin/` instead of `lib/<package>`, if it is a node (its sources include rclcpp) or a
-  launch file starts it. Where only a header of the package includes rclcpp, the confidence is medium.
+- a node, if nothing at all of what the package builds is installed;
+- an executable that is installed to `bin/` instead of `lib/<package>`, if it is a node (its sources or their own
+  headers include rclcpp) or a launch file starts it. Where only another header of the package includes rclcpp, the confidence
+  is medium.
 
 ## Why it matters
 
@@ -44,6 +46,7 @@ from ros_lint.api import (
     relative,
 )
 
+_HEADERS = (".h", ".hh", ".hpp", ".hxx")
 _CLIENTS = frozenset({"rclcpp", "rclcpp_lifecycle", "rclcpp_action", "rclcpp_components"})
 
 
@@ -60,6 +63,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             folder, _, name = provided.path.rpartition("/")
             places.setdefault(provided.target, []).append((folder, name, provided.span))
     nodes = _nodes(package)
+    stems = {_stem(header) for header in nodes if header.endswith(_HEADERS)}
+    nothing = not any(provided.target for provided in script.provides)
     started = workspace.started.get(package.name, {})
     for target in script.targets:
         if target.kind != "executable" or target.test or "test" in target.name:
@@ -69,7 +74,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             continue
         launched = started.get(found[0][1] if found else target.name, ())
         related = tuple(Related("a launch file starts it here", reference.span) for reference in launched[:3])
-        sure = bool(launched or nodes.intersection(target.sources))
+        node = any(source in nodes or _stem(source) in stems for source in target.sources)
+        sure = bool(launched or node)
         if found and (sure or any(source.startswith("include/") for source in nodes)):
             span = found[0][2]
             where = f"{found[0][0]}/, where ros2 run and launch do not look"
@@ -89,6 +95,17 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 related,
                 _install(script.end, target.name),
             )
+        elif not found and node and nothing and not dim:
+            yield Finding(
+                f"{target.name} is built, but nothing that the package builds is installed; install it to lib/{package.name}",
+                target.span,
+                target.name,
+                fix=_install(script.end, target.name),
+            )
+
+
+def _stem(path: str) -> str:
+    return path.rpartition("/")[2].partition(".")[0]
 
 
 def _nodes(package: Package) -> frozenset[str]:
