@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 
 from ros_lint.collectors import python
 from ros_lint.collectors.python_excerpt import excerpt
-from ros_lint.collectors.python_imports import scan, walk
+from ros_lint.collectors.python_import_tree import walk
+from ros_lint.collectors.python_imports import scan
 from ros_lint.collectors.python_look_ups import in_excerpt, literals, look_ups
 from ros_lint.collectors.python_syntax import NotPythonError, parse
 from ros_lint.facts.sight import Facet

@@ -6,7 +6,8 @@ import re
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from ros_lint.collectors.python_imports import Import, added_folders, scan, walk
+from ros_lint.collectors.python_import_tree import Import, walk
+from ros_lint.collectors.python_imports import added_folders, scan
 from ros_lint.collectors.python_look_ups import Found, in_excerpt, literals, look_ups
 from ros_lint.collectors.python_syntax import NotPythonError, parse, syntax_problem
 from ros_lint.facts.sight import Facet, Opaque

@@ -1,38 +1,20 @@
 """The import statements of a Python source, found without parsing it where that is safe.
 
 Nine files of ten have only imports that a look at their own line settles. :func:`scan` reads these and refuses the
-others; :func:`walk` reads a syntax tree and is exact. Both give the same on what both read.
+others, which the syntax tree then tells. Both ways give the same on what both read.
 """
 
 from __future__ import annotations
 
-import ast
 import re
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from ros_lint.collectors.python_excerpt import block_end, is_whole
-from ros_lint.collectors.python_syntax import NotPythonError, parse, start_of
+from ros_lint.collectors.python_import_tree import GUARD, Import, walk
+from ros_lint.collectors.python_syntax import NotPythonError, parse
 from ros_lint.text import Text
 
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-
-class Import(NamedTuple):
-    """An absolute import."""
-
-    start: int
-    """Offset of the module as written."""
-    module: str
-    """Dotted, "" when it is computed."""
-    optional: bool
-    """Whether the program does without: for type checkers only, never as it is written, or with the error caught."""
-    caught: bool = False
-    """Whether it is optional because just that error is caught."""
-
-
 _IMPORT = re.compile(r"import(?=[ \t(*\\]|_module\(|orskip\(|__\()")
-_DYNAMIC = frozenset({"import_module", "importorskip", "__import__"})
 _MODULE = re.compile(r"[ \t]*([^\W\d]\w*(?:\.[^\W\d]\w*)*)(?:[ \t]+as[ \t]+[^\W\d]\w*)?[ \t\r]*(,|\Z)")
 _FROM = re.compile(r"from[ \t]+([^\W\d]\w*(?:\.[^\W\d]\w*)*)[ \t]+\Z")
 _RELATIVE = re.compile(r"from[ \t]*\.[ \t.\w]*\Z")
@@ -42,9 +24,8 @@ _HEAD = re.compile(
     r"^([ \t]*)(?:(try|except|elif|else|finally)|(?:async[ \t]+)?(?:def|for|with)|class|while|match|case|if)\b[^\n]*",
     re.MULTILINE,
 )
-_GUARD = re.compile(r"TYPE_CHECKING|version_info|platform|DISTRO|distro|suppress")
 _DECIDES = re.compile(
-    rf"{_GUARD.pattern}"
+    rf"{GUARD.pattern}"
     r"|except(?:[ \t]*:|\b[^\n]*(?:\b(?:ImportError|ModuleNotFoundError|Exception|BaseException)\b|\())"
 )
 
@@ -171,7 +152,7 @@ class _Blocks:
         left = self._leave(width)
         continues = left is not None and left.width == width and head[2] not in (None, "try")
         start = left.start if left and continues else line
-        guards = head[2] is not None or ":" not in head[0] or _GUARD.search(head[0]) is not None
+        guards = head[2] is not None or ":" not in head[0] or GUARD.search(head[0]) is not None
         self._stack.append(_Block(width, line, start, guards))
 
 
@@ -221,188 +202,3 @@ def outside_strings(text: str, places: list[int]) -> bool:
             return False
         quote = _TRIPLE.search(text, closing + 3, places[-1])
     return True
-
-
-# --- the exact way
-
-
-_MISSING = frozenset({"ImportError", "ModuleNotFoundError"})
-_IMPORT_ERRORS = _MISSING | {"Exception", "BaseException"}
-_EXITS = frozenset({"exit", "quit", "_exit", "fail"})
-
-
-def walk(source: Text, tree: ast.Module) -> list[Import]:
-    """Return the imports of a source in order.
-
-    Optional are those under TYPE_CHECKING, and those in a try statement that goes on when the import fails or under
-    a test of the platform, unless every branch imports from the same package (reference, section D6). A try statement
-    inside of others that raises another error instead, which says what is missing, makes them optional, too. Calls of
-    ``importlib.import_module()`` and the like are imports, too; whoever calls one is taken to be able to go without.
-    """
-    walker = _Walker(_off(tree))
-    found = [
-        Import(start, module, bool(optional), optional == _CAUGHT)
-        for statement, optional in walker.imports(tree.body, inside=False)
-        for start, module in _modules(source, statement)
-    ]
-    if any(name in source.text for name in _DYNAMIC):
-        found += _calls(source, tree)
-    return sorted(found)
-
-
-def _off(tree: ast.Module) -> frozenset[str]:
-    """Return the names of a module that are false and stay so: nothing else binds them anywhere."""
-    bound: dict[str, int] = {}
-    off: set[str] = set()
-    for statement in tree.body:
-        target = statement.targets[0] if isinstance(statement, ast.Assign) else getattr(statement, "target", None)
-        value = getattr(statement, "value", None)
-        if isinstance(target, ast.Name) and isinstance(value, ast.Constant) and not value.value:
-            off.add(target.id)
-    if not off:
-        return frozenset()
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Name) and not isinstance(node.ctx, ast.Load):
-            bound[node.id] = bound.get(node.id, 0) + 1
-        elif isinstance(node, (ast.Import, ast.ImportFrom)):
-            bound.update({alias.asname or alias.name: 2 for alias in node.names})
-        elif isinstance(node, (ast.FunctionDef, ast.ClassDef)):
-            bound[node.name] = 2
-        elif isinstance(node, ast.arg):
-            bound[node.arg] = 2
-    return frozenset(name for name in off if bound.get(name) == 1)
-
-
-def _calls(source: Text, tree: ast.Module) -> Iterator[Import]:
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Call) and node.args:
-            function, given = node.func, node.args[0]
-            name = function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
-            if name not in _DYNAMIC:
-                continue
-            if not isinstance(given, ast.Constant) or not isinstance(given.value, str):
-                yield Import(start_of(source, given), "", True)
-            elif not given.value.startswith("."):
-                start = source.text.find(given.value, start_of(source, given))
-                yield Import(max(start, 0), given.value, True)
-
-
-_Found = tuple["ast.Import | ast.ImportFrom", int]
-"""A statement, and whether it is optional: 0, 1, or _CAUGHT."""
-
-_CAUGHT = 2
-"""How an import is optional whose error is caught, and not just any error of the block."""
-
-
-class _Walker:
-    """Walks through statements. ``off`` are names that are always false."""
-
-    def __init__(self, off: frozenset[str]) -> None:
-        self._off = off
-
-    def imports(self, body: Iterable[ast.stmt], inside: bool = True) -> Iterator[_Found]:
-        for statement in body:
-            if isinstance(statement, (ast.Import, ast.ImportFrom)):
-                yield statement, 0
-            elif isinstance(statement, ast.If):
-                yield from self._conditional(statement)
-            elif isinstance(statement, ast.Try) or type(statement).__name__ == "TryStar":
-                yield from self._try(statement, inside)  # type: ignore[arg-type]  # of the same fields
-            elif isinstance(statement, (ast.With, ast.AsyncWith)) and any(_suppresses(item) for item in statement.items):
-                yield from ((found, _CAUGHT) for found, _ in self.imports(statement.body))
-            else:
-                for block in ("body", "orelse"):
-                    yield from self.imports(getattr(statement, block, ()))
-                for case in getattr(statement, "cases", ()):
-                    yield from self.imports(case.body)
-
-    def _conditional(self, statement: ast.If) -> Iterator[_Found]:
-        test = statement.test
-        words = {
-            str(getattr(node, "id", None) or getattr(node, "attr", None) or getattr(node, "value", "")) for node in ast.walk(test)
-        }
-        if _is_off(test, self._off) or (isinstance(test, (ast.Name, ast.Attribute)) and "TYPE_CHECKING" in words):
-            yield from ((found, optional or 1) for found, optional in self.imports(statement.body))
-            yield from self.imports(statement.orelse)
-        elif not _GUARD.search(" ".join(words)):
-            yield from self.imports(statement.body)
-            yield from self.imports(statement.orelse)
-        else:
-            yield from _alternatives([list(self.imports(statement.body)), list(self.imports(statement.orelse))], 1)
-
-    def _try(self, statement: ast.Try, inside: bool) -> Iterator[_Found]:
-        branches = [[*self.imports(statement.body), *self.imports(statement.orelse)]]
-        others: list[_Found] = []
-        for handler in statement.handlers:
-            if _catches_import_error(handler) and (not _gives_up(handler) or (inside and _explains(handler))):
-                branches.append(list(self.imports(handler.body)))
-            else:
-                others += self.imports(handler.body)
-        kind = _CAUGHT if any(_catches_import_error(handler, _MISSING) for handler in statement.handlers) else 1
-        yield from _alternatives(branches, kind) if len(branches) > 1 else branches[0]
-        yield from others
-        yield from self.imports(statement.finalbody)
-
-
-def _is_off(test: ast.expr, off: frozenset[str]) -> bool:
-    """Whether a test is never true: a name that is always false, alone or with more."""
-    if isinstance(test, ast.BoolOp):
-        return (any if isinstance(test.op, ast.And) else all)(_is_off(part, off) for part in test.values)
-    return isinstance(test, ast.Name) and test.id in off
-
-
-def _alternatives(branches: list[list[_Found]], kind: int) -> Iterator[_Found]:
-    """Yield the imports of branches one of which runs; not optional is what each needs, of that kind everything else."""
-    needed = [{root for found, optional in branch if not optional for root in _roots(found)} for branch in branches]
-    always = set.intersection(*needed)
-    for branch in branches:
-        for found, optional in branch:
-            yield found, optional or (0 if always.issuperset(_roots(found)) else kind)
-
-
-def _roots(statement: ast.Import | ast.ImportFrom) -> set[str]:
-    names = [alias.name for alias in statement.names] if isinstance(statement, ast.Import) else [statement.module or ""]
-    return {name.partition(".")[0] for name in names}
-
-
-def _catches_import_error(handler: ast.ExceptHandler, errors: frozenset[str] = _IMPORT_ERRORS) -> bool:
-    kind = handler.type
-    kinds = kind.elts if isinstance(kind, ast.Tuple) else [kind]
-    return any(
-        (kind is None and errors is _IMPORT_ERRORS)
-        or (isinstance(kind, ast.Name) and kind.id in errors)
-        or (isinstance(kind, ast.Attribute) and kind.attr in errors)
-        for kind in kinds
-    )
-
-
-def _gives_up(handler: ast.ExceptHandler) -> bool:
-    last = handler.body[-1]
-    if isinstance(last, ast.Expr) and isinstance(last.value, ast.Call):
-        function = last.value.func
-        return (function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")) in _EXITS
-    return isinstance(last, ast.Raise)
-
-
-def _explains(handler: ast.ExceptHandler) -> bool:
-    """Whether another error is raised. Where not everyone comes by, that tells those who do what they have to install."""
-    last = handler.body[-1]
-    return isinstance(last, ast.Raise) and isinstance(last.exc, ast.Call)
-
-
-def _suppresses(item: ast.withitem) -> bool:
-    call = ast.unparse(item.context_expr)
-    return "suppress" in call and any(error in call for error in _IMPORT_ERRORS)
-
-
-_FROM_AT = re.compile(r"from(?:\s|\\)*")
-
-
-def _modules(source: Text, statement: ast.Import | ast.ImportFrom) -> Iterator[tuple[int, str]]:
-    if isinstance(statement, ast.Import):
-        for alias in statement.names:
-            yield start_of(source, alias), alias.name
-    elif not statement.level and statement.module:
-        word = _FROM_AT.match(source.text, start_of(source, statement))
-        assert word is not None
-        yield word.end(), statement.module

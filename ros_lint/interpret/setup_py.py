@@ -14,7 +14,7 @@ from collections.abc import Set as AbstractSet
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors import setup_cfg as setup_cfg_collector
-from ros_lint.collectors.python_imports import walk
+from ros_lint.collectors.python_import_tree import walk
 from ros_lint.collectors.python_syntax import NotPythonError, parse, span_of, syntax_problem
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.sight import Facet, Opaque
