@@ -59,6 +59,13 @@ class Globbed(list[Value]):
     pattern: str
 
 
+def globbed(pattern: str, paths: list[Value]) -> Globbed:
+    """Return paths that a pattern gives."""
+    found = Globbed(paths)
+    found.pattern = pattern
+    return found
+
+
 class Module(NamedTuple):
     """A module that is imported, dotted, or a part of one."""
 
