@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
-from ros_lint import conditions, evidence, launch_around, public_headers, scripts, source_lists, traces, type_names
+from ros_lint import conditions, evidence, ignored, launch_around, public_headers, scripts, source_lists, traces, type_names
 from ros_lint.cache import Cache
 from ros_lint.collect import FAILED, Collected, collect_all, kind_of
 from ros_lint.discover import Found, Skipped, discover
@@ -96,7 +96,8 @@ class Loader:
         packages = tuple(self._join(tree, reads, world, absent, sources))
         unusable = tuple(self._unusable(manifest) for manifest in discovery.rejected if not self._exclude(manifest.path))
         not_checked = (*discovery.not_checked, *_unreadable(collected), *_failed(reads))
-        return Workspace(packages, unusable, world, self.target, tuple(not_checked), lists)
+        ignores = ignored.find(tree, ((found.path, found.files) for found in founds))
+        return Workspace(packages, unusable, world, self.target, tuple(not_checked), lists, ignores)
 
     def text(self, path: str) -> Text | None:
         """Return the text of a file, None if it cannot be read."""

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property, wraps
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
+from ros_lint import ignored
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.launch import LaunchFile, LaunchReference
 from ros_lint.facts.manifest import ColconDepend, Depend, Manifest, Role
@@ -13,6 +14,7 @@ from ros_lint.facts.sight import Facet, Opaque
 from ros_lint.facts.sources import LookUp, ParameterFile, Registration, Use
 from ros_lint.report import NotChecked, Target
 from ros_lint.text import Span
+from ros_lint.tree import join
 
 if TYPE_CHECKING:
     from ros_lint.graph import Graph
@@ -103,7 +105,7 @@ class Workspace:
     ``packages`` are those that colcon sees, sorted by path; a name may be there twice. ``unusable`` are folders with a
     ``package.xml`` for which colcon sees no package at all, under the name that the manifest gives, if any.
     ``source_lists`` are files that name repositories which belong to the workspace and need not be there: ``*.repos``,
-    ``*.rosinstall``, ``.gitmodules``.
+    ``*.rosinstall``, ``.gitmodules``. ``ignores`` says what git leaves out.
     """
 
     def __init__(
@@ -114,6 +116,7 @@ class Workspace:
         target: Target,
         not_checked: tuple[NotChecked, ...],
         source_lists: tuple[str, ...] = (),
+        ignores: tuple[ignored.Pattern, ...] = (),
     ) -> None:
         self.packages = packages
         self.unusable = unusable
@@ -121,6 +124,7 @@ class Workspace:
         self.target = target
         self.not_checked = not_checked
         self.source_lists = source_lists
+        self._ignores = ignores
         self.said: dict[object, Any] = {}
         """What functions that remember have said: :func:`per_workspace`, :func:`per_package`."""
 
@@ -130,6 +134,10 @@ class Workspace:
         for package in self.packages:
             found[package.name] = (*found.get(package.name, ()), package)
         return found
+
+    def is_made(self, package: Package, path: str) -> bool:
+        """Whether a path in a package, which need not exist, is one that git ignores: then it is made or fetched."""
+        return bool(self._ignores) and ignored.is_ignored(self._ignores, join(package.path, path))
 
     @cached_property
     def started(self) -> Mapping[str, Mapping[str, Sequence[LaunchReference]]]:

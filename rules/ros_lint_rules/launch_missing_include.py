@@ -17,7 +17,8 @@ Correct the path; the message names files of the same name that the package does
 - The file is in the sources and not installed: that is `uninstalled-resource`.
 - A part of the package's build script that cannot be followed may install it.
 - Files that look as if something writes or downloads them: networks, records, images; folders. Maps, which people make
-  with the robot, have medium confidence, and so have records beside which one of nearly the same name is installed.
+  with the robot, and what git ignores have medium confidence, and so have records beside which one of nearly the same name
+  is installed.
 - For a released package: its launch files are not known whole; other files of it are not known at all.
 - The launch file asks first if the package is there.
 """
@@ -62,7 +63,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             best.span,
             path,
             tuple(Related("also named here", other.span) for other in others[:_MOST_RELATED]),
-            confidence=Confidence.HIGH if sure and not best.by_default and not _is_made(path) else Confidence.MEDIUM,
+            confidence=Confidence.HIGH
+            if sure and not best.by_default and not _is_made(owner, path, workspace)
+            else Confidence.MEDIUM,
         )
 
 
@@ -74,9 +77,11 @@ def _has_twin(path: str, names: tuple[str, ...]) -> bool:
     return bool(difflib.get_close_matches(base, twins, 1, 0.8))
 
 
-def _is_made(path: str) -> bool:
-    """Whether people make such a file with the robot, as they do maps."""
-    return not {"map", "maps"}.isdisjoint(path.split("/")[:-1])
+def _is_made(owner: str, path: str, workspace: Workspace) -> bool:
+    """Whether people make such a file with the robot, as they do maps and what git ignores."""
+    if not {"map", "maps"}.isdisjoint(path.split("/")[:-1]):
+        return True
+    return any(workspace.is_made(one, path) for one in workspace.by_name.get(owner, ()))
 
 
 def _files_without(owner: str, path: str, kind: str, workspace: Workspace) -> tuple[str, ...] | None:

@@ -20,8 +20,8 @@ Correct the path, add the file to the repository, or remove the line. A folder t
 
 - Paths that cannot be evaluated, files in the build folder, and files that the build generates.
 - Under a condition that may not hold, and with `OPTIONAL`.
-- The confidence is medium where the script runs programs that may make files or downloads them, for what may be a submodule,
-  and for what is installed where custom commands or targets work in the source folder: they may make it.
+- The confidence is medium where the script runs programs that may make files or downloads them, for what git ignores or may
+  be a submodule, and for what is installed where custom commands or targets work in the source folder: they may make it.
 """
 
 from __future__ import annotations
@@ -78,6 +78,8 @@ def _is_unseen(package: Package, path: str) -> bool:
 def _confidence(package: Package, workspace: Workspace, problem: Problem) -> Confidence:
     script = package.script
     assert script is not None
+    if workspace.is_made(package, missing_path(problem)):
+        return Confidence.MEDIUM
     if _makes_files(package) or (_is_installed(package, problem) and _builds_in_sources(package)):
         return Confidence.MEDIUM
     if "add_subdirectory()" in problem.message and any(path.endswith(".gitmodules") for path in workspace.source_lists):

@@ -1,0 +1,96 @@
+"""What git is told to leave out of a repository: a file that is ignored is made or fetched, and no checkout has it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
+
+from ros_lint.text import read
+from ros_lint.tree import Tree, join, parent
+
+_NAME = ".gitignore"
+
+
+class Pattern(NamedTuple):
+    """A line of a ``.gitignore`` (gitignore(5))."""
+
+    folder: str
+    """Where the file lies; what is not below it is not meant."""
+    regex: re.Pattern[str]
+    """Of a path below the folder."""
+    negated: bool
+    """Whether it takes back what an earlier line said."""
+
+
+def find(tree: Tree, packages: Iterable[tuple[str, Iterable[str]]]) -> tuple[Pattern, ...]:
+    """Return the patterns for packages, given by folder with the files in it: later ones win. What cannot be read has none."""
+    paths = {_NAME}
+    for folder, files in packages:
+        paths.update([join(folder, file) for file in files if file.rpartition("/")[2] == _NAME])
+        above = parent(folder)
+        while above and join(above, _NAME) not in paths:
+            paths.add(join(above, _NAME))
+            above = parent(above)
+    found: list[Pattern] = []
+    for path in sorted(paths, key=lambda one: (one.count("/"), one)):
+        try:
+            text = read(path, tree.read(path)).text
+        except OSError:
+            continue
+        found += patterns(parent(path), text)
+    return tuple(found)
+
+
+def patterns(folder: str, text: str) -> Iterator[Pattern]:
+    """Yield what the text of a ``.gitignore`` in a folder says."""
+    for written in text.split("\n"):
+        line = re.sub(r"(?<!\\)[ \t\r]+\Z", "", written)
+        if not line or line.startswith("#"):
+            continue
+        negated = line.startswith("!")
+        line = line[negated:]
+        whole = line.rstrip("/")
+        if whole:
+            anywhere = "" if "/" in whole else "(?:.*/)?"
+            yield Pattern(folder, re.compile(anywhere + _regex(whole.lstrip("/")) + r"\Z", re.DOTALL), negated)
+
+
+def is_ignored(given: Iterable[Pattern], path: str) -> bool:
+    """Return whether git leaves out a path, which need not exist: it, or a folder it is in."""
+    ours = [
+        (one, len(one.folder) + 1 if one.folder else 0) for one in given if not one.folder or path.startswith(f"{one.folder}/")
+    ]
+    parts = path.split("/")
+    for number in range(len(parts)) if ours else ():
+        place = "/".join(parts[: number + 1])
+        said = [not one.negated for one, start in ours if len(place) > start and one.regex.match(place, start)]
+        if said and said[-1]:
+            return True
+    return False
+
+
+_PIECES = re.compile(r"(\A\*\*/|/\*\*/|/\*\*\Z)|(\*+)|(\?)|(\[!?\]?[^\]/]*\])|\\(.)|(.)", re.DOTALL)
+
+
+def _regex(glob: str) -> str:
+    """Return a regular expression for a pattern without what marks it as negated, anchored or a folder."""
+    return "".join(_translated(match) for match in _PIECES.finditer(glob))
+
+
+def _translated(match: re.Match[str]) -> str:
+    across, stars, question, several, escaped, one = match.groups()
+    if across:
+        return {"**/": "(?:.*/)?", "/**/": "/(?:.*/)?", "/**": "/.*"}[across]
+    if stars:
+        return "[^/]*"
+    if question:
+        return "[^/]"
+    if several:
+        return _class(several)
+    return re.escape(escaped or one)
+
+
+def _class(several: str) -> str:
+    inner = several[1:-1].replace("\\", "\\\\").replace("[", "\\[")
+    return f"[^/{inner[1:]}]" if inner.startswith("!") else f"[{inner}]"

@@ -1,0 +1,51 @@
+"""Patterns of .gitignore, against git itself."""
+
+from __future__ import annotations
+
+import random
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from ros_lint.ignored import find, is_ignored, patterns
+from ros_lint.tree import MemoryTree
+
+NAMES = ("a", "b.so", "lib", "ab", "x y")
+PIECES = ("a", "b.so", "*", "**", "?", "*.so", "lib", "[ab]", "[!a]b", "a*", "ab", r"x\ y", "[a-c]*")
+
+
+def _line(choice: random.Random) -> str:
+    body = "/".join(choice.choice(PIECES) for _ in range(choice.choice((1, 1, 2, 3))))
+    return choice.choice(("", "", "", "!")) + choice.choice(("", "", "/")) + body + choice.choice(("", "", "/"))
+
+
+@pytest.mark.skipif(not shutil.which("git"), reason="there is no git")
+def test_patterns_mean_what_they_mean_to_git(tmp_path: Path) -> None:
+    subprocess.run(["git", "init", "-q", tmp_path], check=True)
+    choice = random.Random(20261121)
+    paths = {"/".join(choice.choice(NAMES) for _ in range(choice.choice((1, 2, 3, 4)))) for _ in range(80)}
+    for path in paths | {"lib"}:
+        (tmp_path / path).mkdir(parents=True, exist_ok=True)
+    for _ in range(120):
+        files = {"": [_line(choice) for _ in range(choice.choice((1, 2, 4)))], "lib": [_line(choice)]}
+        for folder, lines in files.items():
+            (tmp_path / folder / ".gitignore").write_text("# not this\n\n" + "\n".join(lines) + "\n", "utf-8")
+        command = ["git", "check-ignore", "--stdin", "-z", "--no-index"]
+        asked = "\0".join(paths).encode()
+        said = subprocess.run(command, cwd=tmp_path, input=asked, capture_output=True, check=False).stdout.decode()
+        given = [pattern for folder, lines in files.items() for pattern in patterns(folder, "\n".join(lines))]
+        assert {path for path in paths if is_ignored(given, path)} == set(filter(None, said.split("\0"))), files
+
+
+def test_files_are_found_above_packages_and_in_them() -> None:
+    tree = MemoryTree(
+        {".gitignore": "*.so\n", "src/.gitignore": "!keep.so\n", "src/arm/.gitignore": "/made\n", "x/.gitignore": "*\n"}
+    )
+    given = find(tree, [("src/arm", (".gitignore", "a.cpp"))])
+    assert is_ignored(given, "src/arm/lib/a.so")
+    assert not is_ignored(given, "src/arm/lib/keep.so")
+    assert is_ignored(given, "src/arm/made/a.yaml")
+    assert not is_ignored(given, "src/arm/sub/made")
+    assert not is_ignored((), "src/arm/made/a.yaml")
