@@ -8,12 +8,15 @@ from ros_lint.apart import is_apart
 from ros_lint.build_scripts import (
     called,
     evaluated_name,
+    forgotten_nodes,
     hidden,
     missing_path,
+    node_targets,
     relative,
     stranded,
     top_file,
     unguarded_tests,
+    with_client,
 )
 from ros_lint.carriers import Carried, carriers
 from ros_lint.cmake_finds import come_along, found_along, found_names, given_for
@@ -151,6 +154,7 @@ __all__ = [
     "evaluated_name",
     "everything",
     "filled",
+    "forgotten_nodes",
     "found_along",
     "found_names",
     "given_for",
@@ -173,6 +177,7 @@ __all__ = [
     "missing_path",
     "needed",
     "needs",
+    "node_targets",
     "programs",
     "referred",
     "relative",
@@ -189,5 +194,6 @@ __all__ = [
     "uninstalled_resources",
     "used_names",
     "wishes",
+    "with_client",
     "works_unseen",
 ]

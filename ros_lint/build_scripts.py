@@ -96,3 +96,39 @@ def stranded(package: Package, name: str) -> bool:
             for target in script.targets
         )
     return any(provided.path == f"bin/{name}" for provided in script.provides)
+
+
+_CLIENTS = frozenset({"rclcpp", "rclcpp_lifecycle", "rclcpp_action", "rclcpp_components"})
+_RUNS = frozenset({"add_custom_command", "add_custom_target"})
+_HEADERS = (".h", ".hh", ".hpp", ".hxx")
+
+
+def with_client(package: Package) -> frozenset[str]:
+    """Return the C++ files that include a client library, relative to the package."""
+    return frozenset(relative(package, use.span.path) for use in package.uses if use.via == "include" and use.package in _CLIENTS)
+
+
+def node_targets(package: Package) -> frozenset[str]:
+    """Return the executables of which a source, or the header that is called as a source is, includes a client library."""
+    files = with_client(package)
+    stems = {_stem(file) for file in files if file.endswith(_HEADERS)}
+    return frozenset(
+        target.name
+        for target in (package.script.targets if package.script else ())
+        if target.kind == "executable" and any(source in files or _stem(source) in stems for source in target.sources)
+    )
+
+
+def _stem(path: str) -> str:
+    return path.rpartition("/")[2].partition(".")[0]
+
+
+def forgotten_nodes(package: Package) -> frozenset[str]:
+    """Return the nodes of a package that installs nothing at all of what it builds: no tests, nothing that the build may run."""
+    script = package.script
+    if script is None or hidden(package, Facet.EXECUTABLES) or any(provided.target for provided in script.provides):
+        return frozenset()
+    if not _RUNS.isdisjoint(script.calls):
+        return frozenset()
+    tests = {target.name for target in script.targets if target.test or "test" in target.name}
+    return node_targets(package) - tests

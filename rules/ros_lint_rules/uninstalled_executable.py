@@ -42,12 +42,11 @@ from ros_lint.api import (
     Workspace,
     called,
     cmake_edits,
+    forgotten_nodes,
     hidden,
-    relative,
+    node_targets,
+    with_client,
 )
-
-_HEADERS = (".h", ".hh", ".hpp", ".hxx")
-_CLIENTS = frozenset({"rclcpp", "rclcpp_lifecycle", "rclcpp_action", "rclcpp_components"})
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -62,9 +61,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if provided.target:
             folder, _, name = provided.path.rpartition("/")
             places.setdefault(provided.target, []).append((folder, name, provided.span))
-    nodes = _nodes(package)
-    stems = {_stem(header) for header in nodes if header.endswith(_HEADERS)}
-    nothing = not any(provided.target for provided in script.provides)
+    nodes = node_targets(package)
+    forgotten = forgotten_nodes(package)
     started = workspace.started.get(package.name, {})
     for target in script.targets:
         if target.kind != "executable" or target.test or "test" in target.name:
@@ -74,9 +72,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             continue
         launched = started.get(found[0][1] if found else target.name, ())
         related = tuple(Related("a launch file starts it here", reference.span) for reference in launched[:3])
-        node = any(source in nodes or _stem(source) in stems for source in target.sources)
-        sure = bool(launched or node)
-        if found and (sure or any(source.startswith("include/") for source in nodes)):
+        sure = bool(launched or target.name in nodes)
+        if found and (sure or any(file.startswith("include/") for file in with_client(package))):
             span = found[0][2]
             where = f"{found[0][0]}/, where ros2 run and launch do not look"
             yield Finding(
@@ -95,22 +92,13 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 related,
                 _install(script.end, target.name),
             )
-        elif not found and node and nothing and not dim:
+        elif target.name in forgotten:
             yield Finding(
                 f"{target.name} is built, but nothing that the package builds is installed; install it to lib/{package.name}",
                 target.span,
                 target.name,
                 fix=_install(script.end, target.name),
             )
-
-
-def _stem(path: str) -> str:
-    return path.rpartition("/")[2].partition(".")[0]
-
-
-def _nodes(package: Package) -> frozenset[str]:
-    """Return the sources that use a client library, relative to the package."""
-    return frozenset(relative(package, use.span.path) for use in package.uses if use.via == "include" and use.package in _CLIENTS)
 
 
 def _move(package: Package, span: Span, targets: tuple[BuildTarget, ...]) -> Fix | None:

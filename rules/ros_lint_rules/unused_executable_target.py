@@ -14,14 +14,15 @@ Install it to `lib/${PROJECT_NAME}`, or build it only when tests or examples are
 ## When it keeps silent
 
 Where something that cannot be followed may install it; where a custom command runs it during the build; where
-`uninstalled-executable` speaks: a launch file starts it. It is off unless it is asked for.
+`uninstalled-executable` speaks: a launch file starts it, or it is a node of a package that installs nothing. It is off unless it
+is asked for.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Facet, Finding, Fix, Package, Rule, Severity, Workspace, called, cmake_edits, hidden
+from ros_lint.api import Facet, Finding, Fix, Package, Rule, Severity, Workspace, called, cmake_edits, forgotten_nodes, hidden
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -31,10 +32,11 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     installed = {provided.target for provided in script.provides}
     listed = {text for call in called(package, "install", anywhere=True) for text in call.texts}
     custom = "add_custom_command" in script.calls or "add_custom_target" in script.calls
+    forgotten = forgotten_nodes(package)
     for target in script.targets:
         if target.kind != "executable" or target.test or target.name in installed or target.name in listed or custom:
             continue
-        if target.name in workspace.started.get(package.name, {}):
+        if target.name in workspace.started.get(package.name, {}) or target.name in forgotten:
             continue
         fix = None
         if script.end is not None:
