@@ -1,4 +1,4 @@
-"""What FetchContent and ExternalProject bring along."""
+"""What FetchContent and ExternalProject bring along, and what lies among the sources."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ MANIFEST = """<package format="3"><name>robot</name><version>1.0.0</version><des
 LINKED = "add_library(r r.cpp)\ntarget_link_libraries(r nlohmann_json::nlohmann_json)"
 
 
-def load(lines: str) -> Package:
+def load(lines: str, source: str = "#include <nlohmann/json.hpp>\n") -> Package:
     script = f"project(robot)\nfind_package(ament_cmake REQUIRED)\n{lines}\n{LINKED}\nament_package()\n"
-    files = {"package.xml": MANIFEST, "CMakeLists.txt": script, "r.cpp": "#include <nlohmann/json.hpp>\n"}
+    files = {"package.xml": MANIFEST, "CMakeLists.txt": script, "r.cpp": source}
     tree = MemoryTree({f"robot/{path}": text for path, text in files.items()})
     return Loader(tree, ("",), Target("jazzy", "test")).load().packages[0]
 
@@ -51,6 +51,14 @@ def test_a_project_is_known_by_where_it_is_had_from(lines: str) -> None:
 )
 def test_what_is_not_fetched_is_a_need(lines: str) -> None:
     assert uses(load(lines)) == {"nlohmann-json-dev"}
+
+
+def test_what_lies_among_the_sources_is_no_need() -> None:
+    found = "find_package(nlohmann_json REQUIRED)"
+    beside = "set(nlohmann_json_DIR ${CMAKE_CURRENT_SOURCE_DIR}/../json/cmake)\n"
+    installed = "set(nlohmann_json_DIR ${CMAKE_PREFIX_PATH}/share/nlohmann_json/cmake)\n"
+    assert uses(load(beside + "find_package(nlohmann_json REQUIRED)", "#include <nlohmann_json/json.hpp>\n")) == set()
+    assert uses(load(installed + found)) == uses(load(found)) == {"nlohmann-json-dev"}
 
 
 def test_nobody_knows_where_a_project_lies_that_is_fetched() -> None:

@@ -35,6 +35,8 @@ def find_package(run: Run, args: list[str]) -> int | None:
         if may_be_package(name):
             run.hide(Facet.USES, "find_package() of a name that is not known")
         return None
+    if (run.get(f"{name}_DIR") or "").startswith(f"{SOURCE}/") and not run.muted:
+        run.bundled[name] = None  # the script says where it lies among the sources
     required = "REQUIRED" in args
     module = run.modules.get(name) if run.modules and "CONFIG" not in args and "NO_MODULE" not in args else None
     if name and module is None and run.at_home() and not run.is_bundled(name):
