@@ -163,7 +163,8 @@ def test_actions_that_are_never_launched_start_nothing(body: str, wanted: list[s
 
 
 def test_keywords_of_old_are_understood_and_told() -> None:
-    text = f"{HEAD}    return [Node(package='a', node_executable='b', node_name='c')]\n"
+    made = "    return [Node(package='a', node_executable='b', node_name='c')]\n"
+    text = f"from launch_ros.actions import Node\n{HEAD}{made}"
     source, found = collect("a.launch.py", text)
     assert said(source, found) == ["node a b"]
     assert [problem.message for problem in found.problems] == [

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from ros_lint.collectors.launch import entries
 from ros_lint.collectors.launch_py_actions import LAUNCHED, walker
 from ros_lint.collectors.launch_py_objects import PERHAPS, Frame, Function, OutOfBudget, Raised, Source
+from ros_lint.collectors.launch_py_refused import misplaced, place_of, undefined
 from ros_lint.collectors.launch_py_run import Machine, Modules
 from ros_lint.collectors.launch_py_texts import Within, texts
 from ros_lint.collectors.launch_py_walk import span_of
@@ -46,7 +47,7 @@ def collect(
             warnings.simplefilter("ignore")  # about escapes in somebody's strings
             tree = ast.parse(source.text)
     except SyntaxError as error:
-        at = _clamped(source, error.lineno or 1, error.offset or 1)
+        at = place_of(source, error)
         problem = Problem("syntax", f"not valid Python: {error.msg}", at)
         opaque = Opaque(Facet.USES, "the file is no Python that can be read", at)
         return LaunchFile(source.path, "python", (), (opaque,), (problem,), test, helper)
@@ -58,6 +59,7 @@ def collect(
         reading.read(tree, helper)
     except (OutOfBudget, RecursionError, MemoryError):
         reading.stopped("following the file takes too many steps")
+    reading.problems.extend((*misplaced(tree, source), *reading.unbound(tree)))
     references = References(reading.actions, reading.places())
     reading.add_to(references)
     return LaunchFile(
@@ -87,13 +89,6 @@ def _imports(text: Text, tree: ast.Module) -> Iterator[tuple[str, Span]]:
             yield "." * statement.level + (statement.module or ""), span_of(statement, source)
 
 
-def _clamped(source: Text, line: int, column: int) -> Span:
-    """Return the place of a syntax error; the parser may point behind the end of the file."""
-    line = min(max(line, 1), source.line_count)
-    column = min(max(column, 1), len(source.line(line)) + 1)
-    return Span(source.path, line, column, line, column)
-
-
 class _Reading:
     """One launch file on its way from syntax to actions."""
 
@@ -111,6 +106,9 @@ class _Reading:
     @property
     def problems(self) -> list[Problem]:
         return self._walker.problems
+
+    def unbound(self, tree: ast.Module) -> Iterator[Problem]:
+        return undefined(tree, self._source, self._machine.unbound)
 
     def read(self, tree: ast.Module, helper: bool) -> None:
         frame = self._machine.run(tree, self._source)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 from ros_lint.collectors.launch_py_events import later
 from ros_lint.collectors.launch_py_methods import items
@@ -21,26 +21,52 @@ _REMOVED = {
     "node_plugin": "plugin",
 }
 """Keywords that have another name now (reference, section G2.3)."""
+_OF_NODES = frozenset({"name", "namespace", "package", "parameters", "remappings"})
+_OF_COMPONENTS = _OF_NODES | {"condition", "extra_arguments", "plugin"}
+_OF_PROCESSES = _OF_NODES | {
+    "additional_env", "arguments", "autostart", "cached_output", "composable_node_descriptions", "condition", "cwd",
+    "emulate_tty", "env", "exec_name", "executable", "log_cmd", "on_exit", "output", "output_format", "prefix", "respawn",
+    "respawn_delay", "respawn_max_retries", "ros_arguments", "shell", "sigkill_timeout", "sigterm_timeout",
+}  # fmt: skip
+"""The keywords of nodes and components in any distribution (reference, section G2.3; launch_ros and launch)."""
 _DISTRIBUTION = "$ROS_DISTRO"
 """What a text calls the environment variable that says which distribution runs."""
 _MOST_PARAMETERS = 2_000
 _NODES = frozenset({"Node", "LifecycleNode", "ComposableNodeContainer"})
+_CLASSES = _NODES | {"ComposableNode"}
 
 
-def _note_removed(walker: Walker, made: Made, conditions: Conditions) -> None:
-    """Note what is gone, unless the file itself asks for the distribution before it comes here."""
+def _note_refused(walker: Walker, made: Made, conditions: Conditions, known: Collection[str]) -> None:
+    """Note keywords that are gone or that never were, unless the file itself asks for the distribution before it comes here."""
     if any(_DISTRIBUTION in (named_in(text) or ()) for condition in conditions for text in condition.texts):
         return
+    called = made.node.func
+    written = called.id if isinstance(called, ast.Name) else called.attr if isinstance(called, ast.Attribute) else ""
+    itself = written == made.name and written in _CLASSES
     for keyword in made.node.keywords:
-        now = _REMOVED.get(keyword.arg or "")
-        if now is not None:
-            message = f"{keyword.arg}= of {made.name} is gone since Galactic: say {now}="
-            walker.problems.append(Problem("removed-keyword", message, span_of(keyword, made.source)))
+        name = keyword.arg
+        if name is None or name not in made.keywords or name in known:
+            continue
+        if name in _REMOVED:
+            kind, message = "removed-keyword", f"{name}= of {made.name} is gone since Galactic: say {_REMOVED[name]}="
+        elif not itself:  # of a package, or of the file's own, that has keywords of its own
+            continue
+        elif near := _near(name, known):
+            kind, message = "misspelt-keyword", f"{made.name} takes no {name}=; is {near}= meant?"
+        else:
+            kind, message = "unexpected-keyword", f"{made.name} takes no {name}="
+        walker.problems.append(Problem(kind, message, span_of(keyword, made.source)))
+
+
+def _near(name: str, known: Collection[str]) -> str:
+    import difflib  # noqa: PLC0415  (hardly any file needs it)
+
+    return next(iter(difflib.get_close_matches(name, sorted(known), 1, 0.75)), "")
 
 
 def started_node(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
     """Return a node with all that it is given, and what is done when it ends."""
-    _note_removed(walker, made, conditions)
+    _note_refused(walker, made, conditions, _OF_PROCESSES)
     children: list[LaunchAction] = []
     if made.name == "ComposableNodeContainer":
         children = walker.actions(made.get(-1, "composable_node_descriptions"), (), place_of(made))
@@ -63,7 +89,7 @@ def started_node(walker: Walker, made: Made, conditions: Conditions) -> list[Lau
 
 
 def _component(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
-    _note_removed(walker, made, conditions)
+    _note_refused(walker, made, conditions, _OF_COMPONENTS)
     return [
         LaunchAction(
             "component",

@@ -76,7 +76,7 @@ class Machine:
         self.looked_up: list[tuple[str, ast.expr, Source, Conditions]] = []
         """Packages looked up at once, where, and under which conditions."""
         self.unbound: list[tuple[ast.expr, Source]] = []
-        """Names that nothing binds."""
+        """Names met that nothing has bound so far."""
         self.wanted: set[str] = set()
         """Modules and files that are read and were not at hand."""
         self.lazily: set[str] = set()

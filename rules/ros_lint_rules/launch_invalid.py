@@ -2,7 +2,8 @@
 ## What it finds
 
 A launch file that the real front end refuses: it does not parse, has a tag, an attribute or a substitution that does not
-exist, misses one that is needed, or holds a value of another type; one in Python that gives keywords which were removed.
+exist, misses one that is needed, or holds a value of another type; one in Python that gives a node keywords which do not
+exist or were removed, or comes to a name that nothing defines.
 So does a file with something that came to the launch format after the distribution that was asked for.
 
 ## Why it matters
@@ -61,6 +62,9 @@ _LEFTOVERS = {
 """What ROS 1 had, and what it is called now (reference, section G3.4)."""
 
 
+_MAY_BE_NEWER = frozenset({"unknown-tag", "unexpected-attribute", "unexpected-child", "unexpected-keyword"})
+
+
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for launch in launchable(package):
         problems = (*launch.file.problems, *_newer(launch.file.newer, workspace.target))
@@ -91,9 +95,10 @@ def _message(problem: Problem) -> str:
 
 def _confidence(problem: Problem, workspace: Workspace) -> Confidence:
     # A package or a newer release may have added what is not known here.
-    if problem.message in _LEFTOVERS or problem.kind not in ("unknown-tag", "unexpected-attribute", "unexpected-child"):
+    if problem.message in _LEFTOVERS or problem.kind not in _MAY_BE_NEWER:
         return Confidence.HIGH
-    return Confidence.MEDIUM if workspace.target.distro == "rolling" or problem.kind == "unknown-tag" else Confidence.HIGH
+    anywhere = problem.kind in ("unknown-tag", "unexpected-keyword")
+    return Confidence.MEDIUM if workspace.target.distro == "rolling" or anywhere else Confidence.HIGH
 
 
 RULE = Rule(
