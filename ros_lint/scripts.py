@@ -220,7 +220,8 @@ def _named(tree: Tree, found: Found, missing: Mapping[str, Sequence[str]]) -> It
         for resource, (folder, name) in list(left.items()) if folders else ():
             if folder not in folders or resource == file or name not in data:
                 continue
-            hit = resource_files.pattern_of(resource).search(data)
+            hits = resource_files.pattern_of(resource).finditer(data)
+            hit = next((one for one in hits if not _is_remark(file, data, one.start(1))), None)
             if hit:
                 line = data.count(b"\n", 0, hit.start(1)) + 1
                 column = len(data[data.rfind(b"\n", 0, hit.start(1)) + 1 : hit.start(1)].decode("utf-8", "replace")) + 1
@@ -229,6 +230,12 @@ def _named(tree: Tree, found: Found, missing: Mapping[str, Sequence[str]]) -> It
                 del left[resource]
         if not left:
             return
+
+
+def _is_remark(file: str, data: bytes, start: int) -> bool:
+    """Whether a place in a text lies in a line that is a comment as a whole."""
+    mark = b"#" if file.endswith((".py", ".yaml", ".yml")) else b"//"
+    return data[data.rfind(b"\n", 0, start) + 1 : start].lstrip().startswith(mark)
 
 
 def _contents(tree: Tree, found: Found, files: Iterable[str]) -> Iterator[tuple[str, bytes]]:
