@@ -34,6 +34,7 @@ from ros_lint.api import (
     Facet,
     Finding,
     Fix,
+    Opaque,
     Package,
     Related,
     Rule,
@@ -48,12 +49,14 @@ from ros_lint.api import (
     with_client,
 )
 
+_BIN = ("bin", "${CMAKE_INSTALL_BINDIR}")
+
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_cmake":
         return
-    dim = bool(hidden(package, Facet.EXECUTABLES))
+    unseen = hidden(package, Facet.EXECUTABLES)
     if any("INSTALL_TO_PATH" in call.texts for call in called(package, "ament_auto_package", anywhere=True)):
         return
     places: dict[str, list[tuple[str, str, Span]]] = {}
@@ -82,9 +85,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 target.name,
                 (*related, Related("it is built here", target.span)),
                 _move(package, span, script.targets),
-                Confidence.HIGH if sure and not dim else Confidence.MEDIUM,
+                Confidence.HIGH if sure and all(_is_in_bin(package, opaque) for opaque in unseen) else Confidence.MEDIUM,
             )
-        elif not found and launched and not dim:
+        elif not found and launched and not unseen:
             yield Finding(
                 f"{target.name} is built, but not installed, so launch does not find it; install it to lib/{package.name}",
                 target.span,
@@ -101,6 +104,14 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             )
 
 
+def _is_in_bin(package: Package, opaque: Opaque) -> bool:
+    """Whether what cannot be seen lands in bin/, so that it installs nothing to lib/<package>."""
+    for call in called(package, "install", anywhere=True):
+        if cmake_edits.covers(call, opaque.span) and "DESTINATION" in call.texts[:-1]:
+            return call.texts[call.texts.index("DESTINATION") + 1] in _BIN and call.texts[0] != "TARGETS"
+    return False
+
+
 def _move(package: Package, span: Span, targets: tuple[BuildTarget, ...]) -> Fix | None:
     """Correct the destination of the executables, where the rule says it by itself and installs no other program."""
     kinds = {target.name: target.kind for target in targets}
@@ -111,7 +122,7 @@ def _move(package: Package, span: Span, targets: tuple[BuildTarget, ...]) -> Fix
         at = texts.index("RUNTIME") + 2 if "RUNTIME" in texts[:-2] else 0
         if not at and all(kinds.get(text) == "executable" for text in _targets(texts)) and "DESTINATION" in texts[:-1]:
             at = texts.index("DESTINATION") + 1
-        if at and texts[at - 1] == "DESTINATION" and texts[at] in ("bin", "${CMAKE_INSTALL_BINDIR}"):
+        if at and texts[at - 1] == "DESTINATION" and texts[at] in _BIN:
             return Fix("install it to lib/${PROJECT_NAME}", (cmake_edits.write(call, at, "lib/${PROJECT_NAME}"),), safe=False)
     return None
 
