@@ -99,6 +99,10 @@ def _is_built(package: Package, made: Registration) -> bool:
     )
 
 
+def _builds_libraries(package: Package) -> bool:
+    return package.script is not None and any(target.kind == "library" and target.sources for target in package.script.targets)
+
+
 def _unexported(package: Package, registered: list[Registration]) -> Iterator[Finding]:
     script = package.script
     assert script is not None
@@ -118,7 +122,8 @@ def _unexported(package: Package, registered: list[Registration]) -> Iterator[Fi
         tuple(Related("also this class", made.span) for made in others[:4])
         + ((Related("it is described here", plugin.span),) if plugin else ()),
         _export(package, plugin) if plugin else None,
-        confidence=Confidence.HIGH if _is_built(package, first) else Confidence.MEDIUM,
+        # Sources that nothing compiles may be left over; where there is no library at all, it is yet to be added.
+        confidence=Confidence.HIGH if _is_built(package, first) or not _builds_libraries(package) else Confidence.MEDIUM,
     )
 
 
