@@ -6,6 +6,7 @@ spaces (reference, sections C2b, D6, E3.8). This module is the only one that goe
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
@@ -50,8 +51,10 @@ class Source(NamedTuple):
     launch: tuple[LaunchFile, ...]
     builds_with: str
     absent: frozenset[str] = frozenset()
-    """Names of the folders of git submodules that are not cloned: they may be Python modules."""
+    """Names of the folders of git submodules that are not cloned: they may be Python modules, or libraries."""
 
+
+_WORD = re.compile("[A-Za-z0-9]+")
 
 _BUILD_MODULES = frozenset({"setuptools", "distutils", "pkg_resources", "pip"})
 """Whoever builds a Python package has these (reference, section D1.9)."""
@@ -215,6 +218,8 @@ class _Uses:
             if via == "import":
                 spared = spared or self._is_spared(name, span, providers[0])
                 known = known and name.partition(".")[0] not in self._absent
+            elif self._absent and known:
+                known = self.resolver.names.is_package(providers[0]) or self._absent.isdisjoint(_WORD.findall(name))
             found[span, providers[0], via] = _make(
                 Use, (providers[0], providers, needed, what or usual, via, spared, span, sure and known)
             )

@@ -263,6 +263,11 @@ def test_what_comes_from_folders_that_are_not_there_is_not_sure() -> None:
     workspace = load({**files, ".gitmodules": '[submodule "x"]\n\tpath = talker/deps/serial\n'})
     assert [use.sure for use in uses(workspace, "python3-serial")] == [False]
     assert [use.sure for use in uses(workspace, "python3-opencv")] == [True]
+    lines = "add_library(r r.cpp)\ntarget_link_libraries(r nlohmann_json::nlohmann_json)"
+    files = cmake("talker", "", lines, r_dot_cpp="#include <nlohmann/json.hpp>\n#include <yaml-cpp/yaml.h>\n")
+    workspace = load({**files, ".gitmodules": '[submodule "x"]\n\tpath = talker/deps/json\n'})
+    assert [use.sure for use in uses(workspace, "nlohmann-json-dev")] == [False, False]
+    assert [use.sure for use in uses(workspace, "yaml-cpp")] == [True]
 
 
 def test_what_is_installed_to_be_started_is_no_test_whatever_its_name() -> None:
