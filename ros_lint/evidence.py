@@ -16,6 +16,7 @@ from ros_lint.facts.manifest import Role
 from ros_lint.facts.sight import Opaque
 from ros_lint.facts.sources import FileFacts, Mention, Use, Via
 from ros_lint.liveness import HEADERS, Liveness
+from ros_lint.own_files import OwnFiles
 from ros_lint.text import Span
 
 if TYPE_CHECKING:
@@ -144,8 +145,9 @@ def resolve(source: Source, resolver: Resolver) -> tuple[Use, ...]:
     """Return every use of another package, sorted by place."""
     launched = frozenset(_relative(source, launch.path) for launch in source.launch)
     tests = frozenset(_relative(source, launch.path) for launch in source.launch if launch.test)
-    own = Liveness(source.name, source.files, source.script, source.facts, launched)
-    uses = _Uses(source, own, resolver)
+    own = OwnFiles(source.name, source.files, source.script, source.facts)
+    alive = Liveness(own, source.files, source.script, source.facts, launched)
+    uses = _Uses(source, own, alive, resolver)
     if source.script is not None:
         by_role: dict[tuple[str, Role], list[Mention]] = {}
         untaken = frozenset(source.script.untaken)
@@ -163,16 +165,16 @@ def resolve(source: Source, resolver: Resolver) -> tuple[Use, ...]:
     for path, facts in source.facts.items():
         if not facts.mentions:
             continue
-        role, sure = own.place(path)
+        role, sure = alive.place(path)
         role = _TEST if path in tests else role
         mentions = list(facts.mentions)
-        if own.is_optional(path):
+        if alive.is_optional(path):
             mentions = [mention._replace(optional=True) for mention in mentions]
         if path in launched:  # the launch collector has the packages, too
             mentions = [mention for mention in mentions if mention.via != "package"]
         uses.add(path, mentions, role, _TEST if role is _TEST else _LOOKED_UP, sure)
     for launch in source.launch:
-        role, sure = own.place(_relative(source, launch.path))
+        role, sure = alive.place(_relative(source, launch.path))
         _launch_uses(launch, _TEST if launch.test else role, uses, sure)
     return uses.sorted()
 
@@ -180,12 +182,13 @@ def resolve(source: Source, resolver: Resolver) -> tuple[Use, ...]:
 class _Uses:
     """The uses found in a package so far. Of two of one package in one place by one way the last counts."""
 
-    def __init__(self, source: Source, own: Liveness, resolver: Resolver) -> None:
+    def __init__(self, source: Source, own: OwnFiles, alive: Liveness, resolver: Resolver) -> None:
         self.package = source.name
         self.resolver = resolver
         self._own = own
+        self._alive = alive
         self._absent = source.absent
-        self._caught = _caught(source, own)
+        self._caught = _caught(source, alive)
         self._added = frozenset([span for facts in source.facts.values() for span in facts.added])
         script = source.script
         self._bundled = frozenset([name.lower() for name in script.bundled]) if script else frozenset()
@@ -200,7 +203,7 @@ class _Uses:
     def add(self, path: str, mentions: Iterable[Mention], role: Role, looked_up: Role, sure: bool) -> None:
         """Add what the mentions in a file come to. ``looked_up`` is what packages are for whose files are looked up."""
         package, answer, found = self.package, self.resolver.answer, self._found
-        own = self._own.own_includes(path)
+        own = self._own.included(path)
         for name, via, span, what, optional, test, _ in mentions:
             if (via == "include" and (name in own or self._is_bundled(name))) or (
                 via == "import" and self._is_own_module(name, path)
@@ -212,7 +215,7 @@ class _Uses:
             if via == "include" and providers[0] in self._own.include_folders and name.startswith(f"{providers[0]}/"):
                 continue
             needed = _TEST if test else looked_up if via == "package" else role
-            if via == "include" and name.startswith(_OF_TESTS) and self._own.serves_tests(path):
+            if via == "include" and name.startswith(_OF_TESTS) and self._alive.serves_tests(path):
                 needed = _TEST
             spared = optional
             if via == "import":
@@ -242,11 +245,11 @@ class _Uses:
         return self._own.has_module(top, path) or (top in _BUILD_MODULES and path.endswith("setup.py"))
 
 
-def _caught(source: Source, own: Liveness) -> frozenset[str]:
+def _caught(source: Source, alive: Liveness) -> frozenset[str]:
     """Return the modules that a file of the package imports and goes on without, tests aside."""
     found: set[str] = set()
     for path, facts in source.facts.items():
-        if facts.caught and own.place(path)[0] is not _TEST:
+        if facts.caught and alive.place(path)[0] is not _TEST:
             found.update(facts.caught)
     return frozenset(found)
 

@@ -5,14 +5,14 @@ By target membership first, by include from what is alive second, by folder name
 
 from __future__ import annotations
 
-import posixpath
-from collections.abc import Collection, Container, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from functools import cached_property
 
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sight import Facet
 from ros_lint.facts.sources import FileFacts
+from ros_lint.own_files import OwnFiles
 
 TEST_FOLDERS = frozenset({"test", "tests", "testing", "integration_tests", "benchmark", "benchmarks", "gtest", "unit_tests"})
 """Folders whose files serve tests when nothing else says what they serve."""
@@ -35,9 +35,6 @@ _PROJECTS = frozenset({"CMakeLists.txt", "setup.py", "pyproject.toml", "package.
 
 _PROGRAMS = ("lib/", "bin/")
 
-_SHADOWED = frozenset({"launch"})
-"""Folders of packages that are called like a module everybody imports: without __init__.py they do not hide it (PEP 420)."""
-
 PRODUCTION = Role.BUILD | Role.EXEC
 PUBLIC = Role.BUILD | Role.EXPORT | Role.EXEC
 
@@ -47,18 +44,17 @@ class Liveness:
 
     def __init__(
         self,
-        name: str,
+        own: OwnFiles,
         files: Iterable[str],
         script: BuildScript | None,
         facts: Mapping[str, FileFacts],
         launched: Collection[str] = (),
     ) -> None:
-        self._name = name
         self._files = tuple(files)
         self._script = script
         self._facts = facts
         self._launched = launched
-        self._included: dict[str, tuple[set[str], list[str]]] = {}
+        self._own = own
         hidden = Facet(0)
         for opaque in script.opaque if script else ():
             hidden |= opaque.hides
@@ -133,7 +129,7 @@ class Liveness:
         """Python files that those which are run as tests call by their names, each the only one of its name."""
         run = [facts for path, facts in self._facts.items() if facts.programs and self._is_run(path)]
         named = {name for facts in run for name in facts.programs}
-        return frozenset([files[0] for files in map(self._by_name.get, named) if files is not None and len(files) == 1])
+        return frozenset([files[0] for files in map(self._own.by_name.get, named) if files is not None and len(files) == 1])
 
     def _is_left_out(self, path: str) -> bool:
         """Whether others in the folder of a file are built or installed by name, and this one is not."""
@@ -171,43 +167,6 @@ class Liveness:
         split = (file.rpartition("/") for file in self._files)
         return frozenset([folder for folder, _, name in split if folder and name in _PROJECTS]).difference(entered)
 
-    def has_module(self, module: str, importer: str) -> bool:
-        """Whether an import in a file can mean a file of the package.
-
-        What lies in a Python package is no module of its own, but for scripts beside it that are started where they are.
-        """
-        folders = self._modules.get(module, set())
-        if not folders:
-            return False
-        here, _, name = importer.rpartition("/")
-        beside = here in folders and name != f"{module}.py"
-        return beside or module in self._installed_modules or not folders <= self._python_packages
-
-    def own_includes(self, path: str) -> Container[str]:
-        """Return the headers that a file includes and that are of the package, generated ones included."""
-        return self._includes(path)[0]
-
-    @cached_property
-    def include_folders(self) -> frozenset[str]:
-        """The folders that the package has in its include directories: a header in one of them is its own, if it is generated."""
-        inner = (f"/{file}".partition("/include/")[2] for file in self._files)
-        return frozenset([folder.partition("/")[0] for folder in inner if "/" in folder])
-
-    def _own_headers(self, header: str, folder: str) -> tuple[str, ...]:
-        """Return the files of the package that an include in a file of a folder can mean."""
-        candidates = self._by_name.get(header.rpartition("/")[2])
-        if candidates is None:
-            return ()
-        end = f"/{header}"
-        if len(candidates) == 1 and f"/{candidates[0]}".endswith(end):
-            return candidates
-        beside = f"{folder}/{header}" if folder else header
-        if "." in header[:2]:
-            beside = posixpath.normpath(beside)
-        if beside in candidates:
-            return (beside,)
-        return tuple([file for file in candidates if file == header or file.endswith(end)])
-
     @cached_property
     def _runs_python_tests(self) -> bool:
         """Whether anything runs tests written in Python: always in a Python package, and in others where CMake says so."""
@@ -221,48 +180,6 @@ class Liveness:
         return frozenset(folder for folder, _, name in split if _is_test(name))
 
     @cached_property
-    def _by_name(self) -> Mapping[str, tuple[str, ...]]:
-        found: dict[str, tuple[str, ...]] = {}
-        for file in self._files:
-            name = file.rpartition("/")[2]
-            found[name] = (*found[name], file) if name in found else (file,)
-        return found
-
-    def _is_made(self, header: str, folder: str) -> bool:
-        return any(self._own_headers(f"{header}{suffix}", folder) for suffix in (".in", ".em"))
-
-    @cached_property
-    def _templates(self) -> frozenset[str]:
-        """Names of files that are made of others."""
-        return frozenset([name[:-3] for name in self._by_name if name.endswith((".in", ".em"))])
-
-    @cached_property
-    def _modules(self) -> Mapping[str, set[str]]:
-        """Files and folders with Python code, by the name that an import would have, with the folders that they lie in."""
-        found: dict[str, set[str]] = {}
-        for file in self._files:
-            if file.endswith(".py"):
-                path = file[:-3]
-                while path:
-                    folder, _, name = path.rpartition("/")
-                    found.setdefault(name, set()).add(folder)
-                    path = folder
-        for name in _SHADOWED & found.keys():
-            found[name] = {folder for folder in found[name] if f"{folder}/{name}".lstrip("/") in self._python_packages}
-        return found
-
-    @cached_property
-    def _python_packages(self) -> frozenset[str]:
-        """Folders that are Python packages. The top of a package is none, whatever lies there."""
-        found = {file.rpartition("/")[0] for file in self._files if file.endswith("__init__.py")}
-        return frozenset(found - {"", "src"})
-
-    @cached_property
-    def _installed_modules(self) -> frozenset[str]:
-        names = self._script.python_packages if self._script else ()
-        return frozenset([name.partition(".")[0] for name in names])
-
-    @cached_property
     def _offered(self) -> frozenset[str]:
         """Headers that are installed, or lie where installed ones do."""
         installed = {p.source for p in self._script.provides if p.path.startswith("include/")} if self._script else set()
@@ -272,7 +189,7 @@ class Liveness:
     @cached_property
     def _public(self) -> frozenset[str]:
         """Headers that are installed, and those that they include."""
-        return self._reached(self._offered)
+        return self._own.reached(self._offered)
 
     @cached_property
     def _left_over(self) -> frozenset[str]:
@@ -282,8 +199,8 @@ class Liveness:
         compiled = self._production | self._tests | self._optional
         apart = TEST_FOLDERS | _IDLE_FOLDERS
         dead = {file for file in self._files if file.endswith(_SOURCES) and apart.isdisjoint(file.split("/"))} - compiled
-        left = self._reached(dead) - compiled if dead and self._production else frozenset()
-        return left - self._reached(self._offered - left) if left else left
+        left = self._own.reached(dead) - compiled if dead and self._production else frozenset()
+        return left - self._own.reached(self._offered - left) if left else left
 
     @cached_property
     def _installed_for_tests(self) -> frozenset[str]:
@@ -303,18 +220,18 @@ class Liveness:
 
     @cached_property
     def _production(self) -> frozenset[str]:
-        return self._reached(self._compiled(test=False))
+        return self._own.reached(self._compiled(test=False))
 
     @cached_property
     def _tests(self) -> frozenset[str]:
-        return self._reached(self._compiled(test=True))
+        return self._own.reached(self._compiled(test=True))
 
     @cached_property
     def _optional(self) -> frozenset[str]:
         """Files that are compiled, or included by what is, in some builds only."""
         targets = self._script.targets if self._script else ()
         sources = {source for target in targets for source in target.optional}
-        return self._reached(sources) - self._production - self._tests if sources else frozenset()
+        return self._own.reached(sources) - self._production - self._tests if sources else frozenset()
 
     @cached_property
     def _optional_stems(self) -> frozenset[str]:
@@ -381,38 +298,6 @@ class Liveness:
         inside = tuple(f"{package}/" for package in packages)
         modules = {f"{package}{suffix}" for package in packages for suffix in (".py", ".py.in")}
         return frozenset([file for file in self._files if file in modules or file.startswith(inside)] if packages else ())
-
-    def _reached(self, roots: Iterable[str]) -> frozenset[str]:
-        reached: set[str] = set()
-        waiting = [root for root in roots if root in self._facts]
-        while waiting:
-            path = waiting.pop()
-            if path not in reached:
-                reached.add(path)
-                waiting += self._includes(path)[1]
-        return frozenset(reached)
-
-    def _includes(self, path: str) -> tuple[set[str], list[str]]:
-        """Return what a file includes of the package: headers as it names them, and the files that these can be."""
-        found = self._included.get(path)
-        if found is not None:
-            return found
-        folder, by_name, templates = path.rpartition("/")[0], self._by_name, self._templates
-        own = (self._name, ".", "..")
-        headers: set[str] = set()
-        files: list[str] = []
-        for mention in self._facts[path].mentions if path in self._facts else ():
-            if mention.via != "include":
-                continue
-            header = mention.name
-            first, slash, _ = header.partition("/")
-            name = header.rpartition("/")[2]
-            means = self._own_headers(header, folder) if name in by_name else ()
-            if means or (slash and first in own) or (name in templates and self._is_made(header, folder)):
-                headers.add(header)
-                files += means
-        self._included[path] = (headers, files)
-        return headers, files
 
 
 def _interface(path: str) -> str:

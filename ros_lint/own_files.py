@@ -1,0 +1,137 @@
+"""Which names mean files of the package itself: headers that its files include, and modules that they import."""
+
+from __future__ import annotations
+
+import posixpath
+from collections.abc import Container, Iterable, Mapping, Sequence
+from functools import cached_property
+
+from ros_lint.facts.build import BuildScript
+from ros_lint.facts.sources import FileFacts
+
+_SHADOWED = frozenset({"launch"})
+"""Folders of packages that are called like a module everybody imports: without __init__.py they do not hide it (PEP 420)."""
+
+
+class OwnFiles:
+    """Answers for one package. Paths are relative to it."""
+
+    def __init__(self, name: str, files: Sequence[str], script: BuildScript | None, facts: Mapping[str, FileFacts]) -> None:
+        self._name = name
+        self._files = files
+        self._script = script
+        self._facts = facts
+        self._included: dict[str, tuple[set[str], list[str]]] = {}
+
+    def included(self, path: str) -> Container[str]:
+        """Return the headers that a file includes and that are of the package, generated ones included."""
+        return self._includes(path)[0]
+
+    @cached_property
+    def include_folders(self) -> frozenset[str]:
+        """The folders that the package has in its include directories: a header in one of them is its own, if it is generated."""
+        inner = (f"/{file}".partition("/include/")[2] for file in self._files)
+        return frozenset([folder.partition("/")[0] for folder in inner if "/" in folder])
+
+    def has_module(self, module: str, importer: str) -> bool:
+        """Whether an import in a file can mean a file of the package.
+
+        What lies in a Python package is no module of its own, but for scripts beside it that are started where they are.
+        """
+        folders = self._modules.get(module, set())
+        if not folders:
+            return False
+        here, _, name = importer.rpartition("/")
+        beside = here in folders and name != f"{module}.py"
+        return beside or module in self._installed_modules or not folders <= self._python_packages
+
+    def reached(self, roots: Iterable[str]) -> frozenset[str]:
+        """Return those of some files that are of the package, and all that they include of it, by way of others or not."""
+        reached: set[str] = set()
+        waiting = [root for root in roots if root in self._facts]
+        while waiting:
+            path = waiting.pop()
+            if path not in reached:
+                reached.add(path)
+                waiting += self._includes(path)[1]
+        return frozenset(reached)
+
+    def _includes(self, path: str) -> tuple[set[str], list[str]]:
+        """Return what a file includes of the package: headers as it names them, and the files that these can be."""
+        found = self._included.get(path)
+        if found is not None:
+            return found
+        folder, by_name, templates = path.rpartition("/")[0], self.by_name, self._templates
+        own = (self._name, ".", "..")
+        headers: set[str] = set()
+        files: list[str] = []
+        for mention in self._facts[path].mentions if path in self._facts else ():
+            if mention.via != "include":
+                continue
+            header = mention.name
+            first, slash, _ = header.partition("/")
+            name = header.rpartition("/")[2]
+            means = self._own_headers(header, folder) if name in by_name else ()
+            if means or (slash and first in own) or (name in templates and self._is_made(header, folder)):
+                headers.add(header)
+                files += means
+        self._included[path] = (headers, files)
+        return headers, files
+
+    def _own_headers(self, header: str, folder: str) -> tuple[str, ...]:
+        """Return the files of the package that an include in a file of a folder can mean."""
+        candidates = self.by_name.get(header.rpartition("/")[2])
+        if candidates is None:
+            return ()
+        end = f"/{header}"
+        if len(candidates) == 1 and f"/{candidates[0]}".endswith(end):
+            return candidates
+        beside = f"{folder}/{header}" if folder else header
+        if "." in header[:2]:
+            beside = posixpath.normpath(beside)
+        if beside in candidates:
+            return (beside,)
+        return tuple([file for file in candidates if file == header or file.endswith(end)])
+
+    @cached_property
+    def by_name(self) -> Mapping[str, tuple[str, ...]]:
+        """The files by their names without folders."""
+        found: dict[str, tuple[str, ...]] = {}
+        for file in self._files:
+            name = file.rpartition("/")[2]
+            found[name] = (*found[name], file) if name in found else (file,)
+        return found
+
+    def _is_made(self, header: str, folder: str) -> bool:
+        return any(self._own_headers(f"{header}{suffix}", folder) for suffix in (".in", ".em"))
+
+    @cached_property
+    def _templates(self) -> frozenset[str]:
+        """Names of files that are made of others."""
+        return frozenset([name[:-3] for name in self.by_name if name.endswith((".in", ".em"))])
+
+    @cached_property
+    def _modules(self) -> Mapping[str, set[str]]:
+        """Files and folders with Python code, by the name that an import would have, with the folders that they lie in."""
+        found: dict[str, set[str]] = {}
+        for file in self._files:
+            if file.endswith(".py"):
+                path = file[:-3]
+                while path:
+                    folder, _, name = path.rpartition("/")
+                    found.setdefault(name, set()).add(folder)
+                    path = folder
+        for name in _SHADOWED & found.keys():
+            found[name] = {folder for folder in found[name] if f"{folder}/{name}".lstrip("/") in self._python_packages}
+        return found
+
+    @cached_property
+    def _python_packages(self) -> frozenset[str]:
+        """Folders that are Python packages. The top of a package is none, whatever lies there."""
+        found = {file.rpartition("/")[0] for file in self._files if file.endswith("__init__.py")}
+        return frozenset(found - {"", "src"})
+
+    @cached_property
+    def _installed_modules(self) -> frozenset[str]:
+        names = self._script.python_packages if self._script else ()
+        return frozenset([name.partition(".")[0] for name in names])
