@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import posixpath
 import re
-from bisect import bisect_left
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from functools import lru_cache
 from typing import Final, NamedTuple
 
@@ -14,12 +12,12 @@ from ros_lint.facts.build import Component, Provided
 from ros_lint.facts.sight import Facet, Opaque, Problem
 from ros_lint.facts.sources import Mention, Purpose, Via
 from ros_lint.interpret.cmake_expand import ExpansionError, expand, template, templates
+from ros_lint.interpret.cmake_paths import Paths
 from ros_lint.interpret.cmake_sources import Helper, Sources
-from ros_lint.interpret.cmake_state import MISSING, Frame, Properties, State, Variables
-from ros_lint.interpret.cmake_values import ATOM, BINARY, HOLE, MAYBE, PREFIX, SOURCE, split, wild
+from ros_lint.interpret.cmake_state import MISSING, Frame, Properties, Variables
+from ros_lint.interpret.cmake_values import ATOM, HOLE, MAYBE, split, wild
 from ros_lint.knowledge.cmake_commands import SOFT_VARIABLES, UNKNOWN_VARIABLES, VARIABLES
 from ros_lint.text import Span
-from ros_lint.tree import join as join_path
 
 MOST_STEPS: Final = 50_000
 """Commands that one package may run. The largest real one runs some 3,000."""
@@ -46,37 +44,6 @@ def folded(name: str) -> str:
     return name.replace("_", "").replace("-", "").lower()
 
 
-@lru_cache(maxsize=4096)
-def _source(directory: str, value: str) -> str | None:
-    """Return a path relative to the package, given the folder whose script names it."""
-    if HOLE in value:
-        return None
-    if value.startswith(SOURCE):
-        rest = value[len(SOURCE) :]
-        if rest and not rest.startswith("/"):
-            return None
-        path = rest.lstrip("/")
-    elif value.startswith(("/", "$<")) or not value:
-        return None
-    else:
-        path = join_path(directory, value)
-    path = posixpath.normpath(path)
-    if path.startswith("../") or path == ".." or "\1" in path:
-        return None
-    return "" if path == "." else path
-
-
-@lru_cache(maxsize=1024)
-def _destination(value: str) -> str | None:
-    """Return an install destination relative to the prefix."""
-    if value.startswith(PREFIX):
-        value = value[len(PREFIX) :].lstrip("/")
-    if HOLE in value or "\1" in value or value.startswith("/") or "$<" in value:
-        return None
-    path = posixpath.normpath(value) if value else ""
-    return "" if path == "." else path
-
-
 _SIMPLE = re.compile(r"\$\{(\w+)\}")
 
 
@@ -96,20 +63,17 @@ class BudgetError(Exception):
     """The script runs longer than any real one."""
 
 
-class Run(State):
+class Run(Paths):
     """The state of an evaluation and all that it found."""
 
     def __init__(
         self, sources: Sources, distro: str, helpers: Mapping[str, Helper], foreign: Callable[[Run, str, list[str]], int | None]
     ) -> None:
-        super().__init__()
+        super().__init__(sources)
         self.foreign = foreign
         """Carries out a command that neither CMake nor the package defines, given its name and arguments."""
-        self.sources = sources
         self.distro = distro
         self.helpers = helpers
-        self.files = frozenset(sources.files)
-        self.frames: list[Frame] = []
         self.steps = 0
         self.unsure = 0
         """How many conditions that may be false lead here."""
@@ -138,8 +102,6 @@ class Run(State):
         """Variables of the form X_FOUND or ENV{X} that a condition asks about, whether they are set."""
         self.literals: dict[str, tuple[str, Command, Argument]] = {}
         """Where list elements were written first."""
-        self.places: dict[str, str] = {}
-        """Variables that follow the directory and the file that is being run."""
         self.versions: tuple[int, int] = (3, 0)
         """Up to which CMake the policies are new."""
         self.included: Properties = Properties()
@@ -169,8 +131,6 @@ class Run(State):
         """Files that are named and not there (unless they are generated), and whether that may not matter."""
         self.undefined: list[tuple[str, Span, bool]] = []
         """Targets that are installed and that nobody defines."""
-        self.directories: list[str] = [""]
-        """The folder whose CMakeLists.txt runs, relative to the package; outer ones before it."""
         self.extras: list[str] = []
         self.templates: dict[str, None] = {}
         """What files for those who find the package are made of, relative to it."""
@@ -352,73 +312,6 @@ class Run(State):
             if frame.own and frame.command is not None:
                 return frame.command.place(frame.path)
         raise AssertionError("no command of the package runs")
-
-    def at_home(self) -> bool:
-        """Return whether the current command stands in a file of the package."""
-        return self.frames[-1].own
-
-    # --- paths
-
-    @property
-    def directory(self) -> str:
-        return self.directories[-1]
-
-    def source(self, value: str) -> str | None:
-        """Return a path relative to the package, or None for one that lies elsewhere or is not known."""
-        return _source(self.directories[-1], value)
-
-    def destination(self, value: str) -> str | None:
-        """Return an install destination relative to the prefix, or None when it is not known or lies elsewhere."""
-        return _destination(value)
-
-    def build(self, value: str) -> str | None:
-        """Return a path relative to the build folder of the package, None for one that lies elsewhere or is not known."""
-        if HOLE in value or not (value.startswith(f"{BINARY}/") or value == BINARY):
-            return None
-        path = posixpath.normpath(value[len(BINARY) :].lstrip("/"))
-        return None if path.startswith("..") or ATOM in path else path.removeprefix(".")
-
-    def is_folder(self, path: str) -> bool:
-        """Return whether the package has such a folder, with a file in it."""
-        return not path or bool(self.below(path)) or self.is_unseen(path)
-
-    def is_unseen(self, path: str) -> bool:
-        """Return whether a path lies in a folder whose files are not listed."""
-        return any(path == folder or path.startswith(f"{folder}/") for folder in self.sources.unseen)
-
-    def below(self, path: str) -> Sequence[str]:
-        """Return the files below a folder, sorted."""
-        files = self.sources.files
-        if not path:
-            return files
-        start = bisect_left(files, f"{path}/")
-        return files[start : bisect_left(files, f"{path}0", start)]  # the character after the slash is the zero
-
-    def enter_directory(self, path: str) -> None:
-        """Make a folder of the package the current one."""
-        self.directories.append(path)
-        self._place_directory()
-
-    def leave_directory(self) -> None:
-        self.directories.pop()
-        self._place_directory()
-
-    def _place_directory(self) -> None:
-        self.places["CMAKE_CURRENT_SOURCE_DIR"] = join_path(SOURCE, self.directory).rstrip("/")
-        self.places["CMAKE_CURRENT_BINARY_DIR"] = join_path(BINARY, self.directory).rstrip("/")
-
-    def enter_file(self, frame: Frame) -> None:
-        """Run a file from now on."""
-        self.frames.append(frame)
-        self.place_file()
-
-    def place_file(self) -> None:
-        """Set the variables that name the file that is being run."""
-        for frame in reversed(self.frames):
-            if frame.procedure is None:
-                self.places["CMAKE_CURRENT_LIST_FILE"] = frame.file
-                self.places["CMAKE_CURRENT_LIST_DIR"] = frame.folder
-                break
 
     # --- findings
 
