@@ -51,7 +51,7 @@ from ros_lint.launch_files import Launchable, Programs, launchable, programs, re
 from ros_lint.launch_links import Links, defaults_of, everything, filled
 from ros_lint.launch_names import Families, needed
 from ros_lint.launch_parameters import Given, ParameterFiles
-from ros_lint.launch_runs import launched
+from ros_lint.launch_runs import PassedFile, launched, passed_files
 from ros_lint.needs import (
     Need,
     comes_elsewhere,
@@ -115,6 +115,7 @@ __all__ = [
     "Outcome",
     "Package",
     "ParameterFiles",
+    "PassedFile",
     "PluginClass",
     "PluginFile",
     "PluginLibrary",
@@ -177,7 +178,11 @@ __all__ = [
     "missing_path",
     "needed",
     "needs",
+<<<<<<< main
     "node_targets",
+=======
+    "passed_files",
+>>>>>>> local
     "programs",
     "referred",
     "relative",

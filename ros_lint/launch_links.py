@@ -100,6 +100,10 @@ class Links:
         found = self._by_path.get((places[0].package, places[0].share or ""), []) if len(places) == 1 else []
         return found[0].file if len(found) == 1 else None
 
+    def includes(self, file: LaunchFile) -> list[LaunchFile]:
+        """Return the launch files of the workspace that a file is sure to mean where it includes some."""
+        return self._own(file).includes
+
     def takes(self, file: LaunchFile) -> Takes:
         """Return what a file does with launch configurations, and those that it includes, each read once."""
         done = self._takes.get(file.path)

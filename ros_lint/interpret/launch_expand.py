@@ -67,6 +67,8 @@ class Started(NamedTuple):
     """Whether it starts only when a timer or an event comes."""
     words: tuple[Texts, ...] = ()
     """What a node is given on its command line."""
+    via: Span | None = None
+    """The include in the file that is launched by which it comes, None for what stands in that file itself."""
 
 
 class Argument(NamedTuple):
@@ -133,8 +135,8 @@ def expand(
     """Return what a launch file starts with the arguments given.
 
     ``files`` finds an included file by its path, which may begin with the mark of an install prefix; the path of ``file``
-    itself says where it lies, too. ``brief`` leaves out parameters, remappings and what is passed to included files,
-    which are most of the work.
+    itself says where it lies, too. ``brief`` leaves out parameters, but for files of them, remappings and what is passed to
+    included files, which are most of the work.
     """
     run = _Run(files, brief, {f"${name}": (value,) for name, value in (("ROS_DISTRO", distro),) if value})
     run.file(file, {name: (value,) for name, value in given.items()})
@@ -188,6 +190,7 @@ class _Run:
         self.circles: list[Circle] = []
         self.complete = True
         self._left = _MOST_ACTIONS
+        self._via: Span | None = None
 
     def file(self, file: LaunchFile, given: dict[str, Texts]) -> None:
         folder = file.path.rpartition("/")[0]
@@ -302,10 +305,12 @@ class _Run:
         if again or self.circles or len(self._open) > _DEEPEST:
             self.complete = False
             return scope
+        self._via = self._via if self._depth else action.span
         self._open.append((path, dict(scope.values)))
         # What is included shares the configurations and the namespace, but not the place that it stands in.
         after = self._actions(file.actions, scope._replace(folder=(path.rpartition("/")[0],), include=action.span, container=()))
         self._open.pop()
+        self._via = self._via if self._depth else None
         return after
 
     @property
@@ -317,7 +322,8 @@ class _Run:
         self._unknown.clear()
         if self._brief:
             words_only = tuple([one for one in action.arguments if not one[0]])
-            action = action._replace(parameters=(), remappings=(), arguments=words_only)
+            files_only = tuple([one for one in action.parameters if not one[0]])
+            action = action._replace(parameters=files_only, remappings=(), arguments=words_only)
         is_node = action.kind in ("node", "component")
         words = tuple([self.texts(value, scope) for name, value in action.arguments if not name])
         named = [(name, self.texts(value, scope)) for name, value in action.arguments if name]
@@ -348,6 +354,7 @@ class _Run:
             when=scope.when,
             later=scope.later,
             words=() if is_process else words,
+            via=self._via,
         )
         self.started.append(started)
         return started

@@ -4,6 +4,9 @@
 A launch file that includes a launch file, or names a parameter, model, map or display file, which its package does not
 have: neither installed there nor in its sources.
 
+A file that an included launch file names with what it is passed, `$(var folder)/robot.yaml`, is looked for as it is when
+one is launched that includes it, itself or by way of others.
+
 ## Why it matters
 
 The launch file stops, or the node comes up without its parameters.
@@ -21,22 +24,29 @@ Correct the path; the message names files of the same name that the package does
   is installed.
 - For a released package: its launch files are not known whole; other files of it are not known at all.
 - The launch file asks first if the package is there.
+
+Where the name hangs on the default of an argument, which others can replace, the confidence is medium.
 """
 
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from ros_lint.api import (
     Confidence,
     Facet,
     Finding,
+    LaunchFile,
     Package,
+    PassedFile,
     Related,
     Rule,
     Severity,
+    Span,
     Workspace,
+    launchable,
+    passed_files,
     referred,
 )
 
@@ -45,7 +55,15 @@ _WRITTEN = (".yaml", ".yml", ".rviz", ".urdf", ".xacro", ".srdf", ".sdf", ".worl
 """Kinds of files that people write and keep with the package."""
 
 
-def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+def check(workspace: Workspace) -> Iterator[Finding]:
+    for package in workspace.packages:
+        for finding in _named(package, workspace):
+            yield finding._replace(package=package.name)
+    yield from _passed(workspace)
+
+
+def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    """Yield what is missing of the files that launch files name by themselves."""
     for (owner, path), named in referred(package, ("include", "file")).items():
         references = [reference for reference in named if not reference.optional]
         if not references:
@@ -67,6 +85,63 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             if sure and not best.by_default and not _is_made(owner, path, workspace)
             else Confidence.MEDIUM,
         )
+
+
+def _passed(workspace: Workspace) -> Iterator[Finding]:
+    """Yield what is missing of the files that launch files name with what those pass on that include them."""
+    links = workspace.links
+    files = [(package, launch.file) for package in workspace.packages for launch in launchable(package)]
+    including = [(package, file) for package, file in files if links.includes(file)]
+    inner = {each.path for _, file in including for each in links.includes(file)}
+    missing = _Missing(workspace)
+    if not any(missing.among(passed_files(file, workspace)) for _, file in including if file.path not in inner):
+        return  # most workspaces are right, and to follow what others include costs as much again
+    found: dict[_Key, tuple[PassedFile, Package, LaunchFile]] = {}
+    for package, file in including:
+        for key, one in missing.among(passed_files(file, workspace)).items():
+            if key not in found or one.depth < found[key][0].depth:
+                found[key] = one, package, file
+    for key, (one, package, file) in found.items():
+        sure = one.sure and key in missing.among(passed_files(file, workspace, settled=True))
+        others_there = _files_without(one.package, one.path, one.kind, workspace) or ()
+        hint = _hint(one.path, others_there)
+        yield Finding(
+            f"{one.package} has no {one.path}, which an included file names with what it is passed here{hint}",
+            one.via,
+            one.path,
+            (Related("named here", one.span),),
+            confidence=Confidence.HIGH if sure and not _is_made(one.package, one.path, workspace) else Confidence.MEDIUM,
+            package=package.name,
+        )
+
+
+class _Missing:
+    """Which of the files that are passed on are missing, each looked for once."""
+
+    def __init__(self, workspace: Workspace) -> None:
+        self._workspace = workspace
+        self._known: dict[tuple[str, str, str], bool] = {}
+
+    def among(self, files: Iterable[PassedFile]) -> dict[_Key, PassedFile]:
+        """Return the missing ones by what they are and who names them, without those that a launch file names by itself."""
+        found: dict[_Key, PassedFile] = {}
+        for one in files:
+            place = (one.package, one.path, one.kind)
+            if place not in self._known:
+                self._known[place] = self._is_missing(one)
+            if self._known[place]:
+                found.setdefault((one.span, one.package, one.path), one)
+        return found
+
+    def _is_missing(self, one: PassedFile) -> bool:
+        if one.kind != "include" and not one.path.endswith(_WRITTEN):
+            return False
+        if any(look_up.path == one.path for look_up in self._workspace.looked_up.get(one.package, ())):
+            return False
+        return _files_without(one.package, one.path, one.kind, self._workspace) is not None
+
+
+_Key = tuple[Span, str, str]
 
 
 def _has_twin(path: str, names: tuple[str, ...]) -> bool:
@@ -121,5 +196,5 @@ RULE = Rule(
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,
-    package=check,
+    workspace=check,
 )
