@@ -178,11 +178,8 @@ __all__ = [
     "missing_path",
     "needed",
     "needs",
-<<<<<<< main
     "node_targets",
-=======
     "passed_files",
->>>>>>> local
     "programs",
     "referred",
     "relative",
