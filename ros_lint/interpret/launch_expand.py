@@ -6,28 +6,16 @@ filled in. Conditions have three values: what is taken only perhaps is kept, and
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.collectors.launch_expression import evaluate, means_true
-from ros_lint.collectors.launch_text import (
-    OWN_FOLDER,
-    UNKNOWN,
-    asked_for,
-    configurations,
-    fill,
-    is_settled,
-    joined,
-    named_in,
-)
+from ros_lint.collectors.launch_text import UNKNOWN, is_settled, joined
+from ros_lint.interpret.launch_scope import Filling, Scope, Texts
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping
+    from collections.abc import Callable, Iterable, Mapping
 
-    from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchFile, LaunchValue
+    from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchFile
     from ros_lint.text import Span
-
-Texts = tuple[str, ...]
 
 _DEEPEST = 20
 _MOST = 5_000
@@ -150,39 +138,13 @@ def expand(
     )
 
 
-class _Scope(NamedTuple):
-    """What actions see and change. ``values`` lives on while actions of one scope run; the rest is passed on."""
-
-    values: dict[str, Texts]
-    folder: Texts
-    namespace: Texts = ("",)
-    certain: bool = True
-    parameters: tuple[tuple[str, Texts], ...] = ()
-    remappings: tuple[tuple[Texts, Texts], ...] = ()
-    environment: tuple[tuple[str, Texts], ...] = ()
-    container: Texts = ()
-    when: tuple[LaunchCondition, ...] = ()
-    later: bool = False
-    include: Span | None = None
-    """By which the file came that is being followed."""
-
-    def after(self, inner: _Scope) -> _Scope:
-        """Return what holds after actions that ran in another scope but were not to be kept apart."""
-        return self._replace(
-            namespace=inner.namespace,
-            parameters=inner.parameters,
-            remappings=inner.remappings,
-            environment=inner.environment,
-        )
-
-
 class _Run:
     def __init__(self, files: Callable[[str], LaunchFile | None], brief: bool, environment: Mapping[str, Texts]) -> None:
         self._files = files
         self._brief = brief
-        self._environment = environment
+        self._filling = Filling(environment)
+        self._texts = self._filling.texts
         self._open: list[tuple[str, dict[str, Texts]]] = []
-        self._unknown: dict[str, None] = {}
         self.started: list[Started] = []
         self.missing: list[Missing] = []
         self.arguments: list[Argument] = []
@@ -195,19 +157,19 @@ class _Run:
     def file(self, file: LaunchFile, given: dict[str, Texts]) -> None:
         folder = file.path.rpartition("/")[0]
         self._open.append((file.path, dict(given)))
-        self._actions(file.actions, _Scope(given, (folder or ".",)))
+        self._actions(file.actions, Scope(given, (folder or ".",)))
 
-    def _actions(self, actions: Iterable[LaunchAction], scope: _Scope) -> _Scope:
+    def _actions(self, actions: Iterable[LaunchAction], scope: Scope) -> Scope:
         for action in actions:
             scope = self._action(action, scope)
         return scope
 
-    def _action(self, action: LaunchAction, scope: _Scope) -> _Scope:
+    def _action(self, action: LaunchAction, scope: Scope) -> Scope:
         self._left -= 1
         if len(self.started) > _MOST or self._left < 0:
             self.complete = False
             return scope
-        truth, when = self._truth(action.conditions, scope)
+        truth, when = self._filling.truth(action.conditions, scope)
         if truth is False:
             return scope
         outer = scope
@@ -217,8 +179,8 @@ class _Run:
             case "argument":
                 self._declare(action, scope)
             case "set":
-                for name in self.texts(action.target, scope):
-                    self._set(scope, name, self.texts(action.value, scope), scope.certain)
+                for name in self._texts(action.target, scope):
+                    self._set(scope, name, self._texts(action.value, scope), scope.certain)
             case "namespace" | "parameter" | "remap" | "environment":
                 return outer.after(self._pushed(action, scope))
             case "group":
@@ -235,15 +197,15 @@ class _Run:
                 self._actions(action.children, scope)
         return outer
 
-    def _declare(self, action: LaunchAction, scope: _Scope) -> None:
-        for name in self.texts(action.target, scope):
+    def _declare(self, action: LaunchAction, scope: Scope) -> None:
+        for name in self._texts(action.target, scope):
             given = name in scope.values
             if not given and action.value is None:
                 if scope.certain:
                     self.missing.append(Missing(name, action.span, scope.include))
                 scope.values[name] = (UNKNOWN,)
             elif not given:
-                self._set(scope, name, self.texts(action.value, scope), scope.certain)
+                self._set(scope, name, self._texts(action.value, scope), scope.certain)
             texts = scope.values[name]
             self.arguments.append(Argument(name, texts, action.span, self._depth, given))
             if scope.certain and len(texts) == 1 and is_settled(texts[0]) and self._is_refused(texts[0], action):
@@ -253,21 +215,21 @@ class _Run:
     def _is_refused(value: str, action: LaunchAction) -> bool:
         return bool(action.choices) and all(map(is_settled, action.choices)) and value not in action.choices
 
-    def _set(self, scope: _Scope, name: str, texts: Texts, certain: bool) -> None:
+    def _set(self, scope: Scope, name: str, texts: Texts, certain: bool) -> None:
         before = scope.values.get(name)
         if certain or before is None:
             scope.values[name] = texts
         else:
             scope.values[name] = tuple(dict.fromkeys((*before, *texts)))
 
-    def _pushed(self, action: LaunchAction, scope: _Scope) -> _Scope:
+    def _pushed(self, action: LaunchAction, scope: Scope) -> Scope:
         """Return a scope with what an action sets for everything that comes after it."""
-        texts = self.texts(action.value, scope)
+        texts = self._texts(action.value, scope)
         if action.kind == "namespace":
             return scope._replace(namespace=_joined_namespaces(scope.namespace, texts if scope.certain else (*texts, "")))
         if not scope.certain:
             texts = (*texts, UNKNOWN)
-        names = self.texts(action.target, scope) or ("",)
+        names = self._texts(action.target, scope) or ("",)
         if action.kind == "remap":
             return scope._replace(remappings=(*scope.remappings, (names, texts)))
         if action.kind == "parameter":
@@ -277,23 +239,23 @@ class _Run:
         pairs = tuple((name, joined([before.get(name, (UNKNOWN,)), texts], ":".join) if added else texts) for name in names)
         return scope._replace(environment=(*(one for one in scope.environment if one[0] not in names), *pairs))
 
-    def _group(self, action: LaunchAction, scope: _Scope) -> _Scope:
+    def _group(self, action: LaunchAction, scope: Scope) -> Scope:
         """Do what a group does, and return what holds after it."""
-        name = self.texts(action.name, scope)
+        name = self._texts(action.name, scope)
         scoped = name != ("unscoped",)
         inner = scope._replace(values=dict(scope.values)) if scoped else scope
         if scoped and name:
             inner = inner._replace(container=name)
         for given, value in action.arguments:
-            self._set(inner, given, self.texts(value, scope), certain=True)
+            self._set(inner, given, self._texts(value, scope), certain=True)
         after = self._actions(action.children, inner)
         return scope if scoped else after
 
-    def _include(self, action: LaunchAction, scope: _Scope) -> _Scope:
+    def _include(self, action: LaunchAction, scope: Scope) -> Scope:
         started = self._start(action, scope)
         for name, value in action.arguments:
             if name:
-                self._set(scope, name, self.texts(value, scope), scope.certain)
+                self._set(scope, name, self._texts(value, scope), scope.certain)
         path = started.target[0] if len(started.target) == 1 else UNKNOWN
         file = self._files(path) if is_settled(path) else None
         if file is None:
@@ -317,29 +279,29 @@ class _Run:
     def _depth(self) -> int:
         return len(self._open) - 1
 
-    def _start(self, action: LaunchAction, scope: _Scope) -> Started:
+    def _start(self, action: LaunchAction, scope: Scope) -> Started:
         is_process = action.kind == "process"
-        self._unknown.clear()
+        self._filling.unknown.clear()
         if self._brief:
             words_only = tuple([one for one in action.arguments if not one[0]])
             files_only = tuple([one for one in action.parameters if not one[0]])
             action = action._replace(parameters=files_only, remappings=(), arguments=words_only)
         is_node = action.kind in ("node", "component")
-        words = tuple([self.texts(value, scope) for name, value in action.arguments if not name])
-        named = [(name, self.texts(value, scope)) for name, value in action.arguments if name]
+        words = tuple([self._texts(value, scope) for name, value in action.arguments if not name])
+        named = [(name, self._texts(value, scope)) for name, value in action.arguments if name]
         started = Started(
             action.kind,
-            self.texts(action.package, scope),
-            joined(words, " ".join) if words and is_process else self.texts(action.target, scope),
-            self.texts(action.name, scope),
-            _joined_namespaces(scope.namespace, self.texts(action.namespace, scope) or ("",)),
+            self._texts(action.package, scope),
+            joined(words, " ".join) if words and is_process else self._texts(action.target, scope),
+            self._texts(action.name, scope),
+            _joined_namespaces(scope.namespace, self._texts(action.namespace, scope) or ("",)),
             (
                 *(scope.parameters if is_node else ()),
-                *((name, self.texts(value, scope)) for name, value in action.parameters),
+                *((name, self._texts(value, scope)) for name, value in action.parameters),
             ),
             (
                 *(scope.remappings if is_node else ()),
-                *((self.texts(a, scope), self.texts(b, scope)) for a, b in action.remappings),
+                *((self._texts(a, scope), self._texts(b, scope)) for a, b in action.remappings),
             ),
             tuple(one for one in named if not one[0].startswith("$")),
             scope.certain,
@@ -350,7 +312,7 @@ class _Run:
                 *(scope.environment if action.kind in ("node", "process") else ()),
                 *((name[1:], texts) for name, texts in named if name.startswith("$")),
             ),
-            unknown=tuple(self._unknown),
+            unknown=tuple(self._filling.unknown),
             when=scope.when,
             later=scope.later,
             words=() if is_process else words,
@@ -358,85 +320,6 @@ class _Run:
         )
         self.started.append(started)
         return started
-
-    def texts(self, value: LaunchValue | None, scope: _Scope) -> Texts:
-        """Return what a value is in a scope, () for none."""
-        return () if value is None else self._filled(value.texts, scope)
-
-    def _filled(self, texts: Texts, scope: _Scope) -> Texts:
-        if len(texts) == 1 and is_settled(texts[0]) and OWN_FOLDER not in texts[0]:
-            return texts
-        found: dict[str, None] = {}
-        for text in texts:
-            if is_settled(text) and OWN_FOLDER not in text:
-                found[text] = None
-                continue
-            for one in self._put(text, scope):
-                if OWN_FOLDER in one:
-                    found.update(dict.fromkeys([one.replace(OWN_FOLDER, folder) for folder in scope.folder]))
-                else:
-                    found[one] = None
-                if UNKNOWN in one:
-                    self._unknown.update(dict.fromkeys(self._reasons(text, scope)))
-        return tuple(found)
-
-    def _put(self, text: str, scope: _Scope) -> Texts:
-        names = named_in(text)
-        if names is None:
-            return fill(text, lambda name: self._value(name, scope), evaluate)
-        return _filled_with(text, names, tuple([self._value(name, scope) for name in names]))
-
-    def _value(self, name: str, scope: _Scope) -> Texts | None:
-        if not name.startswith("$"):
-            return scope.values.get(name)
-        return dict(scope.environment).get(name[1:]) or self._environment.get(name)
-
-    def _reasons(self, text: str, scope: _Scope) -> Iterator[str]:
-        """Yield why a text is not known."""
-        for name, has_default in configurations(text):
-            value = self._value(name, scope)
-            if name.startswith("$"):
-                if value is None and not has_default:
-                    yield f"the environment variable {name[1:]} is not known here"
-            elif value == (UNKNOWN,):
-                yield f"the argument {name} is not known"
-            elif value is None and not has_default:
-                yield f"nothing sets the launch configuration {name}"
-        if UNKNOWN in text:
-            yield "it is computed in a way that cannot be followed"
-
-    def _truth(self, conditions: Iterable[LaunchCondition], scope: _Scope) -> tuple[bool | None, tuple[LaunchCondition, ...]]:
-        """Return whether all conditions hold, and those of which that is not known."""
-        open_: list[LaunchCondition] = []
-        for condition in conditions:
-            truth = self._holds(condition, scope)
-            if truth is False:
-                return False, ()
-            if truth is None:
-                open_.append(condition)
-        return (None if open_ else True), tuple(open_)
-
-    def _holds(self, condition: LaunchCondition, scope: _Scope) -> bool | None:
-        answers: set[bool | None] = set()
-        for text in self._filled(condition.texts, scope):
-            if asked_for(text):
-                answers.add(True)  # the launch file is asked what it does where everything is installed
-            elif not is_settled(text):
-                answers.add(None)
-            elif condition.equals is None:
-                answers.add(means_true(text))
-            else:
-                answers.add(text == condition.equals)
-        if len(answers) != 1:
-            return None
-        answer = answers.pop()
-        return None if answer is None else answer is condition.wanted
-
-
-@lru_cache(maxsize=8_192)
-def _filled_with(text: str, names: Texts, values: tuple[Texts | None, ...]) -> Texts:
-    """Return what a text becomes with some values. A file that many include says the same many times over."""
-    return fill(text, dict(zip(names, values, strict=True)).get, evaluate)
 
 
 def _joined_namespaces(outer: Texts, inner: Texts) -> Texts:
