@@ -178,7 +178,10 @@ def _with_files(tree: Tree, parts: Parts, script: BuildScript) -> BuildScript:
     plugins = tuple([plugin for plugin in described if plugin])
     started = (f"lib/{found.name}/", "bin/")
     sources = dict.fromkeys([p.source for p in script.provides if p.source and p.path.startswith(started)])
-    sources.update(dict.fromkeys(_programs(found.files, {file.rpartition("/")[0] for file in sources})))
+    folders = {file.rpartition("/")[0] for file in sources}
+    if script.path.endswith(".txt") and not any(p.source.startswith(f"{found.name}/") for p in script.provides):
+        folders.add(found.name)  # a Python package that CMake does not install
+    sources.update(dict.fromkeys(_programs(found.files, folders)))
     executables = _Executables(tree, found)
     files = [_script_file(file, text, file in executables) for file in sources if (text := _text(tree, found, file))]
     hidden = any(opaque.hides & Facet.SHARE for opaque in script.opaque)
