@@ -2,8 +2,8 @@
 ## What it finds
 
 A script with an interpreter line, in `scripts/`, beside scripts that are installed, or in the folder of a Python package that is
-not installed, that an `ament_cmake` package does not install. The confidence is high for a node beside nodes that are installed (both import `rclpy`), and else medium: it may be a
-tool for the sources only.
+not installed, that an `ament_cmake` package does not install. The confidence is high for a node beside nodes that are installed
+(both import `rclpy`), and else medium: it may be a tool for the sources only.
 
 ## Why it matters
 
