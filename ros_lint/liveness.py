@@ -295,8 +295,9 @@ class Liveness:
     @cached_property
     def _in_python_packages(self) -> frozenset[str]:
         packages = [name.replace(".", "/") for name in self._script.python_packages] if self._script else []
-        inside = tuple(f"{package}/" for package in packages)
-        modules = {f"{package}{suffix}" for package in packages for suffix in (".py", ".py.in")}
+        moved = self._script.moved if self._script else ()
+        inside = (*(f"{package}/" for package in packages), *(each for each in moved if each.endswith("/")))
+        modules = {f"{package}{suffix}" for package in packages for suffix in (".py", ".py.in")}.union(moved)
         return frozenset([file for file in self._files if file in modules or file.startswith(inside)] if packages else ())
 
 

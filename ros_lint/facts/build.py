@@ -136,3 +136,6 @@ class BuildScript(NamedTuple):
     runs: tuple[str, ...] | None = None
     """Files and folders that are run as tests by an interpreter, relative to the package, "" for any; None where nobody
     knows."""
+    moved: tuple[str, ...] = ()
+    """Files with Python modules that it installs, relative to the package, and folders of them, with a slash at the end,
+    where they lie elsewhere than the names say: ``package_dir`` of a setup.py."""

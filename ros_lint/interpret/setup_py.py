@@ -152,6 +152,7 @@ def _with(
         provides=(*script.provides, *distribution.provides),
         entry_points=(*script.entry_points, *distribution.entry_points),
         python_packages=(*script.python_packages, *distribution.python_packages),
+        moved=(*script.moved, *distribution.moved),
         opaque=(*script.opaque, *distribution.opaque),
         problems=(*script.problems, *distribution.problems),
     )

@@ -50,6 +50,7 @@ class Distribution:
         self.provides: list[Provided] = []
         self.entry_points: list[EntryPoint] = []
         self.python_packages: list[str] = []
+        self.moved: list[str] = []
         self.opaque: list[Opaque] = []
         self.problems: list[Problem] = []
 
@@ -109,6 +110,8 @@ class Distribution:
             if isinstance(name, str):
                 path = posixpath.join(known.get("", ""), name.replace(".", "/") + ".py")
                 self.python_packages.append(str(name))
+                if known.get(""):
+                    self.moved.append(posixpath.normpath(path))
                 if not self._context.files.is_file(path):
                     self._problem("missing-file", f"{path} does not exist", name)
 
@@ -117,7 +120,11 @@ class Distribution:
         self.python_packages.append(str(name))
         if not files.is_folder(folder or "."):
             self._problem("missing-file", f"there is no folder {folder} for the package {name}", name)
-        self.python_packages += [f"{name}.{module}" for module in files.modules(folder) if module != "__init__"]
+        modules = files.modules(folder)
+        self.python_packages += [f"{name}.{module}" for module in modules if module != "__init__"]
+        lies = posixpath.normpath(folder)
+        if lies != name.replace(".", "/"):
+            self.moved += [f"{lies}/"] if lies != "." else [f"{module}.py" for module in modules]
 
     def _discovered(self, folders: dict[str, str]) -> tuple[list[str], dict[str, str]]:
         """Return what setuptools finds by itself (since 61): packages in src, or the only package there is."""
