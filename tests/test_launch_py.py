@@ -36,6 +36,10 @@ def test_recognised_by_content(path: str, text: str, wanted: str | None) -> None
         (HEAD + " pass", False, False),
         ("def generate_test_description():\n pass", True, False),
         ("import launch\nx = Node()", False, True),
+        ("def generate_launch_description(kind, name='a'):\n pass", False, True),
+        ("def generate_launch_description(*, kind):\n pass", False, True),
+        ("def generate_launch_description(kind='a', *more, name='a', **rest):\n pass", False, False),
+        ("@given('a')\ndef generate_launch_description(kind):\n pass", False, False),
     ],
 )
 def test_what_it_is_for(text: str, test: bool, helper: bool) -> None:

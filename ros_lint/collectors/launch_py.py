@@ -54,6 +54,7 @@ def collect(
     except (ValueError, RecursionError, MemoryError):
         opaque = Opaque(Facet.USES, "the file is nested too deeply, or no text", source.span(0, 0))
         return LaunchFile(source.path, "python", (), (opaque,), (), test, helper)
+    helper = helper or any(_asks_for_arguments(node) for node in tree.body)
     reading = _Reading(source, Machine(modules, files))
     try:
         reading.read(tree, helper)
@@ -75,6 +76,14 @@ def collect(
         reading.asks(),
         tuple(sorted(map(str, reading.wants))),  # the cache takes none but plain texts
     )
+
+
+def _asks_for_arguments(node: ast.stmt) -> bool:
+    """Whether this makes a launch description only for who gives it something: launch calls the function with nothing."""
+    if not isinstance(node, ast.FunctionDef) or node.name != "generate_launch_description" or node.decorator_list:
+        return False
+    given = node.args
+    return len(given.posonlyargs) + len(given.args) > len(given.defaults) or None in given.kw_defaults
 
 
 def _imports(text: Text, tree: ast.Module) -> Iterator[tuple[str, Span]]:

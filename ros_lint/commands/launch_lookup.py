@@ -95,7 +95,7 @@ class LookUp:
         if isinstance(found, Absent):
             raise UsageError(f"{path}: {found.reason}")
         if found.helper:
-            raise UsageError(f"{path}: no launch file: it has no generate_launch_description()")
+            raise UsageError(f"{path}: no launch file: it has no generate_launch_description() to call with nothing")
         return found
 
     def _no_package(self, package: str) -> str:

@@ -93,7 +93,8 @@ class LaunchFile(NamedTuple):
     test: bool = False
     """Whether it serves tests only: it has generate_test_description() (launch_testing)."""
     helper: bool = False
-    """Whether it cannot be launched itself: a Python module without generate_launch_description() that builds actions."""
+    """Whether it cannot be launched itself: a Python module that builds actions, without a generate_launch_description() that
+    can be called with nothing."""
     actions: tuple[LaunchAction, ...] = ()
     imports: tuple[tuple[str, Span], ...] = ()
     """Modules that a Python launch file imports whenever it is loaded, dotted as written; none if it changes where Python
