@@ -34,7 +34,7 @@ def uninstalled(files: Iterable[str], sources: Iterable[str]) -> dict[str, list[
         top = top.lower()
         if not (top in _FOLDERS or (top == "launch" and file.endswith(".launch"))) or not rest:
             continue
-        if not (_FILES.search(file) or file.endswith(".launch")) or is_apart(file):
+        if not (_FILES.search(file) or file.endswith(".launch")) or file.endswith("/CMakeLists.txt") or is_apart(file):
             continue
         free = [folder for folder in _above(file) if folder not in occupied]
         if free:

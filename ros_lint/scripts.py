@@ -200,13 +200,23 @@ def _inputs(scripts: Mapping[str, Parsed], missing: Mapping[str, Sequence[str]],
     """Yield what a command of a CMake file has among its arguments, install() left out: resources, their folders, programs."""
     if not missing and not programs:
         return
-    commands = (command for parsed in scripts.values() for command in parsed.commands if command.name != "install")
+    subfolders = [command for parsed in scripts.values() for command in parsed.commands if command.name == "add_subdirectory"]
+    entered = [command.args[0][0] for command in subfolders if command.args]
+    built = (parsed for path, parsed in scripts.items() if _may_be_read(path, entered))
+    commands = (command for parsed in built for command in parsed.commands if command.name != "install")
     text = "\n".join([argument[0] for command in commands for argument in command.args])
     for folder, files in missing.items():
         if re.search(rf"(?<![\w.-]){re.escape(folder)}(?:/|$)", text, re.MULTILINE):
             yield f"{folder}/"
         yield from (file for file in files if file.rpartition("/")[2] in text)
     yield from (file for file in programs if re.search(rf"(?<![\w.-]){re.escape(file)}(?![\w.-])", text))
+
+
+def _may_be_read(path: str, entered: Sequence[str]) -> bool:
+    """Whether a CMake file can be part of the build: not if it is the CMakeLists.txt of a folder that nobody enters."""
+    folder, _, name = path.rpartition("/")
+    inner = folder.rpartition("/")[2]
+    return name != "CMakeLists.txt" or not folder or any("$" in text or text.endswith(inner) for text in entered)
 
 
 def _named(tree: Tree, found: Found, missing: Mapping[str, Sequence[str]]) -> Iterator[tuple[str, Span]]:
