@@ -45,6 +45,7 @@ from ros_lint.api import (
 _LOADED = (
     "pluginlib_export_plugin_description_file", "rclcpp_components_register_node", "rclcpp_components_register_nodes",
 )  # fmt: skip
+_LINKED = ("ament_export_interfaces", "ament_export_libraries", "ament_export_targets")
 _HEADERS = (".h", ".hh", ".hpp", ".hxx", ".inl", ".ipp", ".tpp")
 
 
@@ -59,7 +60,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     exports = _exports(package)
     library = any(path.startswith("lib/lib") for path in places)
     loaded = any(True for _ in called(package, *_LOADED, anywhere=True))
-    linked = library and not loaded and any(not call.blocks for call in called(package, "ament_export_libraries"))
+    linked = library and not loaded and any(not call.blocks for call in called(package, *_LINKED))
     sure = Confidence.HIGH if exports or linked else Confidence.MEDIUM if library else Confidence.LOW
     yield Finding(
         f"the headers in include/ ({headers[0].rpartition('/')[2]} ...) are not installed{', but exported' if exports else ''}",
