@@ -184,7 +184,7 @@ def _package(run: Run, args: list[str]) -> None:
         found = [(f"share/{name}/package.xml", "package.xml")] if "package.xml" in run.files else []
         found += [(f"share/ament_index/resource_index/packages/{name}", ""), (f"share/{name}/cmake/{name}Config.cmake", "")]
         run.installed += [Provided(path, source, False, conditional, span) for path, source in found]
-    if not any(variable.startswith(_REGISTERED) for scope in run.scopes for variable in scope):
+    if run.registered and not any(variable.startswith(_REGISTERED) for scope in run.scopes for variable in scope):
         for number, scope in enumerate(run.registered):
             if not any(scope is seen for seen in run.scopes):
                 run.components[number] = run.components[number]._replace(lost=True)
