@@ -15,14 +15,15 @@ Rename one, remove one, or put an empty file `COLCON_IGNORE` into the folder of 
 
 ## When it keeps silent
 
-About folders that are ignored, and about packages of the same name in an underlay: see `shadowed-package`.
+About folders that are ignored, and about packages of the same name in an underlay: see `shadowed-package`. Where each lies
+below a `src` of its own, such as `arm_ws/src` and `car_ws/src`, the confidence is medium: these are built one by one.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
-from ros_lint.api import Finding, Related, Rule, Severity, Workspace
+from ros_lint.api import Confidence, Finding, Package, Related, Rule, Severity, Workspace
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
@@ -36,8 +37,16 @@ def check(workspace: Workspace) -> Iterator[Finding]:
             first.place,
             name,
             tuple(Related(f"{name} is here, too", package.place) for package in others),
+            confidence=Confidence.MEDIUM if _lie_apart(same) else Confidence.HIGH,
             package=name,
         )
+
+
+def _lie_apart(packages: Iterable[Package]) -> bool:
+    """Whether each package lies below a ``src`` of its own: the workspaces of one repository are built one by one."""
+    places = [f"/{package.path}/".partition("/src/") for package in packages]
+    tops = {top for top, found, _ in places if top and found}
+    return len(tops) == len(places)
 
 
 RULE = Rule(
