@@ -191,7 +191,8 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
     """Return the needs that nothing declared brings along, and whether that is sure.
 
     What only launch files name, to start, include or look it up, is left out, unless these are tests: it has a rule of its
-    own. So is what is declared by another name. Of what modules with parts of launch files name, nobody knows who takes it.
+    own. So is what is declared by another name, and a command of CMake that comes with what is to be declared anyway. Of what
+    modules with parts of launch files name, nobody knows who takes it.
     """
     unknown = all_declared(package, workspace).unknown
     found = []
@@ -201,7 +202,10 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
         for need in needs(package, workspace)
         if not (need.declared or need.brought or any(otherwise.intersection(use.providers) for use in need.uses))
     ]
-    for need in _joined([need for need in missing if not only_launched(package, need.uses)]):
+    joined = _joined([need for need in missing if not only_launched(package, need.uses)])
+    for need in joined:
+        if all(use.via == "macro" for use in need.uses) and _comes_with(need, joined, workspace):
+            continue
         sure = need.sure and any(use.via != "launch" or use.role is _TEST for use in need.uses)
         if not is_available(need.name, workspace):
             if comes_elsewhere(package, workspace, need.name):
@@ -245,6 +249,10 @@ def _joined(found: Sequence[Need]) -> list[Need]:
         else:
             result.append(need)
     return result
+
+
+def _comes_with(need: Need, others: Iterable[Need], workspace: Workspace) -> bool:
+    return any(need.name in workspace.world.closure((other.name,)) for other in others if other is not need)
 
 
 def _may_satisfy(unknown: Sequence[str], need: Need, workspace: Workspace) -> bool:
