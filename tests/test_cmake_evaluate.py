@@ -401,6 +401,7 @@ def test_components_are_registered_where_ament_package_sees_them(around: str, lo
     """A function's variables are gone when it ends, those in which rclcpp_components notes its components among them."""
     script = run(around.format('rclcpp_components_register_nodes(core "ns::Node")') + "\nament_package()\n")
     assert [component.lost for component in script.components] == [lost]
+    assert any("/rclcpp_components/" in path for path in paths(script)) is not lost
 
 
 def test_the_name_of_components_until_dashing() -> None:

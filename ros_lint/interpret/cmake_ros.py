@@ -188,9 +188,12 @@ def _package(run: Run, args: list[str]) -> None:
         for number, scope in enumerate(run.registered):
             if not any(scope is seen for seen in run.scopes):
                 run.components[number] = run.components[number]._replace(lost=True)
+        if all(component.lost for component in run.components):
+            run.installed[:] = [provided for provided in run.installed if not provided.path.startswith(_COMPONENT_INDEX)]
     _end(run)
 
 
+_COMPONENT_INDEX: Final = "share/ament_index/resource_index/rclcpp_components/"
 _REGISTERED: Final = "_RCLCPP_COMPONENTS"
 """How the variables begin in which rclcpp_components notes what ament_package() has to write: some packages hand them on."""
 _EXTRAS: Final = ("CONFIG_EXTRAS", "CONFIG_EXTRAS_POST")
