@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from ros_lint.facts.build import BuildScript
 from ros_lint.facts.cmake import Call
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sight import Facet, Opaque, Problem
@@ -123,10 +124,15 @@ def _stem(path: str) -> str:
     return path.rpartition("/")[2].partition(".")[0]
 
 
+def installs_built(script: BuildScript) -> bool:
+    """Whether anything that a package builds may be installed, by the name of its target or as a file."""
+    return any(provided.target or provided.path.startswith(("lib/", "bin/")) for provided in script.provides)
+
+
 def forgotten_nodes(package: Package) -> frozenset[str]:
     """Return the nodes of a package that installs nothing at all of what it builds: no tests, nothing that the build may run."""
     script = package.script
-    if script is None or hidden(package, Facet.EXECUTABLES) or any(provided.target for provided in script.provides):
+    if script is None or hidden(package, Facet.EXECUTABLES) or installs_built(script):
         return frozenset()
     if not _RUNS.isdisjoint(script.calls):
         return frozenset()

@@ -43,6 +43,7 @@ from ros_lint.api import (
     cmake_edits,
     evaluated_name,
     hidden,
+    installs_built,
     relative,
 )
 
@@ -111,7 +112,7 @@ def _is_lone(package: Package, library: BuildTarget, *, loaded: bool) -> bool:
         return False
     installed = {provided.target for provided in script.provides if provided.target}
     left = {target.name for target in script.targets if target.kind == "executable" and target.name not in installed}
-    if not installed:
+    if not installs_built(script):
         left.clear()
     tests = {target.name for target in script.targets if target.test}
     left = left - tests if _has_public_header(script, library) else left | tests
