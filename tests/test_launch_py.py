@@ -147,6 +147,15 @@ def test_paths_by_name() -> None:
     assert python(body) == ["file a config/p.yaml", "node b c", "file a x.rviz"]
 
 
+def test_a_path_of_nothing_is_no_path() -> None:
+    body = (
+        "name = {}.get('plugin') if os.environ.get('X') else 'aruco'\n"
+        "params = os.path.join(get_package_share_directory('a'), name, 'p.yaml')\n"
+        "return [Node(package='b', executable='c', parameters=[params])]"
+    )
+    assert python(body) == ["file a aruco/p.yaml", "node b c"]
+
+
 @pytest.mark.parametrize(
     ("body", "wanted"),
     [

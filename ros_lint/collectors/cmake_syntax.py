@@ -95,7 +95,11 @@ _MARKS = dict.fromkeys((1, 2, 3), "\ufffd")
 
 def is_template(path: str) -> bool:
     """Return whether a file is called like one that CMake makes another file of, and does not read itself."""
-    return path.endswith((".in", ".in.cmake"))
+    return path.endswith((".in", ".in.cmake")) or _OTHER.search(path) is not None
+
+
+_OTHER = re.compile(r"\.(?:c|cc|cpp|cxx|h|hh|hpp|hxx|json|md|pc|py|sh|txt|xml|yaml|yml)\.cmake\Z")
+"""What is made of it is no CMake file: ``config.h.cmake``."""
 
 
 def parse(source: Text) -> Parsed:

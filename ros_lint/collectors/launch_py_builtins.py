@@ -22,7 +22,7 @@ from ros_lint.collectors.launch_py_objects import (
     Value,
     plain,
 )
-from ros_lint.collectors.launch_py_operations import each, truth
+from ros_lint.collectors.launch_py_operations import each, text_of, truth
 from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ def _str(call: Call) -> Value:
     value = call.get(0)
     if isinstance(value, Made):
         return unknown_text(call)
-    return call.result(call.texts(0)) if value is not None or call.arguments else ""
+    return call.result(text_of(value)) if value is not None or call.arguments else ""
 
 
 def _number(kind: type) -> Rule:

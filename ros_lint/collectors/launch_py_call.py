@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.launch_py_methods import items
-from ros_lint.collectors.launch_py_objects import Unknown, Value, written
+from ros_lint.collectors.launch_py_objects import Union, Unknown, Value, alternatives, union, written
 from ros_lint.collectors.launch_py_operations import text_of, texts_made
 from ros_lint.collectors.launch_text import UNKNOWN
 
@@ -38,7 +38,10 @@ class Call:
         return self.arguments[position] if position < len(self.arguments) else None
 
     def texts(self, position: int, *names: str) -> tuple[str, ...]:
+        """Return an argument as texts, for a function that takes no None: where it is None, Python goes no further."""
         value = self.get(position, *names)
+        if isinstance(value, Union):
+            value = union(one for one in alternatives(value) if one.value is not None)
         return (UNKNOWN,) if value is None else text_of(value)
 
     def result(self, found: tuple[str, ...]) -> Value:

@@ -39,6 +39,8 @@ from ros_lint.api import (
     Severity,
     Span,
     Workspace,
+    called,
+    evaluated_name,
 )
 
 _MARKERS = "share/ament_index/resource_index/packages/"
@@ -49,11 +51,17 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if manifest is None or manifest.problems or script is None:
         return
     if package.type == "ros.ament_cmake":
-        if script.name_span and script.name != manifest.name and "ament_package" in script.calls:
+        if script.name_span and "ament_package" in script.calls and not _is_called(package, manifest.name):
             message = f"project() is called {script.name}, but the package {manifest.name}; ament_package() wants one name"
             yield _finding(message, manifest, script, script.name_span)
     elif package.type == "ros.ament_python":
         yield from _python(manifest, script)
+
+
+def _is_called(package: Package, name: str) -> bool:
+    """Whether CMake may take a package for one of a name: one that builds itself anew has more than one project()."""
+    own = package.script.name if package.script else ""
+    return name == own or any(evaluated_name(package, call.texts[0]) == name for call in called(package, "project") if call.args)
 
 
 def _python(manifest: Manifest, script: BuildScript) -> Iterator[Finding]:
