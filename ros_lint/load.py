@@ -9,7 +9,18 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
-from ros_lint import conditions, evidence, ignored, launch_around, public_headers, scripts, source_lists, traces, type_names
+from ros_lint import (
+    conditions,
+    evidence,
+    ignored,
+    launch_around,
+    own_files,
+    public_headers,
+    scripts,
+    source_lists,
+    traces,
+    type_names,
+)
 from ros_lint.cache import Cache
 from ros_lint.collect import FAILED, Collected, collect_all, kind_of
 from ros_lint.discover import Found, Skipped, discover
@@ -211,6 +222,7 @@ class Loader:
                 look_ups=tuple([look_up for facts in done.facts.values() for look_up in facts.look_ups]),
                 parameter_files=tuple([f.parameters for f in done.facts.values() if f.parameters is not None]),
                 unusable_headers=public_headers.unusable(done.script, done.facts, found.files),
+                left_behind=tuple(own_files.left_behind(found.files, done.script, done.facts)),
             )
             yield package._replace(traces=traces.of_package(tree, package, source, world, types)) if search else package
 

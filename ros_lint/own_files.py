@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import posixpath
-from collections.abc import Container, Iterable, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 
-from ros_lint.facts.build import BuildScript
+from ros_lint.facts.build import BuildScript, LeftBehind
 from ros_lint.facts.sources import FileFacts
 
 _SHADOWED = frozenset({"launch"})
@@ -135,3 +135,32 @@ class OwnFiles:
     def _installed_modules(self) -> frozenset[str]:
         names = self._script.python_packages if self._script else ()
         return frozenset([name.partition(".")[0] for name in names])
+
+
+def left_behind(files: Sequence[str], script: BuildScript | None, facts: Mapping[str, FileFacts]) -> Iterator[LeftBehind]:
+    """Yield the imports of programs in Python that work among the sources, and not where the program is installed.
+
+    Python looks for modules beside the program that it starts, beside what a link to it points to (reference, section D4.4).
+    """
+    provides = script.provides if script else ()
+    programs = [p for p in provides if p.path.startswith("lib/") and p.source in facts and not p.test]
+    if script is None or not programs:
+        return
+    known = frozenset(files)
+    folders = {file.rpartition("/")[0] for file in files if file.endswith(".py")}
+    installed = {p.path for p in script.provides}
+    installed.update([path[: path.rfind("/") + 1] for path in installed])
+    for program in programs:
+        if not program.source.endswith(".py") or "site-packages" in program.path or "dist-packages" in program.path:
+            continue
+        here = program.source[: program.source.rfind("/") + 1]
+        there = program.path[: program.path.rfind("/") + 1]
+        facts_here = facts[program.source]
+        for name, via, span, _, optional, _, _ in facts_here.mentions:
+            module = name.partition(".")[0]
+            if via != "import" or optional or not module or module in facts_here.caught:
+                continue
+            beside = f"{here}{module}.py" if f"{here}{module}.py" in known else f"{here}{module}/"
+            is_there = beside in known or beside[:-1] in folders
+            if is_there and f"{there}{module}.py" not in installed and f"{there}{module}/" not in installed:
+                yield LeftBehind(program.path, module, beside, span, not facts_here.sets_path)

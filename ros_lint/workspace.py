@@ -7,7 +7,7 @@ from functools import cached_property, wraps
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from ros_lint import ignored
-from ros_lint.facts.build import BuildScript
+from ros_lint.facts.build import BuildScript, LeftBehind
 from ros_lint.facts.launch import LaunchFile, LaunchReference
 from ros_lint.facts.manifest import ColconDepend, Depend, Manifest, Role
 from ros_lint.facts.sight import Facet, Opaque
@@ -70,6 +70,8 @@ class Package(NamedTuple):
     """Its YAML files."""
     unusable_headers: tuple[str, ...] = ()
     """Those installed headers, relative to it, that do not compile anywhere else: what they include is not installed."""
+    left_behind: tuple[LeftBehind, ...] = ()
+    """What its programs in Python import and that is not installed beside them."""
 
     @property
     def place(self) -> Span:

@@ -69,6 +69,7 @@ def collect(source: Text, *, launch: bool = False) -> FileFacts:
         look_ups=looked_up.files,
         caught=tuple([item.module for item in named if item.caught]),
         added=added,
+        sets_path="sys.path" in source.text,
         programs=tuple(dict.fromkeys(_PROGRAM.findall(source.text))),
     )
 

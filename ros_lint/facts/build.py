@@ -84,6 +84,19 @@ class ScriptFile(NamedTuple):
     """Whether the source has the executable bit."""
 
 
+class LeftBehind(NamedTuple):
+    """An import in an installed program of what lies beside it in the sources, and not where it is installed."""
+
+    program: str
+    """Where it is installed, such as ``lib/<package>/talker.py``."""
+    module: str
+    source: str
+    """A file, or a folder with a slash at the end, relative to the package."""
+    span: Span
+    sure: bool
+    """Whether the program leaves alone where modules are sought."""
+
+
 class BuildScript(NamedTuple):
     """What the build of a package does: evaluated from CMakeLists.txt and what it includes, or from setup.py and setup.cfg."""
 

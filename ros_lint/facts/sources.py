@@ -99,3 +99,5 @@ class FileFacts(NamedTuple):
     """Imports of modules after whose names the file adds a folder to those in which modules are sought."""
     programs: tuple[str, ...] = ()
     """Names of Python files that its literals end with: a test starts some of them by path."""
+    sets_path: bool = False
+    """Whether it speaks of ``sys.path``, so that modules may be sought in more folders."""

@@ -3,7 +3,8 @@
 
 Python packages in the sources of an `ament_python` package that are not installed: a sub-package that a written list
 `packages=[package_name]` leaves out, and the folder of an entry point that is not listed, or that `find_packages()` passes
-over because it has no `__init__.py`.
+over because it has no `__init__.py`. And programs of any package that import a module which lies beside them in the
+sources, and not where they are installed.
 
 ## Why it matters
 
@@ -13,24 +14,28 @@ ModuleNotFoundError.
 ## How to fix it
 
 `packages=find_packages(exclude=['test'])`, or name the sub-package: `packages=[package_name, package_name + '.sub']`. The
-fix adds it to the list.
+fix adds it to the list. For a program, make the module part of a Python package (`ament_python_install_package()`), or
+install it beside the program.
 
 ## When it keeps silent
 
 For tests, for folders without modules, for those whose modules `data_files` puts elsewhere, and where `packages` cannot be
-evaluated.
+evaluated. About what a program imports, where anybody else offers a module of that name; the confidence is medium where
+the program changes `sys.path`.
 """
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 
-from ros_lint.api import Facet, Finding, Fix, Package, Rule, Severity, Slot, Span, Workspace, setup_edits
+from ros_lint.api import Confidence, Facet, Finding, Fix, Package, Rule, Severity, Slot, Span, Workspace, setup_edits
 
 _APART = frozenset({"test", "tests", "testing", "launch", "doc", "docs", "example", "examples", "scripts", "resource", "build"})
 
 
-def check(package: Package, _: Workspace) -> Iterator[Finding]:
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    yield from _beside_programs(package, workspace)
     script = package.script
     if script is None or package.builds_with != "ament_python" or package.hidden(Facet.PYTHON):
         return
@@ -64,6 +69,28 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             entry.span,
             inside,
             fix=_fix(slot, inside, package.name) if whole else None,
+        )
+
+
+def _beside_programs(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    """Speak of modules that are not installed where the program is that imports them."""
+    if package.hidden(Facet.PYTHON | Facet.EXECUTABLES | Facet.SHARE):
+        return
+    own = {module.partition(".")[0] for module in package.script.python_packages} if package.script else set()
+    world = workspace.world
+    told: set[str] = set()
+    for left in package.left_behind:
+        module = left.module
+        elsewhere = module in own or module in sys.stdlib_module_names or world.offering(module) or world.by_import(module).names
+        if elsewhere or left.source in told:
+            continue
+        told.add(left.source)
+        place = left.program.rpartition("/")[0]
+        yield Finding(
+            f"{left.program} imports {module}, and {left.source} is not installed to {place}, where Python looks for it",
+            left.span,
+            left.source,
+            confidence=Confidence.HIGH if left.sure else Confidence.MEDIUM,
         )
 
 
