@@ -2,52 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import pytest
 
-from ros_lint.collectors.cmake_syntax import parse
-from ros_lint.facts.build import BuildScript
 from ros_lint.facts.sight import Facet
-from ros_lint.facts.sources import Mention
 from ros_lint.interpret.cmake import evaluate
-from ros_lint.interpret.cmake_sources import Helper, Sources
-from ros_lint.text import Text
-
-HEAD = "cmake_minimum_required(VERSION 3.8)\nproject(pkg)\n"
-
-
-def sources(script: str, files: Mapping[str, str] | tuple[str, ...] = (), **more: object) -> Sources:
-    texts = {"CMakeLists.txt": script, "package.xml": "", **(dict.fromkeys(files, "") if isinstance(files, tuple) else files)}
-    parsed = {
-        path: parse(Text(f"src/pkg/{path}", text))
-        for path, text in texts.items()
-        if path.endswith(("CMakeLists.txt", ".cmake", ".cmake.in"))
-    }
-    return Sources("pkg", "src/pkg", sorted(texts), parsed, **more)  # type: ignore[arg-type]
-
-
-def run(script: str, files: Mapping[str, str] | tuple[str, ...] = (), **more: object) -> BuildScript:
-    return evaluate(sources(HEAD + script, files, **more), "jazzy")
-
-
-def paths(script: BuildScript) -> dict[str, bool]:
-    """Installed paths, and whether they are conditional."""
-    return {provided.path: provided.conditional for provided in script.provides}
-
-
-def mentioned(script: BuildScript) -> dict[tuple[str, str], Mention]:
-    return {(mention.via, mention.name): mention for mention in script.mentions}
-
-
-def hidden(script: BuildScript) -> Facet:
-    facets = Facet(0)
-    for opaque in script.opaque:
-        facets |= opaque.hides
-    return facets
-
-
-# --- names and mentions ----------------------------------------------------------------------------------------------
+from ros_lint.interpret.cmake_sources import Sources
+from tests.cmake_runs import HEAD, hidden, mentioned, paths, run, sources
 
 
 def test_project() -> None:
@@ -60,96 +20,6 @@ def test_project() -> None:
 def test_an_unknown_name_is_none() -> None:
     assert run("").name == "pkg"
     assert evaluate(sources("find_package(x)\nproject(${x_NAME})\n")).name == ""
-
-
-def test_mentions_stand_where_the_name_is_written() -> None:
-    text = (
-        HEAD
-        + "set(DEPENDS\n  rclcpp\n  std_msgs\n)\nforeach(d IN ITEMS ${DEPENDS})\n  find_package(${d} REQUIRED)\nendforeach()\n"
-    )
-    script = evaluate(sources(text))
-    source = Text("src/pkg/CMakeLists.txt", text)
-    assert [(mention.name, source.slice(mention.span)) for mention in script.mentions] == [
-        ("rclcpp", "rclcpp"),
-        ("std_msgs", "std_msgs"),
-    ]
-    assert [mention.span.line for mention in script.mentions] == [4, 5]
-
-
-@pytest.mark.parametrize(
-    ("text", "optional", "test"),
-    [
-        ("find_package(a REQUIRED)", False, False),
-        ("find_package(a)", False, False),
-        ("find_package(a)\ntarget_link_libraries(t a::a)", False, False),
-        ("find_package(a)\nset(X ${a_LIBRARIES})", False, False),
-        ("find_package(a)\nif(BUILD_TESTING)\nament_target_dependencies(t a)\nendif()", False, True),
-        ("find_package(a QUIET)", True, False),
-        ("find_package(a QUIET REQUIRED)", False, False),
-        ("find_package(a)\nif(a_FOUND)\nendif()", True, False),
-        ("if(UNHEARD_OF)\nfind_package(a REQUIRED)\nendif()", None, False),
-        ("find_package(b)\nif(b_VERSION VERSION_LESS 3)\nfind_package(a REQUIRED)\nendif()", True, False),
-        ("option(WITH_A \"\" OFF)\nif(WITH_A)\nfind_package(a REQUIRED)\nendif()", True, False),
-        ("option(WITH_A \"\" ON)\nif(WITH_A)\nfind_package(a REQUIRED)\nendif()", False, False),
-        ("if(BUILD_TESTING)\nfind_package(a REQUIRED)\nendif()", False, True),
-        ("if(BUILD_TESTING AND NOT WIN32)\nfind_package(a REQUIRED)\nendif()", False, True),
-        ("if(NOT BUILD_TESTING)\nelse()\nfind_package(a REQUIRED)\nendif()", False, True),
-        ("if(NOT BUILD_TESTING)\nreturn()\nendif()\nfind_package(a REQUIRED)", False, True),
-        ("if(BUILD_TESTING)\nelse()\nfind_package(a REQUIRED)\nendif()", True, False),
-        ("set(X FALSE)\nif(BUILD_TESTING)\nset(X TRUE)\nendif()\nif(X)\nfind_package(a REQUIRED)\nendif()", False, True),
-        ("find_package(b)\nif(BUILD_TESTING AND b_OK)\nset(X 1)\nendif()\nif(X)\nfind_package(a)\nendif()", True, True),
-        ("if(BUILD_TESTING)\nset(X 1)\nendif()\nset(X 1)\nif(X)\nfind_package(a REQUIRED)\nendif()", False, False),
-        ("set(X 1)\nif(BUILD_TESTING)\nset(X 2)\nendif()\nif(X)\nfind_package(a REQUIRED)\nendif()", False, False),
-        ("if(WIN32)\nfind_package(a REQUIRED)\nendif()", True, False),
-        ("if(FALSE)\nfind_package(a REQUIRED)\nendif()", None, False),
-        ("if($ENV{ROS_DISTRO} STREQUAL jazzy)\nfind_package(a REQUIRED)\nendif()", False, False),
-        ("if($ENV{ROS_DISTRO} STREQUAL humble)\nfind_package(a REQUIRED)\nendif()", True, False),
-        ("if(\"$ENV{ROS_VERSION}\" EQUAL 1)\nfind_package(a REQUIRED)\nendif()", None, False),
-        ("if(\"$ENV{HOME}\" STREQUAL \"\")\nfind_package(a REQUIRED)\nendif()", True, False),
-        ("return()\nfind_package(a REQUIRED)", None, False),
-        ("find_package(b)\nif(NOT b_FOUND)\nreturn()\nendif()\nfind_package(a REQUIRED)", True, False),
-        ("find_package(b)\nif(NOT b_FOUND)\nmessage(FATAL_ERROR)\nendif()\nfind_package(a REQUIRED)", False, False),
-    ],
-)  # fmt: skip
-def test_what_guards_a_mention(text: str, optional: bool | None, test: bool) -> None:
-    mention = mentioned(run(text)).get(("cmake", "a"))
-    assert (mention and mention.optional) == optional
-    assert (mention.test if mention else False) == test
-
-
-def test_targets_and_variables_of_other_packages() -> None:
-    script = run(
-        "find_package(rclcpp REQUIRED)\nfind_package(OpenCV REQUIRED)\nadd_library(core a.cpp)\n"
-        "add_library(pkg::core ALIAS core)\n"
-        "target_link_libraries(core PUBLIC rclcpp::rclcpp $<BUILD_INTERFACE:fmt::fmt> ${OpenCV_LIBS} "
-        "${std_msgs_TARGETS} pkg::core)\n"
-        "ament_target_dependencies(core PUBLIC std_msgs)\nament_export_dependencies(rclcpp)\n",
-        ("a.cpp",),
-    )
-    targets = {(mention.name, mention.what, mention.purpose) for mention in script.mentions if mention.via == "target"}
-    assert targets == {
-        ("rclcpp::rclcpp", "", ""), ("fmt::fmt", "", ""), ("OpenCV", "${OpenCV_LIBS}", ""),
-        ("std_msgs", "ament_target_dependencies of std_msgs", ""),
-        ("rclcpp", "ament_export_dependencies rclcpp", "export"),
-    }  # fmt: skip
-
-
-def test_macros_mention_the_package_that_brings_them() -> None:
-    script = run("if(BUILD_TESTING)\n  ament_add_gtest(t test/t.cpp)\nendif()\nament_package()\n", ("test/t.cpp",))
-    mention = mentioned(script)[("macro", "ament_cmake_gtest")]
-    assert (mention.what, mention.test, mention.span.line, mention.span.column) == ("ament_add_gtest()", True, 4, 3)
-    assert [(target.name, target.sources, target.test) for target in script.targets] == [("t", ("test/t.cpp",), True)]
-    assert {"ament_add_gtest", "ament_package"} <= set(script.calls)
-
-
-def test_the_place_for_install_rules_is_before_ament_package() -> None:
-    script = run("\n  ament_package()\n")
-    assert str(script.end) == "src/pkg/CMakeLists.txt:4:3"
-    assert run("if(UNHEARD_OF)\nelse()\nament_package()\nendif()").end is not None
-    assert run("").end is None
-
-
-# --- what is installed -----------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -220,61 +90,6 @@ def test_programs() -> None:
     assert [provided.program for provided in kept.provides] == [True, False]
 
 
-def test_ament_auto() -> None:
-    script = run(
-        "find_package(ament_cmake_auto REQUIRED)\nament_auto_find_build_dependencies()\n"
-        "ament_auto_add_library(core SHARED src/core.cpp)\nament_auto_add_executable(talker DIRECTORY src)\n"
-        'rclcpp_components_register_node(core PLUGIN "ns::Node" EXECUTABLE node)\n'
-        "ament_auto_package(INSTALL_TO_SHARE launch)\n",
-        ("src/core.cpp", "src/main.cpp", "launch/a.launch.py", "include/pkg/core.hpp"),
-        build_depends=("rclcpp",),
-    )
-    assert not script.opaque
-    assert paths(script).keys() >= {
-        "include/pkg/core.hpp", "lib/libcore.so", "lib/pkg/talker", "lib/pkg/node", "share/pkg/launch/a.launch.py",
-        "share/pkg/package.xml", "share/ament_index/resource_index/packages/pkg",
-    }  # fmt: skip
-    assert [(component.name, component.span.line) for component in script.components] == [("ns::Node", 7)]
-    assert {target.name: target.sources for target in script.targets} == {
-        "core": ("src/core.cpp",), "talker": ("src/core.cpp", "src/main.cpp"), "node": (),
-    }  # fmt: skip
-    assert {provided.path: provided.span.line for provided in script.provides}["lib/pkg/node"] == 7
-
-
-def test_interfaces() -> None:
-    script = run(
-        'set(msgs "msg/A.msg" "msg/B.msg")\n'
-        'rosidl_generate_interfaces(${PROJECT_NAME} ${msgs} "srv/C.srv" DEPENDENCIES std_msgs)\n',
-        ("msg/A.msg", "msg/B.msg", "srv/C.srv"),
-    )
-    assert script.interfaces == ("msg/A", "msg/B", "srv/C")
-    assert script.python_packages == ("pkg",)
-    assert {"share/pkg/msg/A.msg", "share/pkg/msg/A.idl", "share/pkg/srv/C.srv"} <= paths(script).keys()
-    assert mentioned(script)[("target", "std_msgs")].purpose == "interfaces"
-    assert mentioned(script)[("macro", "rosidl_default_generators")].purpose == "interfaces"
-
-
-def test_python_packages() -> None:
-    files = ("pkg_py/__init__.py", "pkg_py/sub/__init__.py", "pkg_py/sub/x.py", "setup.cfg")
-    texts = {"setup.cfg": "[options.entry_points]\nconsole_scripts =\n    tool = pkg_py.sub.x:main\n"}
-    text = "ament_python_install_package(pkg_py SCRIPTS_DESTINATION lib/${PROJECT_NAME})\n"
-    script = run(text, files, texts=texts)
-    assert script.python_packages == ("pkg_py", "pkg_py.sub")
-    assert paths(script).keys() >= {"lib/python/site-packages/pkg_py/sub/x.py", "lib/pkg/tool"}
-    assert not script.opaque
-    assert hidden(run(text, files)) == Facet.EXECUTABLES
-
-
-def test_plugins_use_the_package_of_their_base_class() -> None:
-    script = run("pluginlib_export_plugin_description_file(nav2_core plugins.xml)\n", ("plugins.xml",))
-    assert paths(script).keys() >= {"share/pkg/plugins.xml"}
-    loader = mentioned(script)[("target", "nav2_core")]
-    assert (loader.what, loader.purpose) == ("plugins for nav2_core", "plugins")
-
-
-# --- what is wrong, and what cannot be seen ----------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("text", "kinds"),
     [
@@ -339,74 +154,6 @@ def test_no_script() -> None:
     script = evaluate(Sources("pkg", "", (), {}))
     assert hidden(script) & Facet.USES
     assert str(script.opaque[0].span) == "CMakeLists.txt:1:1"
-
-
-# --- CMake code of other packages of the workspace -----------------------------------------------------------------------
-
-
-def helper(name: str, files: Mapping[str, str], script: str) -> Helper:
-    parsed = {path: parse(Text(f"src/{name}/{path}", text)) for path, text in {"CMakeLists.txt": script, **files}.items()}
-    found = Sources(name, f"src/{name}", sorted(parsed), parsed)
-    return Helper(found, evaluate(found))
-
-
-def test_macros_of_the_workspace_are_followed() -> None:
-    tools = helper(
-        "tools",
-        {
-            "cmake/tools-extras.cmake.in": 'include("${tools_DIR}/install_all.cmake")\nfind_package(rclcpp REQUIRED)\n',
-            "cmake/install_all.cmake": "macro(install_all)\n"
-            "install(DIRECTORY ${ARGN} DESTINATION share/${PROJECT_NAME})\nendmacro()\n",
-        },
-        "project(tools)\ninstall(FILES cmake/install_all.cmake DESTINATION share/tools/cmake)\n"
-        "ament_package(CONFIG_EXTRAS cmake/tools-extras.cmake.in)\n",
-    )
-    assert tools.script.extras == ("cmake/tools-extras.cmake.in",)
-    found = sources(HEAD + "find_package(tools REQUIRED)\ninstall_all(launch)\n", ("launch/a.launch.py",))
-    script = evaluate(found, helpers={"tools": tools})
-    assert not script.opaque
-    assert paths(script) == {"share/pkg/launch/a.launch.py": False}
-    assert [(mention.name, mention.via) for mention in script.mentions] == [("tools", "cmake")]
-    assert str(script.provides[0].span) == "src/pkg/CMakeLists.txt:4:13"
-    assert (
-        hidden(evaluate(found))
-        == Facet.USES | Facet.EXECUTABLES | Facet.SHARE | Facet.PYTHON | Facet.LIBRARIES | Facet.INTERFACES | Facet.COMPONENTS
-    )
-
-
-def test_code_for_other_distributions_counts_as_possible() -> None:
-    text = "if($ENV{ROS_DISTRO} MATCHES humble)\nfind_package(a REQUIRED)\nelse()\nfind_package(b REQUIRED)\nendif()\n"
-    found = mentioned(run(text))
-    assert found["cmake", "a"].optional
-    assert not found["cmake", "b"].optional
-
-
-@pytest.mark.parametrize(
-    ("around", "lost"),
-    [
-        ("macro(add)\n{}\nendmacro()\nadd()", False),
-        ("if(WIN32 OR 1)\n{}\nendif()", False),
-        ("foreach(i 1)\n{}\nendforeach()", False),
-        ("function(add)\n{}\nendfunction()\nadd()", True),
-        ("function(add)\n{}\nendfunction()\nfunction(all)\nadd()\nendfunction()\nall()", True),
-        (
-            "function(add)\n{}\nset(_RCLCPP_COMPONENTS_rclcpp_components__NODES "
-            "${{_RCLCPP_COMPONENTS_rclcpp_components__NODES}} PARENT_SCOPE)\nendfunction()\nadd()",
-            False,
-        ),
-        ("function(add)\n{}\nament_package()\nendfunction()\nadd()\nreturn()", False),
-    ],
-)
-def test_components_are_registered_where_ament_package_sees_them(around: str, lost: bool) -> None:
-    """A function's variables are gone when it ends, those in which rclcpp_components notes its components among them."""
-    script = run(around.format('rclcpp_components_register_nodes(core "ns::Node")') + "\nament_package()\n")
-    assert [component.lost for component in script.components] == [lost]
-    assert any("/rclcpp_components/" in path for path in paths(script)) is not lost
-
-
-def test_the_name_of_components_until_dashing() -> None:
-    script = run('add_library(c SHARED c.cpp)\nrclcpp_register_node_plugins(c "pkg::A" "pkg::B")\n', ("c.cpp",))
-    assert [component.name for component in script.components] == ["pkg::A", "pkg::B"]
 
 
 def test_what_another_system_has() -> None:
@@ -475,44 +222,11 @@ def test_folders_that_are_not_looked_into_are_installed_all_the_same() -> None:
     assert hidden(script) & Facet.SHARE
 
 
-def test_headers_of_ament_auto_package() -> None:
-    text = HEAD + "ament_auto_package({})\n"
-    given = sources(text.format(""), ("include/pkg/a.hpp",))
-    assert "include/pkg/a.hpp" in paths(evaluate(given, "jazzy"))
-    assert "include/pkg/pkg/a.hpp" in paths(evaluate(given, "kilted"))
-    given = sources(text.format("USE_SCOPED_HEADER_INSTALL_DIR"), ("include/pkg/a.hpp",))
-    assert "include/pkg/pkg/a.hpp" in paths(evaluate(given, "humble"))
-
-
-def test_version_header() -> None:
-    text = "ament_generate_version_header(a)\nament_generate_version_header(b HEADER_PATH b.h INSTALL_PATH include)\n"
-    assert paths(run(text)) == {"include/pkg/pkg/version.h": False, "include/b.h": False}
-
-
 def test_words_of_install_targets_elsewhere() -> None:
     text = "install(DIRECTORY launch ARCHIVE DESTINATION lib LIBRARY DESTINATION lib)\n"
     (problem,) = run(text, ("launch/a.launch.py",)).problems
     assert problem.message == "install(DIRECTORY) knows no ARCHIVE, that belongs to install(TARGETS)"
     assert problem.span.column == len("install(DIRECTORY launch ") + 1
-
-
-def test_what_targets_are_linked_with() -> None:
-    text = """
-    set(DEPS a pkg::b rclcpp::rclcpp)
-    add_executable(e e.cpp)
-    foreach(target e)
-      target_link_libraries(${target} PRIVATE ${DEPS})
-    endforeach()
-    add_library(a SHARED a.cpp)
-    add_library(b SHARED b.cpp)
-    add_library(pkg::b ALIAS b)
-    if(UNKNOWN_FOUND)
-      target_link_libraries(a b)
-    endif()
-    """
-    script = run(f"find_package(UNKNOWN)\n{text}", ("a.cpp", "b.cpp", "e.cpp"))
-    links = {target.name: [name for name, _ in target.links] for target in script.targets}
-    assert links == {"e": ["a", "b"], "a": [], "b": []}
 
 
 def test_what_configure_file_makes_is_installed_with_its_folder() -> None:

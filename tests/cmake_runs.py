@@ -1,0 +1,45 @@
+"""A package's CMakeLists.txt evaluated, and what comes of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ros_lint.collectors.cmake_syntax import parse
+from ros_lint.facts.build import BuildScript
+from ros_lint.facts.sight import Facet
+from ros_lint.facts.sources import Mention
+from ros_lint.interpret.cmake import evaluate
+from ros_lint.interpret.cmake_sources import Sources
+from ros_lint.text import Text
+
+HEAD = "cmake_minimum_required(VERSION 3.8)\nproject(pkg)\n"
+
+
+def sources(script: str, files: Mapping[str, str] | tuple[str, ...] = (), **more: object) -> Sources:
+    texts = {"CMakeLists.txt": script, "package.xml": "", **(dict.fromkeys(files, "") if isinstance(files, tuple) else files)}
+    parsed = {
+        path: parse(Text(f"src/pkg/{path}", text))
+        for path, text in texts.items()
+        if path.endswith(("CMakeLists.txt", ".cmake", ".cmake.in"))
+    }
+    return Sources("pkg", "src/pkg", sorted(texts), parsed, **more)  # type: ignore[arg-type]
+
+
+def run(script: str, files: Mapping[str, str] | tuple[str, ...] = (), **more: object) -> BuildScript:
+    return evaluate(sources(HEAD + script, files, **more), "jazzy")
+
+
+def paths(script: BuildScript) -> dict[str, bool]:
+    """Installed paths, and whether they are conditional."""
+    return {provided.path: provided.conditional for provided in script.provides}
+
+
+def mentioned(script: BuildScript) -> dict[tuple[str, str], Mention]:
+    return {(mention.via, mention.name): mention for mention in script.mentions}
+
+
+def hidden(script: BuildScript) -> Facet:
+    facets = Facet(0)
+    for opaque in script.opaque:
+        facets |= opaque.hides
+    return facets

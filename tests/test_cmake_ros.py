@@ -1,0 +1,160 @@
+"""Macros of ROS packages, released and in the workspace."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import pytest
+
+from ros_lint.collectors.cmake_syntax import parse
+from ros_lint.facts.sight import Facet
+from ros_lint.interpret.cmake import evaluate
+from ros_lint.interpret.cmake_sources import Helper, Sources
+from ros_lint.text import Text
+from tests.cmake_runs import HEAD, hidden, mentioned, paths, run, sources
+
+
+def test_macros_mention_the_package_that_brings_them() -> None:
+    script = run("if(BUILD_TESTING)\n  ament_add_gtest(t test/t.cpp)\nendif()\nament_package()\n", ("test/t.cpp",))
+    mention = mentioned(script)[("macro", "ament_cmake_gtest")]
+    assert (mention.what, mention.test, mention.span.line, mention.span.column) == ("ament_add_gtest()", True, 4, 3)
+    assert [(target.name, target.sources, target.test) for target in script.targets] == [("t", ("test/t.cpp",), True)]
+    assert {"ament_add_gtest", "ament_package"} <= set(script.calls)
+
+
+def test_the_place_for_install_rules_is_before_ament_package() -> None:
+    script = run("\n  ament_package()\n")
+    assert str(script.end) == "src/pkg/CMakeLists.txt:4:3"
+    assert run("if(UNHEARD_OF)\nelse()\nament_package()\nendif()").end is not None
+    assert run("").end is None
+
+
+def test_ament_auto() -> None:
+    script = run(
+        "find_package(ament_cmake_auto REQUIRED)\nament_auto_find_build_dependencies()\n"
+        "ament_auto_add_library(core SHARED src/core.cpp)\nament_auto_add_executable(talker DIRECTORY src)\n"
+        'rclcpp_components_register_node(core PLUGIN "ns::Node" EXECUTABLE node)\n'
+        "ament_auto_package(INSTALL_TO_SHARE launch)\n",
+        ("src/core.cpp", "src/main.cpp", "launch/a.launch.py", "include/pkg/core.hpp"),
+        build_depends=("rclcpp",),
+    )
+    assert not script.opaque
+    assert paths(script).keys() >= {
+        "include/pkg/core.hpp", "lib/libcore.so", "lib/pkg/talker", "lib/pkg/node", "share/pkg/launch/a.launch.py",
+        "share/pkg/package.xml", "share/ament_index/resource_index/packages/pkg",
+    }  # fmt: skip
+    assert [(component.name, component.span.line) for component in script.components] == [("ns::Node", 7)]
+    assert {target.name: target.sources for target in script.targets} == {
+        "core": ("src/core.cpp",), "talker": ("src/core.cpp", "src/main.cpp"), "node": (),
+    }  # fmt: skip
+    assert {provided.path: provided.span.line for provided in script.provides}["lib/pkg/node"] == 7
+
+
+def test_interfaces() -> None:
+    script = run(
+        'set(msgs "msg/A.msg" "msg/B.msg")\n'
+        'rosidl_generate_interfaces(${PROJECT_NAME} ${msgs} "srv/C.srv" DEPENDENCIES std_msgs)\n',
+        ("msg/A.msg", "msg/B.msg", "srv/C.srv"),
+    )
+    assert script.interfaces == ("msg/A", "msg/B", "srv/C")
+    assert script.python_packages == ("pkg",)
+    assert {"share/pkg/msg/A.msg", "share/pkg/msg/A.idl", "share/pkg/srv/C.srv"} <= paths(script).keys()
+    assert mentioned(script)[("target", "std_msgs")].purpose == "interfaces"
+    assert mentioned(script)[("macro", "rosidl_default_generators")].purpose == "interfaces"
+
+
+def test_python_packages() -> None:
+    files = ("pkg_py/__init__.py", "pkg_py/sub/__init__.py", "pkg_py/sub/x.py", "setup.cfg")
+    texts = {"setup.cfg": "[options.entry_points]\nconsole_scripts =\n    tool = pkg_py.sub.x:main\n"}
+    text = "ament_python_install_package(pkg_py SCRIPTS_DESTINATION lib/${PROJECT_NAME})\n"
+    script = run(text, files, texts=texts)
+    assert script.python_packages == ("pkg_py", "pkg_py.sub")
+    assert paths(script).keys() >= {"lib/python/site-packages/pkg_py/sub/x.py", "lib/pkg/tool"}
+    assert not script.opaque
+    assert hidden(run(text, files)) == Facet.EXECUTABLES
+
+
+def test_plugins_use_the_package_of_their_base_class() -> None:
+    script = run("pluginlib_export_plugin_description_file(nav2_core plugins.xml)\n", ("plugins.xml",))
+    assert paths(script).keys() >= {"share/pkg/plugins.xml"}
+    loader = mentioned(script)[("target", "nav2_core")]
+    assert (loader.what, loader.purpose) == ("plugins for nav2_core", "plugins")
+
+
+def helper(name: str, files: Mapping[str, str], script: str) -> Helper:
+    parsed = {path: parse(Text(f"src/{name}/{path}", text)) for path, text in {"CMakeLists.txt": script, **files}.items()}
+    found = Sources(name, f"src/{name}", sorted(parsed), parsed)
+    return Helper(found, evaluate(found))
+
+
+def test_macros_of_the_workspace_are_followed() -> None:
+    tools = helper(
+        "tools",
+        {
+            "cmake/tools-extras.cmake.in": 'include("${tools_DIR}/install_all.cmake")\nfind_package(rclcpp REQUIRED)\n',
+            "cmake/install_all.cmake": "macro(install_all)\n"
+            "install(DIRECTORY ${ARGN} DESTINATION share/${PROJECT_NAME})\nendmacro()\n",
+        },
+        "project(tools)\ninstall(FILES cmake/install_all.cmake DESTINATION share/tools/cmake)\n"
+        "ament_package(CONFIG_EXTRAS cmake/tools-extras.cmake.in)\n",
+    )
+    assert tools.script.extras == ("cmake/tools-extras.cmake.in",)
+    found = sources(HEAD + "find_package(tools REQUIRED)\ninstall_all(launch)\n", ("launch/a.launch.py",))
+    script = evaluate(found, helpers={"tools": tools})
+    assert not script.opaque
+    assert paths(script) == {"share/pkg/launch/a.launch.py": False}
+    assert [(mention.name, mention.via) for mention in script.mentions] == [("tools", "cmake")]
+    assert str(script.provides[0].span) == "src/pkg/CMakeLists.txt:4:13"
+    assert (
+        hidden(evaluate(found))
+        == Facet.USES | Facet.EXECUTABLES | Facet.SHARE | Facet.PYTHON | Facet.LIBRARIES | Facet.INTERFACES | Facet.COMPONENTS
+    )
+
+
+def test_code_for_other_distributions_counts_as_possible() -> None:
+    text = "if($ENV{ROS_DISTRO} MATCHES humble)\nfind_package(a REQUIRED)\nelse()\nfind_package(b REQUIRED)\nendif()\n"
+    found = mentioned(run(text))
+    assert found["cmake", "a"].optional
+    assert not found["cmake", "b"].optional
+
+
+@pytest.mark.parametrize(
+    ("around", "lost"),
+    [
+        ("macro(add)\n{}\nendmacro()\nadd()", False),
+        ("if(WIN32 OR 1)\n{}\nendif()", False),
+        ("foreach(i 1)\n{}\nendforeach()", False),
+        ("function(add)\n{}\nendfunction()\nadd()", True),
+        ("function(add)\n{}\nendfunction()\nfunction(all)\nadd()\nendfunction()\nall()", True),
+        (
+            "function(add)\n{}\nset(_RCLCPP_COMPONENTS_rclcpp_components__NODES "
+            "${{_RCLCPP_COMPONENTS_rclcpp_components__NODES}} PARENT_SCOPE)\nendfunction()\nadd()",
+            False,
+        ),
+        ("function(add)\n{}\nament_package()\nendfunction()\nadd()\nreturn()", False),
+    ],
+)
+def test_components_are_registered_where_ament_package_sees_them(around: str, lost: bool) -> None:
+    """A function's variables are gone when it ends, those in which rclcpp_components notes its components among them."""
+    script = run(around.format('rclcpp_components_register_nodes(core "ns::Node")') + "\nament_package()\n")
+    assert [component.lost for component in script.components] == [lost]
+    assert any("/rclcpp_components/" in path for path in paths(script)) is not lost
+
+
+def test_the_name_of_components_until_dashing() -> None:
+    script = run('add_library(c SHARED c.cpp)\nrclcpp_register_node_plugins(c "pkg::A" "pkg::B")\n', ("c.cpp",))
+    assert [component.name for component in script.components] == ["pkg::A", "pkg::B"]
+
+
+def test_headers_of_ament_auto_package() -> None:
+    text = HEAD + "ament_auto_package({})\n"
+    given = sources(text.format(""), ("include/pkg/a.hpp",))
+    assert "include/pkg/a.hpp" in paths(evaluate(given, "jazzy"))
+    assert "include/pkg/pkg/a.hpp" in paths(evaluate(given, "kilted"))
+    given = sources(text.format("USE_SCOPED_HEADER_INSTALL_DIR"), ("include/pkg/a.hpp",))
+    assert "include/pkg/pkg/a.hpp" in paths(evaluate(given, "humble"))
+
+
+def test_version_header() -> None:
+    text = "ament_generate_version_header(a)\nament_generate_version_header(b HEADER_PATH b.h INSTALL_PATH include)\n"
+    assert paths(run(text)) == {"include/pkg/pkg/version.h": False, "include/b.h": False}

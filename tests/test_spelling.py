@@ -1,0 +1,57 @@
+"""Near names, against brute force."""
+
+from __future__ import annotations
+
+import random
+import re
+
+import pytest
+
+from ros_lint.knowledge import Knowledge
+from ros_lint.knowledge.spelling import Spelling
+
+
+def _edits(name: str) -> set[str]:
+    """Return every name one letter away, by brute force."""
+    letters = "abcdefghijklmnopqrstuvwxyz_-0123456789"
+    splits = [(name[:at], name[at:]) for at in range(len(name) + 1)]
+    found = {a + b[1:] for a, b in splits if b}
+    found |= {a + b[1] + b[0] + b[2:] for a, b in splits if len(b) > 1}
+    found |= {a + c + b[1:] for a, b in splits if b for c in letters}
+    found |= {a + c + b for a, b in splits for c in letters}
+    return found - {name}
+
+
+def test_slips_are_those_that_brute_force_finds() -> None:
+    names = [name for name in Knowledge("jazzy").index.names() if len(name) > 12][::40]
+    spelling = Spelling(names)
+    chance = random.Random(7)
+    for name in names:
+        for wrong in chance.sample(sorted(_edits(name)), 25):
+            expected = {other for other in _edits(wrong) if other in names}
+            assert {*spelling.one_slip(wrong)} <= expected
+            if name not in spelling.one_slip(wrong):
+                # Digits, dashes and words of few letters are no matter of a slip.
+                at = next(i for i in range(len(name) + 1) if name[: i + 1] != wrong[: i + 1])
+                changed = name[at : at + 1] + wrong[at : at + 1]
+                words = re.findall("[a-z]+", f"{name} {wrong}")
+                assert not changed.isalpha() or any(len(word) < 5 for word in words), (name, wrong)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "right"),
+    [("laser_filter", "laser_filters"), ("geometry_msg", "geometry_msgs"), ("buildin_interfaces", "builtin_interfaces")],
+)
+def test_slips(wrong: str, right: str) -> None:
+    assert Spelling(Knowledge("jazzy").index.names()).one_slip(wrong) == (right,)
+
+
+@pytest.mark.parametrize("name", ["python3-pcl", "lcm", "mrpt2", "camera_2", "rclcpp"])
+def test_no_slips(name: str) -> None:
+    assert Spelling(["python3-pil", "icm", "mrpt1", "camera_1", "rclcpp"]).one_slip(name) == ()
+
+
+def test_spelling_by_dashes_and_capitals() -> None:
+    assert Spelling(["cv_bridge", "turtlebot3_fake_node"]).same("cv-bridge") == ("cv_bridge",)
+    assert Spelling(["cv_bridge", "turtlebot3_fake_node"]).same("turtlebot3_fakenode") == ("turtlebot3_fake_node",)
+    assert Spelling(["ament_cmake_copyright", "rclcpp"]).near("ament_cmake_lint_copyright") == ("ament_cmake_copyright",)
