@@ -106,9 +106,15 @@ class Liveness:
             return Role.EXEC, path in self._installed or not (self._sees_share or idle)
         if python:
             alive = path in self._installed_python or (path in self._installed and path in self._beside_launch_files)
-            apart = idle or name in _RECIPES or self._is_beside_script(path) or self._is_left_out(path)
-            return Role.EXEC, alive or not (self._sees_python or apart)
+            return Role.EXEC, alive or (not self._sees_python and self._is_of_python_package(path, idle=idle))
         return PRODUCTION, not (self._sees_targets or idle or self._is_left_out(path))
+
+    def _is_of_python_package(self, path: str, *, idle: bool) -> bool:
+        """Whether a file is nearly sure to be installed, where it cannot be seen what is: a script may be anybody's."""
+        folder, _, name = path.rpartition("/")
+        if idle or name in _RECIPES or self._is_beside_script(path) or self._is_left_out(path):
+            return False
+        return self._script is None or f"{folder}/__init__.py" in self._facts
 
     def _is_beside_script(self, path: str) -> bool:
         """Whether a file lies at the top of a package that CMake builds: what works on the sources does, to release them, say."""

@@ -231,10 +231,11 @@ def test_recipes_of_other_tools_are_less_than_sure() -> None:
     files = {
         **cmake("talker", "", "find_package(acme_cmake REQUIRED)\nacme_package()"),
         "talker/conanfile.py": "import yaml\n",
-        "talker/nodes/main.py": "import yaml\n",
+        "talker/talker/__init__.py": "",
+        "talker/talker/main.py": "import yaml\n",
     }
     found = {use.span.path: use.sure for use in load(files).packages[0].uses if use.via == "import"}
-    assert found == {"talker/conanfile.py": False, "talker/nodes/main.py": True}
+    assert found == {"talker/conanfile.py": False, "talker/talker/main.py": True}
 
 
 def _python(**files: str) -> Workspace:

@@ -75,11 +75,17 @@ def test_tests_of_a_project_of_its_own_are_idle(project: str) -> None:
 
 def test_beside_what_is_installed_by_name_lies_what_is_not() -> None:
     lines = HIDDEN + "install(PROGRAMS scripts/talk.py DESTINATION lib/robot)"
-    files = {"scripts/talk.py": "import rclpy\n", "scripts/plot.py": "import scipy\n", "tools2/b.py": "import pandas\n"}
+    files = {"scripts/talk.py": "import rclpy\n", "scripts/plot.py": "import scipy\n"}
     workspace = load(lines, files)
     assert use(workspace, "rclpy").sure
     assert not use(workspace, "python3-scipy").sure
-    assert use(workspace, "python3-pandas").sure  # nobody knows
+
+
+def test_where_it_is_not_seen_what_is_installed_modules_are_and_scripts_may_be() -> None:
+    files = {"tools2/a.py": "import pandas\n", "robot/__init__.py": "", "robot/b.py": "import scipy\n"}
+    workspace = load(HIDDEN, files)
+    assert not use(workspace, "python3-pandas").sure
+    assert use(workspace, "python3-scipy").sure
 
 
 def test_beside_the_script_of_cmake_lies_what_works_on_the_sources() -> None:
