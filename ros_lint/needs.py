@@ -215,13 +215,6 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
     return tuple(found)
 
 
-def _comes_with_another(need: Need, missing: Sequence[Need], workspace: Workspace) -> bool:
-    """Whether only macros of a package are used, which another one that is missing hands on: ament_cmake does, of its parts."""
-    if any(use.via != "macro" for use in need.uses):
-        return False
-    return any(need.name in workspace.world.closure((other.name,)) for other in missing if other.name != need.name)
-
-
 def is_available(name: str, workspace: Workspace) -> bool:
     """Whether the world has a package or key, and not only other distributions."""
     return workspace.world.is_package(name) or workspace.world.is_key(name)
