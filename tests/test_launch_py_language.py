@@ -49,6 +49,21 @@ def each():
 return list(each())
 => node a b, node a c
 
+import copy
+nodes = [{'e': 'b', 'more': ['x']}, {'e': 'c', 'more': []}]
+def apart(given, end):
+    own = copy.deepcopy(given)
+    for one in own:
+        one['was'] = one['e']
+        one['e'] += end
+        one['more'].append(end)
+    return own
+first, second, alike = apart(nodes, '1'), apart(nodes, '2'), copy.copy(nodes)
+alike[0]['e'] = 'd'
+return [Node(package=one['was'], executable=one['e'] + ''.join(one['more'])) for one in first + second] + [
+    Node(package='a', executable=one['e']) for one in nodes]
+=> node a c, node a d, node b b1x1, node b b2x2, node c c11, node c c22
+
 nodes = {'b': 'a'}
 nodes['c'] = 'd'
 return [Node(package=p, executable=e) for e, p in nodes.items()]

@@ -18,6 +18,7 @@ from ros_lint.collectors.launch_py_objects import (
     Made,
     Method,
     Raised,
+    Union,
     Unknown,
     Value,
     plain,
@@ -261,6 +262,31 @@ def _copied(call: Call) -> Value:
     return dict(value) if isinstance(value, dict) else value
 
 
+def _copied_whole(call: Call) -> Value:
+    return _deep(call.get(0), {})
+
+
+def _deep(value: Value, done: dict[int, Value]) -> Value:
+    """Return a value with new lists and dictionaries all the way down, the same one where the same one was."""
+    if isinstance(value, Guarded):
+        return Guarded(_deep(value.value, done), value.conditions)
+    if isinstance(value, Union):
+        return Union(tuple([Guarded(_deep(one.value, done), one.conditions) for one in value.values]))
+    if isinstance(value, tuple):
+        return tuple([_deep(one, done) for one in value])
+    if not isinstance(value, (list, dict)) or id(value) in done:
+        return done.get(id(value), value)
+    if isinstance(value, list):
+        items: list[Value] = []
+        done[id(value)] = items
+        items += [_deep(one, done) for one in value]
+        return items
+    entries: dict[Any, Value] = {}
+    done[id(value)] = entries
+    entries.update({key: _deep(one, done) for key, one in value.items()})
+    return entries
+
+
 BUILTINS: Mapping[str, Value] = {
     "__file__": f"{OWN_FOLDER}/{UNKNOWN}",
     **dict.fromkeys(
@@ -291,7 +317,7 @@ FUNCTIONS: Mapping[str, Rule] = {
     "functools.partial": _partial,
     "itertools.chain": _chain,
     "copy.copy": _copied,
-    "copy.deepcopy": _copied,
+    "copy.deepcopy": _copied_whole,
     "collections.OrderedDict": _dict,
     "builtins.str": _str,
     "builtins.int": _number(int),
