@@ -62,7 +62,7 @@ first, second, alike = apart(nodes, '1'), apart(nodes, '2'), copy.copy(nodes)
 alike[0]['e'] = 'd'
 return [Node(package=one['was'], executable=one['e'] + ''.join(one['more'])) for one in first + second] + [
     Node(package='a', executable=one['e']) for one in nodes]
-=> node a c, node a d, node b b1x1, node b b2x2, node c c11, node c c22
+=> node a c, node a d, node b b1x1, node c c11, node b b2x2, node c c22
 
 nodes = {'b': 'a'}
 nodes['c'] = 'd'
