@@ -11,8 +11,12 @@ import pytest
 from ros_lint.collectors import launch
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.interpret.launch_expand import expand
+from ros_lint.load import Loader
 from ros_lint.opening import open_workspace
+from ros_lint.registry import load
 from ros_lint.text import Text
+from ros_lint.tree import MemoryTree
+from ros_lint.workspace import Target
 
 SECONDS = 2.0
 KILOBYTES = 100 << 10
@@ -32,6 +36,10 @@ def _program(body: str, before: str = "", result: str = NODE) -> str:
     return f"{HEAD}{before}\ndef generate_launch_description():\n{inner}{result}"
 
 
+MANIFEST = """<package format="3"><name>a</name><version>0.1.0</version><description>d</description>
+<maintainer email="a@b.org">A</maintainer><license>MIT</license><export><build_type>ament_cmake</build_type></export></package>
+"""
+BUILD = "project(a)\nfind_package(ament_cmake REQUIRED)\ninstall(DIRECTORY launch DESTINATION share/a)\nament_package()\n"
 DOUBLE = "for i in range(60):\n    x = "
 OPEN = {
     "endless loop": _program("while True:\n    pass"),
@@ -80,6 +88,14 @@ BOUNDED = {
     "classes in diamonds": _program(
         "D39().missing", "class D0: pass\n" + "".join(f"class D{i}(D{i - 1}, D{i - 1}): pass\n" for i in range(1, 40))
     ),
+    "parameters in themselves": _program(
+        "a = []; d = {'a': a}; a.append(a); n = Node(package='a', executable='b', parameters=[d, a], arguments=a)\n"
+        "a.append(n); a.append(GroupAction(a)); a += a\nreturn LaunchDescription(a)"
+    ),
+    "expressions that are wide": _program(
+        "return LaunchDescription([Node(package='a', executable=PythonExpression(x)) for x in (\"'%2000000000d' % 1\", "
+        '"\'a\' * 10000000000", "[0] * 9999 * 9999", "str([[\'a\' * 9000] * 9000] * 90)", "\'%*d\' % (10 ** 9, 1)")])'
+    ),
     "a list in itself": _program("x = []\nx.append(x)\nreturn LaunchDescription([Node(package='a', executable=x)])"),
     "branches": _program("x = ''\n" + "".join(f"if u({i}):\n    x += '{i}'\n" for i in range(60))),
     "an expression that backtracks": _program("import re\nx = re.match('(a+)+$', 'a' * 50 + 'b')"),
@@ -103,6 +119,30 @@ def test_what_cannot_be_followed_to_its_end_is_said_to_be_open(name: str) -> Non
 @pytest.mark.parametrize("name", BOUNDED)
 def test_what_is_huge_stays_small(name: str) -> None:
     _read(BOUNDED[name])
+
+
+@pytest.mark.parametrize(
+    ("language", "program"),
+    [
+        (
+            "xml",
+            "<launch>"
+            + "".join(f"<let name='a' value='$(var a)b{i}' if='$(var u 1)'/>" for i in range(2_000))
+            + "".join(f"<node pkg='$(var a)' exec='$(var a){i}' name='$(var a)'/>" for i in range(500))
+            + "</launch>",
+        ),
+        ("yaml", "launch:\n- " + "[" * 20_000 + "]" * 20_000),
+    ],
+)
+def test_the_whole_run_ends_soon(language: str, program: str) -> None:
+    tree = {"a/package.xml": MANIFEST, "a/CMakeLists.txt": BUILD, f"a/launch/a.launch.{language}": program}
+    start = time.process_time()
+    workspace = Loader(MemoryTree(tree), ("",), Target("jazzy", "test")).load()
+    for rule in load():
+        for package in workspace.packages:
+            list(rule.package(package, workspace) if rule.package else ())
+        list(rule.workspace(workspace) if rule.workspace else ())
+    assert time.process_time() - start < SECONDS
 
 
 def test_xml_values_that_double() -> None:

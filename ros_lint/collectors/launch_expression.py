@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Callable, Mapping
 from functools import lru_cache
 from typing import Any
@@ -12,6 +13,9 @@ from ros_lint.collectors.python_operators import ARITHMETIC, COMPARISONS
 
 _LONGEST = 2_000
 _MOST = 10_000
+"""How many letters and items a value may have, those of its items included."""
+_WIDE = re.compile(r"%[^%a-zA-Z]*(?:\*|\d{4})")
+"""A conversion that makes a text of any length."""
 
 
 class _Unknown(Exception):  # noqa: N818
@@ -66,7 +70,7 @@ def _value(node: ast.expr) -> Any:
                     return result
             return result
         case ast.BinOp(left=left, op=op, right=right) if type(op) in ARITHMETIC:
-            return _small(ARITHMETIC[type(op)](_small(_value(left)), _small(_value(right))))
+            return _arithmetic(op, _value(left), _value(right))
         case ast.Compare(left=left, ops=ops, comparators=comparators):
             before = _value(left)
             for comparison, comparator in zip(ops, comparators, strict=True):
@@ -77,10 +81,12 @@ def _value(node: ast.expr) -> Any:
             return True
         case ast.IfExp(test=test, body=body, orelse=orelse):
             return _value(body) if _value(test) else _value(orelse)
-        case ast.List(elts=elts) | ast.Tuple(elts=elts):
-            return [_value(element) for element in elts]
+        case ast.List(elts=elts):
+            return _small([_value(element) for element in elts])
+        case ast.Tuple(elts=elts):
+            return _small(tuple([_value(element) for element in elts]))
         case ast.Dict(keys=keys, values=values):
-            return {_value(key): _value(value) for key, value in zip(keys, values, strict=True) if key is not None}
+            return _small({_value(key): _value(value) for key, value in zip(keys, values, strict=True) if key is not None})
         case ast.Subscript(value=owner, slice=key) if not isinstance(key, ast.Slice):
             return _value(owner)[_value(key)]
         case ast.Call():
@@ -92,7 +98,11 @@ def _call(node: ast.Call) -> Any:
     arguments = [_value(argument) for argument in node.args]
     if isinstance(node.func, ast.Attribute) and node.func.attr in _METHODS:
         owner = _value(node.func.value)
-        return getattr(owner, node.func.attr)(*arguments) if isinstance(owner, str) else _refuse()
+        if not isinstance(owner, str):
+            return _refuse()
+        if node.func.attr == "replace" and len(owner) * sum(map(len, arguments[1:2])) > _MOST:
+            return _refuse()
+        return _small(getattr(owner, node.func.attr)(*arguments))
     name = node.func.id if isinstance(node.func, ast.Name) else ""
     if name in _FUNCTIONS:
         return _FUNCTIONS[name](*arguments)
@@ -125,12 +135,37 @@ _FUNCTIONS: Mapping[str, Callable[..., Any]] = {
 }
 
 
+def _arithmetic(op: ast.operator, left: Any, right: Any) -> Any:
+    if isinstance(op, ast.Mult):
+        for one, times in ((left, right), (right, left)):
+            if isinstance(one, (str, list, tuple)) and isinstance(times, int) and _size(one) * times > _MOST:
+                raise _Unknown
+    if isinstance(op, ast.Mod) and isinstance(left, str) and _WIDE.search(left):
+        raise _Unknown
+    return _small(ARITHMETIC[type(op)](left, right))
+
+
 def _small(value: Any) -> Any:
+    """Return a value that is not large, or raise."""
     if isinstance(value, int) and abs(value) > 1 << 64:
         raise _Unknown
-    if isinstance(value, (str, list)) and len(value) > _MOST:
+    if isinstance(value, (str, list, tuple, dict)) and _size(value) > _MOST:
         raise _Unknown
     return value
+
+
+def _size(value: Any) -> int:
+    """Return the letters and items in a value, those in its items included; at most a little more than is allowed."""
+    found = 0
+    waiting = [value]
+    while waiting and found <= _MOST:
+        one = waiting.pop()
+        found += len(one) if isinstance(one, (str, list, tuple, dict)) else 1
+        if isinstance(one, dict):
+            waiting += [*one.keys(), *one.values()]
+        elif isinstance(one, (list, tuple)):
+            waiting += one
+    return found
 
 
 def _refuse() -> Any:

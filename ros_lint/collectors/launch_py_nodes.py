@@ -32,6 +32,7 @@ _OF_PROCESSES = _OF_NODES | {
 _DISTRIBUTION = "$ROS_DISTRO"
 """What a text calls the environment variable that says which distribution runs."""
 _MOST_PARAMETERS = 2_000
+_STEPS_A_PARAMETER = 10
 _NODES = frozenset({"Node", "LifecycleNode", "ComposableNodeContainer"})
 _CLASSES = _NODES | {"ComposableNode"}
 
@@ -162,12 +163,14 @@ def _parameter(walker: Walker, value: Value, node: ast.expr, made: Made, found: 
     for _ in range(_MOST_PARAMETERS):
         if not waiting:
             break
-        name, one = waiting.pop(0)
+        walker.machine.spend(_STEPS_A_PARAMETER)
+        name, one = waiting.pop()
         if isinstance(one, dict):
-            inner = [(f"{name}.{key}" if name else _key(key), plain(inner)) for key, inner in one.items()]
-            waiting = [*inner, *waiting]
+            walker.machine.spend(len(one))
+            waiting += reversed([(f"{name}.{key}" if name else _key(key), plain(inner)) for key, inner in one.items()])
         elif isinstance(one, (list, tuple)) and not name and not all(_names_file(plain(part)) for part in one):
-            waiting = [*[("", plain(inner)) for inner in one], *waiting]
+            walker.machine.spend(len(one))
+            waiting += [("", plain(inner)) for inner in reversed(one)]
         elif name:
             found.append((name, walker.text(_list(one), node, made.source)))
         else:

@@ -36,6 +36,8 @@ MOST = 24
 
 _DEEPEST = 30
 _MOST_CHOICES = 3_000
+_MOST_FILLED = 400
+"""How many configurations are put into one text, those in their values included. Real texts take up to 34."""
 LONGEST = 20_000
 """How many characters of a text are followed."""
 
@@ -327,7 +329,7 @@ class _Filling:
 
     def __init__(self, values: Callable[[str], tuple[str, ...] | None]) -> None:
         self._values = values
-        self._left = _MOST_CHOICES
+        self._left = _MOST_FILLED
 
     def of(self, text: str, busy: frozenset[str]) -> tuple[str, ...]:
         """Return the alternatives of a text in which the values of ``busy`` are being put already."""
@@ -356,6 +358,8 @@ class _Filling:
         given = None if name in busy or len(busy) > _DEEPEST else self._values(name)
         if given is None:
             return (default,) if mark else (UNKNOWN,)
+        if len(given) > MOST:
+            return (UNKNOWN,)
         if len(given) == 1 and _CONFIGURATION[0] not in given[0]:
             return given
         busy |= {name}

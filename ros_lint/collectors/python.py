@@ -19,7 +19,9 @@ if TYPE_CHECKING:
     from ros_lint.text import Text
 
 _IMPORT_LINE = re.compile(r"^[ \t]*(?:from|import)[ \t]+([A-Za-z_][\w.]*)", re.MULTILINE)
-_PROGRAM = re.compile(r"""([\w-]+\.py)['"]""")
+_PROGRAM = re.compile(r"""\.py['"]""")
+_NAME = re.compile(r"[\w-]+\Z")
+_LONGEST_NAME = 100
 
 
 def collect(source: Text, *, launch: bool = False) -> FileFacts:
@@ -70,8 +72,15 @@ def collect(source: Text, *, launch: bool = False) -> FileFacts:
         caught=tuple([item.module for item in named if item.caught]),
         added=added,
         sets_path="sys.path" in source.text,
-        programs=tuple(dict.fromkeys(_PROGRAM.findall(source.text))),
+        programs=_programs(source.text),
     )
+
+
+def _programs(text: str) -> tuple[str, ...]:
+    """Return the names of Python files that literals end with. To look back from their ends takes no time in strange files."""
+    starts = [match.start() for match in _PROGRAM.finditer(text)]
+    names = [_NAME.search(text, max(0, start - _LONGEST_NAME), start) for start in starts]
+    return tuple(dict.fromkeys([f"{name[0]}.py" for name in names if name is not None]))
 
 
 def _is_added(item: Import, folders: Sequence[tuple[int, frozenset[str]]]) -> bool:

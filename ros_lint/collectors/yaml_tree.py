@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Final
 
 from ros_lint.text import Text
 
 if TYPE_CHECKING:
     import yaml
+
+
+_DEEPEST: Final = 1_000
+_BRACKETS: Final = re.compile(r"[\[\]{}]")
 
 
 class YamlError(Exception):
@@ -26,6 +31,9 @@ def compose(source: Text) -> yaml.Node | None:
     """
     import yaml  # noqa: PLC0415  (takes 20 ms to import)
 
+    deep = _too_deep(source.text)
+    if deep is not None:
+        raise YamlError("nested too deeply", deep)
     loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     try:
         return yaml.compose(source.text, Loader=loader)
@@ -36,6 +44,18 @@ def compose(source: Text) -> yaml.Node | None:
         raise YamlError(str(error).partition("\n")[0], 0) from None
     except (UnicodeError, RecursionError):
         raise YamlError("not text that YAML allows, or nested too deeply", 0) from None
+
+
+def _too_deep(text: str) -> int | None:
+    """Return where brackets are nested so deeply that the library takes seconds, None where that is nowhere."""
+    if text.count("[") + text.count("{") <= _DEEPEST:
+        return None
+    depth = 0
+    for match in _BRACKETS.finditer(text):
+        depth += 1 if match[0] in "[{" else -1
+        if depth > _DEEPEST:
+            return match.start()
+    return None
 
 
 def _offset(source: Text, mark: yaml.Mark | None) -> int:

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 
 _CUT = "..."
 _CONTEXT = 20
+_LONG = 8_000
+"""How many characters of a line are looked at; no screen shows so many."""
 """Columns to keep before a place in a line that is shortened."""
 _HEAD, _TAIL = 3, 2
 """Lines to show of a place that goes over many."""
@@ -112,21 +114,29 @@ class _File:
 
     def _line(self, number: int) -> Iterator[str]:
         """Yield the rows of a line: the source, and below it one row for each place that begins or ends there."""
-        shown, widths = cells(self._source.line(number), self._style)
+        line = self._source.line(number)
+        shown, widths = cells(line[:_LONG], self._style)
         begins = [place for place in self._tall if place.line == number and not self._opens(place)]
         flat = [place for place in self._flat if place.line == number]
         ends = [place for place in self._tall if place.end_line == number]
         here = [*begins, *flat, *ends]
         side = self._side(number)
-        if sum(widths) <= self._room or not here:
+        if (len(line) <= _LONG and sum(widths) <= self._room) or not here:
             views = [(_view(shown, widths, 0, 0, self._room), here)]
         else:
             # A line too long to be shown whole is shown once for each place in it.
-            views = [(_view(shown, widths, *_extent(place, number), self._room), [place]) for place in here]
+            views = [(self._around(line, *_extent(place, number)), [place]) for place in here]
         for view, places in views:
             yield self._row(str(number), side, view.text)
             for place in places:
                 yield self._underline(place, number, view)
+
+    def _around(self, line: str, start: int, end: int) -> _View:
+        """Return what can be seen of a line around a range, without looking at all of one that goes on for pages."""
+        skipped = max(start - _LONG // 2, 0) if len(line) > _LONG else 0
+        shown, widths = cells(line[skipped : skipped + _LONG], self._style)
+        view = _view(shown, widths, start - skipped, min(end - skipped, len(widths)), self._room)
+        return view._replace(skipped=skipped)
 
     def _underline(self, place: _Place, number: int, view: _View) -> str:
         start, end = _extent(place, number)
@@ -166,9 +176,11 @@ class _View(NamedTuple):
     text: str
     columns: tuple[int, ...]
     """Of each index of the line, and of its end, in the text shown."""
+    skipped: int = 0
+    """How many characters before them were not looked at."""
 
     def column(self, index: int) -> int:
-        return self.columns[min(index, len(self.columns) - 1)]
+        return self.columns[min(max(index - self.skipped, 0), len(self.columns) - 1)]
 
 
 def _view(shown: Sequence[str], widths: Sequence[int], start: int, end: int, room: int) -> _View:
