@@ -64,6 +64,16 @@ def test_what_guards_a_mention(text: str, optional: bool | None, test: bool) -> 
     assert (mention.test if mention else False) == test
 
 
+def test_the_build_tool_that_the_manifest_names_is_found() -> None:
+    text = "find_package(ament_cmake QUIET)\nif(ament_cmake_FOUND)\nfind_package(a REQUIRED)\nelse()\nfind_package(b REQUIRED)\nendif()\n"
+    found = mentioned(run(text, build_depends=("ament_cmake",)))
+    assert not found["cmake", "a"].optional
+    assert ("cmake", "b") not in found
+    found = mentioned(run(text))
+    assert found["cmake", "a"].optional
+    assert found["cmake", "b"].optional
+
+
 def test_targets_and_variables_of_other_packages() -> None:
     script = run(
         "find_package(rclcpp REQUIRED)\nfind_package(OpenCV REQUIRED)\nadd_library(core a.cpp)\n"

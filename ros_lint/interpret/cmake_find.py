@@ -21,6 +21,7 @@ _FOREIGN_TARGET = re.compile(r"(?<!\w)(?<!::)[A-Za-z_][\w.+-]*::[\w.+:-]*\w")
 
 _SHARED_LIBRARIES: Final = frozenset({"ament_cmake_ros", "ament_cmake_ros_core"})
 """Packages that turn BUILD_SHARED_LIBS on (reference, section C1.6)."""
+_BUILD_TOOL: Final = "ament_cmake"
 _FOUND_DECLARED: Final = f"{ATOM}found-build-depends"
 """What stands for all that ament_auto_find_build_dependencies() finds: a target that is given it uses none of it for sure."""
 _PYTHON: Final = frozenset({"Python", "Python3"})
@@ -60,7 +61,8 @@ def may_be_package(name: str) -> bool:
 
 def found(run: Run, name: str, *, required: bool) -> None:
     """Take a package for found: what it sets is unknown from now on, and its CMake code runs if it is in sight."""
-    if required:
+    # Scripts for several build tools ask whether it is there; it is, where the manifest names it for the build.
+    if required or (name == _BUILD_TOOL and name in run.sources.build_depends):
         run.put(run.packages, name, "1")
         if run.normal(f"{name}_FOUND") is not None:
             run.set(f"{name}_FOUND", "1")

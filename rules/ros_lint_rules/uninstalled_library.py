@@ -44,6 +44,7 @@ from ros_lint.api import (
     evaluated_name,
     hidden,
     installs_built,
+    is_apart,
     relative,
 )
 
@@ -100,7 +101,7 @@ def _is_shared(package: Package, name: str) -> bool:
 
 
 def _is_lone(package: Package, library: BuildTarget, *, loaded: bool) -> bool:
-    """Whether a library is shared by its own words, and no target links it that stays in the build folder as well.
+    """Whether a library of every build is shared by its own words, and nothing links it that stays in the build folder as well.
 
     With plugins or components in it, it is ``loaded`` at run time, whoever links it. If a header of its own is installed, it
     is for others, and a test that links it tests it. If nothing of what is built is installed, that says nothing of programs.
@@ -108,6 +109,8 @@ def _is_lone(package: Package, library: BuildTarget, *, loaded: bool) -> bool:
     script = package.script
     assert script is not None
     calls = list(_made(package, library.name))
+    if set(library.sources) == set(library.optional) or is_apart(relative(package, library.span.path)):
+        return False  # it is built on request, or for examples
     if not any({"SHARED", "MODULE"}.intersection(call.texts) and not call.blocks for call in calls):
         return False
     installed = {provided.target for provided in script.provides if provided.target}

@@ -13,16 +13,30 @@ Install it to `lib/${PROJECT_NAME}`, or build it only when tests or examples are
 
 ## When it keeps silent
 
-Where something that cannot be followed may install it; where a custom command runs it during the build; where
-`uninstalled-executable` speaks: a launch file starts it, or it is a node of a package that installs nothing. It is off unless it
-is asked for.
+Where something that cannot be followed may install it; where it is not part of every build, or an example; where a custom
+command runs it during the build; where `uninstalled-executable` speaks: a launch file starts it, or it is a node of a package
+that installs nothing. It is off unless it is asked for.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Facet, Finding, Fix, Package, Rule, Severity, Workspace, called, cmake_edits, forgotten_nodes, hidden
+from ros_lint.api import (
+    Facet,
+    Finding,
+    Fix,
+    Package,
+    Rule,
+    Severity,
+    Workspace,
+    called,
+    cmake_edits,
+    forgotten_nodes,
+    hidden,
+    is_apart,
+    relative,
+)
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -35,6 +49,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     forgotten = forgotten_nodes(package)
     for target in script.targets:
         if target.kind != "executable" or target.test or target.name in installed or target.name in listed or custom:
+            continue
+        if (target.sources and set(target.sources) == set(target.optional)) or is_apart(relative(package, target.span.path)):
             continue
         if target.name in workspace.started.get(package.name, {}) or target.name in forgotten:
             continue
