@@ -65,7 +65,8 @@ def test_what_guards_a_mention(text: str, optional: bool | None, test: bool) -> 
 
 
 def test_the_build_tool_that_the_manifest_names_is_found() -> None:
-    text = "find_package(ament_cmake QUIET)\nif(ament_cmake_FOUND)\nfind_package(a REQUIRED)\nelse()\nfind_package(b REQUIRED)\nendif()\n"
+    asked = "find_package(ament_cmake QUIET)\nif(ament_cmake_FOUND)\n"
+    text = f"{asked}find_package(a REQUIRED)\nelse()\nfind_package(b REQUIRED)\nendif()\n"
     found = mentioned(run(text, build_depends=("ament_cmake",)))
     assert not found["cmake", "a"].optional
     assert ("cmake", "b") not in found
