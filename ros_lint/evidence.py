@@ -113,6 +113,10 @@ class Resolver:
         first, slash, _ = header.partition("/")
         if not found:
             return self._told(self.names.by_include(header), first if slash else "")
+        if slash and first not in found:
+            known = self.names.by_include(header)
+            if known.known and not set(found).intersection(known.names):  # then this is a copy of what is known elsewhere
+                return Answer((*known.names, *found), known.sure)
         return Answer(tuple(sorted(found, key=lambda package: package != first)))
 
     def _package(self, name: str) -> Answer:

@@ -256,6 +256,20 @@ def test_a_module_that_may_be_missing_in_one_file_may_be_missing_in_all() -> Non
     assert [use.optional for use in in_test if "scripts" in use.span.path] == [False, False]
 
 
+def test_a_copy_of_a_library_is_not_taken_for_the_library() -> None:
+    lines = "add_library(r r.cpp)\nadd_library(s s.cpp)"
+    own = {
+        "include__nlohmann__json_dot_hpp": "",
+        "include__shapes__box_dot_hpp": "",
+        "r_dot_cpp": "#include <nlohmann/json.hpp>\n",
+    }
+    code = "#include <nlohmann/json.hpp>\n#include <shapes/box.hpp>\n"
+    workspace = load({**cmake("base", "", lines, **own), **cmake("talker", "", lines, r_dot_cpp=code)})
+    base, talker = workspace.packages
+    assert [use.package for use in base.uses if use.via == "include"] == []
+    assert [use.providers for use in talker.uses if use.via == "include"] == [("nlohmann-json-dev", "base"), ("base",)]
+
+
 def test_what_comes_from_folders_that_are_not_there_is_not_sure() -> None:
     added = "import sys\nsys.path.append('/opt/serial')\nimport serial\nimport std_msgs\n"
     workspace = _python(scripts__a_dot_py=added, scripts__b_dot_py="import serial\n")
