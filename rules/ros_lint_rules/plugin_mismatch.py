@@ -20,7 +20,8 @@ sources and in `add_library()`. The fix exports a description whose base classes
 
 ## When it keeps silent
 
-Where the libraries cannot be seen whole, for tests, and for classes in packages that register some with macros of their own.
+Where the libraries cannot be seen whole, for tests, for descriptions that are exported under a condition only, and for classes
+in packages that register some with macros of their own.
 """
 
 from __future__ import annotations
@@ -81,6 +82,8 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             continue
         if plugin.path in installed:
             yield from _libraries(package, plugin, everything)
+        elif any(plugin.path in call.texts for call in exported):
+            continue  # only under a condition
         elif exported and any(one.type in names - found for library in plugin.libraries for one in library.classes):
             yield Finding(
                 f"{plugin.path} is not exported, so its plugins are not found; add {_EXPORT}(... {plugin.path})",

@@ -18,7 +18,7 @@ Correct the name, or define the target before. Where one defined target has near
 ## When it keeps silent
 
 Where a command, a name or an included file cannot be followed; under conditions; in functions and loops; about libraries
-that may be the system's.
+that may be the system's; where a package is found that nobody knows, which may define targets.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ _INSTALL_WORDS = frozenset(
 _MAKERS = ("add_custom_target", "rosidl_generate_interfaces", "ament_vendor", "add_executable", "add_library")
 
 
-def check(package: Package, _: Workspace) -> Iterator[Finding]:
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with not in ("ament_cmake", "cmake"):
         return
@@ -71,10 +71,15 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         defined.update(call.texts[:1])
         defined.add((evaluated_name(package, call.texts[0]) if call.args else None) or "")
     reported: set[str] = set()
+    finds_strangers = any(
+        not workspace.world.by_cmake(call.texts[0]).known for call in called(package, "find_package", anywhere=True) if call.args
+    )
     for call in called(package, *_USERS, "install"):
         for index in _targets(call):
             name = evaluated_name(package, call.texts[index])
             if name is None or call.blocks or name in defined or "::" in name or name in reported:
+                continue
+            if call.name != "install" and finds_strangers and not difflib.get_close_matches(name, names, 1, 0.8):
                 continue
             reported.add(name)
             yield _finding(f"{call.name}() of {name}, which is no target", name, names, call.span(index))
