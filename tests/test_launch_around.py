@@ -115,7 +115,7 @@ def generate_launch_description():
     }
     package = _package("app", files, {"share/app/conf/setup.yaml": "config/setup.yaml"})
     after = _completed((package, files))["app/launch/a.launch.py"]
-    assert _named(after) == {("driver", "left"), ("driver", "right")}
+    assert _named(after) == {("app", "conf/setup.yaml"), ("driver", "left"), ("driver", "right")}
     assert not after.opaque
 
 

@@ -147,6 +147,23 @@ def test_paths_by_name() -> None:
     assert python(body) == ["file a config/p.yaml", "node b c", "file a x.rviz"]
 
 
+@pytest.mark.parametrize(
+    ("body", "wanted"),
+    [
+        ("doc = xacro.parse(open(path))", ["file a urdf/x.urdf"]),
+        ("with open(path, 'r') as file:\n    text = file.read()", ["file a urdf/x.urdf"]),
+        ("text = Path(path).read_text()", ["file a urdf/x.urdf"]),
+        ("with open(path, 'w') as file:\n    file.write('')", ["package a"]),
+        ("try:\n    text = open(path).read()\nexcept OSError:\n    text = ''", ["package a"]),
+        ("try:\n    text = open(path).read()\nexcept ValueError:\n    text = ''", ["file a urdf/x.urdf"]),
+        ("try:\n    pass\nexcept OSError:\n    pass\ntext = open(path).read()", ["file a urdf/x.urdf"]),
+    ],
+)
+def test_files_that_are_read_at_once(body: str, wanted: list[str]) -> None:
+    path = "path = os.path.join(get_package_share_directory('a'), 'urdf', 'x.urdf')\n"
+    assert python(f"{path}{body}\nreturn []") == wanted
+
+
 def test_a_path_of_nothing_is_no_path() -> None:
     body = (
         "name = {}.get('plugin') if os.environ.get('X') else 'aruco'\n"

@@ -179,7 +179,10 @@ class _Reading:
                 self.actions += self._walker.actions(made, (PERHAPS,))
 
     def add_to(self, references: References) -> None:
-        """Add what is looked up at once, and what is hidden."""
+        """Add what is opened or looked up at once, and what is hidden."""
+        for path, node, source, conditions in self._machine.opened:
+            if source is self._source:
+                references.opens(self._walker.text(path, node, source), conditions)
         self._spare(references)
         for package, node, source, conditions in self._machine.looked_up:
             value = self._walker.text(package, node, source)

@@ -213,8 +213,13 @@ def _getattr(call: Call) -> Value:
 
 
 def _open(call: Call) -> Value:
-    found = call.texts(0, "file")
-    return call.machine.open_file(found[0]) if len(found) == 1 else Unknown("a file")
+    found, mode = call.texts(0, "file"), plain(call.get(1, "mode"))
+    if len(found) != 1 or (isinstance(mode, str) and not _WRITES.isdisjoint(mode)):
+        return Unknown("a file")
+    return call.machine.open_file(found[0], next(iter(call.node.args), call.node), call.frame.source)
+
+
+_WRITES = frozenset("wxa+")
 
 
 def _parsed(call: Call) -> Value:

@@ -339,5 +339,5 @@ def _call_of_path(
                 head, tail = posixpath.split(owner.text)
                 return FilePath(posixpath.join(head, given if name == "with_name" else tail.rpartition(".")[0] + given))
         case "open" | "read_text" | "read_bytes":
-            return machine.open_file(owner.text)
+            return machine.open_file(owner.text, node, frame.source)
     return Unknown(f"{name}() of a path")

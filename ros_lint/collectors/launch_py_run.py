@@ -79,6 +79,10 @@ class Machine:
         """Names met that nothing has bound so far."""
         self.wanted: set[str] = set()
         """Modules and files that are read and were not at hand."""
+        self.opened: list[tuple[str, ast.expr, Source, Conditions]] = []
+        """Paths of files that are opened at once to be read, where, and under which conditions: those that must be there."""
+        self.guarded = 0
+        """How many statements around would catch that a file is missing."""
         self.lazily: set[str] = set()
         """Packages that are looked up when something is launched."""
         self.named: dict[str, tuple[ast.expr, Source]] = {}
@@ -324,8 +328,10 @@ class Machine:
         found = joined(rows, lambda row: posixpath.join("", *row))
         return union(guarded_text(text, FilePath(text)) for text in found)
 
-    def open_file(self, path: str) -> Value:
+    def open_file(self, path: str, at: ast.expr, source: Source) -> Value:
         """Return the text of a file of the workspace, or what stands for it."""
+        if not self.guarded and not path.isascii():
+            self.opened.append((path, at, source, self.conditions))
         unknown = Unknown(f"the content of {path.rpartition('/')[2] or 'a file'}")
         paths = fill(path, self._defaults().get, evaluate)
         if len(paths) != 1 or not is_settled(paths[0]):

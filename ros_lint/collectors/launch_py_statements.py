@@ -31,7 +31,7 @@ from ros_lint.collectors.launch_py_objects import (
 )
 from ros_lint.collectors.launch_py_operations import opposite_of, truth
 from ros_lint.collectors.launch_text import presence
-from ros_lint.collectors.python_look_ups import catches_missing_package
+from ros_lint.collectors.python_look_ups import catches_missing_file, catches_missing_package
 from ros_lint.collectors.python_values import LOOK_UPS, callee
 from ros_lint.facts.launch import LaunchCondition
 
@@ -188,17 +188,23 @@ def _try(machine: Machine, node: ast.Try, frame: Frame) -> int:
         there = LaunchCondition((presence(machine.another()),), None)
         signal = _either(machine, [*node.body, *node.orelse], missing.body, there, frame)
         return execute(machine, node.finalbody, frame) or signal
+    guarded = any(map(catches_missing_file, node.handlers))
+    machine.guarded += guarded
+    raised = False
+    signal = NEXT
     try:
         signal = execute(machine, node.body, frame)
     except Raised:
-        signal = NEXT
+        raised = True
+    finally:
+        machine.guarded -= guarded
+    if raised:
         for handler in node.handlers[:1]:
             if handler.name:
                 frame.names[handler.name] = Unknown("an exception")
             signal = execute(machine, handler.body, frame)
-    else:
-        if signal == NEXT:
-            signal = execute(machine, node.orelse, frame)
+    elif signal == NEXT:
+        signal = execute(machine, node.orelse, frame)
     final = execute(machine, node.finalbody, frame)
     return final or signal
 

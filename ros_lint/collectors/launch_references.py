@@ -195,6 +195,12 @@ class References:
                 )
             ] = None
 
+    def opens(self, value: LaunchValue, conditions: Sequence[LaunchCondition]) -> None:
+        """Note a file that is read when the launch file is."""
+        before, self._optional = self._optional, asks_first(conditions)
+        self._paths(value, None, bool(conditions))
+        self._optional = before
+
     def _add(
         self,
         kind: Kind,

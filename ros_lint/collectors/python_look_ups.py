@@ -21,6 +21,7 @@ _NAMED = re.compile(rf"\b({'|'.join(sorted(LOOK_UPS))})\b(?:[ \t]*\()?")
 _LITERAL = re.compile(r"\s*(?:package(?:_name)?[ \t]*=[ \t]*)?([\"'])([\w.-]+)\1\s*[,)]")
 _FILE_NAME = re.compile(r"""\.(?<=[\w)}]\.)[A-Za-z]\w{1,9}["']""")
 _NOT_FOUND = frozenset({"PackageNotFoundError", "LookupError", "KeyError", "Exception", "BaseException"})
+_NO_FILE = frozenset({"FileNotFoundError", "OSError", "IOError", "EnvironmentError", "Exception", "BaseException"})
 _ASKS = frozenset({"has_resource", "get_packages_with_prefixes", "get_resources"})
 _CATCHES = re.compile(rf"except[ \t]*(?:[(:]|[^\n]*\b(?:{'|'.join(sorted(_NOT_FOUND))})\b)|\b(?:{'|'.join(sorted(_ASKS))})\(")
 
@@ -183,8 +184,15 @@ def _asks(test: ast.expr) -> bool | None:
 
 def catches_missing_package(handler: ast.ExceptHandler) -> bool:
     """Return whether a handler catches that a package is not found."""
+    return _catches(handler, _NOT_FOUND)
+
+
+def catches_missing_file(handler: ast.ExceptHandler) -> bool:
+    """Return whether a handler catches that a file is not there."""
+    return _catches(handler, _NO_FILE)
+
+
+def _catches(handler: ast.ExceptHandler, names: frozenset[str]) -> bool:
     if handler.type is None:
         return True
-    return any(
-        (node.id if isinstance(node, ast.Name) else getattr(node, "attr", "")) in _NOT_FOUND for node in ast.walk(handler.type)
-    )
+    return any((node.id if isinstance(node, ast.Name) else getattr(node, "attr", "")) in names for node in ast.walk(handler.type))
