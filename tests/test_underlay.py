@@ -143,7 +143,7 @@ ARM = {
     f"{RESOURCES}/package_run_dependencies/arm": "rclcpp;only_jazzy;ament_lint_auto",
     f"{RESOURCES}/rclcpp_components/arm": "arm::Driver;lib/libarm.so\narm::Camera;lib/libcam.so\n",
     f"{RESOURCES}/controller_interface__pluginlib__plugin/arm": "share/arm/plugins.xml\n",
-    "share/arm/plugins.xml": '<library path="arm"><class name="arm/Fast" type="arm::Fast" base_class_type="c::C"/></library>'
+    "share/arm/plugins.xml": '<library path="arm"><class name="arm/Very Fast" type="arm::Fast" base_class_type="c::C"/></library>'
     '<library path="arm2"><class type="arm::Slow<arm::A>" base_class_type="c::C"/></library>',
     "share/arm/launch/arm.launch.xml": "<launch/>",
     "share/arm/launch/deep/arm.yaml": "# all of it\nlaunch:\n  - node: {}\n",
@@ -208,7 +208,7 @@ def test_a_package_is_read_from_either_layout(layout: str, request: pytest.Fixtu
     }  # fmt: skip
     assert arm.known("executables").names == ("arm_node", "helper.py")
     assert arm.known("components").names == ("arm::Camera", "arm::Driver")
-    assert arm.known("plugins").names == ("controller_interface=arm/Fast", "controller_interface=arm::Slow<arm::A>")
+    assert arm.known("plugins").names == ("controller_interface=arm/Very Fast", "controller_interface=arm::Slow<arm::A>")
     assert arm.known("launch").names == ("launch/arm.launch.xml", "launch/deep/arm.yaml")
     assert "config/arm.yaml" in arm.share_files.names
     assert messages.known("interfaces").names == ("action/Go", "msg/Joint", "srv/Move")
@@ -240,7 +240,9 @@ def test_a_link_to_nowhere_is_no_executable_and_not_missing_either(merged: Path)
     (layer,) = underlay.read([str(merged)])
     executables = layer.packages["arm"].known("executables")
     assert [executables.ask(name) for name in ("lost_node", "arm_node", "x")] == ["unknowable", "exists", "missing"]
-    assert "X:arm_node helper.py lost_node?" in command.scan([str(merged)], "mine")[1]
+    prov = command.scan([str(merged)], "mine")[1]
+    assert "X:arm_node helper.py lost_node?" in prov
+    assert "P:controller_interface=arm/VeryFast,arm::Slow<arm::A>" in prov
 
 
 def test_links_in_a_circle_end(merged: Path) -> None:

@@ -96,7 +96,9 @@ def _provided(installed: Installed) -> Provided:
         if facet == "modules" and installed.known("interfaces").names:
             # The module of an interface package is made from its interfaces, and goes without saying.
             names = tuple(name for name in names if name != installed.name)
-        # Names with a space could not be told apart in a line.
+        if facet == "plugins":
+            names = tuple(name.replace(" ", "") for name in names)  # as the shipped data write them
+        # Other names with a space could not be told apart in a line.
         fields[letter] = tuple(sorted(name for name in names if " " not in name))
     return Provided(installed.name, "=", fields)
 
