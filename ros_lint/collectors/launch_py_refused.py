@@ -73,4 +73,5 @@ def undefined(tree: ast.Module, source: Source, met: Iterable[tuple[ast.expr, So
             yield Problem("undefined-name", f"{node.id} is not defined", span_of(node, source))
 
 
-_KNOWN = _MODULE | set(dir(builtins))
+_KNOWN = _MODULE | set(dir(builtins)) | {"copyright", "credits", "exit", "help", "license", "quit", "WindowsError"}
+"""What Python binds, with what it does so only when it starts as people start it, or elsewhere."""
