@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+import ros_lint.interpret.cmake  # noqa: F401  (it fills the tables of commands)
 from ros_lint.collectors.cmake_syntax import parse
 from ros_lint.interpret import cmake_flow
 from ros_lint.interpret.cmake_run import Run

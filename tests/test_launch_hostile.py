@@ -14,9 +14,9 @@ from ros_lint.interpret.launch_expand import expand
 from ros_lint.load import Loader
 from ros_lint.opening import open_workspace
 from ros_lint.registry import load
+from ros_lint.report import Target
 from ros_lint.text import Text
 from ros_lint.tree import MemoryTree
-from ros_lint.workspace import Target
 
 SECONDS = 2.0
 KILOBYTES = 100 << 10

@@ -1,0 +1,181 @@
+"""Whose a name is: headers, modules, CMake packages and wrong names."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from ros_lint.knowledge import Knowledge
+from ros_lint.world import Member
+from tests.worlds import member, world, write_prefix
+
+JAZZY = Knowledge("jazzy")
+
+
+@pytest.fixture
+def prefix(tmp_path: Path) -> str:
+    return write_prefix(tmp_path)
+
+
+def test_what_packages_provide(prefix: str) -> None:
+    found = world(member("mine"), prefixes=(prefix,))
+    assert found.executables("demo_nodes_cpp").ask("talker") == "exists"
+    assert found.executables("demo_nodes_cpp").ask("tolker") == "missing"
+    assert found.executables("private_tool").ask("tool") == "exists"
+    assert found.executables("private_tool").ask("tol") == "missing"
+    assert found.executables("mine").ask("anything") == "unknowable"
+    assert found.executables("nonsense_pkg").ask("anything") == "unknowable"
+    assert found.components("composition").ask("composition::Talker") == "exists"
+    assert found.launch_files("turtlebot3_bringup").ask("launch/robot.launch.py") == "exists"
+    assert found.interfaces("std_msgs").ask("msg/String") == "exists"
+    assert found.interfaces("std_msgs").ask("msg/Strings") == "missing"
+    assert found.python_modules("std_msgs").ask("std_msgs") == "exists"
+    assert found.python_modules("tf2_ros").ask("tf2_ros") == "missing"
+    assert found.plugins("ackermann_steering_controller").names
+    assert found.programs("ament_clang_format").ask("ament_clang_format") == "exists"
+    assert found.share_files("turtlebot3_bringup").ask("config/x.yaml") == "unknowable"
+    assert found.share_files("private_tool").ask("config/x.yaml") == "missing"
+
+
+@pytest.mark.parametrize(
+    ("name", "first", "packages", "keys"),
+    [
+        ("rclcpp", "rclcpp", {"rclcpp"}, set()),
+        ("Eigen3", "eigen", {"eigen3_cmake_module"}, {"eigen"}),
+        ("osqp", "osqp_vendor", {"osqp_vendor"}, set()),
+        ("octomap", "octomap", {"octomap"}, {"liboctomap-dev"}),
+        ("ament_cmake_internal", "ament_cmake_core", {"ament_cmake_core"}, set()),
+        ("gz-sim8", "gz_sim_vendor", {"gz_sim_vendor"}, set()),
+    ],
+)
+def test_cmake_packages(name: str, first: str, packages: set[str], keys: set[str]) -> None:
+    found = world().by_cmake(name)
+    assert (found.names[0], {*found.packages}, {*found.keys}) == (first, packages, keys)
+    assert found.known
+    assert not found.none_needed
+
+
+def test_cmake_packages_that_need_nothing_or_are_not_known() -> None:
+    found = world(member("fmt"))
+    assert found.by_cmake("Threads").none_needed
+    assert found.by_cmake("Threads").known
+    assert not found.by_cmake("SomebodysLibrary").known
+    assert found.by_cmake("fmt").names == ("fmt",)  # the workspace has a package of that name
+    retired = found.by_cmake("roscpp")
+    assert not retired.known
+    assert retired.end_of_life[0] == "ROS 1 Noetic"
+
+
+@pytest.mark.parametrize(
+    ("header", "names"),
+    [
+        ("rclcpp/rclcpp.hpp", ("rclcpp",)),
+        ("std_msgs/msg/string.hpp", ("std_msgs",)),
+        ("Eigen/Dense", ("eigen", "eigen3_cmake_module")),
+        ("octomap/OcTree.h", ("octomap", "liboctomap-dev")),
+        ("moveit/benchmarks/server.h", ("moveit_ros_benchmarks",)),
+        ("moveit/move_group_interface/move_group_interface.hpp", ()),
+        ("mine/mine.hpp", ("mine",)),
+        ("autoware/mine_too/x.hpp", ("autoware_mine_too",)),
+        ("autoware/nobody/x.hpp", ()),
+        ("mine.hpp", ()),
+        ("ros/ros.h", ()),
+    ],
+)
+def test_headers(header: str, names: tuple[str, ...]) -> None:
+    found = world(member("mine"), member("autoware_mine_too"), member("moveit")).by_include(header)
+    assert found.names == names
+    assert found.known == bool(names)
+
+
+def test_headers_of_the_tool_chain_need_nothing() -> None:
+    assert all(world().by_include(header).none_needed for header in ("vector", "sys/stat.h", "cstdint", "unistd.h"))
+
+
+def test_headers_of_an_underlay(prefix: str) -> None:
+    found = world(prefixes=(prefix,))
+    assert found.by_include("private_base/private_base.hpp").names == ("private_base",)
+    (Path(prefix) / "include/private_base/odd_root").mkdir()
+    (Path(prefix) / "include/private_base/odd_root/odd.hpp").touch()
+    assert world(prefixes=(prefix,)).by_include("odd_root/odd.hpp").names == ("private_base",)
+    assert not world(prefixes=(prefix,)).by_include("odd_root/other.hpp").known
+
+
+@pytest.mark.parametrize(
+    ("module", "names"),
+    [
+        ("rclpy.node", ("rclpy",)),
+        ("std_msgs.msg", ("std_msgs",)),
+        ("tf2_ros", ("tf2_ros_py",)),
+        ("yaml", ("python3-yaml",)),
+        ("numpy.linalg", ("python3-numpy",)),
+        ("rclcpp", ()),
+        ("my_parts", ("mine",)),
+        ("other_name", ("other",)),
+        ("other", ()),
+        ("somebodys_library", ()),
+        ("rospy", ()),
+    ],
+)
+def test_modules(module: str, names: tuple[str, ...]) -> None:
+    found = world(Member("mine", "1.0.0", {}, (), ("my_parts",)), Member("other", "1.0.0", {}, (), ("other_name",))).by_import(
+        module
+    )
+    assert found.names == names
+    assert found.known == bool(names)
+
+
+def test_modules_of_the_language_need_nothing() -> None:
+    assert all(world().by_import(module).none_needed for module in ("os.path", "tomllib", "distutils", "typing"))
+
+
+@pytest.mark.parametrize(
+    ("wrong", "right"),
+    [
+        # What maintainers wrote instead, in commits that mended these names.
+        ("Eigen3", "eigen"),
+        ("ALSA", "libasound2-dev"),
+        ("opencv-python", "python3-opencv"),
+        ("GeographicLib", "geographiclib"),
+        ("PkgConfig", "pkg-config"),
+        ("gz-sim8", "gz_sim_vendor"),
+        ("nlohmann-json3-dev", "nlohmann-json-dev"),
+        ("uuid-dev", "uuid"),
+        ("urdfdom-headers", "urdfdom_headers"),
+        ("buildin_interfaces", "builtin_interfaces"),
+        ("laser_filter", "laser_filters"),
+        ("nav2_utils", "nav2_util"),
+        ("turtlebot3_fakenode", "turtlebot3_fake_node"),
+        ("python-urdf2webots", "urdf2webots-pip"),
+        ("mine_msg", "mine_msgs"),
+        # No doubt is allowed.
+        ("nonsense_pkg", ""),
+        ("python3-pcl", ""),
+        ("rmf_msgs", ""),
+        ("ament_python", ""),
+    ],
+)
+def test_what_was_meant(wrong: str, right: str) -> None:
+    found = world(member("mine_msgs")).meant(wrong)
+    assert (found.name if found else "") == right
+
+
+@pytest.mark.parametrize(
+    ("wrong", "right"),
+    [("numpy", "python3-numpy"), ("cv2", "python3-opencv"), ("pycollada", "python3-collada-pip"), ("cv-bridge", "cv_bridge")],
+)
+def test_what_was_meant_in_python(wrong: str, right: str) -> None:
+    found = world().meant(wrong, python=True)
+    assert found is not None
+    assert found.name == right
+
+
+def test_only_what_resolves_is_suggested() -> None:
+    """The key that apt's name stands for has no rule for every distribution."""
+    for distro in ("humble", "jazzy", "lyrical"):
+        found = world(distro=distro)
+        for wrong in ("python-numpy", "python-yaml", "gazebo9", "ament_cmake_lint_copyright", "libqt5core5a"):
+            for name in found.suggest(wrong):
+                assert found.is_package(name) or found.knowledge.resolves(name)
+    assert world().suggest("ament_cmake_lint_copyright") == ("ament_cmake_copyright",)

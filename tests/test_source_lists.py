@@ -1,0 +1,15 @@
+"""Where lists of sources and submodules are found."""
+
+from __future__ import annotations
+
+from ros_lint import source_lists
+from ros_lint.tree import MemoryTree
+
+
+def test_lists_of_sources_are_found_near_the_top_and_in_packages() -> None:
+    names = ["a.repos", "src/deps.repos", "src/arm/arm.rosinstall", "tools/ci/x.repos", ".gitmodules", "b.txt"]
+    tree = MemoryTree(dict.fromkeys(names, ""))
+    assert source_lists.find(tree, ["src"], ["src/deep/er/z.repos", "src/deep/er/z.cpp"]) == (
+        ".gitmodules", "a.repos", "src/arm/arm.rosinstall", "src/deep/er/z.repos", "src/deps.repos"
+    )  # fmt: skip
+    assert source_lists.find(MemoryTree({}), ["nowhere"], []) == ()
