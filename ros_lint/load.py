@@ -22,7 +22,7 @@ from ros_lint import (
     type_names,
 )
 from ros_lint.cache import Cache
-from ros_lint.collect import FAILED, Collected, collect_all, kind_of
+from ros_lint.collect import Collected, collect_all, kind_of
 from ros_lint.discover import Found, Skipped, discover
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.launch import LaunchFile
@@ -289,6 +289,5 @@ def _unreadable(collected: Mapping[str, Collected]) -> Iterator[NotChecked]:
 
 def _failed(reads: Sequence[_Read]) -> Iterator[NotChecked]:
     for done in reads:
-        for opaque in done.script.opaque if done.script else ():
-            if opaque.reason.startswith(FAILED.partition("{")[0]):
-                yield NotChecked(opaque.span.path, opaque.reason, opaque.span)
+        if done.script is not None and done.script.failed:
+            yield from (NotChecked(opaque.span.path, opaque.reason, opaque.span) for opaque in done.script.opaque)

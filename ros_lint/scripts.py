@@ -72,7 +72,7 @@ def _cmake(tree: Tree, parts: Parts, distro: str, helpers: dict[str, Helper]) ->
 
 def _failed(parts: Parts, reason: str) -> BuildScript:
     path = join(parts.found.path, "CMakeLists.txt" if "CMakeLists.txt" in parts.commands else "setup.py")
-    return BuildScript(path, opaque=(Opaque(ANYTHING, reason, Span(path, 1, 1, 1, 1)),))
+    return BuildScript(path, opaque=(Opaque(ANYTHING, reason, Span(path, 1, 1, 1, 1)),), failed=True)
 
 
 def _sources(tree: Tree, parts: Parts) -> Sources:

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import pytest
+
+from ros_lint.facts.sight import Facet
+from ros_lint.interpret import cmake
 from ros_lint.load import Loader
 from ros_lint.report import Target
 from ros_lint.tree import MemoryTree
@@ -40,3 +44,14 @@ def test_a_package_within_the_package_is_installed_with_it() -> None:
 def test_an_ignored_folder_is_installed_when_it_is_asked_for() -> None:
     files = {"p__x__COLCON_IGNORE": "", "p__x__sub__a_dot_txt": ""}
     assert "share/p/x/sub/a.txt" in installed(load("install(DIRECTORY x DESTINATION share/p)\n", **files))
+
+
+def test_a_script_that_fails_us_is_told_of(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: object) -> None:
+        raise ValueError("oh")
+
+    monkeypatch.setattr(cmake, "evaluate", fail)
+    workspace = load("")
+    reason = "ros-lint failed on it (ValueError: oh); please report this"
+    assert [(entry.what, entry.reason) for entry in workspace.not_checked] == [("p/CMakeLists.txt", reason)]
+    assert workspace.by_name["p"][0].hidden(Facet.SHARE)

@@ -152,3 +152,5 @@ class BuildScript(NamedTuple):
     moved: tuple[str, ...] = ()
     """Files with Python modules that it installs, relative to the package, and folders of them, with a slash at the end,
     where they lie elsewhere than the names say: ``package_dir`` of a setup.py."""
+    failed: bool = False
+    """Whether it could not be evaluated by a mistake of ours, which ``opaque`` then tells."""
