@@ -106,8 +106,10 @@ def _source(directory: str, value: str) -> str | None:
         return None
     else:
         path = join_path(directory, value)
+    if ATOM in path:
+        return None  # before ".." is followed: what is not known may be several folders, or lie elsewhere
     path = posixpath.normpath(path)
-    if path.startswith("../") or path == ".." or "\1" in path:
+    if path.startswith("../") or path == "..":
         return None
     return "" if path == "." else path
 

@@ -182,8 +182,10 @@ class Run(Paths):
         if len(self.prefixes) != len(self._folded):
             self._folded = tuple(map(folded, self.prefixes))
         if folded(name).startswith(self._folded):
-            # Folders and versions are single texts; the others may be lists, or nothing.
-            return f"{ATOM}{name}" if name.endswith(("_DIR", "_VERSION", "_PREFIX")) else HOLE
+            # Folders, which lie elsewhere, and versions are single texts; the others may be lists, or nothing.
+            if name.endswith(("_DIR", "_PREFIX")):
+                return f"/{ATOM}{name}"
+            return f"{ATOM}{name}" if name.endswith("_VERSION") else HOLE
         return None
 
     def lookup(self, name: str, where: str) -> str:
