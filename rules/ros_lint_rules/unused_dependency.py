@@ -3,7 +3,7 @@
 
 A `<depend>` or `<build_depend>` on a ROS package that nothing in the package uses: no include, no import, no
 `find_package`, no interface, no launch file, and its name stands in no other file. And a `<test_depend>` in a package
-without any test that could use it, if CMake does not look for it either.
+without any test that could use it, if nothing else does, such as `find_package` or a launch file.
 
 ## Why it matters
 
@@ -113,18 +113,16 @@ def _unused(package: Package, workspace: Workspace) -> Iterator[tuple[Declared, 
             if mostly_run and not leaves_trace(package, workspace, name):
                 continue
             says = "nothing in the package uses it"
-        elif (
-            depend.tag == "test_depend" and not _is_found(package, name) and not _can_test_with(package, script, workspace, name)
-        ):
+        elif depend.tag == "test_depend" and not _is_used(package, name) and not _can_test_with(package, script, workspace, name):
             says = "there is no test that could use it"
         else:
             continue
         yield declared, says, Confidence.MEDIUM if unknown or mostly_run else Confidence.HIGH
 
 
-def _is_found(package: Package, name: str) -> bool:
-    """Whether CMake looks for a package, test or no test: without it, it stops."""
-    return any(use.package == name and use.via == "cmake" for use in package.uses)
+def _is_used(package: Package, name: str) -> bool:
+    """Whether a package is used, test or no test: CMake stops without it, and to a launch file it is declared wrongly."""
+    return any(use.package == name for use in package.uses)
 
 
 def _can_test_with(package: Package, script: BuildScript, workspace: Workspace, name: str) -> bool:
