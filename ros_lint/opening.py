@@ -162,6 +162,10 @@ def _underlays(
 def no_packages(asked: Asked | Opened) -> str:
     """Return what to say when there is nothing to work on."""
     places = ", ".join(root or asked.base for root in asked.roots)
+    for root in asked.roots:
+        if os.path.lexists(os.path.join(asked.base, root, "COLCON_IGNORE")):
+            skipped = f"colcon skips {root or 'it'} for its COLCON_IGNORE; give a folder in it"
+            return f"ros-lint: no package found below {places}: {skipped}"
     return f"ros-lint: no package found below {places}; is there a package.xml?"
 
 

@@ -64,6 +64,15 @@ def test_an_empty_folder(tmp_path: Path) -> None:
         assert form or ran.out["packages"] == 0
 
 
+def test_a_folder_that_colcon_skips(tmp_path: Path) -> None:
+    package(tmp_path / "ws" / "src", "robot")
+    (tmp_path / "COLCON_IGNORE").write_text("")
+    ran = lint(tmp_path)
+    assert ran.code == 2
+    assert f"below {tmp_path}: colcon skips it for its COLCON_IGNORE; give a folder in it" in ran.err
+    assert lint(tmp_path / "ws").out["packages"] == 1
+
+
 def test_a_missing_path(tmp_path: Path) -> None:
     ran = lint(tmp_path / "nowhere")
     assert ran.code == 2
