@@ -62,7 +62,7 @@ def by_ros_lint(text: str, context: Mapping[str, str]) -> bool | None:
     return answer
 
 
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=400)
 @given(st.one_of(valid, broken), contexts)
 def test_same_answer_as_catkin_pkg(text: str, context: dict[str, str]) -> None:
     assert by_ros_lint(text, context) == by_catkin_pkg(text, context)
@@ -79,7 +79,7 @@ def test_errors_are_inside_the_text(text: str) -> None:
     assert 0 <= offset <= len(text)
 
 
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=400)
 @given(valid, contexts, st.lists(st.lists(st.sampled_from(VALUES), min_size=5, max_size=5), min_size=1, max_size=5))
 def test_what_is_certain_holds_for_every_completion(text: str, known: dict[str, str], completions: list[list[str]]) -> None:
     certain = conditions.truth(text, known)

@@ -142,7 +142,7 @@ PIECES = st.sampled_from(
 
 @given(st.lists(st.tuples(PIECES, st.sampled_from(["\n", "\n", "\n", " ", ""])), max_size=14))
 @example([("*//*", "\n"), ("/*// #include <n/o.h>", "\n"), ("#include <a/b.hpp>", "\n")])
-@settings(max_examples=1500, deadline=None)
+@settings(max_examples=1500)
 def test_same_includes_as_a_plain_preprocessor(parts: list[tuple[str, str]]) -> None:
     # What follows a condition on its line would be an error, about which both readers may think as they like.
     text = "".join(piece + ("\n" if re.match("#(if|el|endif)", piece) else end) for piece, end in parts)
@@ -158,7 +158,7 @@ def test_brackets_hide_what_looks_like_a_comment() -> None:
 
 
 @given(st.text(alphabet="#includef <>\"'/*\\\nR()01x\r", max_size=80))
-@settings(max_examples=1500, deadline=None)
+@settings(max_examples=1500)
 def test_any_text_is_read(text: str) -> None:
     for mention in cpp.collect(source := Text("a.h", text)).mentions:
         assert source.slice(mention.span) == mention.name

@@ -39,7 +39,7 @@ def with_(*children: str, form: str = "3", own: str = GOOD) -> str:
     return own.replace('format="3"', f'format="{form}"').replace("</package>", "\n".join(children) + "\n</package>")
 
 
-@settings(max_examples=500, deadline=None)
+@settings(max_examples=500)
 @given(numbers, st.lists(st.tuples(numbers, numbers, numbers), max_size=4), st.one_of(st.just(0), numbers))
 @example(0, [], 8)
 @example(1, [], 4)
@@ -48,7 +48,7 @@ def test_same_as_catkin_pkg(seed: int, ops: list[tuple[int, int, int]], encoding
     assert list(differences(mutate(seed, ops, encoding))) == []
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(st.one_of(st.binary(max_size=200), st.text(max_size=200).map(lambda text: text.encode("utf-8", "surrogatepass"))))
 def test_garbage_is_rejected_and_never_raises(data: bytes) -> None:
     assert of(data).problems

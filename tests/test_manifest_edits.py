@@ -87,7 +87,7 @@ def manifests(draw: st.DrawFn) -> str:
     return text
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(manifests(), st.sampled_from(TAGS), st.sampled_from(["mid_name", "aaa", "zzz"]))
 def test_add(text: str, tag: str, name: str) -> None:
     after = apply(text, [manifest_edits.add(read(text), tag, name)])
@@ -95,7 +95,7 @@ def test_add(text: str, tag: str, name: str) -> None:
     assert_in_style(text, after)
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(manifests(), st.integers(0, 7))
 def test_remove(text: str, which: int) -> None:
     manifest = read(text)
@@ -109,7 +109,7 @@ def test_remove(text: str, which: int) -> None:
     assert_in_style(re.sub("<!-- in -->", "", text), re.sub("<!-- in -->", "", after))
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(manifests(), st.integers(0, 7), st.sampled_from([tag for tag in TAGS if "group" not in tag]))
 def test_change_tag_and_rename(text: str, which: int, tag: str) -> None:
     manifest = read(text)
@@ -124,7 +124,7 @@ def test_change_tag_and_rename(text: str, which: int, tag: str) -> None:
     assert declared(renamed) == declared(text) - gone + Counter([(depend.tag, "renamed", depend.condition)])
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(manifests())
 def test_sort(text: str) -> None:
     changes = manifest_edits.sort(read(text))

@@ -166,7 +166,7 @@ def test_scan_and_tree_agree(seed: int) -> None:
 
 
 @given(st.text(alphabet="import from as.x,\n\t \"'#\\();:", max_size=60))
-@settings(max_examples=500, deadline=None)
+@settings(max_examples=500)
 def test_any_text_is_read(text: str) -> None:
     source = Text("a.py.in", text)
     for mention in python.collect(source).mentions:

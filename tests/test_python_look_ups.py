@@ -102,7 +102,7 @@ CALLS = st.sampled_from(
 
 
 @given(st.lists(CALLS, max_size=6))
-@settings(max_examples=500, deadline=None)
+@settings(max_examples=500)
 def test_look_ups_with_and_without_a_parser_agree(lines: list[str]) -> None:
     source = Text("a.py", "\n".join(lines) + "\n")
     try:
@@ -143,7 +143,7 @@ NAMED = st.sampled_from(
 
 
 @given(st.lists(NAMED, max_size=9))
-@settings(max_examples=600, deadline=None)
+@settings(max_examples=600)
 def test_what_is_left_out_says_nothing(lines: list[str]) -> None:
     source = Text("a.py", _functions(lines))
     try:

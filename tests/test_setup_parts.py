@@ -92,7 +92,7 @@ LINES = st.sampled_from(
 
 
 @given(st.lists(LINES, max_size=10), st.sampled_from(["\n", "\r\n"]))
-@settings(max_examples=1000, deadline=None)
+@settings(max_examples=1000)
 def test_setup_cfg_is_read_as_by_configparser(lines: list[str], newline: str) -> None:
     source = Text("setup.cfg", newline.join(lines))
     found = setup_cfg.collect(source)
