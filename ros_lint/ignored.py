@@ -17,8 +17,8 @@ class Pattern(NamedTuple):
 
     folder: str
     """Where the file lies; what is not below it is not meant."""
-    regex: re.Pattern[str]
-    """Of a path below the folder."""
+    regex: str
+    """Of a path below the folder. Most runs never ask, so it is compiled when it is needed."""
     negated: bool
     """Whether it takes back what an earlier line said."""
 
@@ -53,18 +53,20 @@ def patterns(folder: str, text: str) -> Iterator[Pattern]:
         whole = line.rstrip("/")
         if whole:
             anywhere = "" if "/" in whole else "(?:.*/)?"
-            yield Pattern(folder, re.compile(anywhere + _regex(whole.lstrip("/")) + r"\Z", re.DOTALL), negated)
+            yield Pattern(folder, anywhere + _regex(whole.lstrip("/")) + r"\Z", negated)
 
 
 def is_ignored(given: Iterable[Pattern], path: str) -> bool:
     """Return whether git leaves out a path, which need not exist: it, or a folder it is in."""
     ours = [
-        (one, len(one.folder) + 1 if one.folder else 0) for one in given if not one.folder or path.startswith(f"{one.folder}/")
+        (re.compile(one.regex, re.DOTALL), len(one.folder) + 1 if one.folder else 0, one.negated)
+        for one in given
+        if not one.folder or path.startswith(f"{one.folder}/")
     ]
     parts = path.split("/")
     for number in range(len(parts)) if ours else ():
         place = "/".join(parts[: number + 1])
-        said = [not one.negated for one, start in ours if len(place) > start and one.regex.match(place, start)]
+        said = [not negated for regex, start, negated in ours if len(place) > start and regex.match(place, start)]
         if said and said[-1]:
             return True
     return False
