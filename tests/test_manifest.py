@@ -69,6 +69,24 @@ def test_files_are_read_as_the_tools_read_them(tmp_path: Path) -> None:
         assert accepted == (not of(data).problems)
 
 
+@pytest.mark.parametrize(
+    "content",
+    [
+        "<![CDATA[x]]>",
+        "a>b",
+        "a &amp; b",
+        "a &#62; b<!-- c -->",
+        "a > <b>c</b> &lt; d",
+        "x> <?pi y?> z",
+        "x><![CDATA[y>]]>",
+        "a\r\nb<b/>",
+    ],
+)
+def test_content_with_markup_is_that_of_catkin_pkg(content: str) -> None:
+    elements = f"<export><build_type>{content}</build_type></export></package>"
+    assert list(differences(GOOD.replace("</package>", elements).replace(">d<", f">{content}<").encode())) == []
+
+
 @pytest.mark.skipif("ROS_LINT_CORPUS" not in os.environ, reason="no directory of repositories given")
 def test_corpus() -> None:
     for folder, _, files in os.walk(os.environ["ROS_LINT_CORPUS"]):

@@ -129,9 +129,18 @@ def markup(text: str, node: Node) -> str:
     raw = text[node.inner : node.close].replace("<![CDATA[]]>", "").strip(BLANK)  # xml.dom.minidom drops empty ones, too
     if "<" not in raw:
         return value(text, node)[0]
-    if any(_counts(piece) for piece in _PIECE.finditer(raw)):
-        return raw.replace("\r\n", "\n").replace("\r", "\n")
-    return ""
+    pieces = list(_PIECE.finditer(raw))
+    if not any(_counts(piece) for piece in pieces):
+        return ""
+    return "".join([_escaped(_resolve(p)) if p.lastgroup in ("text", "entity") else _one_newline(p[0]) for p in pieces])
+
+
+def _escaped(text: str) -> str:
+    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+
+
+def _one_newline(text: str) -> str:
+    return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
 def _counts(piece: re.Match[str]) -> bool:
