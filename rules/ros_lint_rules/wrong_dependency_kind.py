@@ -93,14 +93,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for declared in package.declared:
         by_name.setdefault(declared.name, []).append(declared)
     for need in needs(package, workspace):
-        if not need.declared:
+        if not need.declared or any(_is_for_all(declared) for name in need.declared for declared in by_name[name]):
             continue
         # A key to build with and another one to run with are complete together.
         names = dict.fromkeys((*need.declared, *(name for use in need.uses for name in use.providers if name in by_name)))
         tags = [declared for name in names for declared in by_name[name]]
-        if any(declared.depend.tag == "depend" or declared.depend.condition for declared in tags):
-            continue
-        if comes_with_launching(package, need.uses):
+        if any(map(_is_for_all, tags)) or comes_with_launching(package, need.uses):
             continue
         seen = need._replace(uses=tuple(_outside(package, need, hopeful=False)))
         lacking = _lacks(package, workspace, seen, tags)
@@ -125,6 +123,11 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             Fix(f"declare {name} as <{tag}>", change_dependency(package, mine, tag)),
             lacking.confidence,
         )
+
+
+def _is_for_all(declared: Declared) -> bool:
+    """Whether an element is enough for whatever it is needed for, or may be."""
+    return declared.depend.tag == "depend" or bool(declared.depend.condition)
 
 
 def _targets(package: Package) -> tuple[BuildTarget, ...]:
