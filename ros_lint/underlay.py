@@ -21,7 +21,7 @@ from ros_lint.tree import Machine, join
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
-    from ros_lint.knowledge.provides import Facet
+    from ros_lint.knowledge.provides import Offer
     from ros_lint.tree import Tree
 
 
@@ -79,10 +79,10 @@ class Installed:
         """Return the groups that it is a member of, ``rosidl_interface_packages`` included."""
         return self.released.groups if self.released else ()
 
-    def known(self, facet: Facet) -> Known:
+    def known(self, offer: Offer) -> Known:
         """Return what is known of one side of the package. Python modules may be hidden by develop installs."""
         prefix = self.prefix
-        match facet:
+        match offer:
             case "executables":
                 names, broken = prefix.executables(self.name)
                 return Known(names, broken, complete=True)

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from ros_lint.knowledge import Knowledge
     from ros_lint.knowledge.index import Released
-    from ros_lint.knowledge.provides import Facet, Known
+    from ros_lint.knowledge.provides import Known, Offer
     from ros_lint.underlay import Installed, Underlay
 
 _SHARED = re.compile(r"lib(?!.*-dev\b).*[0-9][a-z]?\Z")
@@ -307,11 +307,11 @@ class World:
             found = self._is[name] = (self.layer(name) is not None, name in self.knowledge.rosdep)
         return found
 
-    def _known(self, name: str, facet: Facet) -> Known:
+    def _known(self, name: str, offer: Offer) -> Known:
         if name in self._members:
             return NOTHING_KNOWN
         installed = self._installed.get(name)
-        return installed.known(facet) if installed is not None else self.knowledge.provides.known(name, facet)
+        return installed.known(offer) if installed is not None else self.knowledge.provides.known(name, offer)
 
     def _brings(self, name: str) -> tuple[str, ...] | None:
         member = self._members.get(name)

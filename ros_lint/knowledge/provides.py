@@ -13,9 +13,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
 Answer = Literal["exists", "missing", "unknowable"]
-Facet = Literal["executables", "launch", "components", "plugins", "modules", "interfaces", "programs"]
+Offer = Literal["executables", "launch", "components", "plugins", "modules", "interfaces", "programs"]
 
-LETTERS: Mapping[Facet, str] = {
+LETTERS: Mapping[Offer, str] = {
     "executables": "X",
     "launch": "L",
     "components": "C",
@@ -68,13 +68,13 @@ class Provided(NamedTuple):
         """Return whether a name that is not here does not exist either."""
         return self.origin in {"=", "b"}
 
-    def known(self, facet: Facet) -> Known:
-        names = self.fields.get(LETTERS[facet], ())
+    def known(self, offer: Offer) -> Known:
+        names = self.fields.get(LETTERS[offer], ())
         return Known(
             tuple(name for name in names if not name.endswith("?")),
             tuple(name[:-1] for name in names if name.endswith("?")),
             self.solid,
-            LAUNCH_ENDINGS if facet == "launch" else (),
+            LAUNCH_ENDINGS if offer == "launch" else (),
         )
 
 
@@ -148,10 +148,10 @@ class Provides:
         except ValueError as error:
             raise KnowledgeError(f"{self._path}: the line of {name} makes no sense: {error}") from error
 
-    def known(self, name: str, facet: Facet) -> Known:
+    def known(self, name: str, offer: Offer) -> Known:
         """Return what is known of one side of a package."""
         found = self.get(name)
-        return found.known(facet) if found else NOTHING_KNOWN
+        return found.known(offer) if found else NOTHING_KNOWN
 
 
 def load(store: Store, distro: str) -> Provides:
