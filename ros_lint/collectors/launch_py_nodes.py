@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Collection, Mapping
+from typing import Literal
 
 from ros_lint.collectors.launch_py_events import later
 from ros_lint.collectors.launch_py_methods import items
@@ -73,17 +74,8 @@ def started_node(walker: Walker, made: Made, conditions: Conditions) -> list[Lau
         children = walker.actions(made.get(-1, "composable_node_descriptions"), (), place_of(made))
     elif made.name not in _NODES:
         children = nested(walker, made)
-    node = LaunchAction(
-        "node",
-        place_of(made),
-        package=walker.value(made, -1, "package"),
-        target=walker.value(made, -1, "executable", "node_executable"),
-        name=walker.value(made, -1, "name", "node_name"),
-        namespace=walker.value(made, -1, "namespace", "node_namespace"),
+    node = _started("node", "executable", walker, made, conditions)._replace(
         arguments=_given(walker, made, "arguments", "ros_arguments", "prefix", "additional_env", "env", "cwd"),
-        parameters=_parameters(walker, made),
-        remappings=_remappings(walker, made),
-        conditions=conditions,
         children=tuple(children),
     )
     return [node, *later(walker, made, "on_exit")]
@@ -91,19 +83,22 @@ def started_node(walker: Walker, made: Made, conditions: Conditions) -> list[Lau
 
 def _component(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
     _note_refused(walker, made, conditions, _OF_COMPONENTS)
-    return [
-        LaunchAction(
-            "component",
-            place_of(made),
-            package=walker.value(made, -1, "package"),
-            target=walker.value(made, -1, "plugin", "node_plugin"),
-            name=walker.value(made, -1, "name", "node_name"),
-            namespace=walker.value(made, -1, "namespace", "node_namespace"),
-            parameters=_parameters(walker, made),
-            remappings=_remappings(walker, made),
-            conditions=conditions,
-        )
-    ]
+    return [_started("component", "plugin", walker, made, conditions)]
+
+
+def _started(kind: Literal["node", "component"], target: str, walker: Walker, made: Made, conditions: Conditions) -> LaunchAction:
+    """Return what nodes and components have in common, by the names of today and those of old."""
+    return LaunchAction(
+        kind,
+        place_of(made),
+        package=walker.value(made, -1, "package"),
+        target=walker.value(made, -1, target, f"node_{target}"),
+        name=walker.value(made, -1, "name", "node_name"),
+        namespace=walker.value(made, -1, "namespace", "node_namespace"),
+        parameters=_parameters(walker, made),
+        remappings=_remappings(walker, made),
+        conditions=conditions,
+    )
 
 
 def _load(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
