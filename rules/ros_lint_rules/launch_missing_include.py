@@ -94,15 +94,15 @@ def _passed(workspace: Workspace) -> Iterator[Finding]:
     including = [(package, file) for package, file in files if links.includes(file)]
     inner = {each.path for _, file in including for each in links.includes(file)}
     missing = _Missing(workspace)
-    if not any(missing.among(passed_files(file, workspace)) for _, file in including if file.path not in inner):
+    if not any(missing.passed_by(file) for _, file in including if file.path not in inner):
         return  # most workspaces are right, and to follow what others include costs as much again
     found: dict[_Key, tuple[PassedFile, Package, LaunchFile]] = {}
     for package, file in including:
-        for key, one in missing.among(passed_files(file, workspace)).items():
+        for key, one in missing.passed_by(file).items():
             if key not in found or one.depth < found[key][0].depth:
                 found[key] = one, package, file
     for key, (one, package, file) in found.items():
-        sure = one.sure and key in missing.among(passed_files(file, workspace, settled=True))
+        sure = one.sure and key in missing.passed_by(file, settled=True)
         others_there = _files_without(one.package, one.path, one.kind, workspace) or ()
         hint = _hint(one.path, others_there)
         yield Finding(
@@ -116,14 +116,24 @@ def _passed(workspace: Workspace) -> Iterator[Finding]:
 
 
 class _Missing:
-    """Which of the files that are passed on are missing, each looked for once."""
+    """Which of the files that are passed on are missing; each is looked for once, and each launch file followed once."""
 
     def __init__(self, workspace: Workspace) -> None:
         self._workspace = workspace
         self._known: dict[tuple[str, str, str], bool] = {}
+        self._passed: dict[tuple[str, bool], dict[_Key, PassedFile]] = {}
 
-    def among(self, files: Iterable[PassedFile]) -> dict[_Key, PassedFile]:
-        """Return the missing ones by what they are and who names them, without those that a launch file names by itself."""
+    def passed_by(self, file: LaunchFile, *, settled: bool = False) -> dict[_Key, PassedFile]:
+        """Return what is missing when a file is launched, see :func:`passed_files`, by what it is and who names it.
+
+        What a launch file names by itself is left out.
+        """
+        key = file.path, settled
+        if key not in self._passed:
+            self._passed[key] = self._among(passed_files(file, self._workspace, settled=settled))
+        return self._passed[key]
+
+    def _among(self, files: Iterable[PassedFile]) -> dict[_Key, PassedFile]:
         found: dict[_Key, PassedFile] = {}
         for one in files:
             place = (one.package, one.path, one.kind)
