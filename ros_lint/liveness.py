@@ -270,7 +270,7 @@ class Liveness:
         always = [(p.source, p.path) for p in self._script.provides if p.source and not p.conditional]
         found = {source for source, path in always if source in self._launched or path.startswith(_PROGRAMS)}
         commands = [entry for entry in self._script.entry_points if entry.group in ("console_scripts", "gui_scripts")]
-        modules = [entry.target.partition(":")[0].strip().replace(".", "/") for entry in commands]
+        modules = [entry.module.replace(".", "/") for entry in commands]
         return frozenset([*found, *(f"{folder}{module}.py" for module in modules for folder in ("", "src/"))])
 
     @cached_property

@@ -158,7 +158,7 @@ def _python(tree: Tree, found: Found) -> BuildScript | None:
 def _modules(tree: Tree, found: Found, script: BuildScript) -> Iterator[PythonModule]:
     """Yield the modules of the package that its entry points name."""
     files = frozenset(found.files)
-    for name in dict.fromkeys(entry.target.partition(":")[0].strip() for entry in script.entry_points):
+    for name in dict.fromkeys(entry.module for entry in script.entry_points):
         stem = name.replace(".", "/")
         ends = (f"{stem}.py", f"{stem}/__init__.py")
         path = next((f"{top}{end}" for end in ends for top in ("", "src/") if f"{top}{end}" in files), None)

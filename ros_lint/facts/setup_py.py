@@ -16,6 +16,11 @@ class EntryPoint(NamedTuple):
     """``module:attribute``."""
     span: Span
 
+    @property
+    def module(self) -> str:
+        """The dotted name of the module."""
+        return self.target.partition(":")[0].strip()
+
 
 class PythonModule(NamedTuple):
     """A module of the package's own that an entry point names."""

@@ -61,12 +61,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         for entry in script.entry_points
         if entry.group == "console_scripts"
         and entry.name in outside
-        and (modules.get(entry.target.partition(":")[0].strip()) in using or entry.name in started)
+        and (modules.get(entry.module) in using or entry.name in started)
     ]
     if not nodes or any(entry.group.startswith("ros2cli.") for entry in script.entry_points):
         return
     defining = {module.name for module in script.modules if _NODES.intersection(module.names)}
-    sure = any(entry.name in started or entry.target.partition(":")[0].strip() in defining for entry in nodes)
+    sure = any(entry.name in started or entry.module in defining for entry in nodes)
     config = f"{package.path}/setup.cfg" if package.path else "setup.cfg"
     there = "setup.cfg" in package.files
     names = [entry.name for entry in nodes]

@@ -60,7 +60,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if module.name in installed or inside in installed or not inside or inside in told:
             continue
         told.add(inside)
-        entry = next(entry for entry in script.entry_points if entry.target.partition(":")[0].strip() == module.name)
+        entry = next(entry for entry in script.entry_points if entry.module == module.name)
         folder = module.path.rpartition("/")[0]
         whole = f"{folder}/__init__.py" in package.files
         way = "" if whole else f"; add {folder}/__init__.py"
