@@ -14,12 +14,13 @@ from typing import TYPE_CHECKING
 from ros_lint.collectors.launch import entries
 from ros_lint.collectors.launch_py_actions import LAUNCHED, walker
 from ros_lint.collectors.launch_py_objects import PERHAPS, Frame, Function, OutOfBudget, Raised, Source
-from ros_lint.collectors.launch_py_refused import misplaced, place_of, undefined
+from ros_lint.collectors.launch_py_refused import misplaced, undefined
 from ros_lint.collectors.launch_py_run import Machine, Modules
 from ros_lint.collectors.launch_py_texts import Within, texts
 from ros_lint.collectors.launch_py_walk import span_of
 from ros_lint.collectors.launch_references import References, asks_first
 from ros_lint.collectors.launch_text import UNKNOWN
+from ros_lint.collectors.python_syntax import refusal
 from ros_lint.facts.launch import LaunchAction, LaunchFile
 from ros_lint.facts.sight import Facet, Opaque, Problem
 from ros_lint.text import Span, Text
@@ -47,9 +48,8 @@ def collect(
             warnings.simplefilter("ignore")  # about escapes in somebody's strings
             tree = ast.parse(source.text)
     except SyntaxError as error:
-        at = place_of(source, error)
-        problem = Problem("syntax", f"not valid Python: {error.msg}", at)
-        opaque = Opaque(Facet.USES, "the file is no Python that can be read", at)
+        problem = refusal(source, error.msg, error.lineno or 1, error.offset or 1)
+        opaque = Opaque(Facet.USES, "the file is no Python that can be read", problem.span)
         return LaunchFile(source.path, "python", (), (opaque,), (problem,), test, helper)
     except (ValueError, RecursionError, MemoryError):
         opaque = Opaque(Facet.USES, "the file is nested too deeply, or no text", source.span(0, 0))

@@ -9,11 +9,12 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.launch_py_walk import span_of
+from ros_lint.collectors.python_syntax import refusal
 from ros_lint.facts.sight import Problem
-from ros_lint.text import Span, Text
 
 if TYPE_CHECKING:
     from ros_lint.collectors.launch_py_objects import Source
+    from ros_lint.text import Text
 
 _ANYWHERE = frozenset({"exec", "eval", "globals", "locals", "vars", "setattr"})
 """What can bind names that are not written."""
@@ -27,16 +28,9 @@ def misplaced(tree: ast.Module, source: Text) -> Iterator[Problem]:
             warnings.simplefilter("ignore")
             compile(tree, source.path, "exec", dont_inherit=True)  # nothing is run
     except SyntaxError as error:
-        yield Problem("syntax", f"not valid Python: {error.msg}", place_of(source, error))
+        yield refusal(source, error.msg, error.lineno or 1, error.offset or 1)
     except (ValueError, RecursionError, MemoryError):
         return  # too deep for this Python, perhaps not for another
-
-
-def place_of(source: Text, error: SyntaxError) -> Span:
-    """Return the place of a syntax error; Python may point behind the end of the file."""
-    line = min(max(error.lineno or 1, 1), source.line_count)
-    column = min(max(error.offset or 1, 1), len(source.line(line)) + 1)
-    return Span(source.path, line, column, line, column)
 
 
 def undefined(tree: ast.Module, source: Source, met: Iterable[tuple[ast.expr, Source]]) -> Iterator[Problem]:

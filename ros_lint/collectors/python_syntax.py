@@ -8,9 +8,10 @@ import warnings
 from typing import TYPE_CHECKING
 
 from ros_lint.facts.sight import Problem
+from ros_lint.text import Span
 
 if TYPE_CHECKING:
-    from ros_lint.text import Span, Text
+    from ros_lint.text import Text
 
 # What only Python 2 reads. One is enough: such a file is not meant for the interpreter that looks at it.
 _PYTHON_2 = re.compile(
@@ -87,7 +88,11 @@ def syntax_problem(source: Text, error: NotPythonError) -> Problem | None:
         return None
     else:
         return None
-    line = min(max(error.line, 1), source.line_count)
-    column = min(max(error.column, 1), len(source.line(line)) + 1)
-    at = source.offset(line, column)
-    return Problem("syntax", f"not valid Python: {error.message}", source.span(at, at))
+    return refusal(source, error.message, error.line, error.column)
+
+
+def refusal(source: Text, message: str, line: int, column: int) -> Problem:
+    """Return what Python says against a source; the place that it names may lie behind the end of the file."""
+    line = min(max(line, 1), source.line_count)
+    column = min(max(column, 1), len(source.line(line)) + 1)
+    return Problem("syntax", f"not valid Python: {message}", Span(source.path, line, column, line, column))
