@@ -46,6 +46,7 @@ from ros_lint.collectors.launch_py_operations import negated, text_of
 from ros_lint.collectors.launch_py_statements import LEAVE, execute
 from ros_lint.collectors.launch_py_texts import Within, texts
 from ros_lint.collectors.launch_text import UNKNOWN, fill, is_settled, joined
+from ros_lint.collectors.python_syntax import NotPythonError, parse
 from ros_lint.facts.launch import LaunchCondition
 from ros_lint.text import Text
 
@@ -168,8 +169,8 @@ class Machine:
             return None
         found = Source(text)
         try:
-            tree = ast.parse(text.text)
-        except (SyntaxError, ValueError, RecursionError, MemoryError):
+            tree = parse(text)
+        except NotPythonError:
             return None
         self._sources[key] = found
         self.run(tree, found)
