@@ -107,7 +107,7 @@ def value(text: str, node: Node) -> tuple[str, int, int]:
     found = raw.strip(BLANK)
     if "<" not in raw and "&" not in raw:
         start = node.inner + (len(raw) - len(raw.lstrip(BLANK)) if found else 0)
-        return found.replace("\r\n", "\n").replace("\r", "\n") if "\r" in found else found, start, start + len(found)
+        return _one_newline(found) if "\r" in found else found, start, start + len(found)
     parts: list[str] = []
     places: list[int] = []
     depth = 0
@@ -153,7 +153,7 @@ def _counts(piece: re.Match[str]) -> bool:
 def _resolve(piece: re.Match[str]) -> str:
     entity = piece["entity"]
     if entity is None:
-        return piece[0].replace("\r\n", "\n").replace("\r", "\n")
+        return _one_newline(piece[0])
     if entity.startswith("#x"):
         return chr(int(f"0{entity[1:]}", 0))
     if entity.startswith("#"):
