@@ -76,13 +76,9 @@ def _bare(reader: Reader, entity: Entity) -> LaunchAction:
     return LaunchAction("other", entity.span, conditions=reader.conditions(entity))
 
 
-def _kept(reader: Reader, entity: Entity) -> tuple[tuple[str, LaunchValue], ...]:
-    return tuple((name, value) for name, value in reader.named(entity, "keep"))
-
-
 def _reset(reader: Reader, entity: Entity) -> LaunchAction:
     conditions = reader.conditions(entity)
-    return LaunchAction("other", entity.span, arguments=_kept(reader, entity), conditions=conditions)
+    return LaunchAction("other", entity.span, arguments=reader.named(entity, "keep"), conditions=conditions)
 
 
 def _log(reader: Reader, entity: Entity) -> LaunchAction:
@@ -101,7 +97,7 @@ def _group(reader: Reader, entity: Entity) -> LaunchAction:
     conditions = reader.conditions(entity)
     scoped = entity.get("scoped", "bool")
     entity.get("forwarding", "bool")
-    kept = _kept(reader, entity)
+    kept = reader.named(entity, "keep")
     children = reader.actions(child for child in entity.actions() if child.tag != "keep")
     name = LaunchValue(("unscoped",), entity.span) if scoped is False else None
     return LaunchAction("group", entity.span, name=name, arguments=kept, conditions=conditions, children=tuple(children))
