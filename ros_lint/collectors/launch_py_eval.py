@@ -6,6 +6,7 @@ import ast
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
+from ros_lint.collectors.launch_py_bindings import bind
 from ros_lint.collectors.launch_py_methods import attribute, items
 from ros_lint.collectors.launch_py_objects import (
     PERHAPS,
@@ -53,7 +54,7 @@ def _name(machine: Machine, node: ast.Name, frame: Frame) -> Value:
         if node.id in around.names:
             return around.names[node.id]
         around = around.outer
-    return machine.builtin(node.id, node, frame)
+    return machine.builtin(node, frame)
 
 
 def _list(machine: Machine, node: ast.List, frame: Frame) -> Value:
@@ -269,7 +270,7 @@ def _generate(machine: Machine, generators: list[ast.comprehension], frame: Fram
     else:
         guards = [(plain(one), _around(one)) for one in values]
     for value, conditions in guards:
-        machine.bind(first.target, value, frame)
+        bind(machine, first.target, value, frame)
         needed = list(conditions)
         for test in first.ifs:
             answer, condition = truth(machine, machine.evaluate(test, frame))
@@ -299,7 +300,7 @@ def _slice_object(machine: Machine, node: ast.Slice, frame: Frame) -> Value:  # 
 
 def _named(machine: Machine, node: ast.NamedExpr, frame: Frame) -> Value:
     value = machine.evaluate(node.value, frame)
-    machine.bind(node.target, value, frame)
+    bind(machine, node.target, value, frame)
     return value
 
 

@@ -33,9 +33,9 @@ def misplaced(tree: ast.Module, source: Text) -> Iterator[Problem]:
         return  # too deep for this Python, perhaps not for another
 
 
-def undefined(tree: ast.Module, source: Source, met: Iterable[tuple[ast.expr, Source]]) -> Iterator[Problem]:
+def undefined(tree: ast.Module, source: Source, met: Iterable[tuple[ast.Name, Source]]) -> Iterator[Problem]:
     """Yield those names that were met, bound by nothing, of which it is sure that Python stops there."""
-    names = [node for node, where in met if where is source and isinstance(node, ast.Name) and node.id not in _KNOWN]
+    names = [node for node, where in met if where is source and node.id not in _KNOWN]
     if not names:
         return
     bound, guarded = set[str](), set[ast.AST]()

@@ -14,7 +14,6 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 
 from ros_lint.collectors.launch_expression import evaluate
-from ros_lint.collectors.launch_py_bindings import bind
 from ros_lint.collectors.launch_py_builtins import BUILTINS
 from ros_lint.collectors.launch_py_eval import EVALUATE
 from ros_lint.collectors.launch_py_library import call_library, subscript_library
@@ -53,7 +52,6 @@ from ros_lint.text import Text
 STEPS = 150_000
 _STEPS_A_CALL = 60_000
 _DEEPEST_CALL = 40
-_MOST_TURNS = 2_000
 
 _NEVER_WANTED = sys.stdlib_module_names | {"launch", "launch_ros", "ament_index_python", "yaml", "xacro"}
 
@@ -76,7 +74,7 @@ class Machine:
         """Everything made of the classes of the launch libraries, in order."""
         self.looked_up: list[tuple[str, ast.expr, Source, Conditions]] = []
         """Packages looked up at once, where, and under which conditions."""
-        self.unbound: list[tuple[ast.expr, Source]] = []
+        self.unbound: list[tuple[ast.Name, Source]] = []
         """Names met that nothing has bound so far."""
         self.wanted: set[str] = set()
         """Modules and files that are read and were not at hand."""
@@ -185,10 +183,6 @@ class Machine:
             raise OutOfBudget
         return EVALUATE[type(node)](self, node, frame)
 
-    def bind(self, target: ast.expr, value: Value, frame: Frame) -> None:
-        """Give a value to a target of an assignment."""
-        bind(self, target, value, frame)
-
     def function(self, node: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda, frame: Frame) -> Function:
         """Return a function of the program."""
         found = Function(node, frame)
@@ -202,15 +196,15 @@ class Machine:
 
     # --- calls ----------------------------------------------------------------------------------------------------
 
-    def builtin(self, name: str, node: ast.expr, frame: Frame) -> Value:
+    def builtin(self, node: ast.Name, frame: Frame) -> Value:
         """Return what a name means that the program does not bind."""
-        if name == "__file__":
+        if node.id == "__file__":
             return BUILTINS["__file__"]
-        if name in BUILTINS:
-            return Api(f"builtins.{name}")
+        if node.id in BUILTINS:
+            return Api(f"builtins.{node.id}")
         self.unbound.append((node, frame.source))
         # Python would stop here; what is meant is mostly plain.
-        return Api(name)
+        return Api(node.id)
 
     def call(self, function: Value, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame) -> Value:
         """Return what calling a value returns."""
