@@ -262,3 +262,9 @@ def test_many_ways_out_do_not_make_a_script_long() -> None:
 def test_texts_that_grow_and_grow_become_unknown(line: str) -> None:
     script = run(f'set(L "a;a")\nforeach(i RANGE 60)\n{line}\nendforeach()\ninstall(FILES ${{L}} DESTINATION share/pkg)\n')
     assert hidden(script) & Facet.SHARE
+
+
+def test_a_long_list_joined_by_a_long_text_becomes_unknown() -> None:
+    text = 'set(L "a;a")\nforeach(i RANGE 17)\nset(L ${L} ${L})\nendforeach()\nlist(JOIN L "${L}" L)\n'
+    script = run(text + "install(FILES ${L} DESTINATION share/pkg)\n")
+    assert hidden(script) & Facet.SHARE

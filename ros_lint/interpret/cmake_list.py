@@ -8,7 +8,7 @@ from typing import Final
 from ros_lint.interpret.cmake_regex import RegexError, anywhere, forget, translated
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_string import ascii_lower, ascii_upper, genex_strip, replace_all, strip
-from ros_lint.interpret.cmake_values import HOLE, MAYBE, data, elements, flat, is_fixed, is_known, join, sure
+from ros_lint.interpret.cmake_values import HOLE, MAYBE, data, elements, flat, glued, is_fixed, is_known, join, sure
 
 
 def _list(run: Run, args: list[str]) -> None:
@@ -286,7 +286,7 @@ def _index(text: str, length: int) -> int:
 
 
 def _join(items: list[str], args: list[str]) -> str:
-    return flat(args[0]).join(items)
+    return glued(args[0], items)
 
 
 def _sublist(items: list[str], args: list[str]) -> str:

@@ -8,7 +8,7 @@ from typing import Final
 
 from ros_lint.interpret.cmake_regex import RegexError, anywhere, clear, every, find, forget, store
 from ros_lint.interpret.cmake_run import Handler, Run
-from ros_lint.interpret.cmake_values import ATOM, BINARY, HOLE, LONGEST, PREFIX, SOURCE, data, is_fixed, is_known, join
+from ros_lint.interpret.cmake_values import ATOM, BINARY, HOLE, LONGEST, PREFIX, SOURCE, data, glued, is_fixed, is_known, join
 from ros_lint.interpret.cmake_values import flat as flat_value
 
 _UPPER: Final = {number: number - 32 for number in range(ord("a"), ord("z") + 1)}
@@ -146,9 +146,7 @@ def _repeat(text: str, count: str) -> str:
 
 
 def _join(glue: str, *inputs: str) -> str:
-    if len(glue) * len(inputs) + sum(map(len, inputs)) > LONGEST:
-        return HOLE
-    return flat_value(glue).join(map(flat_value, inputs))
+    return glued(glue, inputs)
 
 
 def _concat(*inputs: str) -> str:

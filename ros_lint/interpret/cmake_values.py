@@ -138,6 +138,13 @@ def join(values: Iterable[str]) -> str:
     return ";".join(found)
 
 
+def glued(glue: str, texts: Sequence[str]) -> str:
+    """Return texts with another one between them, a HOLE when that is too long: a loop may double it each time."""
+    if len(glue) * len(texts) + sum(map(len, texts)) > LONGEST:
+        return HOLE
+    return flat(glue).join(map(flat, texts))
+
+
 def sure(element: str) -> tuple[str, bool]:
     """Return a list element without its mark, and whether it is certainly there."""
     return (element[1:], False) if element[:1] == MAYBE else (element, True)
