@@ -65,7 +65,9 @@ _OPERATOR = re.compile("==|!=|>=|>|<=|<")
 _OPERAND = re.compile(
     r"""\$(?P<variable>[A-Za-z0-9_]+)|(?P<word>[A-Za-z0-9_-]+)|"(?P<double>[^"\n\r]*)"|'(?P<single>[^'\n\r]*)'"""
 )
-_ESCAPES = re.compile(r"\\([tnfr])")
+_ESCAPES = re.compile(r"\\(?:([tnfr])|([0-7]3|0|x[0-9a-fA-F]2|u[0-9a-fA-F]4))")
+"""What pyparsing takes for escapes, since 3.1 also of numbers: one digit and how many it means to take."""
+_BLANKS = {"t": "\t", "n": "\n", "f": "\f", "r": "\r"}
 
 
 @lru_cache(maxsize=1024)
@@ -203,8 +205,17 @@ def _operand(text: str, at: int) -> tuple[Operand, int]:
     kind = found.lastgroup or ""
     written = found[kind]
     if kind in ("double", "single"):
-        written = _ESCAPES.sub(lambda escape: {"t": "\t", "n": "\n", "f": "\f", "r": "\r"}[escape[1]], written)
+        written = _ESCAPES.sub(_escaped, written)
     return Operand(written, kind == "variable"), found.end()
+
+
+def _escaped(escape: re.Match[str]) -> str:
+    if escape[1]:
+        return _BLANKS[escape[1]]
+    number: str = escape[2]
+    if number == "0":
+        return "\0"
+    return chr(int(number[1:], 16)) if number[0] in "xu" else number
 
 
 def _skip(text: str, at: int) -> int:

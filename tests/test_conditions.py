@@ -21,7 +21,7 @@ terms = st.one_of(
     st.sampled_from(VARIABLES).map(lambda name: f"${name}"),
     st.sampled_from(["1", "2", "10", "humble", "and", "or", "-", "a-b", "_"]),
     st.sampled_from(VALUES).map(lambda value: f'"{value}"'),
-    st.sampled_from([*VALUES, '"', r"a\tb", r"\n"]).map(lambda value: f"'{value}'"),
+    st.sampled_from([*VALUES, '"', r"a\tb", r"\n", r"\0", r"\x42", r"\73", r"\102"]).map(lambda value: f"'{value}'"),
 )
 blanks = st.sampled_from(["", " ", "  ", "\n", "\t"])
 operators = st.sampled_from(["==", "!=", "<", "<=", ">", ">="])
