@@ -10,7 +10,7 @@ import posixpath
 from collections.abc import Collection, Iterator, Sequence
 from typing import NamedTuple
 
-from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, installed
+from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, installed_place
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.launch_links import everything
@@ -121,9 +121,11 @@ class _Places:
         """Return the source of an installed file, "" if it is not clear which one that is."""
         if path.startswith(f"{OWN_FOLDER}/"):
             return self._beside(path[len(OWN_FOLDER) + 1 :], file, package)
-        places = list(installed(path))
-        owners = self._by_name.get(places[0].package, []) if len(places) == 1 else []
-        return self._provided(owners[0]).get(places[0].path, "") if len(owners) == 1 else ""
+        place = installed_place(path)
+        if place is None:
+            return ""
+        owners = self._by_name.get(place.package, [])
+        return self._provided(owners[0]).get(place.path, "") if len(owners) == 1 else ""
 
     def _beside(self, path: str, file: LaunchFile, package: Around) -> str:
         """Return the source of a file that is named from the folder of a launch file, where that is installed."""

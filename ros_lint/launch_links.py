@@ -6,7 +6,7 @@ import posixpath
 from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple, TypeVar
 
-from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, fill, installed, is_plain, is_settled, named_in
+from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, fill, installed_place, is_plain, is_settled, named_in
 from ros_lint.facts.launch import LaunchAction, LaunchFile, LaunchValue
 from ros_lint.facts.sources import ParameterFile
 from ros_lint.text import Span
@@ -87,8 +87,8 @@ class Links:
                 return None
             folder = own.path.rpartition("/")[0]
             return own.package.name, posixpath.normpath(posixpath.join(folder, text[len(OWN_FOLDER) + 1 :]))
-        places = list(installed(text))
-        return (places[0].package, places[0].share) if len(places) == 1 and places[0].share else None
+        place = installed_place(text)
+        return (place.package, place.share) if place is not None and place.share else None
 
     def place(self, file: LaunchFile) -> Linked | None:
         """Return where a launch file is installed, None when it is not."""
@@ -96,8 +96,8 @@ class Links:
 
     def included(self, path: str) -> LaunchFile | None:
         """Return the launch file at an install place, such as includes name."""
-        places = list(installed(path))
-        found = self._by_path.get((places[0].package, places[0].share or ""), []) if len(places) == 1 else []
+        place = installed_place(path)
+        found = self._by_path.get((place.package, place.share or ""), []) if place is not None else []
         return found[0].file if len(found) == 1 else None
 
     def includes(self, file: LaunchFile) -> list[LaunchFile]:

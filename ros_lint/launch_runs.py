@@ -5,7 +5,7 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from ros_lint.collectors.launch_text import UNKNOWN, installed, is_settled, share
+from ros_lint.collectors.launch_text import UNKNOWN, installed_place, is_settled, share
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -69,7 +69,7 @@ def passed_files(file: LaunchFile, workspace: Workspace, *, settled: bool = Fals
         named = [started.target] if kind == "include" else [texts for name, texts in started.parameters if not name]
         for texts in named:
             for text in texts:
-                places = list(installed(text)) if is_settled(text) else []
-                if len(places) == 1 and places[0].known and places[0].share:
-                    place, sure = places[0], started.certain and len(texts) == 1
-                    yield PassedFile(place.package, places[0].share, kind, started.span, started.via, started.depth, sure)
+                place = installed_place(text) if is_settled(text) else None
+                if place is not None and place.known and place.share:
+                    sure = started.certain and len(texts) == 1
+                    yield PassedFile(place.package, place.share, kind, started.span, started.via, started.depth, sure)

@@ -246,6 +246,12 @@ def installed(text: str) -> Iterator[Installed]:
         yield Installed(match[1], "/".join(parts))
 
 
+def installed_place(text: str) -> Installed | None:
+    """Return the one install place that a text mentions, None where it mentions none or several."""
+    places = list(installed(text))
+    return places[0] if len(places) == 1 else None
+
+
 class Conditional(str):
     """An alternative of a text that holds only under conditions."""
 
