@@ -23,24 +23,23 @@ def walker(machine: Machine, source: Source) -> Walker:
 
 
 def _include(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
-    source = plain(made.get(0, "launch_description_source"))
+    given = made.get(0, "launch_description_source")
     node, where = made.written(0, "launch_description_source"), made.source
-    while isinstance(source, Made) and source.name.endswith("LaunchDescriptionSource"):
+    while isinstance(source := plain(given), Made) and source.name.endswith("LaunchDescriptionSource"):
         node, where = source.written(0, "launch_file_path", "location", "launch_description"), source.source
-        source = plain(source.get(0, "launch_file_path", "location", "launch_description"))
+        given = source.get(0, "launch_file_path", "location", "launch_description")
     if isinstance(source, Made) and source.name == "LaunchDescription":
         return walker.actions(source, conditions)
     target = walker.text(source, node, where)
-    return [
-        LaunchAction(
-            "include",
-            place_of(made),
-            target=target,
-            package_span=walker.package_span(target),
-            arguments=tuple(_pairs(walker, made.get(1, "launch_arguments"), made)),
-            conditions=conditions,
-        )
-    ]
+    include = LaunchAction(
+        "include",
+        place_of(made),
+        target=target,
+        package_span=walker.package_span(target),
+        arguments=tuple(_pairs(walker, made.get(1, "launch_arguments"), made)),
+        conditions=conditions,
+    )
+    return walker.apart(include, given)
 
 
 def _pairs(walker: Walker, value: Value, made: Made) -> Iterator[tuple[str, LaunchValue]]:

@@ -78,12 +78,12 @@ def started_node(walker: Walker, made: Made, conditions: Conditions) -> list[Lau
         arguments=_given(walker, made, "arguments", "ros_arguments", "prefix", "additional_env", "env", "cwd"),
         children=tuple(children),
     )
-    return [node, *later(walker, made, "on_exit")]
+    return [*_apart("executable", walker, made, node), *later(walker, made, "on_exit")]
 
 
 def _component(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
     _note_refused(walker, made, conditions, _OF_COMPONENTS)
-    return [_started("component", "plugin", walker, made, conditions)]
+    return _apart("plugin", walker, made, _started("component", "plugin", walker, made, conditions))
 
 
 def _started(kind: Literal["node", "component"], target: str, walker: Walker, made: Made, conditions: Conditions) -> LaunchAction:
@@ -99,6 +99,10 @@ def _started(kind: Literal["node", "component"], target: str, walker: Walker, ma
         remappings=_remappings(walker, made),
         conditions=conditions,
     )
+
+
+def _apart(target: str, walker: Walker, made: Made, action: LaunchAction) -> list[LaunchAction]:
+    return walker.apart(action, made.get(-1, target, f"node_{target}"), made.get(-1, "package"))
 
 
 def _load(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:

@@ -129,24 +129,23 @@ class Walker:
             conditions = (*conditions, *conditions_of(condition, Within(self.machine.spend)))
         if made.name == "LaunchDescription":
             return self._description(made, conditions)
-        found = self._rules.get(made.name, self._otherwise)(self, made, conditions)
-        if found and found[0].target is not None and len(found[0].target.texts) > 1 and made.name in _TARGETS:
-            return [*self._apart(found[0], made), *found[1:]]
-        return found
+        return self._rules.get(made.name, self._otherwise)(self, made, conditions)
 
-    def _apart(self, action: LaunchAction, made: Made) -> list[LaunchAction]:
+    def apart(self, action: LaunchAction, target: Value, package: Value = None) -> list[LaunchAction]:
         """Return an action once for each target, where it is known what each depends on."""
-        targets = self._alternatives(_target(made))
+        if action.target is None or len(action.target.texts) == 1:
+            return [action]
+        targets = self._alternatives(target)
         if not all(_depends(text) for text in targets):
             return [action]
-        packages = self._alternatives(made.get(-1, "package")) if action.package is not None else ()
+        packages = self._alternatives(package)
         found: list[LaunchAction] = []
         for text in targets:
             held = launch_text.conditions_of(text)
             together = tuple(str(one) for one in packages if launch_text.agree((*held, *launch_text.conditions_of(one))))
             found.append(
                 action._replace(
-                    target=LaunchValue((str(text),), action.target.span) if action.target is not None else None,
+                    target=LaunchValue((str(text),), action.target.span),
                     package=action.package._replace(texts=together or action.package.texts) if action.package else None,
                     conditions=_merged(action.conditions, held),
                 )
@@ -230,21 +229,6 @@ def _plain(texts: Iterable[str]) -> tuple[str, ...]:
 
 def _merged(left: Conditions, right: Conditions) -> Conditions:
     return (*left, *(one for one in right if one not in left))
-
-
-_TARGETS: Mapping[str, tuple[str, ...]] = {
-    **dict.fromkeys(("Node", "LifecycleNode", "ComposableNodeContainer"), ("executable", "node_executable")),
-    "ComposableNode": ("plugin", "node_plugin"),
-    "IncludeLaunchDescription": ("launch_description_source",),
-}
-"""What says what is started, by class."""
-
-
-def _target(made: Made) -> Value:
-    found = made.get(0 if made.name == "IncludeLaunchDescription" else -1, *_TARGETS[made.name])
-    while isinstance(source := plain(found), Made) and source.name.endswith("LaunchDescriptionSource"):
-        found = source.get(0, "launch_file_path", "location", "launch_description")
-    return found
 
 
 def _depends(text: str) -> bool:
