@@ -6,8 +6,7 @@ import re
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from ros_lint.text import read
-from ros_lint.tree import Tree, join, parent
+from ros_lint.tree import Tree, join, parent, text_of
 
 _NAME = ".gitignore"
 
@@ -34,11 +33,8 @@ def find(tree: Tree, packages: Iterable[tuple[str, Iterable[str]]]) -> tuple[Pat
             above = parent(above)
     found: list[Pattern] = []
     for path in sorted(paths, key=lambda one: (one.count("/"), one)):
-        try:
-            text = read(path, tree.read(path)).text
-        except OSError:
-            continue
-        found += patterns(parent(path), text)
+        text = text_of(tree, path)
+        found += patterns(parent(path), text.text) if text else ()
     return tuple(found)
 
 

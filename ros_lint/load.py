@@ -33,8 +33,8 @@ from ros_lint.knowledge.index import TAG_KINDS
 from ros_lint.providers import offered
 from ros_lint.report import NotChecked, Target
 from ros_lint.suppress import Suppression
-from ros_lint.text import Span, Text, read
-from ros_lint.tree import OverlayTree, Tree, join
+from ros_lint.text import Span, Text
+from ros_lint.tree import OverlayTree, Tree, join, text_of
 from ros_lint.underlay import Underlay
 from ros_lint.workspace import Declared, Package, Workspace
 from ros_lint.world import Member, World
@@ -112,10 +112,7 @@ class Loader:
 
     def text(self, path: str) -> Text | None:
         """Return the text of a file, None if it cannot be read."""
-        try:
-            return read(path, self.tree.read(path))
-        except OSError:
-            return None
+        return text_of(self.tree, path)
 
     def suppressions(self, changed: Mapping[str, bytes] | None = None) -> Iterator[Suppression]:
         """Yield every comment that suppresses something, in any file of the packages loaded."""
@@ -195,7 +192,7 @@ class Loader:
             for r in reads
         ]
         resolver = evidence.Resolver(sources, world)
-        types = type_names.Types(sources, tree.read, lambda name: world.closure((name,)))
+        types = type_names.Types(sources, tree, lambda name: world.closure((name,)))
         for number, (done, source) in enumerate(zip(reads, sources, strict=True)):
             self._progress("joining", number, len(reads))
             found = done.found

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Container, Iterable, Iterator, Mapping, Sequence, Set
+from collections.abc import Container, Iterator, Mapping, Sequence, Set
 from functools import partial
 from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple
@@ -16,8 +16,8 @@ from ros_lint.discover import Found
 from ros_lint.facts.build import BuildScript, ScriptFile
 from ros_lint.facts.setup_py import PythonModule
 from ros_lint.facts.sight import ANYTHING, Facet, Opaque
-from ros_lint.text import Span, Text, read
-from ros_lint.tree import Tree, join
+from ros_lint.text import Span, Text, span_in
+from ros_lint.tree import Tree, contents, join, text_of
 
 if TYPE_CHECKING:
     from ros_lint.interpret.cmake_sources import Helper, Sources
@@ -226,20 +226,17 @@ def _named(tree: Tree, found: Found, missing: Mapping[str, Sequence[str]]) -> It
         folder, _, name = file.encode().rpartition(b"/")
         left[file] = folder.rpartition(b"/")[2], name
     if any(map(_is_picture, left)):  # most pictures are there for the documentation
-        for _, page in _contents(tree, found, (file for file in found.files if file.endswith(".md"))):
+        for _, page in contents(tree, found.path, (file for file in found.files if file.endswith(".md"))):
             left = {file: inner for file, inner in left.items() if not (_is_picture(file) and inner[1] in page)}
-    for file, data in _contents(tree, found, filter(resource_files.may_name, found.files if left else ())):
+    for path, data in contents(tree, found.path, filter(resource_files.may_name, found.files if left else ())):
         folders = {folder for folder in {folder for folder, _ in left.values()} if folder in data}
         for resource, (folder, name) in list(left.items()) if folders else ():
-            if folder not in folders or resource == file or name not in data:
+            if folder not in folders or name not in data or join(found.path, resource) == path:
                 continue
             hits = resource_files.pattern_of(resource).finditer(data)
-            hit = next((one for one in hits if not _is_remark(file, data, one.start(1))), None)
+            hit = next((one for one in hits if not _is_remark(path, data, one.start(1))), None)
             if hit:
-                line = data.count(b"\n", 0, hit.start(1)) + 1
-                column = len(data[data.rfind(b"\n", 0, hit.start(1)) + 1 : hit.start(1)].decode("utf-8", "replace")) + 1
-                path = join(found.path, file)
-                yield resource, Span(path, line, column, line, column + len(resource.rpartition("/")[2]))
+                yield resource, span_in(path, data, *hit.span(1))
                 del left[resource]
         if not left:
             return
@@ -249,15 +246,6 @@ def _is_remark(file: str, data: bytes, start: int) -> bool:
     """Whether a place in a text lies in a line that is a comment as a whole."""
     mark = b"#" if file.endswith((".py", ".yaml", ".yml")) else b"//"
     return data[data.rfind(b"\n", 0, start) + 1 : start].lstrip().startswith(mark)
-
-
-def _contents(tree: Tree, found: Found, files: Iterable[str]) -> Iterator[tuple[str, bytes]]:
-    """Yield the files that can be read, with what they hold."""
-    for file in files:
-        try:
-            yield file, tree.read(join(found.path, file))
-        except OSError:
-            continue
 
 
 def _is_picture(file: str) -> bool:
@@ -281,13 +269,7 @@ def _script_file(path: str, text: Text, executable: bool) -> ScriptFile:
 
 
 def _text(tree: Tree, found: Found, file: str) -> Text | None:
-    if file not in found.files:
-        return None
-    path = join(found.path, file)
-    try:
-        return read(path, tree.read(path))
-    except OSError:
-        return None
+    return text_of(tree, join(found.path, file)) if file in found.files else None
 
 
 def _helps(parts: Parts) -> bool:

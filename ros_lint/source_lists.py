@@ -5,8 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
-from ros_lint.text import read
-from ros_lint.tree import Tree, join, parent
+from ros_lint.tree import Tree, join, parent, text_of
 
 _ENDINGS = (".repos", ".rosinstall", ".gitmodules")
 
@@ -41,11 +40,8 @@ def submodules(tree: Tree, lists: Iterable[str]) -> tuple[str, ...]:
     for path in lists:
         if path.rpartition("/")[2] != ".gitmodules":
             continue
-        try:
-            text = read(path, tree.read(path)).text
-        except OSError:
-            continue
-        folders = (join(parent(path), match[1].strip("/")) for match in _SUBMODULE.finditer(text))
+        text = text_of(tree, path)
+        folders = (join(parent(path), match[1].strip("/")) for match in _SUBMODULE.finditer(text.text if text else ""))
         found += [folder for folder in folders if not _has_entries(tree, folder)]
     return tuple(sorted(found))
 

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 from ros_lint.declare import is_built_in_sight, is_unseen_by_name
 from ros_lint.evidence import Source, satisfying, used_names
 from ros_lint.facts.sources import Via
-from ros_lint.text import Span
-from ros_lint.tree import Tree, join
+from ros_lint.text import Span, span_in
+from ros_lint.tree import Tree, contents
 from ros_lint.type_names import Types
 from ros_lint.workspace import Package
 
@@ -49,12 +49,7 @@ def of_package(tree: Tree, package: Package, source: Source, world: World, types
 
 def _contents(tree: Tree, package: Package) -> Iterator[tuple[str, bytes]]:
     """Yield the files of a package that may say that it uses something: no prose, and not the manifest itself."""
-    for file in filter(_may_trace, package.files):
-        path = join(package.path, file)
-        try:
-            data = tree.read(path)
-        except OSError:
-            continue
+    for path, data in contents(tree, package.path, filter(_may_trace, package.files)):
         if b"\0" not in data[:1024]:
             yield path, data
 
@@ -87,10 +82,8 @@ def traces(
         if start < 0:
             continue
         file = bisect_right(starts, start) - 1
-        line_start = max(data.rfind(b"\n", 0, start) + 1, starts[file])
-        line = data.count(b"\n", starts[file], start) + 1
-        column = len(data[line_start:start].decode("utf-8", "replace")) + 1
-        found[name] = Span(listed[file][0], line, column, line, column + len(spelling))
+        offset = start - starts[file]
+        found[name] = span_in(*listed[file], offset, offset + len(spelling))
     return found
 
 

@@ -7,9 +7,11 @@ Paths are relative to the base of the tree, with forward slashes; the base itsel
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from operator import itemgetter
 from typing import Literal, NamedTuple, Protocol
+
+from ros_lint.text import Text, read
 
 Kind = Literal["file", "directory", "other"]
 
@@ -56,6 +58,23 @@ class Tree(Protocol):
 def join(directory: str, name: str) -> str:
     """Return the path of a name in a directory."""
     return f"{directory}/{name}" if directory else name
+
+
+def text_of(tree: Tree, path: str) -> Text | None:
+    """Return the text of a file, None if it cannot be read."""
+    try:
+        return read(path, tree.read(path))
+    except OSError:
+        return None
+
+
+def contents(tree: Tree, folder: str, files: Iterable[str]) -> Iterator[tuple[str, bytes]]:
+    """Yield those files below a folder that can be read, by their path in the tree, with what they hold."""
+    for path in (join(folder, file) for file in files):
+        try:
+            yield path, tree.read(path)
+        except OSError:
+            continue
 
 
 def parent(path: str) -> str:

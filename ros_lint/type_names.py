@@ -12,13 +12,14 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from ros_lint.collectors import cpp_types
 from ros_lint.liveness import HEADERS
-from ros_lint.tree import join
+from ros_lint.tree import contents, join
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
     from ros_lint.evidence import Source
     from ros_lint.text import Span
+    from ros_lint.tree import Tree
 
 _SOURCES = (*HEADERS, ".c", ".cc", ".cpp", ".cxx", ".cu")
 
@@ -40,9 +41,9 @@ class Names(Protocol):
 class Types:
     """Looks for bare names of types, in the packages of a workspace. ``along`` says what comes along with one."""
 
-    def __init__(self, sources: Sequence[Source], read: Callable[[str], bytes], along: Callable[[str], Names]) -> None:
+    def __init__(self, sources: Sequence[Source], tree: Tree, along: Callable[[str], Names]) -> None:
         self._by_name = {source.name: source for source in sources}
-        self._read = read
+        self._tree = tree
         self._along = along
         self._public: dict[str, _Wanted] = {}
         self._introduced: dict[tuple[str, str], frozenset[bytes]] = {}
@@ -106,13 +107,7 @@ class Types:
         return {name: tuple(places) for name, places in found.items()}
 
     def _texts(self, source: Source, files: Iterable[str]) -> Iterator[tuple[str, bytes]]:
-        for file in files:
-            if file.endswith(_SOURCES):
-                path = join(source.path, file)
-                try:
-                    yield path, self._read(path)
-                except OSError:
-                    continue
+        return contents(self._tree, source.path, (file for file in files if file.endswith(_SOURCES)))
 
 
 def _is_public(file: str) -> bool:

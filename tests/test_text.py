@@ -2,7 +2,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ros_lint.text import Text, decode, read
+from ros_lint.text import Text, decode, read, span_in
 
 TEXTS = st.text(st.sampled_from("ab \t\r\n\f\u2028é漢\U0001f916"), max_size=40)
 
@@ -61,3 +61,11 @@ def test_bytes_survive(data: bytes) -> None:
 )
 def test_encodings(data: bytes, text: str, codec: str) -> None:
     assert decode(data) == (text, codec)
+
+
+def test_a_place_in_bytes_is_the_one_in_the_text() -> None:
+    text = Text("a.cpp", "# ä\nä ö word ß\nlast")
+    data = text.text.encode()
+    for word in ("ä ö", "word", "ß", "last"):
+        at, start = data.index(word.encode()), text.text.index(word)
+        assert span_in("a.cpp", data, at, at + len(word.encode())) == text.span(start, start + len(word))

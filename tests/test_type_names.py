@@ -6,6 +6,7 @@ from ros_lint.collectors.cpp_types import declared, introduced
 from ros_lint.evidence import Source
 from ros_lint.facts.sources import FileFacts, Mention
 from ros_lint.text import Span
+from ros_lint.tree import MemoryTree
 from ros_lint.type_names import Types
 
 ROUTE = b"namespace house::route_handler {\nclass HOUSE_PUBLIC RouteHandler : Base {};\nstruct Node\n{};\nclass Other;\n}\n"
@@ -40,7 +41,7 @@ def places(code: bytes) -> dict[str, tuple[int, int]]:
     }
     sources = {name: source(name, of, ("nav_msgs/msg/path.hpp",) if name == "common" else ()) for name, of in files.items()}
     texts = {f"{name}/{file}": text for name, of in files.items() for file, text in of.items()}
-    types = Types(list(sources.values()), texts.__getitem__, lambda name: set(files) if name == "node" else set())
+    types = Types(list(sources.values()), MemoryTree(texts), lambda name: set(files) if name == "node" else set())
     found = types.used(sources["node"], ["house_route_handler", "nav_msgs", "sensor_msgs"])
     assert all(span.path == "node/src/node.cpp" for span in found.values())
     return {name: span[1:3] for name, span in found.items()}

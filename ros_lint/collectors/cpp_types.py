@@ -5,29 +5,30 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from ros_lint.text import Span
+from ros_lint.text import Span, span_in
 
 if TYPE_CHECKING:
     from collections.abc import Container, Iterable, Iterator
 
-_TYPE = re.compile(
-    rb"\b(?:class|struct|union|enum(?:\s+(?:class|struct))?)\s+(?:[A-Z][A-Z0-9_]*\s+)?([A-Za-z_]\w+)(?=\s*(?:final\b|\{|:(?!:)))"
-)
+_BEFORE_TYPE = rb"\b(?:class|struct|union|enum(?:\s+(?:class|struct))?)\s+(?:[A-Z][A-Z0-9_]*\s+)?"
+_AFTER_TYPE = rb"\s*(?:final\b|\{|:(?!:))"
+_TYPE = re.compile(_BEFORE_TYPE + rb"([A-Za-z_]\w+)(?=" + _AFTER_TYPE + rb")")
 _NAMESPACE = re.compile(rb"\bnamespace\s+([\w:]+)\s*\{")
 _OWN = (
-    (
-        re.compile(rb"\b(?:class|struct|union|enum(?:\s+(?:class|struct))?)\s+(?:[A-Z][A-Z0-9_]*\s+)?\Z"),
-        re.compile(rb"\s*(?:final\b|\{|:(?!:))"),
-    ),
+    (re.compile(_BEFORE_TYPE + rb"\Z"), re.compile(_AFTER_TYPE)),
     (re.compile(rb"\busing\s+\Z"), re.compile(rb"\s*=")),
     (re.compile(rb"\bnamespace\s+(?:\w+::)*\Z"), re.compile(rb"\s*\{")),
     (re.compile(rb"\btypedef\s[^;{}]*\Z"), re.compile(rb"\s*;")),
 )
 """What stands before and after a name where code gives it a meaning of its own."""
+_MESSAGE = rb"(?:::)?(\w+)::(?:msg|srv|action)::"
+_USING = re.compile(rb"\busing\s+" + _MESSAGE + rb"(\w+)\s*;")
+_ALIAS = re.compile(rb"\busing\s+(\w+)\s*=\s*(?:typename\s+)?" + _MESSAGE + rb"\w+")
 _CHAIN = re.compile(rb"(?:\w+\s*::\s*)+\Z")
 _NEAR = 120
 """How many bytes before a name are looked at."""
 _NO_CODE = re.compile(rb'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
+_WITHIN_LINES = re.compile(rb"[^\n]")
 _SHORTEST = 4
 """Of shorter names too many mean something else."""
 
@@ -42,9 +43,8 @@ def introduced(text: bytes, package: str) -> frozenset[bytes]:
     name = package.encode()
     if b"using " not in text or name + b"::" not in text:
         return frozenset()
-    kinds = rb"::(?:msg|srv|action)::"
-    plain = re.findall(rb"\busing\s+(?:::)?" + name + kinds + rb"(\w+)\s*;", text)
-    alias = re.findall(rb"\busing\s+(\w+)\s*=\s*(?:typename\s+)?(?:::)?" + name + kinds + rb"\w+", text)
+    plain = [found for owner, found in _USING.findall(text) if owner == name]
+    alias = [found for found, owner in _ALIAS.findall(text) if owner == name]
     return frozenset(found for found in (*plain, *alias) if len(found) >= _SHORTEST)
 
 
@@ -55,7 +55,7 @@ def namespaces(text: bytes) -> frozenset[bytes]:
 
 def code(text: bytes) -> bytes:
     """Return C++ code with blanks for comments and strings, each character at its offset."""
-    return _NO_CODE.sub(lambda match: re.sub(rb"[^\n]", b" ", match[0]), text)
+    return _NO_CODE.sub(lambda match: _WITHIN_LINES.sub(b" ", match[0]), text)
 
 
 def first(texts: Iterable[tuple[str, bytes]], name: bytes, spaces: Container[bytes]) -> Span | None:
@@ -75,7 +75,7 @@ def first(texts: Iterable[tuple[str, bytes]], name: bytes, spaces: Container[byt
             if chain and not any(part.strip() in spaces for part in chain[0].split(b"::")):
                 return None
             if not found and (name not in spaces or text.startswith(b"::", end)):
-                found = _span(path, text, start, end)
+                found = span_in(path, text, start, end)
     return found
 
 
@@ -91,9 +91,3 @@ def _places(text: bytes, name: bytes) -> Iterator[int]:
 
 _JOINED = (b"_", b".", b">")
 """What joins a name to what stands before it."""
-
-
-def _span(path: str, text: bytes, start: int, end: int) -> Span:
-    line = text.count(b"\n", 0, start) + 1
-    column = len(text[text.rfind(b"\n", 0, start) + 1 : start].decode("utf-8", "replace")) + 1
-    return Span(path, line, column, line, column + end - start)

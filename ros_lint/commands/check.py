@@ -5,14 +5,14 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Mapping
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ros_lint import __version__, opening
 from ros_lint.progress import Progress
 from ros_lint.report import Hidden, RefusalError, Report, Unseen
 from ros_lint.rule import Severity
-from ros_lint.text import Text, read
-from ros_lint.tree import DiskTree, Machine, RecordedTree
+from ros_lint.tree import DiskTree, Machine, RecordedTree, text_of
 
 if TYPE_CHECKING:
     from ros_lint import engine
@@ -120,14 +120,8 @@ def _print(report: Report, asked: Asked) -> int:
     settings = asked.settings
     tree = DiskTree(asked.base)
 
-    def text_of(path: str) -> Text | None:
-        try:
-            return read(path, tree.read(path))
-        except OSError:
-            return None
-
     render = reporters.reporter(settings["format"])
-    text = render(report, text_of, _style(settings))
+    text = render(report, partial(text_of, tree), _style(settings))
     if settings["output"]:
         try:
             with open(settings["output"], "w", encoding="utf-8", newline="\n") as file:
