@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
+from ros_lint.apart import is_apart
 from ros_lint.facts.build import BuildScript
-from ros_lint.facts.cmake import Call
+from ros_lint.facts.cmake import Call, Target
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sight import Facet, Opaque, Problem
 from ros_lint.tree import join
@@ -86,22 +87,37 @@ def unguarded_tests(package: Package) -> dict[str, Call]:
     return found
 
 
+def programs_built(script: BuildScript) -> Iterator[Target]:
+    """Yield the executables that are built for use: no tests, nor what is called so."""
+    for target in script.targets:
+        if target.kind == "executable" and not target.test and "test" not in target.name:
+            yield target
+
+
+def is_on_request(package: Package, target: Target) -> bool:
+    """Whether some builds leave out all that a target is made of, or it is an example."""
+    wanted = bool(target.sources) and set(target.sources) == set(target.optional)
+    return wanted or is_apart(relative(package, target.span.path))
+
+
 def stranded(package: Package, name: str) -> bool:
     """Return whether a program that launch would not find is built, and goes to bin or nowhere: its own rules say so."""
     script = package.script
     if script is None:
         return False
     if package.builds_with == "ament_cmake":
-        return any(
-            target.kind == "executable" and not target.test and target.name == name and "test" not in name
-            for target in script.targets
-        )
+        return any(target.name == name for target in programs_built(script))
     return any(provided.path == f"bin/{name}" for provided in script.provides)
 
 
 _CLIENTS = frozenset({"rclcpp", "rclcpp_lifecycle", "rclcpp_action", "rclcpp_components"})
 _RUNS = frozenset({"add_custom_command", "add_custom_target"})
 _HEADERS = (".h", ".hh", ".hpp", ".hxx")
+
+
+def may_run_built(script: BuildScript) -> bool:
+    """Whether a custom command may run in the build what the package builds."""
+    return not _RUNS.isdisjoint(script.calls)
 
 
 def with_client(package: Package) -> frozenset[str]:
@@ -112,12 +128,17 @@ def with_client(package: Package) -> frozenset[str]:
 def node_targets(package: Package) -> frozenset[str]:
     """Return the executables of which a source, or the header that is called as a source is, includes a client library."""
     files = with_client(package)
-    stems = {_stem(file) for file in files if file.endswith(_HEADERS)}
     return frozenset(
         target.name
         for target in (package.script.targets if package.script else ())
-        if target.kind == "executable" and any(source in files or _stem(source) in stems for source in target.sources)
+        if target.kind == "executable" and (not files.isdisjoint(target.sources) or has_header(target, files))
     )
+
+
+def has_header(target: Target, files: Iterable[str]) -> bool:
+    """Whether one of some files is a header that is called as a source of a target is."""
+    stems = {_stem(source) for source in target.sources}
+    return any(file.endswith(_HEADERS) and _stem(file) in stems for file in files)
 
 
 def _stem(path: str) -> str:
@@ -132,9 +153,6 @@ def installs_built(script: BuildScript) -> bool:
 def forgotten_nodes(package: Package) -> frozenset[str]:
     """Return the nodes of a package that installs nothing at all of what it builds: no tests, nothing that the build may run."""
     script = package.script
-    if script is None or hidden(package, Facet.EXECUTABLES) or installs_built(script):
+    if script is None or hidden(package, Facet.EXECUTABLES) or installs_built(script) or may_run_built(script):
         return frozenset()
-    if not _RUNS.isdisjoint(script.calls):
-        return frozenset()
-    tests = {target.name for target in script.targets if target.test or "test" in target.name}
-    return node_targets(package) - tests
+    return node_targets(package).intersection(target.name for target in programs_built(script))

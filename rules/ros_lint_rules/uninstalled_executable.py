@@ -46,6 +46,7 @@ from ros_lint.api import (
     forgotten_nodes,
     hidden,
     node_targets,
+    programs_built,
     with_client,
 )
 
@@ -67,9 +68,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     nodes = node_targets(package)
     forgotten = forgotten_nodes(package)
     started = workspace.started.get(package.name, {})
-    for target in script.targets:
-        if target.kind != "executable" or target.test or "test" in target.name:
-            continue
+    for target in programs_built(script):
         found = places.get(target.name, [])
         if any(folder.partition("/")[0] != "bin" for folder, _, _ in found):
             continue

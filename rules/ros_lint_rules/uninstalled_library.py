@@ -42,13 +42,12 @@ from ros_lint.api import (
     called,
     cmake_edits,
     evaluated_name,
+    has_header,
     hidden,
     installs_built,
-    is_apart,
+    is_on_request,
     relative,
 )
-
-_HEADERS = (".h", ".hh", ".hpp", ".hxx")
 
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
@@ -108,30 +107,18 @@ def _is_lone(package: Package, library: BuildTarget, *, loaded: bool) -> bool:
     """
     script = package.script
     assert script is not None
-    calls = list(_made(package, library.name))
-    if set(library.sources) == set(library.optional) or is_apart(relative(package, library.span.path)):
-        return False  # it is built on request, or for examples
-    if not any({"SHARED", "MODULE"}.intersection(call.texts) and not call.blocks for call in calls):
+    calls = [call for call in _made(package, library.name) if not call.blocks]
+    if is_on_request(package, library) or not any({"SHARED", "MODULE"}.intersection(call.texts) for call in calls):
         return False
     installed = {provided.target for provided in script.provides if provided.target}
     left = {target.name for target in script.targets if target.kind == "executable" and target.name not in installed}
     if not installs_built(script):
         left.clear()
     tests = {target.name for target in script.targets if target.test}
-    left = left - tests if _has_public_header(script, library) else left | tests
+    left = left - tests if has_header(library, [each.path for each in script.provides]) else left | tests
     return loaded or not any(
         linked == library.name for target in script.targets if target.name in left for linked, _ in target.links
     )
-
-
-def _has_public_header(script: BuildScript, library: BuildTarget) -> bool:
-    """Whether a header is installed that is called as a source of the library is."""
-    stems = {_stem(source) for source in library.sources}
-    return any(each.path.endswith(_HEADERS) and _stem(each.path) in stems for each in script.provides)
-
-
-def _stem(path: str) -> str:
-    return path.rpartition("/")[2].partition(".")[0]
 
 
 def _made(package: Package, name: str) -> Iterator[Call]:

@@ -34,23 +34,22 @@ from ros_lint.api import (
     cmake_edits,
     forgotten_nodes,
     hidden,
-    is_apart,
-    relative,
+    is_on_request,
+    may_run_built,
 )
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
-    if script is None or package.builds_with != "ament_cmake" or hidden(package, Facet.EXECUTABLES):
+    if script is None or package.builds_with != "ament_cmake" or hidden(package, Facet.EXECUTABLES) or may_run_built(script):
         return
     installed = {provided.target for provided in script.provides}
     listed = {text for call in called(package, "install", anywhere=True) for text in call.texts}
-    custom = "add_custom_command" in script.calls or "add_custom_target" in script.calls
     forgotten = forgotten_nodes(package)
     for target in script.targets:
-        if target.kind != "executable" or target.test or target.name in installed or target.name in listed or custom:
+        if target.kind != "executable" or target.test or target.name in installed | listed:
             continue
-        if (target.sources and set(target.sources) == set(target.optional)) or is_apart(relative(package, target.span.path)):
+        if is_on_request(package, target):
             continue
         if target.name in workspace.started.get(package.name, {}) or target.name in forgotten:
             continue
