@@ -54,6 +54,7 @@ _ENDS = re.compile("\ue010\\$|[\ue010-\ue015]")
 _SHOWN = {"\ue010$": "$(env ", "\ue010": "$(var ", "\ue012": "$(eval ", "\ue014": "$(command "}
 _LOGIC = re.compile(r"_(and|or|not|if|equals|not_equals)\((.*)\)", re.DOTALL)
 _ROOTED = re.compile(rf"/{_ROOT}([^/:;,'\"]*)(?:/share/([^\s'\":;,{_ROOT}]*))?")
+_RENAMES = ("__node:=", "__name:=", "__ns:=")
 _TWICE_ROOTED = re.compile(rf".*/(?=/(?:{_ROOT}|\ue002))", re.DOTALL)
 
 
@@ -164,6 +165,11 @@ def configurations(text: str) -> Iterator[tuple[str, bool]]:
     for match in _INNERMOST.finditer(text):
         name, mark, _ = match[1].partition(_DEFAULT)
         yield name, bool(mark)
+
+
+def renames(word: str) -> bool:
+    """Return whether a word of a command line may give a node another name or namespace (``-r __ns:=/front``)."""
+    return any(mark in word for mark in _RENAMES)
 
 
 def readable(text: str) -> str:

@@ -42,6 +42,7 @@ from ros_lint.api import (
     is_plain,
     launchable,
     launched,
+    renames,
 )
 
 if TYPE_CHECKING:
@@ -51,7 +52,6 @@ _SHORT = frozenset({"spawner", "spawner.py", "unspawner", "spawn_entity.py", "cr
 """Executables that do one thing and end."""
 
 Conditions = tuple[LaunchCondition, ...]
-_RENAMES = ("__node:=", "__name:=", "__ns:=")
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
@@ -163,7 +163,7 @@ def _full_name(started: Started) -> str:
     name, namespace = started.name[0], started.namespace[0]
     if not name or not is_plain(name) or not is_plain(namespace) or started.target[0] in _SHORT:
         return ""
-    if any(mark in text for texts in started.words for text in texts for mark in _RENAMES):
+    if any(renames(text) for texts in started.words for text in texts):
         return ""
     return f"/{namespace.strip('/')}/{name}".replace("//", "/")
 

@@ -32,10 +32,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Finding, Given, Package, ParameterFiles, Related, Rule, Severity, Workspace, is_plain, launchable
+from ros_lint.api import (
+    Finding,
+    Given,
+    Package,
+    ParameterFiles,
+    Related,
+    Rule,
+    Severity,
+    Workspace,
+    is_plain,
+    launchable,
+    renames,
+)
 
 _MOST_NAMES = 3
-_RENAMES = ("__node:=", "__name:=", "__ns:=")
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
@@ -102,7 +113,7 @@ def _full_name(given: Given) -> str:
 def _may_be_of(given: Given, rewrites: bool) -> bool:
     """Whether a file may have parameters of the node that it is given to (``rclcpp::parameter_map_from``)."""
     words = (text for _, value in given.action.arguments for text in value.texts)
-    if given.action.children or _is_container(given) or any(mark in word for word in words for mark in _RENAMES):
+    if given.action.children or _is_container(given) or any(map(renames, words)):
         return True
     if len(given.names) != 1 or not given.names[0] or not is_plain(given.names[0]):
         return True
