@@ -12,6 +12,7 @@ from ros_lint.collectors.launch_py_objects import PERHAPS, Conditions, FilePath,
 from ros_lint.collectors.launch_py_texts import is_text, texts
 from ros_lint.collectors.launch_py_walk import Rule, Walker, place_of, span_of
 from ros_lint.collectors.launch_text import UNKNOWN, named_in
+from ros_lint.collectors.python_values import callee
 from ros_lint.facts.launch import LaunchAction, LaunchValue
 from ros_lint.facts.sight import Problem
 
@@ -42,8 +43,7 @@ def _note_refused(walker: Walker, made: Made, conditions: Conditions, known: Col
     """Note keywords that are gone or that never were, unless the file itself asks for the distribution before it comes here."""
     if any(_DISTRIBUTION in (named_in(text) or ()) for condition in conditions for text in condition.texts):
         return
-    called = made.node.func
-    written = called.id if isinstance(called, ast.Name) else called.attr if isinstance(called, ast.Attribute) else ""
+    written = callee(made.node)
     itself = written == made.name and written in _CLASSES
     for keyword in made.node.keywords:
         name = keyword.arg

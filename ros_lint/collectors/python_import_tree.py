@@ -7,6 +7,7 @@ import re
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.collectors.python_syntax import start_of
+from ros_lint.collectors.python_values import callee
 from ros_lint.text import Text
 
 if TYPE_CHECKING:
@@ -79,9 +80,8 @@ def _off(tree: ast.Module) -> frozenset[str]:
 def _calls(source: Text, tree: ast.Module) -> Iterator[Import]:
     for node in ast.walk(tree):
         if isinstance(node, ast.Call) and node.args:
-            function, given = node.func, node.args[0]
-            name = function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
-            if name not in _DYNAMIC:
+            given = node.args[0]
+            if callee(node) not in _DYNAMIC:
                 continue
             if not isinstance(given, ast.Constant) or not isinstance(given.value, str):
                 yield Import(start_of(source, given), "", True)
@@ -181,8 +181,7 @@ def _catches_import_error(handler: ast.ExceptHandler, errors: frozenset[str] = _
 def _gives_up(handler: ast.ExceptHandler) -> bool:
     last = handler.body[-1]
     if isinstance(last, ast.Expr) and isinstance(last.value, ast.Call):
-        function = last.value.func
-        return (function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")) in _EXITS
+        return callee(last.value) in _EXITS
     return isinstance(last, ast.Raise)
 
 

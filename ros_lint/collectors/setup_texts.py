@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.python_syntax import NotPythonError, parse, span_of
+from ros_lint.collectors.python_values import callee
 from ros_lint.facts.setup_py import WrittenText
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ def collect(source: Text) -> tuple[WrittenText, ...]:
 
 def _found(source: Text, tree: ast.Module) -> Iterator[WrittenText]:
     for node in ast.walk(tree):
-        if isinstance(node, ast.Call) and node.args and _name(node.func) == "glob":
+        if isinstance(node, ast.Call) and node.args and callee(node) == "glob":
             last = _last(node.args[0])
             if isinstance(last, ast.Constant) and isinstance(last.value, str):
                 span = span_of(source, last)
@@ -49,10 +50,6 @@ def _gaps(source: Text, node: ast.Constant) -> Iterator[WrittenText]:
     for line, column in ends[:-1]:
         at = start + sum(map(len, lines[: line - 1])) + column - 1
         yield WrittenText("gap", "", source.span(at, at))
-
-
-def _name(function: ast.expr) -> str:
-    return function.id if isinstance(function, ast.Name) else function.attr if isinstance(function, ast.Attribute) else ""
 
 
 def _last(pattern: ast.expr) -> ast.expr:
