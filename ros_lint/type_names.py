@@ -15,7 +15,7 @@ from ros_lint.liveness import HEADERS
 from ros_lint.tree import contents, join
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
 
     from ros_lint.evidence import Source
     from ros_lint.text import Span
@@ -46,7 +46,7 @@ class Types:
         self._tree = tree
         self._along = along
         self._public: dict[str, _Wanted] = {}
-        self._introduced: dict[tuple[str, str], frozenset[bytes]] = {}
+        self._introduced: dict[str, Mapping[str, set[bytes]]] = {}
 
     def used(self, source: Source, names: Iterable[str]) -> Mapping[str, Span]:
         """Return a place for each of some packages that a package uses a type of without saying whose it is.
@@ -86,13 +86,13 @@ class Types:
             self._public[source.name] = _Wanted(frozenset(name for text in texts for name in cpp_types.declared(text)), spaces)
         return self._public[source.name]
 
-    def _of_messages(self, name: str, package: str, file: str) -> frozenset[bytes]:
+    def _of_messages(self, name: str, package: str, file: str) -> Set[bytes]:
+        """Return the names under which a header, which is read once, makes messages of a package known."""
         source = self._by_name[package]
-        key = join(source.path, file), name
+        key = join(source.path, file)
         if key not in self._introduced:
-            texts = [text for _, text in self._texts(source, [file])]
-            self._introduced[key] = frozenset().union(*(cpp_types.introduced(text, name) for text in texts))
-        return self._introduced[key]
+            self._introduced[key] = cpp_types.introduced(b"".join([text for _, text in self._texts(source, [file])]))
+        return self._introduced[key].get(name, frozenset())
 
     @cached_property
     def _naming(self) -> Mapping[str, Sequence[tuple[str, str]]]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from ros_lint.text import Span, span_in
 
 if TYPE_CHECKING:
-    from collections.abc import Container, Iterable, Iterator
+    from collections.abc import Container, Iterable, Iterator, Mapping
 
 _BEFORE_TYPE = rb"\b(?:class|struct|union|enum(?:\s+(?:class|struct))?)\s+(?:[A-Z][A-Z0-9_]*\s+)?"
 _AFTER_TYPE = rb"\s*(?:final\b|\{|:(?!:))"
@@ -38,14 +38,15 @@ def declared(text: bytes) -> frozenset[bytes]:
     return frozenset(name for name in _TYPE.findall(text) if len(name) >= _SHORTEST)
 
 
-def introduced(text: bytes, package: str) -> frozenset[bytes]:
-    """Return the names under which C++ code makes messages of a package known: ``using pkg::msg::T;``, ``using X = ...``."""
-    name = package.encode()
-    if b"using " not in text or name + b"::" not in text:
-        return frozenset()
-    plain = [found for owner, found in _USING.findall(text) if owner == name]
-    alias = [found for found, owner in _ALIAS.findall(text) if owner == name]
-    return frozenset(found for found in (*plain, *alias) if len(found) >= _SHORTEST)
+def introduced(text: bytes) -> Mapping[str, set[bytes]]:
+    """Return the names under which C++ code makes messages known, by package: ``using pkg::msg::T;``, ``using X = ...``."""
+    found: dict[str, set[bytes]] = {}
+    if b"using " in text:
+        alias = [(package, name) for name, package in _ALIAS.findall(text)]
+        for package, name in (*_USING.findall(text), *alias):
+            if len(name) >= _SHORTEST:
+                found.setdefault(package.decode(), set()).add(name)
+    return found
 
 
 def namespaces(text: bytes) -> frozenset[bytes]:
