@@ -31,12 +31,13 @@ def called(package: Package, *names: str, anywhere: bool = False) -> Iterator[Ca
         yield from (call for call in found if call.path == top)
 
 
-_UNDEFINED = re.compile(r"what the target [^:\s]+ is, is not known")
+_OWN_TARGET = re.compile(r"[^:\s]+")
+"""The name of a target that is none of another package."""
 
 
 def hidden(package: Package, facet: Facet) -> tuple[Opaque, ...]:
     """Return what hides a facet, leaving out targets that are installed and that nobody defines: these are mistakes."""
-    return tuple(opaque for opaque in package.hidden(facet) if not _UNDEFINED.fullmatch(opaque.reason))
+    return tuple(opaque for opaque in package.hidden(facet) if not _OWN_TARGET.fullmatch(opaque.undefined))
 
 
 def relative(package: Package, path: str) -> str:

@@ -37,6 +37,8 @@ class Opaque(NamedTuple):
     reason: str
     """A clause without subject, such as "include() of ${name} cannot be followed"."""
     span: Span
+    undefined: str = ""
+    """The name of a target that is installed and that nothing in sight defines, where that is what hides something."""
 
 
 class Problem(NamedTuple):

@@ -91,7 +91,7 @@ def _result(run: Run, path: str) -> BuildScript:
     undefined = _undefined(run)
     problems = [*run.problems, *_missing(run), *undefined]
     nowhere = {problem.span for problem in undefined}  # these are mistakes, and hide nothing
-    opaques = [opaque for opaque in run.opaques if opaque.span not in nowhere or not cmake_install.is_undefined(opaque)]
+    opaques = [opaque for opaque in run.opaques if opaque.span not in nowhere or not opaque.undefined]
     for file, parsed in run.sources.scripts.items():
         if parsed.problems and not (is_template(file) or file in run.templates):
             problems += parsed.problems
@@ -247,7 +247,7 @@ def _missing(run: Run) -> list[Problem]:
 
 
 def _undefined(run: Run) -> list[Problem]:
-    if run.wild or any(opaque.hides & Facet.LIBRARIES and not cmake_install.is_undefined(opaque) for opaque in run.opaques):
+    if run.wild or any(opaque.hides & Facet.LIBRARIES and not opaque.undefined for opaque in run.opaques):
         return []
     return [
         Problem("undefined-target", f"install() of {name}, which is no target", span)

@@ -119,12 +119,6 @@ def _install_targets(run: Run, args: list[str]) -> None:
 
 
 _PYTHON: Final = f"{VARIABLES['PYTHON_INSTALL_DIR']}/"
-_UNDEFINED = re.compile(r"what the target .+ is, is not known\Z", re.DOTALL)
-
-
-def is_undefined(opaque: Opaque) -> bool:
-    """Return whether something is hidden because a target that is installed is not defined in sight."""
-    return _UNDEFINED.match(opaque.reason) is not None
 
 
 def installed_targets(run: Run) -> Iterator[Provided]:
@@ -135,7 +129,7 @@ def installed_targets(run: Run) -> Iterator[Provided]:
             if not run.open_world or "::" not in name:
                 run.undefined.append((name, span, conditional))
             reason = f"what the target {name} is, is not known"
-            run.opaques.setdefault(Opaque(Facet.EXECUTABLES | Facet.LIBRARIES, reason, span))
+            run.opaques.setdefault(Opaque(Facet.EXECUTABLES | Facet.LIBRARIES, reason, span, name))
             if executables is not None:  # should it be there after all, it is most likely a program
                 yield Provided(join_path(executables, name), "", True, True, span, name)
             continue
