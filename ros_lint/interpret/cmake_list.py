@@ -55,13 +55,15 @@ def _prepend(run: Run, name: str, args: list[str]) -> None:
 
 def _remove_item(run: Run, name: str, args: list[str]) -> None:
     value = run.get(name)
-    if not value:
+    if not value or not args:  # then CMake does not even take the list apart, which would lose its escapes
         return
     if not all(is_known(arg) for arg in args) and not all(is_fixed(arg) for arg in args):
         run.set(name, HOLE)
         return
     gone = {*args, *(MAYBE + arg for arg in args)}
-    run.set(name, join(element for element in elements(value) if element not in gone))
+    left = join(element for element in elements(value) if element not in gone)
+    unsure = all(arg.startswith(MAYBE) for arg in args) and join(elements(value)) != value
+    run.set(name, HOLE if unsure else left)
 
 
 def _remove_duplicates(run: Run, name: str, _args: list[str]) -> None:

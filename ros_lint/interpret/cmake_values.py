@@ -66,7 +66,7 @@ def elements(value: str) -> list[str]:
         found = value.split(";")
     else:
         found = _split(value)
-    if MAYBE in value and found.count("") == 1 and all(element[:1] in ("", MAYBE) for element in found):
+    if found.count("") == 1 and all(element[:1] in ("", MAYBE, HOLE) for element in found):
         return [element or MAYBE for element in found]  # where it turns out to be the only one, it is none
     return found
 
