@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 _MODULES = frozenset({
     "ros_lint.collect", "ros_lint.collectors.cmake_syntax", "ros_lint.report", "ros_lint.rule", "ros_lint.suppress",
     "ros_lint.text", "ros_lint.tree",
-    *(f"ros_lint.facts.{name}" for name in ("build", "cmake", "launch", "manifest", "setup_py", "sight", "sources")),
 })  # fmt: skip
+"""Modules besides those in ``ros_lint.facts`` with classes of facts and reports."""
 
 _PARTS = 16
 """How many files keep the facts of a workspace."""
@@ -136,7 +136,7 @@ def _load(path: str, state: str) -> Any:
         """Loads values of our own fact classes, and refuses everything else."""
 
         def find_class(self, module: str, name: str) -> Any:
-            if module in _MODULES and "." not in name:
+            if _has_facts(module) and "." not in name:
                 return super().find_class(module, name)
             raise pickle.UnpicklingError(f"{module}.{name} is no fact")
 
@@ -166,9 +166,13 @@ def _save(path: str, state: str, value: Any) -> None:
             os.unlink(temporary)
 
 
+def _has_facts(module: str) -> bool:
+    return module in _MODULES or module.startswith("ros_lint.facts.")
+
+
 def _reducers() -> dict[type, Callable[[Any], tuple[type, tuple[Any, ...]]]]:
     """Return how to take facts apart, which takes the pickler twice as long by itself."""
-    classes = [value for module in _MODULES if module in sys.modules for value in vars(sys.modules[module]).values()]
+    classes = [value for name, module in sys.modules.items() if _has_facts(name) for value in vars(module).values()]
     return {each: _parts for each in classes if isinstance(each, type) and issubclass(each, tuple)}
 
 
