@@ -6,7 +6,7 @@ import posixpath
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 
-from ros_lint.facts.build import BuildScript, LeftBehind
+from ros_lint.facts.build import BuildScript, LeftBehind, Provided
 from ros_lint.facts.sources import FileFacts
 
 _SHADOWED = frozenset({"launch"})
@@ -143,16 +143,14 @@ def left_behind(files: Sequence[str], script: BuildScript | None, facts: Mapping
     Python looks for modules beside the program that it starts, beside what a link to it points to (reference, section D4.4).
     """
     provides = script.provides if script else ()
-    programs = [p for p in provides if p.path.startswith("lib/") and p.source in facts and not p.test]
-    if script is None or not programs:
+    programs = [p for p in provides if p.source.endswith(".py") and p.source in facts and _is_program(p)]
+    if not programs:
         return
     known = frozenset(files)
     folders = {file.rpartition("/")[0] for file in files if file.endswith(".py")}
-    installed = {p.path for p in script.provides}
+    installed = {p.path for p in provides}
     installed.update([path[: path.rfind("/") + 1] for path in installed])
     for program in programs:
-        if not program.source.endswith(".py") or "site-packages" in program.path or "dist-packages" in program.path:
-            continue
         here = program.source[: program.source.rfind("/") + 1]
         there = program.path[: program.path.rfind("/") + 1]
         facts_here = facts[program.source]
@@ -164,3 +162,9 @@ def left_behind(files: Sequence[str], script: BuildScript | None, facts: Mapping
             is_there = beside in known or beside[:-1] in folders
             if is_there and f"{there}{module}.py" not in installed and f"{there}{module}/" not in installed:
                 yield LeftBehind(program.path, module, beside, span, not facts_here.sets_path)
+
+
+def _is_program(provided: Provided) -> bool:
+    """Whether an installed file in Python is one that is started, in every build."""
+    path = provided.path
+    return path.startswith("lib/") and not (provided.test or "site-packages" in path or "dist-packages" in path)
