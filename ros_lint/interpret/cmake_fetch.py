@@ -38,17 +38,17 @@ def _populate(run: Run, args: list[str]) -> None:
 
 def _make_available(run: Run, args: list[str]) -> None:
     """``fetchcontent_makeavailable(names...)``."""
-    _fetch(run, [arg for arg in args if is_known(arg)], args)
+    _fetch(run, args, args)
 
 
-def _fetch(run: Run, names: list[str], args: list[str]) -> None:
+def _fetch(run: Run, given: list[str], args: list[str]) -> None:
+    names = [name for name in given if is_known(name)]
     called = [other for name in names for other in run.fetched.get(name.lower(), ())]
     _from_elsewhere(run, [*names, *called], args)
     for name in names:
-        if is_known(name):
-            run.set(f"{name.lower()}_SOURCE_DIR", HOLE)
-            run.set(f"{name.lower()}_BINARY_DIR", HOLE)
-            run.set(f"{name.lower()}_POPULATED", "TRUE")
+        run.set(f"{name.lower()}_SOURCE_DIR", HOLE)
+        run.set(f"{name.lower()}_BINARY_DIR", HOLE)
+        run.set(f"{name.lower()}_POPULATED", "TRUE")
 
 
 def _from_elsewhere(run: Run, names: list[str], args: list[str]) -> None:
