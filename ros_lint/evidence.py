@@ -150,7 +150,7 @@ def resolve(source: Source, resolver: Resolver) -> tuple[Use, ...]:
     launched = frozenset(_relative(source, launch.path) for launch in source.launch)
     tests = frozenset(_relative(source, launch.path) for launch in source.launch if launch.test)
     own = OwnFiles(source.name, source.files, source.script, source.facts)
-    alive = Liveness(own, source.files, source.script, source.facts, launched)
+    alive = Liveness(own, launched)
     uses = _Uses(source, own, alive, resolver)
     if source.script is not None:
         by_role: dict[tuple[str, Role], list[Mention]] = {}

@@ -5,13 +5,11 @@ By target membership first, by include from what is alive second, by folder name
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection
 from functools import cached_property
 
-from ros_lint.facts.build import BuildScript
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sight import Facet
-from ros_lint.facts.sources import FileFacts
 from ros_lint.own_files import OwnFiles
 
 TEST_FOLDERS = frozenset({"test", "tests", "testing", "integration_tests", "benchmark", "benchmarks", "gtest", "unit_tests"})
@@ -42,19 +40,12 @@ PUBLIC = Role.BUILD | Role.EXPORT | Role.EXEC
 class Liveness:
     """Answers for the files of one package. Paths are relative to it; ``launched`` are its launch files."""
 
-    def __init__(
-        self,
-        own: OwnFiles,
-        files: Iterable[str],
-        script: BuildScript | None,
-        facts: Mapping[str, FileFacts],
-        launched: Collection[str] = (),
-    ) -> None:
-        self._files = tuple(files)
-        self._script = script
-        self._facts = facts
-        self._launched = launched
+    def __init__(self, own: OwnFiles, launched: Collection[str]) -> None:
         self._own = own
+        self._files = own.files
+        self._script = script = own.script
+        self._facts = own.facts
+        self._launched = launched
         hidden = Facet(0)
         for opaque in script.opaque if script else ():
             hidden |= opaque.hides

@@ -18,9 +18,9 @@ class OwnFiles:
 
     def __init__(self, name: str, files: Sequence[str], script: BuildScript | None, facts: Mapping[str, FileFacts]) -> None:
         self._name = name
-        self._files = files
-        self._script = script
-        self._facts = facts
+        self.files = files
+        self.script = script
+        self.facts = facts
         self._included: dict[str, tuple[set[str], list[str]]] = {}
 
     def included(self, path: str) -> Container[str]:
@@ -30,7 +30,7 @@ class OwnFiles:
     @cached_property
     def include_folders(self) -> frozenset[str]:
         """The folders that the package has in its include directories: a header in one of them is its own, if it is generated."""
-        inner = (f"/{file}".partition("/include/")[2] for file in self._files)
+        inner = (f"/{file}".partition("/include/")[2] for file in self.files)
         return frozenset([folder.partition("/")[0] for folder in inner if "/" in folder])
 
     def has_module(self, module: str, importer: str) -> bool:
@@ -48,7 +48,7 @@ class OwnFiles:
     def reached(self, roots: Iterable[str]) -> frozenset[str]:
         """Return those of some files that are of the package, and all that they include of it, by way of others or not."""
         reached: set[str] = set()
-        waiting = [root for root in roots if root in self._facts]
+        waiting = [root for root in roots if root in self.facts]
         while waiting:
             path = waiting.pop()
             if path not in reached:
@@ -65,7 +65,7 @@ class OwnFiles:
         own = (self._name, ".", "..")
         headers: set[str] = set()
         files: list[str] = []
-        for mention in self._facts[path].mentions if path in self._facts else ():
+        for mention in self.facts[path].mentions if path in self.facts else ():
             if mention.via != "include":
                 continue
             header = mention.name
@@ -97,7 +97,7 @@ class OwnFiles:
     def by_name(self) -> Mapping[str, tuple[str, ...]]:
         """The files by their names without folders."""
         found: dict[str, tuple[str, ...]] = {}
-        for file in self._files:
+        for file in self.files:
             name = file.rpartition("/")[2]
             found[name] = (*found[name], file) if name in found else (file,)
         return found
@@ -114,7 +114,7 @@ class OwnFiles:
     def _modules(self) -> Mapping[str, set[str]]:
         """Files and folders with Python code, by the name that an import would have, with the folders that they lie in."""
         found: dict[str, set[str]] = {}
-        for file in self._files:
+        for file in self.files:
             if file.endswith(".py"):
                 path = file[:-3]
                 while path:
@@ -128,12 +128,12 @@ class OwnFiles:
     @cached_property
     def _python_packages(self) -> frozenset[str]:
         """Folders that are Python packages. The top of a package is none, whatever lies there."""
-        found = {file.rpartition("/")[0] for file in self._files if file.endswith("__init__.py")}
+        found = {file.rpartition("/")[0] for file in self.files if file.endswith("__init__.py")}
         return frozenset(found - {"", "src"})
 
     @cached_property
     def _installed_modules(self) -> frozenset[str]:
-        names = self._script.python_packages if self._script else ()
+        names = self.script.python_packages if self.script else ()
         return frozenset([name.partition(".")[0] for name in names])
 
 
