@@ -18,6 +18,7 @@ from ros_lint.collectors.launch_text import (
     is_plain,
     is_settled,
     names_places,
+    runs_xacro,
     share,
 )
 from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchReference, LaunchValue
@@ -130,7 +131,7 @@ class References:
     def _paths(self, value: LaunchValue, package_span: Span | None, conditional: bool) -> None:
         texts, default = self._filled(value)
         for text in texts:
-            if text.isascii() and not text.startswith("xacro "):
+            if text.isascii() and not runs_xacro(text):
                 continue
             for place in installed(text):
                 if not place.known:
@@ -146,7 +147,7 @@ class References:
                     self._add("node", place.package, place.executable, value, package, several, default, made)
                 else:
                     self._add("package", place.package, "", package, package, several, default, made)
-            if "\ue014xacro" in text or text.startswith("xacro "):
+            if runs_xacro(text):
                 self._runs("xacro", value, conditional)
 
     def _place(self, package: str, value: LaunchValue, package_span: Span | None) -> Span:
@@ -281,7 +282,7 @@ def _is_dull(texts: Iterable[str], carriers: Container[str]) -> bool:
     """Return whether texts name neither an install place nor xacro, ``carriers`` being configurations that do."""
     for text in texts:
         if text.isascii():
-            if text.startswith("xacro "):
+            if runs_xacro(text):
                 return False
         elif names_places(text, carriers):
             return False

@@ -28,6 +28,7 @@ OWN_FOLDER = "/\ue002"
 _CONFIGURATION = ("\ue010", "\ue011")
 _EXPRESSION = ("\ue012", "\ue013")
 _COMMAND = ("\ue014", "\ue015")
+_OF_XACRO = f"{_COMMAND[0]}xacro"
 _DEFAULT = "\ue016"
 _PRESENT = "\ue017"
 
@@ -165,6 +166,11 @@ def configurations(text: str) -> Iterator[tuple[str, bool]]:
     for match in _INNERMOST.finditer(text):
         name, mark, _ = match[1].partition(_DEFAULT)
         yield name, bool(mark)
+
+
+def runs_xacro(text: str) -> bool:
+    """Return whether a text is a command line of xacro, or has the output of one in it."""
+    return text.startswith("xacro ") or _OF_XACRO in text
 
 
 def renames(word: str) -> bool:
