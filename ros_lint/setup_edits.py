@@ -1,4 +1,4 @@
-"""Edits of setup.py that keep its style: elements added to lists that are written out."""
+"""Edits of setup.py and setup.cfg that keep their style: elements added to lists that are written out, options."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.setup_py import Slot
 from ros_lint.rule import Edit
+from ros_lint.text import Span
 
 
 def slot(script: BuildScript, option: str) -> Slot | None:
@@ -48,3 +49,39 @@ def joined(place: Slot, package: str, before: str, after: str = "") -> str:
     if not place.variable:
         return f"'{before}{package}{after}'"
     return " + ".join(part for part in (f"'{before}'" if before else "", place.variable, f"'{after}'" if after else "") if part)
+
+
+_FOLDERS = (("develop", "script_dir"), ("install", "install_scripts"))
+"""What setup.cfg says of where programs go: with links to the sources, and without."""
+
+
+def program_folders(script: BuildScript) -> dict[str, Span]:
+    """Return the places where setup.cfg says where programs go, by section and option as ``install.install_scripts``."""
+    wanted = {f"{section}.{option}" for section, option in _FOLDERS}
+    return {text.text: text.span for text in script.texts if text.kind == "option" and text.text in wanted}
+
+
+def programs_to(script: BuildScript, package: str) -> tuple[Edit, ...]:
+    """Add to a setup.cfg what it lacks so that programs go to ``lib/<package>``, and change what it says else.
+
+    Nothing where there is none.
+    """
+    headers = {text.text: text.span for text in script.texts if text.kind == "section"}
+    end = headers.get("")
+    if end is None:
+        return ()
+    values = program_folders(script)
+    place = f"$base/lib/{package}"
+    edits: list[Edit] = []
+    rest = ""
+    for section, option in _FOLDERS:
+        value, header = values.get(f"{section}.{option}"), headers.get(section)
+        if value is not None:
+            edits.append(Edit(value, place))
+        elif header == end:
+            rest = f"\n{option}={place}{rest}"
+        elif header is not None:
+            edits.append(Edit(header, f"\n{option}={place}"))
+        else:
+            rest += f"\n[{section}]\n{option}={place}"
+    return (*edits, Edit(end, rest)) if rest else tuple(edits)

@@ -44,6 +44,7 @@ from ros_lint.api import (
     Span,
     Workspace,
     relative,
+    setup_edits,
 )
 
 
@@ -92,25 +93,8 @@ def _fix(config: str, name: str) -> Fix:
 
 
 def _extended(script: BuildScript, name: str) -> Fix | None:
-    """Return how to add to a setup.cfg what it lacks, and to change where it says something else."""
-    found = {(text.kind, text.text): text.span for text in script.texts if text.kind in ("section", "option")}
-    end = found.get(("section", ""))
-    if end is None:
-        return None
-    place = f"$base/lib/{name}"
-    edits: list[Edit] = []
-    rest = ""
-    for section, option in (("develop", "script_dir"), ("install", "install_scripts")):
-        value, header = found.get(("option", f"{section}.{option}")), found.get(("section", section))
-        if value is not None:
-            edits.append(Edit(value, place))
-        elif header == end:
-            rest = f"\n{option}={place}{rest}"
-        elif header is not None:
-            edits.append(Edit(header, f"\n{option}={place}"))
-        else:
-            rest += f"\n[{section}]\n{option}={place}"
-    return Fix("complete setup.cfg", (*edits, Edit(end, rest)) if rest else tuple(edits))
+    edits = setup_edits.programs_to(script, name)
+    return Fix("complete setup.cfg", edits) if edits else None
 
 
 RULE = Rule(

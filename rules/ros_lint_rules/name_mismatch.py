@@ -41,6 +41,7 @@ from ros_lint.api import (
     Workspace,
     called,
     evaluated_name,
+    setup_edits,
 )
 
 _MARKERS = "share/ament_index/resource_index/packages/"
@@ -80,7 +81,8 @@ def _python(manifest: Manifest, script: BuildScript) -> Iterator[Finding]:
         if all(place.message != message for place in places):
             places.append(Related(message, provided.span))
     entries = {entry.span for entry in script.entry_points}
-    scripts = next((text.span for text in script.texts if (text.kind, text.text) == _SCRIPTS), None)
+    # Programs are written in setup.py, and where they go in setup.cfg.
+    scripts = setup_edits.program_folders(script).get("install.install_scripts")
     for places in wrong.values():
         first, *others = [place._replace(span=scripts) if scripts and place.span in entries else place for place in places]
         message = f"{first.message}, but package.xml calls it {manifest.name}; use one name"
@@ -88,10 +90,6 @@ def _python(manifest: Manifest, script: BuildScript) -> Iterator[Finding]:
         harmless = not others and first.span == script.name_span
         yield found._replace(severity=Severity.WARNING) if harmless else found
 
-
-_FOLDERS = ("develop.script_dir", "install.install_scripts")
-_SCRIPTS = ("option", "install.install_scripts")
-"""What setup.cfg says of where programs go, which are written in setup.py."""
 
 _PLACES = {
     "marker": "the package is entered into the index as {}",
@@ -122,10 +120,8 @@ def _finding(message: str, manifest: Manifest, script: BuildScript, span: Span) 
             # In setup.py the same variable may name folders and files that would have to be renamed, too.
             safe = not script.path.endswith(".py")
             fix = Fix(f"write {manifest.name}", (Edit(inner, manifest.name),), safe)
-    places = [text.span for text in script.texts if text.kind == "option" and text.text in _FOLDERS]
-    if span in places:
-        folder = f"$base/lib/{manifest.name}"
-        fix = Fix(f"write {folder}", tuple(Edit(place, folder) for place in places))
+    if span in setup_edits.program_folders(script).values():
+        fix = Fix(f"write $base/lib/{manifest.name}", setup_edits.programs_to(script, manifest.name))
     return Finding(message, span, manifest.name, fix=fix)
 
 
