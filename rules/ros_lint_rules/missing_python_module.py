@@ -26,7 +26,6 @@ the program changes `sys.path`.
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator
 
 from ros_lint.api import Confidence, Facet, Finding, Fix, Package, Rule, Severity, Slot, Span, Workspace, setup_edits
@@ -77,12 +76,10 @@ def _beside_programs(package: Package, workspace: Workspace) -> Iterator[Finding
     if package.hidden(Facet.PYTHON | Facet.EXECUTABLES | Facet.SHARE):
         return
     own = {module.partition(".")[0] for module in package.script.python_packages} if package.script else set()
-    world = workspace.world
     told: set[str] = set()
     for left in package.left_behind:
         module = left.module
-        elsewhere = module in own or module in sys.stdlib_module_names or world.offering(module) or world.by_import(module).names
-        if elsewhere or left.source in told:
+        if module in own or workspace.world.by_import(module).known or left.source in told:
             continue
         told.add(left.source)
         place = left.program.rpartition("/")[0]
