@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-_TESTS = frozenset({"test", "tests", "testing", "integration_tests", "benchmark", "benchmarks", "unit_tests"})
+TEST_FOLDERS = frozenset({"test", "tests", "testing", "integration_tests", "benchmark", "benchmarks", "unit_tests"})
 _APART = frozenset({"example", "examples", "template", "templates", "doc", "docs"})
 
 
@@ -15,4 +15,4 @@ def is_apart(path: str) -> bool:
 def lies_apart(path: str) -> bool:
     """Return the same by the folders alone: what is merely called a test is often one that people start by hand."""
     folders = path.split("/")[:-1]
-    return not (_TESTS.isdisjoint(folders) and _APART.isdisjoint(folders)) or "{" in path
+    return not (TEST_FOLDERS.isdisjoint(folders) and _APART.isdisjoint(folders)) or "{" in path

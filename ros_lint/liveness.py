@@ -8,11 +8,12 @@ from __future__ import annotations
 from collections.abc import Collection
 from functools import cached_property
 
+from ros_lint import apart
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sight import Facet
 from ros_lint.own_files import OwnFiles
 
-TEST_FOLDERS = frozenset({"test", "tests", "testing", "integration_tests", "benchmark", "benchmarks", "gtest", "unit_tests"})
+_TEST_FOLDERS = apart.TEST_FOLDERS | {"gtest"}
 """Folders whose files serve tests when nothing else says what they serve."""
 
 _IDLE_FOLDERS = frozenset({"doc", "docs", "example", "examples", "tutorial", "tutorials", "tools", "sphinx"})
@@ -81,7 +82,7 @@ class Liveness:
         python = name.endswith((".py", ".py.in")) or "." not in name
         resource = name.endswith(_RESOURCES)
         folders = set(path.split("/")[:-1])
-        if TEST_FOLDERS & folders or (python and _is_test(name) and path not in self._started):
+        if _TEST_FOLDERS & folders or (python and _is_test(name) and path not in self._started):
             # pytest takes what is called test, and beside it lie its helpers; elsewhere lies anything.
             taken = self._runs_python_tests and (self._is_run(path) or path in self._started_by_tests)
             alive = not (self._sees_targets or resource or self._is_left_out(path))
@@ -194,8 +195,8 @@ class Liveness:
         if not self._sees_targets or not self._sees_sources:
             return frozenset()
         compiled = self._production | self._tests | self._optional
-        apart = TEST_FOLDERS | _IDLE_FOLDERS
-        dead = {file for file in self._files if file.endswith(_SOURCES) and apart.isdisjoint(file.split("/"))} - compiled
+        idle = _TEST_FOLDERS | _IDLE_FOLDERS
+        dead = {file for file in self._files if file.endswith(_SOURCES) and idle.isdisjoint(file.split("/"))} - compiled
         left = self._own.reached(dead) - compiled if dead and self._production else frozenset()
         return left - self._own.reached(self._offered - left) if left else left
 
