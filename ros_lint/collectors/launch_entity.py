@@ -9,7 +9,9 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any, Final, Literal
 
+from ros_lint.collectors.launch_tags import ROS_1
 from ros_lint.collectors.xml_tree import Element, attribute_places
+from ros_lint.facts.sight import Problem
 from ros_lint.text import Span
 
 if TYPE_CHECKING:
@@ -27,13 +29,11 @@ _LISTS: Mapping[str, type] = {"strs": str, "ints": int, "floats": float, "bools"
 
 
 class Rejected(Exception):  # noqa: N818
-    """The real front end refuses the file here. ``kind`` is a short stable name."""
+    """The real front end refuses the file here, see :class:`Problem`."""
 
-    def __init__(self, kind: str, message: str, span: Span) -> None:
+    def __init__(self, kind: str, message: str, span: Span, instead: str = "") -> None:
         super().__init__(message)
-        self.kind: Final = kind
-        self.message: Final = message
-        self.span: Final = span
+        self.problem: Final = Problem(kind, message, span, instead)
 
 
 NO_VALUE: Final = object()
@@ -230,7 +230,8 @@ class Entity:
         if len(self.read) != len(self.attributes):
             for name in self.attributes:
                 if name not in self.read:
-                    raise Rejected("unexpected-attribute", f"<{self.tag}> has no attribute {name}", self.place(name))
+                    instead = ROS_1.get(f"{name} of <{self.tag}>", "")
+                    raise Rejected("unexpected-attribute", f"<{self.tag}> has no attribute {name}", self.place(name), instead)
 
 
 CHILDREN: Final = "\0children"

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple, NoReturn
 
 from ros_lint.collectors.launch_entity import Entity, Rejected, Type
 from ros_lint.collectors.launch_markup_texts import Pieces, package_of, simple_text, texts
-from ros_lint.collectors.launch_tags import EXTENSIONS, SINCE, SUBSTITUTIONS
+from ros_lint.collectors.launch_tags import EXTENSIONS, ROS_1, SINCE, SUBSTITUTIONS
 from ros_lint.collectors.launch_text import joined
 from ros_lint.collectors.substitution import Literal, Substitution, SubstitutionError, parse
 from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchValue
@@ -39,7 +39,7 @@ class Reader:
 
     def refuse(self, error: Rejected) -> None:
         """Note that the front end refuses something."""
-        self.problems.append(Problem(error.kind, error.message, error.span))
+        self.problems.append(error.problem)
 
     def actions(self, entities: Iterable[Entity]) -> list[LaunchAction]:
         """Return what entities do. One that is refused is noted, and does nothing."""
@@ -56,7 +56,7 @@ class Reader:
         if rule is None:
             if entity.tag in EXTENSIONS:
                 return []  # its package says what it takes
-            raise Rejected("unknown-tag", f"there is no tag <{entity.tag}>", entity.span)
+            raise Rejected("unknown-tag", f"there is no tag <{entity.tag}>", entity.span, ROS_1.get(f"<{entity.tag}>", ""))
         if entity.tag in _NEWER_TAGS:
             self.note_newer(f"<{entity.tag}>", entity.span)
         action = rule(self, entity)
@@ -87,7 +87,7 @@ class Reader:
                 self.note_newer(what, self._inner(entity, name, value, piece.start, piece.end))
 
     def _refused(self, entity: Entity, name: str, value: str, found: Mistake) -> NoReturn:
-        raise Rejected(found.kind, found.message, self._inner(entity, name, value, found.start, found.end))
+        raise Rejected(found.kind, found.message, self._inner(entity, name, value, found.start, found.end), found.instead)
 
     def _inner(self, entity: Entity, name: str, value: str, start: int, end: int) -> Span:
         """Return the place of a part of a value, of all of it where it is not written as it is meant."""
@@ -219,6 +219,8 @@ class Mistake(NamedTuple):
     message: str
     start: int
     end: int
+    instead: str = ""
+    """As :attr:`Problem.instead`."""
 
 
 def _as_yaml(row: tuple[str, ...]) -> str:
@@ -244,7 +246,7 @@ def _pieces(value: str) -> Pieces | Mistake:
     for piece in _substitutions(pieces):
         wrong = _wrong(piece)
         if wrong is not None:
-            return Mistake(*wrong, piece.start, piece.end)
+            return Mistake(*wrong, piece.start, piece.end, ROS_1.get(f"$({piece.name})", ""))
     return pieces
 
 

@@ -45,6 +45,26 @@ EXTENSIONS: Mapping[str, str] = {
 }
 """Tags that other packages add, and the packages (entry point group ``launch.frontend.launch_extension``)."""
 
+ROS_1: Mapping[str, str] = {
+    "$(find)": "$(find-pkg-share)",
+    "$(arg)": "$(var)",
+    "$(optenv)": "$(env name default)",
+    "type of <node>": "exec",
+    "required of <node>": "on_exit",
+    "ns of <node>": "namespace",
+    "ns of <group>": "<push_ros_namespace>",
+    "ns of <include>": "<push_ros_namespace> in a <group>",
+    "value of <arg>": "<let>",
+    "doc of <arg>": "description",
+    "command of <param>": "$(command)",
+    "<rosparam>": "<param from=...> in a node",
+    "<remap>": "<set_remap>",
+    "<param>": "<set_parameter>",
+    "<env>": "<set_env>",
+    "<machine>": "none",
+}
+"""What ROS 1 had and ROS 2 has not, and what it has instead (reference, section G3.4)."""
+
 SINCE: Mapping[str, str] = {
     "<set_ros_log_dir>": "iron",  # launch_ros 0.22.0
     "<for>": "kilted",  # launch 3.8.0

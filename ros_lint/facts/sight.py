@@ -48,3 +48,5 @@ class Problem(NamedTuple):
     """A short stable name, such as "unknown-tag"."""
     message: str
     span: Span
+    instead: str = ""
+    """What has taken the place of something that was right in ROS 1."""

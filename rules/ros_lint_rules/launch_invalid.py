@@ -41,27 +41,6 @@ from ros_lint.api import (
 )
 
 _MOST_RELATED = 4
-_LEFTOVERS = {
-    "there is no substitution $(find)": "; ROS 2 has $(find-pkg-share)",
-    "there is no substitution $(arg)": "; ROS 2 has $(var)",
-    "there is no substitution $(optenv)": "; ROS 2 has $(env name default)",
-    "<node> has no attribute type": "; ROS 2 has exec",
-    "<node> has no attribute required": "; ROS 2 has on_exit",
-    "<node> has no attribute ns": "; ROS 2 has namespace",
-    "<group> has no attribute ns": "; ROS 2 has <push_ros_namespace>",
-    "<include> has no attribute ns": "; ROS 2 has <push_ros_namespace> in a <group>",
-    "<arg> has no attribute value": "; ROS 2 has <let>",
-    "<arg> has no attribute doc": "; ROS 2 has description",
-    "<param> has no attribute command": "; ROS 2 has $(command)",
-    "there is no tag <rosparam>": "; ROS 2 has <param from=...> in a node",
-    "there is no tag <remap>": "; ROS 2 has <set_remap>",
-    "there is no tag <param>": "; ROS 2 has <set_parameter>",
-    "there is no tag <env>": "; ROS 2 has <set_env>",
-    "there is no tag <machine>": "; ROS 2 has none",
-}
-"""What ROS 1 had, and what it is called now (reference, section G3.4)."""
-
-
 _MAY_BE_NEWER = frozenset({"unknown-tag", "unexpected-attribute", "unexpected-child", "unexpected-keyword"})
 
 
@@ -90,12 +69,12 @@ def _newer(problems: Iterable[Problem], target: Target) -> Iterator[Problem]:
 
 
 def _message(problem: Problem) -> str:
-    return f"{problem.message}{_LEFTOVERS.get(problem.message, '')}"
+    return f"{problem.message}; ROS 2 has {problem.instead}" if problem.instead else problem.message
 
 
 def _confidence(problem: Problem, workspace: Workspace) -> Confidence:
     # A package or a newer release may have added what is not known here.
-    if problem.message in _LEFTOVERS or problem.kind not in _MAY_BE_NEWER:
+    if problem.instead or problem.kind not in _MAY_BE_NEWER:
         return Confidence.HIGH
     anywhere = problem.kind in ("unknown-tag", "unexpected-keyword")
     return Confidence.MEDIUM if workspace.target.distro == "rolling" or anywhere else Confidence.HIGH
