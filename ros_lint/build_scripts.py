@@ -9,7 +9,7 @@ from ros_lint.apart import is_apart
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.cmake import Call, Target
 from ros_lint.facts.manifest import Role
-from ros_lint.facts.sight import Facet, Opaque, Problem
+from ros_lint.facts.sight import Facet, Opaque
 from ros_lint.tree import join
 from ros_lint.workspace import Package
 
@@ -52,15 +52,6 @@ def evaluated_name(package: Package, text: str) -> str | None:
     """Return the name that an argument gives, None when it has variables other than that of the project's name."""
     name = _PROJECT_NAME.sub(package.script.name if package.script and package.script.name else package.name, text)
     return None if "$" in name or not name else name
-
-
-_PATH = re.compile(r"(?:there is no folder |.*\(\) of )?([^\s,]+)")
-
-
-def missing_path(problem: Problem) -> str:
-    """Return the path that a problem about a missing file or folder names, relative to the package."""
-    match = _PATH.match(problem.message)
-    return match[1] if match else problem.message
 
 
 _TEST_COMMANDS = {

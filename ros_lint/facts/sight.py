@@ -50,3 +50,5 @@ class Problem(NamedTuple):
     span: Span
     instead: str = ""
     """What has taken the place of something that was right in ROS 1."""
+    subject: str = ""
+    """What it is about, where a rule asks for it: a path relative to the package, or the pattern of a glob."""

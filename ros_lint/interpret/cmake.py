@@ -242,7 +242,7 @@ def _missing(run: Run) -> list[Problem]:
     found = []
     for source, span, unsure in run.missing:
         if not unsure and source not in run.generated and not run.is_unseen(source):
-            found.append(Problem("missing-file", f"{source} does not exist", span))
+            found.append(Problem("missing-file", f"{source} does not exist", span, subject=source))
     return list(dict.fromkeys(found))
 
 

@@ -51,7 +51,7 @@ def _include_file(run: Run, name: str, optional: bool) -> int | None:
         return None
     path = run.source(name)
     if path is not None and not name.startswith(BINARY) and path not in run.files:
-        run.problem("missing-file", f"include() of {path}, which does not exist", run.where(name))
+        run.problem("missing-file", f"include() of {path}, which does not exist", run.where(name), path)
         return None
     run.open_world = run.wild = True
     run.hide(ANYTHING, f"include() of {readable(name)} cannot be followed")
@@ -122,7 +122,7 @@ def _add_subdirectory(run: Run, args: list[str]) -> int | None:
             run.open_world = run.wild = True
             run.hide(ANYTHING, f"add_subdirectory() of {path}, which has no CMakeLists.txt in sight")
         else:
-            run.problem("missing-file", f"add_subdirectory() of {path}, which does not exist", run.where(name))
+            run.problem("missing-file", f"add_subdirectory() of {path}, which does not exist", run.where(name), path)
         return None
     run.enter_directory(path)
     run.scopes.append(Variables())

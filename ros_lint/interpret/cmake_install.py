@@ -182,7 +182,7 @@ def _install_file(run: Run, value: str, path: str, program: bool, certain: bool,
         source = None
     if source is not None and source not in run.files:
         if run.is_folder(source) and source:
-            run.problem("file-is-directory", f"install(FILES) of {source}, which is a directory", span)
+            run.problem("file-is-directory", f"install(FILES) of {source}, which is a directory", span, source)
             return
         if optional:
             return
@@ -256,7 +256,7 @@ def _install_directory(run: Run, value: str, source: str, target: str, rule: _Ru
     span = run.where(value)
     conditional = run.conditional or run.testing or not certain
     if source in run.files:
-        run.problem("directory-is-file", f"install(DIRECTORY) of {source}, which is a file", span)
+        run.problem("directory-is-file", f"install(DIRECTORY) of {source}, which is a file", span, source)
         return
     more = unlisted(run, source, facet_of(run, target), span) if run.sources.unseen else []
     own = run.below(source)

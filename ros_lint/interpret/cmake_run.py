@@ -341,10 +341,10 @@ class Run(Paths):
         if facet and not self.muted:
             self.opaques[Opaque(facet, reason, span or self.here())] = None
 
-    def problem(self, kind: str, message: str, span: Span) -> None:
+    def problem(self, kind: str, message: str, span: Span, path: str = "") -> None:
         """Note that a command is wrong, if it runs for sure."""
         if not self.muted and not self.unsure:
-            self.problems[Problem(kind, message, span)] = None
+            self.problems[Problem(kind, message, span, subject=path)] = None
 
 
 Handler = Callable[[Run, list[str]], "int | None"]

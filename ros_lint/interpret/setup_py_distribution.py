@@ -113,13 +113,13 @@ class Distribution:
                 if known.get(""):
                     self.moved.append(posixpath.normpath(path))
                 if not self._context.files.is_file(path):
-                    self._problem("missing-file", f"{path} does not exist", name)
+                    self._problem("missing-file", f"{path} does not exist", name, path)
 
     def _package(self, name: str, folder: str) -> None:
         files = self._context.files
         self.python_packages.append(str(name))
         if not files.is_folder(folder or "."):
-            self._problem("missing-file", f"there is no folder {folder} for the package {name}", name)
+            self._problem("missing-file", f"there is no folder {folder} for the package {name}", name, folder)
         modules = files.modules(folder)
         self.python_packages += [f"{name}.{module}" for module in modules if module != "__init__"]
         lies = posixpath.normpath(folder)
@@ -160,7 +160,7 @@ class Distribution:
                 self._problem("data-files-form", "colcon takes only tuples of a folder and a list of files", entry[0])
             if isinstance(sources, Globbed) and not sources:
                 message = f"no file matches {sources.pattern}, so nothing is installed to {folder}"
-                self._problem("empty-glob", message, entry[0])
+                self._problem("empty-glob", message, entry[0], sources.pattern)
             for source, maybe_source in self._items(sources, _facet(folder)):
                 self._data_file(folder, source, maybe or maybe_source)
 
@@ -169,10 +169,10 @@ class Distribution:
         path = context.files.inside(str(source))
         if path is not None and context.files.is_folder(path):
             message = f"{path} is a folder, and only files can be copied: the build stops here"
-            self._problem("directory-in-data-files", message, source)
+            self._problem("directory-in-data-files", message, source, path)
             return
         if path is not None and not context.files.is_file(path):
-            self._problem("missing-file", f"{path} does not exist", source)
+            self._problem("missing-file", f"{path} does not exist", source, path)
             return
         # Whether a file outside the package is there is not known.
         self._provide(posixpath.join(folder, posixpath.basename(str(source))), path or "", maybe or not path, source)
@@ -181,7 +181,7 @@ class Distribution:
         for source, maybe in self._items(value, Facet.EXECUTABLES):
             path = self._context.files.inside(str(source))
             if path is not None and not self._context.files.is_file(path):
-                self._problem("missing-file", f"{path} does not exist", source)
+                self._problem("missing-file", f"{path} does not exist", source, path)
             elif self._context.scripts is not None:
                 installed = posixpath.join(self._context.scripts, posixpath.basename(str(source)))
                 self._provide(installed, path or "", maybe, source, program=True)
@@ -233,8 +233,8 @@ class Distribution:
         if group in ("console_scripts", "gui_scripts") and self._context.scripts is not None:
             self._provide(posixpath.join(self._context.scripts, name), "", maybe, value, program=True)
 
-    def _problem(self, kind: str, message: str, value: Value) -> None:
-        self.problems.append(Problem(kind, message, self._place(value, self._context.call)))
+    def _problem(self, kind: str, message: str, value: Value, subject: str = "") -> None:
+        self.problems.append(Problem(kind, message, self._place(value, self._context.call), subject=subject))
 
 
 def _facet(folder: str) -> Facet:

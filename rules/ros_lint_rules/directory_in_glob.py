@@ -35,7 +35,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         at = problem.span[1:3]
         if problem.kind == "directory-in-data-files" and at not in told:
             told.add(at)
-            yield Finding(problem.message, problem.span, problem.message.partition(" ")[0])
+            yield Finding(problem.message, problem.span, problem.subject)
 
 
 RULE = Rule(

@@ -24,26 +24,23 @@ from collections.abc import Iterator
 
 from ros_lint.api import Confidence, Edit, Finding, Fix, Package, Rule, Severity, Workspace
 
-_PATTERN = re.compile(r"no file matches (.+), so nothing is installed to")
-
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_python":
         return
     for problem in script.problems:
-        match = _PATTERN.match(problem.message) if problem.kind == "empty-glob" else None
-        if match:
-            folder = _folder(match[1])
+        if problem.kind == "empty-glob":
+            folder = _folder(problem.subject)
             inside = any(file.startswith(f"{folder}/") for file in package.files) if folder else True
             # A folder that is not there yet is a template for the future; files that are passed over are a mistake.
             yield Finding(
                 problem.message,
                 problem.span,
-                match[1],
+                problem.subject,
                 confidence=Confidence.HIGH if inside else Confidence.MEDIUM,
                 severity=None if inside else Severity.INFO,
-                fix=_fix(package, match[1]),
+                fix=_fix(package, problem.subject),
             )
 
 

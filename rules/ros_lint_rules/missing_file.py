@@ -40,7 +40,6 @@ from ros_lint.api import (
     Workspace,
     called,
     evaluated_name,
-    missing_path,
 )
 
 _KINDS = ("missing-file", "file-is-directory")
@@ -62,7 +61,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     seen: set[str] = set()
     for problem in script.problems:
-        path = missing_path(problem)
+        path = problem.subject
         if problem.kind in _KINDS and path not in seen and not _is_unseen(package, path):
             seen.add(path)
             hint = _hint(package, path) if problem.kind == "missing-file" else ""
@@ -78,7 +77,7 @@ def _is_unseen(package: Package, path: str) -> bool:
 def _confidence(package: Package, workspace: Workspace, problem: Problem) -> Confidence:
     script = package.script
     assert script is not None
-    if workspace.is_made(package, missing_path(problem)):
+    if workspace.is_made(package, problem.subject):
         return Confidence.MEDIUM
     if _makes_files(package) or (_is_installed(package, problem) and _builds_in_sources(package)):
         return Confidence.MEDIUM

@@ -41,7 +41,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     slot = setup_edits.slot(script, "data_files")
     paths = {provided.path for provided in script.provides}
     place = slot.end if slot else script.name_span or Span(script.path, 1, 1, 1, 1)
-    unfound = any(problem.kind == "missing-file" and "resource/" in problem.message for problem in script.problems)
+    unfound = any(problem.kind == "missing-file" and "resource/" in problem.subject for problem in script.problems)
     if not unfound and not any(path.startswith(f"{_MARKERS}/") for path in paths):
         marker = f"resource/{package.name}"
         fix = None
