@@ -89,6 +89,7 @@ def evaluate(sources: Sources, distro: str = "", helpers: Mapping[str, Helper] =
 def _result(run: Run, path: str) -> BuildScript:
     provides = [*_installed_files(run), *cmake_install.installed_targets(run)]
     undefined = _undefined(run)
+    taken = _taken(run) if run.loose else {}
     problems = [*run.problems, *_missing(run), *undefined]
     nowhere = {problem.span for problem in undefined}  # these are mistakes, and hide nothing
     opaques = [opaque for opaque in run.opaques if opaque.span not in nowhere or not opaque.undefined]
@@ -103,7 +104,7 @@ def _result(run: Run, path: str) -> BuildScript:
         run.name_span,
         run.version,
         run.version_span,
-        _mentions(run),
+        _mentions(run, taken),
         cmake_targets.targets(run),
         tuple(provides),
         tuple(run.components),
@@ -117,7 +118,7 @@ def _result(run: Run, path: str) -> BuildScript:
         tuple(run.extras),
         entered=tuple(run.entered),
         handed_on=tuple(_handed_on(run)),
-        untaken=tuple(_untaken(run)),
+        untaken=tuple(_untaken(run, taken)),
         bundled=tuple(run.bundled),
         runs=_runs(run),
     )
@@ -181,15 +182,14 @@ def _installed_files(run: Run) -> list[Provided]:
     return found
 
 
-def _mentions(run: Run) -> tuple[Mention, ...]:
-    """Return the mentions.
+def _mentions(run: Run, taken: Mapping[str, bool]) -> tuple[Mention, ...]:
+    """Return the mentions, given what :func:`_taken` says.
 
     A package that is not required is optional where X_FOUND is asked for, and serves tests where these alone take what was
     found (reference, section C2.2).
     """
     if not run.loose:
         return tuple(run.mentions)
-    taken = _taken(run)
     guarded = {span for name in run.loose if f"{name}_FOUND" in run.tested for span in run.loose[name]}
     tests = {span for name in run.loose if taken.get(folded(name)) for span in run.loose[name]}
     return tuple(
@@ -212,11 +212,10 @@ def _taken(run: Run) -> dict[str, bool]:
     return taken
 
 
-def _untaken(run: Run) -> Iterator[Span]:
+def _untaken(run: Run, taken: Mapping[str, bool]) -> Iterator[Span]:
     """Yield where packages are searched that are not required, and whose names stand nowhere else."""
     if not run.loose:
         return
-    taken = _taken(run)
     known = {macro.package for macro in macros().values()}
     for name in _unnamed(run, [name for name in run.loose if folded(name) not in taken]):
         if not name.startswith("ament_") and (name in known or not _WORKS_BY_BEING_FOUND.search(name)):
