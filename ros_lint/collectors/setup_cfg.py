@@ -102,7 +102,7 @@ def collect(source: Text) -> SetupCfg:
             open_option = Option(section, given[1].replace("-", "_"), lines, span)
             if "-" in given[1] and section in _DASHED:
                 better = given[1].replace("-", "_")
-                problems.append(Problem("dashed-key", f"{given[1]} with a dash; write {better}", span))
+                problems.append(Problem("dashed-key", f"{given[1]} with a dash; write {better}", span, subject=given[1]))
     close()
     texts += [WrittenText("option", f"{option.section}.{option.key}", option.lines[0].span) for option in options if option.lines]
     texts.append(WrittenText("section", "", last))

@@ -51,4 +51,4 @@ class Problem(NamedTuple):
     instead: str = ""
     """What has taken the place of something that was right in ROS 1."""
     subject: str = ""
-    """What it is about, where a rule asks for it: a path relative to the package, or the pattern of a glob."""
+    """What it is about, where a rule asks for it: a path relative to the package, the pattern of a glob, a key."""

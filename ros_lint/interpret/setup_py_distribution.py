@@ -226,7 +226,8 @@ class Distribution:
             return
         match = _ENTRY.match(line)
         if match is None:
-            self._problem("entry-point-form", f"{line.strip()} is not of the form name = module:function", value)
+            entry = line.strip()
+            self._problem("entry-point-form", f"{entry} is not of the form name = module:function", value, entry.split()[0])
             return
         name, target = match[1], match[2]
         self.entry_points.append(EntryPoint(group, name, target, self._place(value, self._context.call)))

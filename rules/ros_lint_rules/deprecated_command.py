@@ -61,7 +61,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             yield Finding(f"{name}() is deprecated; {instead}", first.place, name, related, fix)
     for problem in script.problems:
         if problem.kind == "dashed-key":
-            written = problem.message.partition(" ")[0]
+            written = problem.subject
             better = written.replace("-", "_")
             fix = Fix(f"write {better}", (Edit(problem.span, better),))
             yield Finding(f"the key {written} is deprecated; write {better}", problem.span, written, fix=fix)

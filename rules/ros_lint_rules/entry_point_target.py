@@ -41,7 +41,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         yield from _entry(package, entry)
     for problem in script.problems:
         if problem.kind == "entry-point-form":
-            yield Finding(problem.message, problem.span, problem.message.partition(" ")[0])
+            yield Finding(problem.message, problem.span, problem.subject)
 
 
 def _entry(package: Package, entry: EntryPoint) -> Iterator[Finding]:
