@@ -12,6 +12,7 @@ from typing import NamedTuple
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Use, Via
 from ros_lint.knowledge.reach import Closure
+from ros_lint.knowledge.spelling import is_vendor
 from ros_lint.strangers import meant
 from ros_lint.text import Span
 from ros_lint.workspace import Package, Workspace, per_package
@@ -132,8 +133,11 @@ def _needs(
 
 
 def _is_meant(name: str, best: str, bring: Callable[[tuple[str, ...]], Closure]) -> bool:
-    """Whether a name that will do is declared for itself, and does not merely bring the best one along."""
-    return name == best or best not in bring((name,))
+    """Whether a name that will do is declared for itself, and does not merely bring the best one along.
+
+    A vendor package is declared for the library, which it brings where the system has it.
+    """
+    return name == best or best not in bring((name,)) or is_vendor(name, best)
 
 
 def _rank(use: Use) -> int:

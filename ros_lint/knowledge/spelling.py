@@ -100,6 +100,15 @@ def plain(name: str) -> str:
     return name.replace("-", "").replace("_", "").lower()
 
 
+def is_vendor(package: str, library: str) -> bool:
+    """Return whether a package has the name of the vendor package of a library, by whatever name or key that goes."""
+    return package.endswith("_vendor") and _bare(package.removesuffix("_vendor")) == _bare(library)
+
+
+def _bare(library: str) -> str:
+    return plain(library.removesuffix("-dev").removeprefix("lib"))
+
+
 def _words(name: str) -> frozenset[str]:
     return frozenset(re.findall(r"[a-z]+|[0-9]+", name.lower()))
 
