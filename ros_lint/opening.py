@@ -111,7 +111,7 @@ _OF_NO_MATTER = frozenset((
 """Settings that the report does not depend on: it does on what a configuration file says, and not on where it lies."""
 
 
-_LIBRARIES = ("libcst", "lxml", "networkx", "yaml")
+_LIBRARIES = ("libcst", "networkx", "yaml")
 """What takes part in reading a workspace besides Python and our own code."""
 
 

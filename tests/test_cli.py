@@ -80,7 +80,7 @@ def test_version_and_help() -> None:
         assert run(command, "--help").returncode == 0
 
 
-HEAVY = {"networkx", "libcst", "lxml", "yaml", "importlib.metadata", "dataclasses", "json", "argparse"}
+HEAVY = {"networkx", "libcst", "yaml", "importlib.metadata", "dataclasses", "json", "argparse"}
 
 
 @pytest.mark.parametrize(
