@@ -23,7 +23,7 @@ from ros_lint.build_scripts import (
     with_client,
 )
 from ros_lint.carriers import Carried, carriers
-from ros_lint.cmake_finds import come_along, found_along, found_names, given_for
+from ros_lint.cmake_finds import come_along, found_along, found_names, given_for, not_seen_used
 from ros_lint.collectors.launch_text import agree, is_plain, renames
 from ros_lint.declare import (
     PYTHON_LIKE,
@@ -186,6 +186,7 @@ __all__ = [
     "needed",
     "needs",
     "node_targets",
+    "not_seen_used",
     "passed_files",
     "programs",
     "programs_built",

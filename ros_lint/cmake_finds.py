@@ -33,6 +33,29 @@ def finds_declared(package: Package) -> bool:
     return package.script is not None and not _FIND_DECLARED.isdisjoint(package.script.calls)
 
 
+def not_seen_used(package: Package, script: BuildScript) -> Iterator[Mention]:
+    """Yield the first find_package() of each name that is needed, tests aside, and that no code is seen to use.
+
+    That targets are linked or exported is no use by code; interfaces and plugins that macros are given by name are.
+    """
+    used = {name for use in package.uses if use.via not in _BY_SCRIPT for name in use.providers}
+    used |= {
+        mention.name.partition("::")[0]
+        for mention in script.mentions
+        if mention.via not in _BY_SCRIPT or mention.purpose in _FOR_CODE
+    }
+    used.add(package.name)
+    for mention in script.mentions:
+        if mention.via == "cmake" and not (mention.optional or mention.test or mention.name in used):
+            used.add(mention.name)
+            yield mention
+
+
+_BY_SCRIPT = ("cmake", "target")
+_FOR_CODE = ("interfaces", "plugins")
+"""Targets that are linked say nothing: these packages are needed for the code that is generated or loaded."""
+
+
 def come_along(workspace: Workspace, names: Iterable[str]) -> frozenset[str] | None:
     """Return what is found together with names of find_package(), these included: what their packages bring along.
 

@@ -106,7 +106,7 @@ class Loader:
         absent = frozenset(folder.rpartition("/")[2] for folder in submodules)
         packages = tuple(self._join(tree, reads, world, absent, sources))
         unusable = tuple(self._unusable(manifest) for manifest in discovery.rejected if not self._exclude(manifest.path))
-        not_checked = (*discovery.not_checked, *_unreadable(collected), *_failed(reads))
+        not_checked = dict.fromkeys((*discovery.not_checked, *_unreadable(collected), *_failed(reads)))
         ignores = ignored.find(tree, ((found.path, found.files) for found in founds))
         return Workspace(packages, unusable, world, self.target, tuple(not_checked), lists, ignores)
 
@@ -221,7 +221,12 @@ class Loader:
                 unusable_headers=public_headers.unusable(done.script, done.facts, found.files),
                 left_behind=tuple(own_files.left_behind(found.files, done.script, done.facts)),
             )
-            yield package._replace(traces=traces.of_package(tree, package, source, world, types)) if search else package
+            if search:
+                package = package._replace(
+                    traces=traces.of_package(tree, package, source, world, types),
+                    perhaps_used=traces.of_found(tree, package, source, world, types),
+                )
+            yield package
 
     def _declared(self, manifest: Manifest | None) -> tuple[Declared, ...]:
         """Return every dependency element whose condition is not false, groups, conflicts and replaces included."""

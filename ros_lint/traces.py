@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import accumulate
 from typing import TYPE_CHECKING
 
+from ros_lint.cmake_finds import not_seen_used
 from ros_lint.declare import is_built_in_sight, is_unseen_by_name
 from ros_lint.evidence import Source, satisfying, used_names
 from ros_lint.facts.sources import Via
@@ -47,6 +48,52 @@ def of_package(tree: Tree, package: Package, source: Source, world: World, types
     return {**found, **types.used(source, left)} if left else found
 
 
+def of_found(tree: Tree, package: Package, source: Source, world: World, types: Types) -> frozenset[str]:
+    """Return the packages that CMake finds and that are used all the same, it seems, though no code is seen to use them.
+
+    Their name stands in a text, build scripts aside, for namespaces are often known by way of a header of another package;
+    or the script takes more of them than what is linked; or they may have a header that nobody is known to have.
+    """
+    script = package.script
+    if script is None or script.problems or package.builds_with != "ament_cmake":
+        return frozenset()
+    wanted = [each.name for each in not_seen_used(package, script) if not is_unseen_by_name(world, each.name)]
+    if not wanted:
+        return frozenset()
+    texts: dict[bool, list[tuple[str, bytes]]] = {True: [], False: []}
+    for path, data in _contents(tree, package):
+        texts[path.endswith(_OF_BUILD)].append((path, data))
+    found = frozenset(traces(wanted, texts[False], whole=True))
+    scripts = b"\n".join([data for _, data in texts[True]])
+    found |= {name for name in wanted if re.search(_VARIABLE % re.escape(name.encode()), scripts)}
+    if len(found) < len(wanted):
+        folders = _unknown_folders(package, source)
+        found |= {name for name in wanted if any(f"{name}_".startswith(f"{folder}_") for folder in folders)}
+    return found.union(types.used(source, [name for name in wanted if name not in found]))
+
+
+def _unknown_folders(package: Package, source: Source) -> frozenset[str]:
+    """Return the folders of headers that are included and nobody is known to have.
+
+    Packages share their beginnings with these, as ``moveit_core`` does with ``moveit/planning_scene.h``.
+    """
+    used = {use.span for use in package.uses if use.via == "include"}
+    found = {
+        mention.name
+        for facts in source.facts.values()
+        for mention in facts.mentions
+        if mention.via == "include" and "/" in mention.name and mention.span not in used
+    }
+    own = "\n".join(["", *package.files, ""])
+    return frozenset(header.partition("/")[0] for header in found if f"/{header}\n" not in own)
+
+
+_VARIABLE = rb"\$\{%s_(?!(?:TARGETS|LIBRAR|INCLUDE_DIR|DEFINITIONS|FOUND|VERSION)\w*\})"
+"""A variable that a package gives for more than to be linked: the files that it has, for example."""
+
+_OF_BUILD = ("CMakeLists.txt", ".cmake")
+
+
 def _contents(tree: Tree, package: Package) -> Iterator[tuple[str, bytes]]:
     """Yield the files of a package that may say that it uses something: no prose, and not the manifest itself."""
     for path, data in contents(tree, package.path, filter(_may_trace, package.files)):
@@ -60,12 +107,17 @@ def _may_trace(file: str) -> bool:
 
 
 def traces(
-    names: Sequence[str], files: Iterable[tuple[str, bytes]], words: Mapping[str, Sequence[str]] | None = None
+    names: Sequence[str],
+    files: Iterable[tuple[str, bytes]],
+    words: Mapping[str, Sequence[str]] | None = None,
+    *,
+    whole: bool = False,
 ) -> dict[str, Span]:
     """Return a place for every name that stands as a word in one of the files, dashes and underscores taken as equal.
 
     ``files`` are paths with contents. They are searched all at once and as they are: few of them have a name in question.
-    ``words`` are sought for some of the names instead, anywhere and whatever their capitals.
+    ``words`` are sought for some of the names instead, anywhere and whatever their capitals. With ``whole`` the part of a
+    longer name does not count: ``tf2`` is not in ``tf2_ros``.
     """
     listed = list(files)
     data = b"\n".join([content for _, content in listed])
@@ -77,7 +129,7 @@ def traces(
         if name in words:
             places = ((lower.find(word.lower().encode()), word.encode()) for word in words[name])
         else:
-            places = ((_find_word(data, spelling), spelling) for spelling in _written(name, data))
+            places = ((_find_word(data, spelling, _JOINING if whole else b""), spelling) for spelling in _written(name, data))
         start, spelling = next((place for place in places if place[0] >= 0), (-1, b""))
         if start < 0:
             continue
@@ -136,12 +188,18 @@ def _spellings(name: str) -> tuple[str, ...]:
 _CONVERSIONS = frozenset({"tf2_bullet", "tf2_eigen", "tf2_eigen_kdl", "tf2_geometry_msgs", "tf2_kdl", "tf2_sensor_msgs"})
 
 
-def _find_word(data: bytes, word: bytes) -> int:
-    """Return the offset of a word, -1 when there is none. A search for letters is many times faster than for a pattern."""
+_JOINING = b"-_"
+
+
+def _find_word(data: bytes, word: bytes, joining: bytes) -> int:
+    """Return the offset of a word, -1 when there is none. A search for letters is many times faster than for a pattern.
+
+    ``joining`` are the bytes that are part of a word besides letters and digits.
+    """
     start = data.find(word)
     while start >= 0:
-        before, after = data[max(start - 1, 0) : start], data[start + len(word) : start + len(word) + 1]
-        if not (before.isalnum() or after.isalnum()):
+        around = data[max(start - 1, 0) : start], data[start + len(word) : start + len(word) + 1]
+        if not any(each.isalnum() or (each and each in joining) for each in around):
             return start
         start = data.find(word, start + 1)
     return -1

@@ -62,6 +62,8 @@ class Package(NamedTuple):
     traces: Mapping[str, Span]
     """For declared names that nothing uses: a place where the name stands in some text all the same."""
     opaque: tuple[Opaque, ...]
+    perhaps_used: frozenset[str] = frozenset()
+    """Names that CMake finds and no code is seen to use, while something else says that they are used."""
     registrations: tuple[Registration, ...] = ()
     """Classes that its C++ sources make loadable."""
     look_ups: tuple[LookUp, ...] = ()

@@ -16,7 +16,10 @@ Remove the `find_package()`, the target that is linked, and the dependency from 
 
 - It is off unless asked for.
 - The package found gives CMake macros, plugins or components, or is a build tool.
-- Nobody has looked for its name in other files: it may be needed by what is loaded while the program runs.
+- Its name stands in the code, as a namespace that some other header makes known, or in another file of the package, or one
+  of its types is used by its bare name.
+- The code includes a header that nobody is known to have, in a folder that begins like the name.
+- The script uses more of its variables than those that are linked.
 - It is found for tests, or it is optional.
 - The script cannot be followed everywhere.
 """
@@ -25,31 +28,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Facet, Finding, Package, Rule, Severity, Workspace, is_mostly_run, works_unseen
-
-_CMAKE = ("cmake", "target")
-_FOR_CODE = ("interfaces", "plugins")
-"""Targets that are linked say nothing: these packages are needed for the code that is generated or loaded."""
+from ros_lint.api import Facet, Finding, Package, Rule, Severity, Workspace, is_mostly_run, not_seen_used, works_unseen
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or script.problems or package.builds_with != "ament_cmake" or package.hidden(Facet.USES):
         return
-    used = {name for use in package.uses if use.via not in _CMAKE for name in use.providers}
-    used |= {
-        mention.name.partition("::")[0]
-        for mention in script.mentions
-        if mention.via not in _CMAKE or mention.purpose in _FOR_CODE
-    }
-    said = set()
-    for mention in script.mentions:
+    for mention in not_seen_used(package, script):
         name = mention.name
-        if mention.via != "cmake" or mention.optional or mention.test or name in used or name in said:
+        if name in package.perhaps_used or works_unseen(package, workspace, name) or is_mostly_run(workspace, name):
             continue
-        if name == package.name or works_unseen(package, workspace, name) or is_mostly_run(workspace, name):
-            continue
-        said.add(name)
         yield Finding(f"{name} is found, but no code uses it: remove find_package({name})", mention.span, name)
 
 
