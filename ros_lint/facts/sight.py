@@ -39,6 +39,12 @@ class Opaque(NamedTuple):
     span: Span
     undefined: str = ""
     """The name of a target that is installed and that nothing in sight defines, where that is what hides something."""
+    below: str = ""
+    """The folder of the prefix that what is hidden lies below, "" if that may be any."""
+
+    def reaches(self, path: str) -> bool:
+        """Return whether what is hidden may be at a path in the prefix, or in a folder there."""
+        return not self.below or f"{path}/".startswith(f"{self.below}/") or self.below.startswith(f"{path}/")
 
 
 class Problem(NamedTuple):

@@ -166,7 +166,7 @@ def _install_files(run: Run, args: list[str], program: bool) -> None:
         plain, certain = sure(value)
         name = rename or posixpath.basename(plain)
         if destination is None or HOLE in name or not is_fixed(name):
-            run.hide(facet_of(run, destination), "install() of files whose names or place are not known")
+            run.hide(facet_of(run, destination), "install() of files whose names or place are not known", below=destination or "")
             continue
         _install_file(run, value, join_path(destination, name), program, certain, "OPTIONAL" in parts)
 
@@ -229,7 +229,7 @@ def _install_directories(run: Run, args: list[str]) -> None:
     destination = _destination(run, parts)
     patterns = _patterns(args[at:]) if at < len(args) else []
     if patterns is None:
-        run.hide(facet_of(run, destination), "install(DIRECTORY) with a pattern that is not known")
+        run.hide(facet_of(run, destination), "install(DIRECTORY) with a pattern that is not known", below=destination or "")
         return
     permissions = parts.get("FILE_PERMISSIONS")
     executable: bool | None = None if "USE_SOURCE_PERMISSIONS" in parts else False
@@ -240,9 +240,10 @@ def _install_directories(run: Run, args: list[str]) -> None:
         plain = sure(value)[0]
         source = run.source(plain)
         if destination is None or HOLE in plain:
-            run.hide(facet_of(run, destination), "install(DIRECTORY) of a folder or to a place that is not known")
+            reason = "install(DIRECTORY) of a folder or to a place that is not known"
+            run.hide(facet_of(run, destination), reason, below=destination or "")
         elif source is None:
-            run.hide(facet_of(run, destination), "install(DIRECTORY) of a folder that is not in the sources")
+            run.hide(facet_of(run, destination), "install(DIRECTORY) of a folder that is not in the sources", below=destination)
             _install_configured(run, value, destination, rule)
         elif not run.muted:
             target = destination

@@ -331,15 +331,15 @@ class Run(Paths):
         if not self.muted:
             self.mentions[Mention(name, via, span, what, optional or self.unsure > 0, self.testing, purpose)] = None
 
-    def hide(self, facet: Facet, reason: str, span: Span | None = None) -> None:
-        """Note that something cannot be seen through.
+    def hide(self, facet: Facet, reason: str, span: Span | None = None, below: str = "") -> None:
+        """Note that something cannot be seen through, and where in the prefix it can only be.
 
         Where the script does not come to unless it is asked to, it hides only what a package may be needed for.
         """
         if self.unusual:
             facet &= Facet.USES
         if facet and not self.muted:
-            self.opaques[Opaque(facet, reason, span or self.here())] = None
+            self.opaques[Opaque(facet, reason, span or self.here(), below=below)] = None
 
     def problem(self, kind: str, message: str, span: Span, path: str = "") -> None:
         """Note that a command is wrong, if it runs for sure."""

@@ -64,8 +64,9 @@ _RUN_TIME = (
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
-    if script is None or package.builds_with not in ("ament_cmake", "ament_python") or package.hidden(Facet.SHARE):
+    if script is None or package.builds_with not in ("ament_cmake", "ament_python"):
         return
+    hidden = package.hidden(Facet.SHARE)
     installed = {provided.path for provided in script.provides}
     kept = {provided.source for provided in script.provides if provided.source}
     missing: dict[str, list[tuple[str, Span]]] = {}
@@ -77,9 +78,13 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             continue
         if any(place.startswith(f"share/{package.name}/{path}/") for place in installed):
             continue
+        if any(opaque.reaches(f"share/{package.name}/{path}") for opaque in hidden):
+            continue
         missing.setdefault(_unit(path, kept), []).append((path, span))
     for unit, found in missing.items():
         yield _named(package, unit, found)
+    if hidden:
+        return
     told = {unit.partition("/")[0] for unit in missing}
     yield from _folders(package, kept, told)
 
