@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Mapping, Sequence
+import re
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from posixpath import normpath
 from types import MappingProxyType
 from typing import Literal
@@ -57,9 +58,9 @@ class References:
                 self._include(action, conditional)
             case "process":
                 self._process(action, conditional)
-        for value in _values(action):
+        for value, reads in _values(action):
             if not _is_dull(value.texts, self._carriers):
-                self._paths(value, action.package_span, conditional)
+                self._paths(value, action.package_span, conditional, reads)
         for child in action.children:
             self._action(child, conditional)
         self._optional = before
@@ -128,11 +129,15 @@ class References:
         elif "/" not in package and not package.endswith((".py", ".xml", ".yaml", ".launch")):
             self._add("package", package, "", value, value, conditional, default)
 
-    def _paths(self, value: LaunchValue, package_span: Span | None, conditional: bool) -> None:
+    def _paths(
+        self, value: LaunchValue, package_span: Span | None, conditional: bool, reads: Callable[[str], str] | None = None
+    ) -> None:
+        """Note the places that a value mentions. ``reads`` returns the part of a text that names a file which is read."""
         texts, default = self._filled(value)
         for text in texts:
             if text.isascii() and not runs_xacro(text):
                 continue
+            read = set(installed(reads(text))) if reads is not None else ()
             for place in installed(text):
                 if not place.known:
                     self.hide("the package that is looked up is computed", value.span)
@@ -142,7 +147,7 @@ class References:
                 path = place.share
                 made = default and self._is_made(place.package, value)
                 if path:
-                    self._add("file", place.package, path, value, package, several, default, made)
+                    self._add("file", place.package, path, value, package, several, default, made, place in read)
                 elif place.executable:
                     self._add("node", place.package, place.executable, value, package, several, default, made)
                 else:
@@ -212,6 +217,7 @@ class References:
         conditional: bool,
         by_default: bool,
         package_by_default: bool = False,
+        read: bool = False,
     ) -> None:
         exact, package_exact = at.exact and at.texts == (name,), owner.exact and owner.texts == (package,)
         if kind == "package":
@@ -228,6 +234,7 @@ class References:
             self._optional,
             by_default,
             package_by_default and package not in self._places,
+            read,
         )
         self.found[reference] = None
 
@@ -262,20 +269,46 @@ def asks_first(conditions: Iterable[LaunchCondition]) -> bool:
     return any(condition.wanted and asked_for(text) for condition in conditions for text in condition.texts)
 
 
-def _values(action: LaunchAction) -> Iterable[LaunchValue]:
-    """Return the values of an action in which a path can be, apart from its target."""
-    found: list[LaunchValue] = []
+_Reads = Callable[[str], str]
+_DISPLAY = re.compile(r"(?:^|\s)(?:-d|--display-config)(?:[\s=]+(\S+)|$)")
+"""The option of rviz2 that names the file with its displays."""
+
+
+def _whole(text: str) -> str:
+    return text
+
+
+def _display(text: str) -> str:
+    match = _DISPLAY.search(text)
+    return (match[1] or "") if match is not None else ""
+
+
+def _values(action: LaunchAction) -> Iterable[tuple[LaunchValue, _Reads | None]]:
+    """Return the values of an action in which a path can be, apart from its target, and what of them is read."""
+    found: list[tuple[LaunchValue, _Reads | None]] = []
     if action.value is not None:
-        found.append(action.value)
+        found.append((action.value, None))
     if action.name is not None:
-        found.append(action.name)
+        found.append((action.name, None))
     if action.namespace is not None:
-        found.append(action.namespace)
+        found.append((action.namespace, None))
     if action.arguments:
-        found += [value for _, value in action.arguments]
+        shows = action.kind == "node" and action.package is not None and action.package.texts == ("rviz2",)
+        found += _shown(action.arguments) if shows else [(value, None) for _, value in action.arguments]
     if action.parameters:
-        found += [value for _, value in action.parameters]
+        found += [(value, None if name else _whole) for name, value in action.parameters]
     return found
+
+
+def _shown(arguments: Iterable[tuple[str, LaunchValue]]) -> Iterator[tuple[LaunchValue, _Reads | None]]:
+    """Yield the words that rviz2 is given: the file with its displays stands in one with its option, or follows it."""
+    follows = False
+    for name, value in arguments:
+        if not name:
+            yield value, _whole if follows else _display
+            follows = any((match := _DISPLAY.search(text)) and not match[1] for text in value.texts)
+        else:
+            yield value, None
 
 
 def _is_dull(texts: Iterable[str], carriers: Container[str]) -> bool:

@@ -80,6 +80,8 @@ class LaunchReference(NamedTuple):
     """Whether it holds only as long as nobody gives the arguments of the launch file other values than their defaults."""
     package_by_default: bool = False
     """The same of the package: its name is made of the default of an argument, and stands nowhere as it is."""
+    read: bool = False
+    """Whether what is started reads this file for certain, so that it cannot be one that is written: parameters, displays."""
 
 
 class LaunchFile(NamedTuple):

@@ -19,9 +19,10 @@ Correct the path; the message names files of the same name that the package does
 
 - The file is in the sources and not installed: that is `uninstalled-resource`.
 - A part of the package's build script that cannot be followed may install it.
-- Files that look as if something writes or downloads them: networks, records, images; folders. Maps, which people make
-  with the robot, and what git ignores have medium confidence, and so have records beside which one of nearly the same name
-  is installed.
+- Files that look as if something writes or downloads them: networks, records, images; folders. Not so what a node reads
+  for certain: parameters, the displays of rviz2. Maps, which people make with the robot, and what git ignores have medium
+  confidence, and so have records beside which one of nearly the same name is installed; unless that one is the only one
+  that nothing names.
 - For a released package: its launch files are not known whole; other files of it are not known at all.
 - The launch file asks first if the package is there.
 
@@ -68,14 +69,16 @@ def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
         references = [reference for reference in named if not reference.optional]
         if not references:
             continue
-        best, *others = sorted(references, key=lambda one: (one.by_default, one.kind != "include", one.span))
+        best, *others = sorted(references, key=lambda one: (one.by_default, one.kind != "include", not one.read, one.span))
         others_there = _files_without(owner, path, best.kind, workspace)
         if others_there is None:
             continue
-        written = best.kind == "include" or path.endswith(_WRITTEN)
-        if not written and not _has_twin(path, others_there):
+        written = best.kind == "include" or path.endswith(_WRITTEN) or any(one.read for one in references)
+        twin = "" if written else _twin(path, others_there)
+        if not written and not twin:
             continue
-        sure = written and (bool(workspace.by_name.get(owner)) or workspace.target.told)
+        meant = written or _is_left_over(twin, owner, others_there, workspace)
+        sure = meant and (bool(workspace.by_name.get(owner)) or workspace.target.told)
         yield Finding(
             f"{owner} has no {path}{_hint(path, others_there)}",
             best.span,
@@ -154,12 +157,24 @@ class _Missing:
 _Key = tuple[Span, str, str]
 
 
-def _has_twin(path: str, names: tuple[str, ...]) -> bool:
-    """Whether a file of nearly the same name, and of the same kind, is installed beside it."""
+def _twin(path: str, names: tuple[str, ...]) -> str:
+    """Return a file of nearly the same name, and of the same kind, that is installed beside one, "" if there is none."""
     folder, _, base = path.rpartition("/")
-    suffix = base.rpartition(".")[2]
-    twins = [name.rpartition("/")[2] for name in names if name.rpartition("/")[0] == folder and name.endswith(f".{suffix}")]
-    return bool(difflib.get_close_matches(base, twins, 1, 0.8))
+    beside = [name.rpartition("/")[2] for name in names if _kind(name) == _kind(path)]
+    near = difflib.get_close_matches(base, beside, 1, 0.8)
+    return f"{folder}/{near[0]}".lstrip("/") if near else ""
+
+
+def _kind(path: str) -> tuple[str, str]:
+    """Return the folder and the suffix of a file."""
+    folder, _, base = path.rpartition("/")
+    return folder, base.rpartition(".")[2]
+
+
+def _is_left_over(file: str, owner: str, names: tuple[str, ...], workspace: Workspace) -> bool:
+    """Whether nothing looks up a file, while others of its kind beside it are looked up: then it is the one that is meant."""
+    wanted = {look_up.path for look_up in workspace.looked_up.get(owner, ())}
+    return file not in wanted and any(_kind(other) == _kind(file) for other in wanted.intersection(names))
 
 
 def _is_made(owner: str, path: str, workspace: Workspace) -> bool:
@@ -178,7 +193,9 @@ def _files_without(owner: str, path: str, kind: str, workspace: Workspace) -> tu
     share = f"share/{owner}/"
     names: set[str] = set()
     for one in owners:
-        if one.script is None or one.hidden(Facet.SHARE) or one.builds_with not in ("ament_cmake", "ament_python"):
+        if one.script is None or one.builds_with not in ("ament_cmake", "ament_python"):
+            return None
+        if any(opaque.reaches(f"{share}{path}") for opaque in one.hidden(Facet.SHARE)):
             return None
         names.update(p.path[len(share) :] for p in one.script.provides if p.path.startswith(share))
         # What is in the sources and installed nowhere is told by another rule, also when the folders differ.
