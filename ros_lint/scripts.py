@@ -27,6 +27,8 @@ _SCRIPTS = re.compile(r"(?:scripts|nodes|bin|script)/[^/]+\Z")
 _MOST_RESOURCES = 40
 """Of a folder: a tree of models has thousands of files, and one that is named is enough."""
 _MOST_UNSEEN = 5_000
+_TELLS = (".md", ".rst", ".txt", ".sh", ".bash", ".py", ".yaml", ".yml")
+"""Texts that may say how a program is started."""
 _PYTHON = ("setup.py", "setup.cfg", "pyproject.toml")
 
 
@@ -148,11 +150,18 @@ def _python(tree: Tree, found: Found) -> BuildScript | None:
         return None
     from ros_lint.interpret import setup_py  # noqa: PLC0415
 
-    setup, config, project = (_text(tree, found, file) for file in _PYTHON)
+    setup, config, project = texts_read = [_text(tree, found, file) for file in _PYTHON]
     script = setup_py.evaluate(found.name, found.path, found.files, setup, config, project, _Executables(tree, found))
     slots = setup_layout.collect(setup, found.name) if setup else ()
     texts = setup_texts.collect(setup) if setup else ()
-    return script._replace(slots=slots, texts=(*script.texts, *texts), modules=tuple(_modules(tree, found, script)))
+    unread = [join(found.path, file) for file, text in zip(_PYTHON, texts_read, strict=True) if not text and file in found.files]
+    opaque = [Opaque(ANYTHING, "it cannot be read", Span(path, 1, 1, 1, 1)) for path in unread]
+    return script._replace(
+        slots=slots,
+        texts=(*script.texts, *texts),
+        modules=tuple(_modules(tree, found, script)),
+        opaque=(*script.opaque, *opaque),
+    )
 
 
 def _modules(tree: Tree, found: Found, script: BuildScript) -> Iterator[PythonModule]:
@@ -184,6 +193,10 @@ def _with_files(tree: Tree, parts: Parts, script: BuildScript) -> BuildScript:
     sources.update(dict.fromkeys(_programs(found.files, folders)))
     executables = _Executables(tree, found)
     files = [_script_file(file, text, file in executables) for file in sources if (text := _text(tree, found, file))]
+    kept = {provided.source for provided in script.provides}
+    lost = [file.path for file in files if file.path not in kept and file.shebang and file.main]
+    run = _run(tree, found, lost) if lost else {}
+    files = [file._replace(run=run.get(file.path)) for file in files] if run else files
     hidden = any(opaque.hides & Facet.SHARE for opaque in script.opaque)
     missing = {} if hidden else resource_files.uninstalled(found.files, [provided.source for provided in script.provides])
     if not (plugins or files or missing):
@@ -240,6 +253,31 @@ def _named(tree: Tree, found: Found, missing: Mapping[str, Sequence[str]]) -> It
                 del left[resource]
         if not left:
             return
+
+
+def _run(tree: Tree, found: Found, programs: Sequence[str]) -> dict[str, Span]:
+    """Return where a text of the package starts programs with ``ros2 run``, by their paths: a script, or a page that tells how.
+
+    With or without their ending, for who installs a program may rename it. The pages of the folders above count, too.
+    """
+    names = {program.rpartition("/")[2]: program for program in programs}
+    names = {**{name.removesuffix(".py"): program for name, program in names.items()}, **names}
+    words = b"|".join([re.escape(name.encode()) for name in names])
+    command = re.compile(rb"\bros2 run +%s +(%s)(?![\w-]|\.\w)" % (re.escape(found.name.encode()), words))
+    above = [join(folder, "README.md") for folder in _above(found.path)]
+    told = [file for file in found.files if file.endswith(_TELLS) and not file.startswith("CHANGELOG")]
+    places: dict[str, Span] = {}
+    for path, data in (*contents(tree, found.path, told), *contents(tree, "", above)):
+        for hit in command.finditer(data) if b"ros2 run" in data else ():
+            places.setdefault(names[hit[1].decode()], span_in(path, data, *hit.span(1)))
+    return places
+
+
+def _above(path: str) -> Iterator[str]:
+    """Yield the folders above a path, the nearest first."""
+    while path:
+        path = path.rpartition("/")[0]
+        yield path
 
 
 def _is_remark(file: str, data: bytes, start: int) -> bool:

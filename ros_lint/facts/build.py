@@ -82,6 +82,8 @@ class ScriptFile(NamedTuple):
     """Whether it runs something when it is started: ``if __name__ == "__main__"``, or a language other than Python."""
     executable: bool
     """Whether the source has the executable bit."""
+    run: Span | None = None
+    """Where a text of the package says ``ros2 run`` with its name; sought only if the script is not installed."""
 
 
 class LeftBehind(NamedTuple):

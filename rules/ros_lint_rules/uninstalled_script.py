@@ -2,8 +2,9 @@
 ## What it finds
 
 A script with an interpreter line, in `scripts/`, beside scripts that are installed, or in the folder of a Python package that is
-not installed, that an `ament_cmake` package does not install. The confidence is high for a node beside nodes that are installed
-(both import `rclpy`), and else medium: it may be a tool for the sources only.
+not installed, that an `ament_cmake` package does not install. The confidence is high where a page or a script of the package
+starts it with `ros2 run`, and for an executable node beside nodes that are installed (both import `rclpy`). Else it is medium
+or low: it may be a tool for the sources only.
 
 ## Why it matters
 
@@ -29,6 +30,7 @@ from ros_lint.api import (
     Finding,
     Fix,
     Package,
+    Related,
     Rule,
     Severity,
     Span,
@@ -55,12 +57,14 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         fix = None
         if script.end is not None:
             fix = Fix(f"install {file.path}", (cmake_edits.install_program(script.end, "PROGRAMS", file.path),))
+        sure = file.run is not None or (forgotten and file.executable)
         yield Finding(
             f"{file.path} is a script, and is not installed, so ros2 run does not find it",
             Span(path, 1, 1, 1, 1),
             file.path,
-            fix=fix,
-            confidence=Confidence.HIGH if forgotten else Confidence.MEDIUM if file.executable else Confidence.LOW,
+            (Related("it is started here", file.run),) if file.run else (),
+            fix,
+            Confidence.HIGH if sure else Confidence.MEDIUM if forgotten or file.executable else Confidence.LOW,
         )
 
 
@@ -71,7 +75,6 @@ RULE = Rule(
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,
-    default=False,
     fixable=True,
     package=check,
 )
