@@ -315,11 +315,12 @@ return LaunchDescription([Node(package='a', executable='b', parameters=[
     ]
 
 
+@pytest.mark.parametrize("question", ["{} == 'humble'", "{}[0] <= 'h'", "{} in ('foxy', 'humble')", "{}[:1] not in ('j', 'k')"])
 @pytest.mark.parametrize(("distro", "wanted"), [("humble", "old"), ("jazzy", "new")])
-def test_branches_by_distribution(distro: str, wanted: str) -> None:
-    program = """\
-name = 'old' if os.environ.get('ROS_DISTRO') == 'humble' else 'new'
-if os.getenv('ROS_DISTRO') == 'humble':
+def test_branches_by_distribution(distro: str, wanted: str, question: str) -> None:
+    program = f"""\
+name = 'old' if {question.format("os.environ.get('ROS_DISTRO')")} else 'new'
+if {question.format("os.getenv('ROS_DISTRO')")}:
     return [Node(package='a', executable='old'), Node(package='a', executable=name)]
 return [Node(package='a', executable='new'), Node(package='a', executable=name)]"""
     _, file = collect("a.launch.py", body(program))

@@ -25,7 +25,18 @@ from ros_lint.collectors.launch_py_objects import (
     written,
 )
 from ros_lint.collectors.launch_py_texts import texts
-from ros_lint.collectors.launch_text import LONGEST, UNKNOWN, certain_part, distinct, is_plain, joined, presence
+from ros_lint.collectors.launch_text import (
+    LONGEST,
+    UNKNOWN,
+    certain_part,
+    distinct,
+    expression,
+    is_plain,
+    joined,
+    named_in,
+    presence,
+    quoted,
+)
 from ros_lint.collectors.python_operators import ARITHMETIC, BITWISE, COMPARISONS
 from ros_lint.facts.launch import LaunchCondition
 
@@ -164,6 +175,7 @@ def texts_made(found: tuple[str, ...], node: ast.expr, frame: Frame) -> Value:
 
 
 _OPERATORS = {**ARITHMETIC, **BITWISE}
+_ORDERS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="}
 
 
 def operation(machine: Machine, op: ast.operator, left: Value, right: Value, node: ast.expr, frame: Frame) -> Value:
@@ -260,6 +272,8 @@ def _one_compare(op: ast.cmpop, left: Value, right: Value) -> Value:
             if is_plain(right):
                 return Unknown("comparison with an argument", LaunchCondition((str(left),), str(right), isinstance(op, ast.Eq)))
             return Unknown("comparison with what is not known")
+    elif isinstance(left, str) and isinstance(right, str) and not (is_plain(left) and is_plain(right)):
+        return _asked(f"{quoted(left)} {_ORDERS[type(op)]} {quoted(right)}")
     if (
         isinstance(left, (list, tuple, dict, set))
         and isinstance(right, type(left))
@@ -290,7 +304,17 @@ def _contained(op: ast.cmpop, left: Value, right: Value) -> Value:
             return not wanted
         if known and len(inner) == 1 and isinstance(inner[0], str):
             return Unknown("comparison with an argument", LaunchCondition((str(left),), inner[0], wanted))
+        if known and isinstance(left, str):
+            one_of = ", ".join([quoted(one) for one in inner if isinstance(one, str)])
+            return _asked(f"{quoted(left)} {'in' if wanted else 'not in'} ({one_of},)")
     return Unknown("membership that is not known")
+
+
+def _asked(question: str) -> Unknown:
+    """Return a truth that waits for the arguments that a Python expression asks for."""
+    if UNKNOWN in question:
+        return Unknown("comparison with what is not known")
+    return Unknown("a truth", LaunchCondition((expression(question),), None))
 
 
 def opposite_of(condition: LaunchCondition) -> LaunchCondition:
@@ -306,7 +330,14 @@ def sliced(owner: Value, parts: list[Value]) -> Value:
             return owner[slice(*parts)]
         except ValueError:
             raise Raised from None
+    if known and isinstance(owner, str) and _waits(owner):
+        return expression(f"{quoted(owner)}[{':'.join(['' if part is None else str(part) for part in parts])}]")
     return Unknown("part of what is not known")
+
+
+def _waits(text: str) -> bool:
+    """Whether a text is known as soon as the arguments and environment variables in it are."""
+    return UNKNOWN not in text and bool(named_in(text))
 
 
 def subscript(machine: Machine, owner: Value, key: Value) -> Value:
@@ -332,4 +363,6 @@ def subscript(machine: Machine, owner: Value, key: Value) -> Value:
             return owner[key]
         except IndexError:
             raise Raised from None
+    if isinstance(owner, str) and isinstance(key, int) and _waits(owner):
+        return expression(f"{quoted(owner)}[{key}]")
     return machine.subscript_of_library(owner, key)
