@@ -111,8 +111,10 @@ def test_macros_of_the_workspace_are_followed() -> None:
     )
 
 
-def test_code_for_other_distributions_counts_as_possible() -> None:
-    text = "if($ENV{ROS_DISTRO} MATCHES humble)\nfind_package(a REQUIRED)\nelse()\nfind_package(b REQUIRED)\nendif()\n"
+@pytest.mark.parametrize("kept", ["", "set(DISTRO $ENV{ROS_DISTRO})\n", "if(1)\nset(DISTRO ros-$ENV{ROS_DISTRO})\nendif()\n"])
+def test_code_for_other_distributions_counts_as_possible(kept: str) -> None:
+    asked = "${DISTRO}" if kept else "$ENV{ROS_DISTRO}"
+    text = f"{kept}if({asked} MATCHES humble)\nfind_package(a REQUIRED)\nelse()\nfind_package(b REQUIRED)\nendif()\n"
     found = mentioned(run(text))
     assert found["cmake", "a"].optional
     assert not found["cmake", "b"].optional

@@ -38,6 +38,9 @@ def _set(run: Run, args: list[str]) -> None:
     value = join(args[1:])
     if len(run.scopes) == 1 and (run.testing or name in run.for_tests):
         _note_switch(run, name, value)
+    command = run.frames[-1].command
+    if run.distro and run.distro in value and command and any("$ENV{ROS_DISTRO}" in text for text, *_ in command.args):
+        run.settable.add(name)  # as soft as the variable of the environment itself
     run.set(name, value)
     run.remember(1)
 
