@@ -23,7 +23,8 @@ In `CMakeLists.txt` add the folder to `install(DIRECTORY ... DESTINATION share/$
 - Pictures in `images/` and `media/` that nothing names: they are there for the documentation.
 - A folder that nothing in the package names has medium confidence: it may serve documentation, or be left over. Not so if
   other folders of the kind are installed and its files serve at run time alone: displays, maps, models, textures, parameters;
-  or if they are parameters of nodes (`ros__parameters`), and the package has nodes.
+  nor if the package builds, installs and tests nothing, so that it is there for these files; nor if they are parameters of
+  nodes (`ros__parameters`), and the package has nodes.
 """
 
 from __future__ import annotations
@@ -60,6 +61,14 @@ _RUN_TIME = (
     ".dae", ".obj", ".pgm", ".rviz", ".sdf", ".srdf", ".stl", ".urdf", ".wbt", ".world", ".xacro", ".yaml", ".yml",
 )  # fmt: skip
 """What serves at run time, and nowhere else."""
+_MAKES_NOTHING = frozenset(
+    {
+        "add_compile_options", "ament_auto_find_build_dependencies", "ament_auto_package", "ament_package",
+        "ament_lint_auto_find_test_dependencies", "cmake_minimum_required", "find_package", "list", "message", "option",
+        "project", "set",
+    }
+)  # fmt: skip
+"""Commands of a build script that builds, installs and tests nothing but the style of what is there."""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -135,7 +144,7 @@ def _folders(package: Package, kept: set[str], told: set[str]) -> Iterator[Findi
     launches = {launch.path for launch in launchable(package)}
     places = dict(script.named)
     inputs = frozenset(script.inputs)
-    shared = _shared(package)
+    shared = _shared(package) or _makes_nothing(package)
     of_nodes = _of_nodes(package)
     for folder, found in uninstalled_resources(package.files, kept).items():
         files = [file for file in found if file not in launches and file not in inputs]
@@ -169,6 +178,15 @@ def _shared(package: Package) -> bool:
     return any(
         provided.path.startswith(share) and provided.source.partition("/")[0] in _FOR_RUN_TIME for provided in script.provides
     )
+
+
+def _makes_nothing(package: Package) -> bool:
+    """Whether a package has nothing for its users, so that the files that it has are what it is there for.
+
+    One that is called after tests or examples may keep them where it lies.
+    """
+    calls = package.script.calls if package.script else ()
+    return bool(calls) and _MAKES_NOTHING.issuperset(calls) and not is_apart(f"{package.name.replace('_', '/')}/")
 
 
 def _of_nodes(package: Package) -> frozenset[str]:
