@@ -27,10 +27,10 @@ def tag_for(package: Package, workspace: Workspace, name: str, role: Role) -> st
     if role == Role.TEST:
         return "test_depend"
     needed = _without(role, Role.TEST)
-    if needed == Role.EXEC:
+    if needed == Role.EXEC or (form > 1 and needed == Role.EXPORT and _is_only_run(workspace, name)):
         habit = "depend" if form > 1 and _always_depend(package) and not finds_declared(package) else "exec_depend"
         return "run_depend" if form == 1 else habit
-    if needed == Role.TOOL or (_has(needed, Role.BUILD) and _is_tool(workspace, name)):
+    if needed == Role.TOOL or (_has(needed, Role.BUILD) and _is_tool(workspace, name, needed)):
         return "buildtool_depend"
     return "build_depend" if form == 1 or (needed == Role.BUILD and _is_only_for_building(workspace, name)) else "depend"
 
@@ -175,10 +175,24 @@ def _gives_macros(package: Package) -> bool:
     return package.script is None or any(file.endswith((".cmake", ".cmake.in")) for file in package.files)
 
 
-def _is_tool(workspace: Workspace, name: str) -> bool:
-    """Whether released packages mostly declare a name as a build tool."""
-    declared = workspace.world.knowledge.index.declared_as(name)
+def _is_tool(workspace: Workspace, name: str, needed: Role) -> bool:
+    """Whether released packages mostly declare a name as a build tool.
+
+    What public headers have is exported, and else those do not count that have it for tests.
+    """
+    every = workspace.world.knowledge.index.declared_as(name)
+    declared = {kinds: count for kinds, count in every.items() if kinds != "s" or _has(needed, Role.EXPORT)}
     return 2 * sum(count for kinds, count in declared.items() if "t" in kinds) > sum(declared.values())
+
+
+def _is_only_run(workspace: Workspace, name: str) -> bool:
+    """Whether released packages, many of them, mostly declare a name for running alone."""
+    declared = workspace.world.knowledge.index.declared_as(name)
+    return 2 * declared.get("x", 0) > max(_FEW, sum(declared.values()))
+
+
+_FEW = 40
+"""Of so few packages the habits say nothing."""
 
 
 def _is_only_for_building(workspace: Workspace, name: str) -> bool:

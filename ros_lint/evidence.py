@@ -156,9 +156,10 @@ def resolve(source: Source, resolver: Resolver) -> tuple[Use, ...]:
         by_role: dict[tuple[str, Role], list[Mention]] = {}
         untaken = frozenset(source.script.untaken)
         for mention in source.script.mentions:
+            if mention.purpose == "plugins":
+                continue  # who loads them need not be there, and the base class is in headers
             role = _TEST if mention.test else _script_role(source, mention)
-            # Who loads plugins may as well be a package that need not be there.
-            only_named = mention.purpose == "plugins" or (mention.via == "cmake" and mention.span in untaken)
+            only_named = mention.via == "cmake" and mention.span in untaken
             ours = by_role.setdefault((mention.span.path, role), [])
             ours.append(mention._replace(optional=True) if only_named else mention)
         for (path, role), mentions in by_role.items():
@@ -167,7 +168,7 @@ def resolve(source: Source, resolver: Resolver) -> tuple[Use, ...]:
             uses.add(_relative(source, mention.span.path), [mention], Role.EXPORT, Role.EXPORT, always)
         _unspoken(source, uses)
     for path, facts in source.facts.items():
-        if not facts.mentions:
+        if not facts.mentions or alive.is_foreign(path):
             continue
         role, sure = alive.place(path)
         role = _TEST if path in tests else role
@@ -178,7 +179,10 @@ def resolve(source: Source, resolver: Resolver) -> tuple[Use, ...]:
             mentions = [mention for mention in mentions if mention.via != "package"]
         uses.add(path, mentions, role, _TEST if role is _TEST else _LOOKED_UP, sure)
     for launch in source.launch:
-        role, sure = alive.place(_relative(source, launch.path))
+        path = _relative(source, launch.path)
+        if alive.is_foreign(path):
+            continue
+        role, sure = alive.place(path)
         _launch_uses(launch, _TEST if launch.test else role, uses, sure)
     return uses.sorted()
 
@@ -267,7 +271,7 @@ def _unspoken(source: Source, uses: _Uses) -> None:
     for mention in script.mentions:
         if mention.via == "macro" and mention.purpose == "interfaces" and uses.resolver.names.is_package(_ACTIONS):
             role = _TEST if mention.test else Role.BUILD | Role.EXPORT | Role.EXEC
-            uses.put(Use(_ACTIONS, (_ACTIONS,), role, "an action", "interface", mention.optional, mention.span))
+            uses.put(Use(_ACTIONS, (_ACTIONS,), role, "an action", "macro", mention.optional, mention.span))
 
 
 _ACTIONS = "action_msgs"

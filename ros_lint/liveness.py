@@ -26,8 +26,17 @@ _RESOURCES = (".urdf", ".xacro", ".sdf", ".world", ".rviz", ".yaml", ".yml", ".x
 _RUNNERS = ("pytest", "launch_test", "ros_test", "add_test", "nose")
 """Parts of the names of CMake commands that run tests in Python."""
 
-_RECIPES = frozenset({"conanfile.py", "noxfile.py", "conf.py"})
+_RECIPES = frozenset({"conanfile.py", "noxfile.py"})
 """Files of tools that have no part in a build by colcon."""
+
+_OF_PAGES = frozenset({"doc", "docs", "sphinx"})
+"""Folders with the pages of a package: programs in them make the pages."""
+
+_STAND_INS = (".jinja.", ".j2.", ".tmpl.", ".template.")
+"""Parts of the names of templates: what is made of them is of other packages."""
+
+_COPIES = frozenset({".ipynb_checkpoints"})
+"""Folders in which editors keep copies."""
 
 _PROJECTS = frozenset({"CMakeLists.txt", "setup.py", "pyproject.toml", "package.xml"})
 """Files that make a folder a project."""
@@ -58,6 +67,20 @@ class Liveness:
         """Return what a file is needed for, and whether it is sure to be alive."""
         role, sure = self._place(path)
         return role, sure and not (self._idle and self._is_idle(path))
+
+    def is_foreign(self, path: str) -> bool:
+        """Return whether a file has no part in the package: a template for others, a recipe, what makes the pages, a copy."""
+        folder, _, name = path.rpartition("/")
+        folders = folder.split("/")
+        if not _COPIES.isdisjoint(folders):
+            return True
+        if path in self._installed_python or path in self._production:
+            return False
+        if any(part in name for part in _STAND_INS) or (name.startswith("setup.py.") and folder):
+            return True
+        if not name.endswith(".py"):
+            return False
+        return not _OF_PAGES.isdisjoint(folders) or name in _RECIPES
 
     def is_optional(self, path: str) -> bool:
         """Return whether only some builds compile a file, going by a condition that need not be true."""
@@ -104,7 +127,7 @@ class Liveness:
     def _is_of_python_package(self, path: str, *, idle: bool) -> bool:
         """Whether a file is nearly sure to be installed, where it cannot be seen what is: a script may be anybody's."""
         folder, _, name = path.rpartition("/")
-        if idle or name in _RECIPES or self._is_beside_script(path) or self._is_left_out(path):
+        if idle or name == "conf.py" or self._is_beside_script(path) or self._is_left_out(path):
             return False
         return self._script is None or f"{folder}/__init__.py" in self._facts
 

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Use, Via
 from ros_lint.knowledge.reach import Closure
-from ros_lint.knowledge.spelling import is_vendor
+from ros_lint.knowledge.spelling import is_part, is_vendor
 from ros_lint.strangers import meant
 from ros_lint.text import Span
 from ros_lint.workspace import Package, Workspace, per_package
@@ -110,10 +110,13 @@ def _needs(
     if len(uses) > 1:
         uses.sort(key=_rank)
     answers = dict.fromkeys([use.providers for use in uses])
-    if answers.keys() == {(name,)}:  # nearly always
+    vendors = [] if name in declared else [each for each in declared if each.endswith("_vendor") and name in bring((each,))]
+    if not vendors and answers.keys() == {(name,)}:  # nearly always
         yield Need(name, tuple(uses), (name,) if name in declared else (), name in closure)
         return
     found = {names: [each for each in names if each in declared and _is_meant(each, names[0], bring)] for names in answers}
+    for names, direct in found.items():
+        direct += [each for each in sorted(vendors) if each not in direct and is_vendor(each, names[0])]
     for names in {use.providers for use in uses if use.role & Role.BUILD}:
         if found[names] and all(map(only_runs, found[names])) and not only_runs(name):
             found[names] = []
@@ -135,9 +138,9 @@ def _needs(
 def _is_meant(name: str, best: str, bring: Callable[[tuple[str, ...]], Closure]) -> bool:
     """Whether a name that will do is declared for itself, and does not merely bring the best one along.
 
-    A vendor package is declared for the library, which it brings where the system has it.
+    A vendor package is declared for the library, which it brings where the system has it, and a library for all its parts.
     """
-    return name == best or best not in bring((name,)) or is_vendor(name, best)
+    return name == best or best not in bring((name,)) or is_vendor(name, best) or is_part(best, name)
 
 
 def _rank(use: Use) -> int:
@@ -352,12 +355,16 @@ _OF_TOOLS = ("ament", "cmake", "lint", "common", "tools", "test")
 
 
 def _is_no_package(name: str, workspace: Workspace) -> bool:
-    """Whether an unknown name can stand for no package of ROS 2: it is spelt like a key, a slip, or one of ROS 1."""
+    """Whether an unknown name can stand for no package of ROS 2: it is spelt like a key, a slip, or one of ROS 1.
+
+    What nothing took the place of in ROS 2 may have been ported without a release.
+    """
     if "-" in name or name != name.lower() or name == "ament_python":
         return True
-    gone = workspace.world.knowledge.names.end_of_life(name)
+    names = workspace.world.knowledge.names
+    gone = names.end_of_life(name)
     if gone:
-        return all(distro.startswith("ROS 1 ") for distro in gone)
+        return bool(names.successor(name)) and all(distro.startswith("ROS 1 ") for distro in gone)
     world = workspace.world
     if world.meant(name) is not None:
         return True

@@ -227,15 +227,23 @@ def test_a_folder_with_launch_files_is_no_module() -> None:
     assert not uses(load({**files, "talker/launch/__init__.py": ""}), "launch")
 
 
-def test_recipes_of_other_tools_are_less_than_sure() -> None:
+def test_what_has_no_part_in_a_package_needs_nothing() -> None:
     files = {
         **cmake("talker", "", "find_package(acme_cmake REQUIRED)\nacme_package()"),
         "talker/conanfile.py": "import yaml\n",
+        "talker/docs/source/conf.py": "import yaml\n",
+        "talker/docs/source/youtube.py": "import yaml\n",
+        "talker/templates/node.jinja.cpp": "#include <rclcpp/rclcpp.hpp>\n",
+        "talker/resource/setup.py.em": "import yaml\n",
+        "talker/scripts/.ipynb_checkpoints/main-checkpoint.py": "import yaml\n",
+        "talker/launch/.ipynb_checkpoints/all-checkpoint.launch.xml": '<launch><node pkg="joy" exec="joy_node"/></launch>',
+        "talker/launch/all.launch.xml": '<launch><node pkg="joy" exec="joy_node"/></launch>',
         "talker/talker/__init__.py": "",
+        "talker/talker/conf.py": "import yaml\n",
         "talker/talker/main.py": "import yaml\n",
     }
-    found = {use.span.path: use.sure for use in load(files).packages[0].uses if use.via == "import"}
-    assert found == {"talker/conanfile.py": False, "talker/talker/main.py": True}
+    found = {use.span.path for use in load(files).packages[0].uses if use.via in ("import", "include", "launch")}
+    assert found == {"talker/launch/all.launch.xml", "talker/talker/conf.py", "talker/talker/main.py"}
 
 
 def _python(**files: str) -> Workspace:

@@ -31,15 +31,16 @@ _LOOK_UPS = tuple(
     )
 )
 # model://p/a.stl may be a package or a model, and a class is named after its package by habit only: Class: p/Name of
-# rviz and rqt, type: p/Name of controllers, plugin: "p::Name" of navigation, <plugin>p/Name</plugin>, type="p::Name". A bridge
-# has messages of its own accord: ros_type_name: p/msg/Name of ros_gz_bridge, ros2_package_name: p of ros1_bridge.
+# rviz and rqt, but what is of rviz_common is built into rviz; type: p/Name of controllers, plugin: "p::Name" of navigation,
+# <plugin>p/Name</plugin>, type="p::Name". A bridge has messages of its own accord: ros_type_name: p/msg/Name of
+# ros_gz_bridge, ros2_package_name: p of ros1_bridge.
 _CLASS = r"([a-z]\w*)(?:/|::)[A-Za-z]"
 _HABITS = tuple(
     map(
         re.compile,
         (
             rf"model://{_NAME}(?=/)",
-            rf"""Class["']?[ \t]*:[ \t]*["']?{_CLASS}""",
+            rf"""Class["']?[ \t]*:[ \t]*["']?(?!rviz_common/){_CLASS}""",
             rf"""ype["']?[ \t]*[:=][ \t]*["']?{_CLASS}""",
             rf"""ros_type_name["']?[ \t]*:[ \t]*["']?{_CLASS}""",
             rf"""ros2_package_name["']?[ \t]*:[ \t]*["']?{_NAME}""",
@@ -105,8 +106,16 @@ def _files(source: Text) -> Iterator[LookUp]:
 
 def _search(pattern: re.Pattern[str], text: str, found: dict[str, tuple[int, int]]) -> None:
     for match in pattern.finditer(text):
-        if match[1] not in found and not _in_comment(text, match.start()):
+        if match[1] not in found and not _in_comment(text, match.start()) and not _in_class(text, match.start()):
             found[match[1]] = match.span(1)
+
+
+def _in_class(text: str, at: int) -> bool:
+    """Whether a place lies in a class of a plugin description: it names its own class, and a base that the code includes."""
+    return _PLUGIN.match(text, max(text.rfind("<", 0, at), 0)) is not None
+
+
+_PLUGIN = re.compile(r"<class\s")
 
 
 def _in_comment(text: str, at: int) -> bool:

@@ -101,8 +101,24 @@ def plain(name: str) -> str:
 
 
 def is_vendor(package: str, library: str) -> bool:
-    """Return whether a package has the name of the vendor package of a library, by whatever name or key that goes."""
-    return package.endswith("_vendor") and _bare(package.removesuffix("_vendor")) == _bare(library)
+    """Return whether a package has the name of the vendor package of a library, by whatever name or key that goes.
+
+    What stands before it says whose vendor package it is: rviz_assimp_vendor, google_benchmark_vendor.
+    """
+    if not package.endswith("_vendor"):
+        return False
+    words = package.removesuffix("_vendor").split("_")
+    return _bare(library) in [_bare("_".join(words[start:])) for start in range(len(words))]
+
+
+def is_part(library: str, whole: str) -> bool:
+    """Return whether a key is, going by its name, of a part of the library that another key is of: libboost-thread-dev."""
+    words = _of_library(whole)
+    return words == _of_library(library)[: len(words)]
+
+
+def _of_library(key: str) -> list[str]:
+    return key.removesuffix("-dev").removeprefix("lib").split("-")
 
 
 def _bare(library: str) -> str:

@@ -20,7 +20,9 @@ Declare what is used, in the tag that the message names. The fix does this.
   medium. The use is optional: then it is low, and nothing is fixed.
 - The package needs this one itself, in whatever tag, so that declaring it would close a cycle that colcon refuses: then, too,
   the confidence is medium, and nothing is fixed. Nor is it where no key resolves for the distribution.
-- The package merely gives CMake commands, and comes along with the build tool.
+- The package merely gives CMake commands, and comes along with the build tool, or it is `action_msgs` and nothing but the
+  code that is generated for actions needs it.
+- A vendor package is declared, or a key for the whole of a library that the package uses a part of.
 - Nothing declared brings it along: that is `undeclared-dependency` or `launch-outside-closure`.
 """
 
@@ -38,6 +40,7 @@ from ros_lint.api import (
     Severity,
     Workspace,
     advice,
+    circle,
     needs,
     tells,
     wishes,
@@ -51,12 +54,15 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     declared = tuple(dict.fromkeys(declared.name for declared in package.declared))
     for need in needs(package, workspace):
-        if need.declared or not need.brought or all(use.via == "macro" for use in need.uses):
-            continue
-        yield _finding(package, workspace, declared, need, Confidence.HIGH if need.sure else Confidence.MEDIUM)
+        if not need.declared and need.brought and not _is_command(need):
+            yield _finding(package, workspace, declared, need, Confidence.HIGH if need.sure else Confidence.MEDIUM)
     for wish in wishes(package, workspace):
-        if wish.brought:
+        if wish.brought and not _is_command(wish) and not circle(package, workspace, wish.name):
             yield _finding(package, workspace, declared, wish, Confidence.LOW)._replace(fix=None)
+
+
+def _is_command(need: Need) -> bool:
+    return all(use.via == "macro" for use in need.uses)
 
 
 def _finding(package: Package, workspace: Workspace, declared: Sequence[str], need: Need, confidence: Confidence) -> Finding:

@@ -20,7 +20,8 @@ needed at run time, `<exec_depend>` for what is needed at run time only, `<test_
 - The package comes with a declared one: see `transitive-dependency` for uses that hang on such a chain.
 - It is declared by a wrong name: `unknown-dependency` says so.
 - The use is optional: `find_package(QUIET)` behind `if(X_FOUND)`, `try: import`, `__has_include`. Then the confidence is
-  low, and nothing is fixed.
+  low, and nothing is fixed. It is silent where the package needs this one itself.
+- It is named only in a template for other packages, by what makes the pages of the documentation, or in an editor's copy.
 - colcon rejects `package.xml`, which is to be mended first: then the confidence is medium.
 - The name belongs to no package or rosdep key that is known, or to the system.
 - Only other distributions have the package, or had it: then the confidence is medium and the message names them, unless
@@ -49,6 +50,7 @@ from ros_lint.api import (
     Severity,
     Workspace,
     advice,
+    circle,
     comes_with_launching,
     is_somewhere,
     tells,
@@ -72,7 +74,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             severity=severity
         )
     for wish in wishes(package, workspace):
-        if not wish.brought:
+        if not wish.brought and not circle(package, workspace, wish.name):
             says = "is used here if it is there, and package.xml does not declare it"
             yield _finding(package, workspace, wish, says, Confidence.LOW)._replace(fix=None)
 
