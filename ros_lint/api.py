@@ -22,8 +22,8 @@ from ros_lint.build_scripts import (
     unguarded_tests,
     with_client,
 )
-from ros_lint.carriers import Carried, carriers
-from ros_lint.cmake_finds import come_along, found_along, found_names, given_for, not_seen_used
+from ros_lint.carriers import Carried, carriers, found_for_nothing
+from ros_lint.cmake_finds import come_along, found_along, found_names, given_for
 from ros_lint.collectors.launch_text import agree, is_plain, renames
 from ros_lint.declare import (
     PYTHON_LIKE,
@@ -76,7 +76,7 @@ from ros_lint.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severit
 from ros_lint.strangers import Stranger, declared_names, strangers
 from ros_lint.suppress import Outcome
 from ros_lint.text import Span
-from ros_lint.workspace import Declared, Package, Workspace
+from ros_lint.workspace import Declared, Package, Workspace, per_workspace
 
 if TYPE_CHECKING:  # made only where it is asked for
     from ros_lint.interpret.launch_expand import Started as Started  # noqa: PLC0414
@@ -162,6 +162,7 @@ __all__ = [
     "filled",
     "forgotten_nodes",
     "found_along",
+    "found_for_nothing",
     "found_names",
     "given_for",
     "has_header",
@@ -187,8 +188,8 @@ __all__ = [
     "needed",
     "needs",
     "node_targets",
-    "not_seen_used",
     "passed_files",
+    "per_workspace",
     "programs",
     "programs_built",
     "referred",

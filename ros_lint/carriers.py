@@ -1,17 +1,20 @@
-"""Dependencies that nothing uses and that bring all the same what is used: declared in place of something else."""
+"""Dependencies that nothing uses: what they bring all the same, declared in place of it, and what is found for nothing."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from ros_lint.cmake_finds import not_seen_used
+from ros_lint.declare import is_mostly_run, works_unseen
 from ros_lint.facts.manifest import Role
+from ros_lint.facts.sight import Facet
 from ros_lint.needs import needs
 from ros_lint.workspace import per_package, per_workspace
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from ros_lint.facts.sources import Use
+    from ros_lint.facts.sources import Mention, Use
     from ros_lint.workspace import Declared, Package, Workspace
 
 _BUILD: Role = Role.BUILD | Role.TOOL | Role.EXPORT
@@ -108,3 +111,20 @@ def _hanging_by_name(workspace: Workspace) -> Mapping[str, Sequence[tuple[Packag
             for name in use.providers:
                 found.setdefault(name, []).append((package, use))
     return found
+
+
+@per_package
+def found_for_nothing(package: Package, workspace: Workspace) -> tuple[Mention, ...]:
+    """Return each find_package() of a package that the code does not use, in no way that can be seen."""
+    script = package.script
+    if script is None or script.problems or package.builds_with != "ament_cmake" or package.hidden(Facet.USES):
+        return ()
+    return tuple(
+        [
+            mention
+            for mention in not_seen_used(package, script)
+            if mention.name not in package.perhaps_used
+            and not works_unseen(package, workspace, mention.name)
+            and not is_mostly_run(workspace, mention.name)
+        ]
+    )

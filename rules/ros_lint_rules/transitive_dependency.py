@@ -22,6 +22,7 @@ Declare what is used, in the tag that the message names. The fix does this.
   the confidence is medium, and nothing is fixed. Nor is it where no key resolves for the distribution.
 - The package merely gives CMake commands, and comes along with the build tool, or it is `action_msgs` and nothing but the
   code that is generated for actions needs it.
+- CMake finds it, and no code uses it: `unused-find-package` says so.
 - A vendor package is declared, or a key for the whole of a library that the package uses a part of.
 - Nothing declared brings it along: that is `undeclared-dependency` or `launch-outside-closure`.
 """
@@ -41,6 +42,7 @@ from ros_lint.api import (
     Workspace,
     advice,
     circle,
+    found_for_nothing,
     needs,
     tells,
     wishes,
@@ -53,8 +55,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if not tells(package):
         return
     declared = tuple(dict.fromkeys(declared.name for declared in package.declared))
+    idle = {mention.name for mention in found_for_nothing(package, workspace)}
     for need in needs(package, workspace):
-        if not need.declared and need.brought and not _is_command(need):
+        if not need.declared and need.brought and not _is_command(need) and need.name not in idle:
             yield _finding(package, workspace, declared, need, Confidence.HIGH if need.sure else Confidence.MEDIUM)
     for wish in wishes(package, workspace):
         if wish.brought and not _is_command(wish) and not circle(package, workspace, wish.name):

@@ -28,17 +28,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Facet, Finding, Package, Rule, Severity, Workspace, is_mostly_run, not_seen_used, works_unseen
+from ros_lint.api import Finding, Package, Rule, Severity, Workspace, found_for_nothing
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    script = package.script
-    if script is None or script.problems or package.builds_with != "ament_cmake" or package.hidden(Facet.USES):
-        return
-    for mention in not_seen_used(package, script):
+    for mention in found_for_nothing(package, workspace):
         name = mention.name
-        if name in package.perhaps_used or works_unseen(package, workspace, name) or is_mostly_run(workspace, name):
-            continue
         yield Finding(f"{name} is found, but no code uses it: remove find_package({name})", mention.span, name)
 
 
