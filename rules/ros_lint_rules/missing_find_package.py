@@ -37,11 +37,14 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if script is None or script.problems or package.builds_with != "ament_cmake" or package.hidden(Facet.USES):
         return
     found = found_names(package, script)
+    spelt = {name.lower() for name in found}  # namespaces of targets may be spelt another way: RTABMap, rtabmap::core
     along = come_along(workspace, found)
     missing: dict[str, list[tuple[str, Related]]] = {}
     for mention in script.mentions:
         name = mention.name.partition("::")[0]
         if mention.via not in ("target", "macro") or mention.optional or name in found or name == package.name:
+            continue
+        if mention.via == "target" and name.lower() in spelt:
             continue
         if mention.via == "macro" and (along is None or not along.isdisjoint(workspace.world.by_macro(name).names)):
             continue
