@@ -23,7 +23,6 @@ from typing import NamedTuple
 
 from ros_lint.collect import kind_of
 
-SCRIPTS = frozenset({"setup.py", "setup.cfg", "pyproject.toml"})
 SKIPPED = frozenset({".git", "__pycache__", "node_modules"})
 
 
@@ -111,7 +110,7 @@ def floor(workspace: str) -> tuple[float, int]:
                 if entry.is_dir(follow_symlinks=False):
                     if entry.name not in SKIPPED:
                         folders.append(entry.path)
-                elif kind_of(entry.name) or entry.name in SCRIPTS:
+                elif kind_of(entry.name):
                     count += read(entry.path)
     return time.process_time() - start, count
 

@@ -13,12 +13,15 @@ from typing import Literal, NamedTuple
 from ros_lint.cache import Cache
 from ros_lint.collectors.cmake_syntax import Parsed
 from ros_lint.facts.launch import LaunchFile
+from ros_lint.facts.sight import ANYTHING, Facet, Opaque
 from ros_lint.facts.sources import FileFacts
 from ros_lint.suppress import Suppression
-from ros_lint.text import Text, read
+from ros_lint.text import Span, Text, read
 from ros_lint.tree import DiskTree, RecordedTree, Tree
 
-Kind = Literal["manifest", "cpp", "python", "cmake", "interface", "xml", "yaml", "resource", "java", "rust", "cargo", "matlab"]
+Kind = Literal[
+    "manifest", "config", "cpp", "python", "cmake", "interface", "xml", "yaml", "resource", "java", "rust", "cargo", "matlab"
+]
 
 MOST_BYTES = 4 << 20
 """A larger file is not read: it is generated data, and no source."""
@@ -34,6 +37,17 @@ _SUFFIXES.update(dict.fromkeys(("msg", "srv", "action", "idl"), "interface"))
 _SUFFIXES.update(dict.fromkeys(("xml", "launch"), "xml"))
 _SUFFIXES.update(dict.fromkeys(("yaml", "yml"), "yaml"))
 _SUFFIXES.update(dict.fromkeys(("urdf", "xacro", "sdf", "world", "rviz"), "resource"))
+
+
+_HIDES: dict[Kind, Facet] = {
+    "manifest": Facet(0),  # without it there is no package
+    "config": Facet(0),  # only beside setup.py, where its evaluation tells of it
+    "cpp": Facet.USES | Facet.COMPONENTS,
+    "cmake": ANYTHING,
+    "interface": Facet.USES | Facet.INTERFACES,
+    "xml": Facet.USES | Facet.COMPONENTS,
+}
+"""What a file that cannot be read hides of its package, if it is more than uses."""
 
 
 class Collected(NamedTuple):
@@ -54,6 +68,8 @@ def kind_of(path: str) -> Kind | None:
         return "cmake"
     if name == "package.xml":
         return "manifest"  # discovery has read it; here for its comments
+    if name in ("setup.cfg", "pyproject.toml"):
+        return "config"  # setup.py is evaluated with it; here for its comments, and to say when it cannot be read
     if name == "Cargo.toml":
         return "cargo"
     stem, _, suffix = name.rpartition(".")
@@ -94,7 +110,7 @@ def collect(text: Text, kind: Kind) -> Collected:
         from ros_lint.collectors.foreign import COLLECTORS  # noqa: PLC0415
 
         facts = COLLECTORS[kind](text)
-    elif launch is None and kind != "manifest":
+    elif launch is None and kind not in ("manifest", "config"):
         from ros_lint.collectors import resources  # noqa: PLC0415
 
         facts = resources.collect(text)
@@ -149,15 +165,21 @@ def _read_and_collect(tree: Tree, path: str, kind: Kind) -> Collected:
     try:
         data = tree.read(path)
     except OSError as error:
-        return Collected(unreadable=error.strerror or str(error))
+        return _unreadable(path, kind, error.strerror or str(error))
     if len(data) > MOST_BYTES:
-        return Collected(unreadable=f"{len(data) >> 20} MB is more than a source has")
+        return _unreadable(path, kind, f"{len(data) >> 20} MB is more than a source has")
     if b"\0" in data[:1024] and not data.startswith((b"\xff\xfe", b"\xfe\xff")):
-        return Collected(unreadable="binary data")
+        return _unreadable(path, kind, "binary data")
     try:
         return collect(read(path, data), kind)
     except Exception as error:  # a mistake of ours in one file must not cost the user all the others
-        return Collected(unreadable=FAILED.format(f"{type(error).__name__}: {error}"))
+        return _unreadable(path, kind, FAILED.format(f"{type(error).__name__}: {error}"))
+
+
+def _unreadable(path: str, kind: Kind, reason: str) -> Collected:
+    hides = _HIDES.get(kind, Facet.USES)
+    facts = FileFacts(path, opaque=(Opaque(hides, f"it is not read: {reason}", Span(path, 1, 1, 1, 1)),)) if hides else None
+    return Collected(facts, unreadable=reason)
 
 
 def _suppressions(text: Text) -> tuple[Suppression, ...]:

@@ -40,11 +40,13 @@ def apply(fixes: Iterable[Fix], texts: Callable[[str], Text]) -> dict[str, str]:
 
 
 def text_of(tree: Tree, path: str) -> Text:
-    """Return the text of a file to edit, the empty text for one that an edit creates. Raises OSError otherwise."""
+    """Return the text of a file to edit, the empty text for one that an edit creates. Raises EditError for what is no file."""
     try:
         return read(path, tree.read(path))
     except FileNotFoundError:
         return Text(path, "")
+    except OSError as error:
+        raise EditError(f"{path}: cannot be read: {error.strerror or error}") from error
 
 
 def encode(changed: Mapping[str, str], texts: Callable[[str], Text]) -> dict[str, bytes]:

@@ -150,6 +150,48 @@ def test_files_that_cannot_be_read(tmp_path: Path) -> None:
     assert "good/src/a.cpp" in lint(tmp_path, text=True).text
 
 
+def script_package(folder: Path) -> Path:
+    """Write a package of Python whose program lands in bin/, unless a setup.cfg says otherwise."""
+    (folder / "resource").mkdir(parents=True)
+    (folder / "resource" / "talker").write_text("")
+    (folder / "talker").mkdir()
+    (folder / "talker" / "__init__.py").write_text("")
+    (folder / "talker" / "node.py").write_text(
+        "import rclpy\nfrom rclpy.node import Node\n\n\ndef main():\n    rclpy.spin(Node('talker'))\n"
+    )
+    manifest = GOOD.format("talker").replace("<buildtool_depend>ament_cmake</buildtool_depend>", "<depend>rclpy</depend>")
+    (folder / "package.xml").write_text(manifest.replace("ament_cmake", "ament_python"))
+    (folder / "setup.py").write_text(
+        "from setuptools import setup\n"
+        "setup(name='talker', version='1.0.0', packages=['talker'],\n"
+        "      data_files=[('share/ament_index/resource_index/packages', ['resource/talker']),\n"
+        "                  ('share/talker', ['package.xml'])],\n"
+        "      entry_points={'console_scripts': ['node = talker.node:main']})\n"
+    )
+    return folder
+
+
+@pytest.mark.parametrize("what", ["a folder", "a link to its folder"])
+def test_what_a_fix_would_create_is_there_and_no_file(tmp_path: Path, what: str) -> None:
+    place = script_package(tmp_path / "talker") / "setup.cfg"
+    if what == "a folder":
+        place.mkdir()
+    else:
+        place.symlink_to(".")
+    package(tmp_path / "good", "good")
+    ran = lint(tmp_path, "--fix")
+    assert "talker/setup.cfg: cannot be read: Is a directory" in ran.err
+    assert rules(ran, "talker/") == ["entry-point-location"]
+    assert rules(ran, "good/") == []  # mended all the same
+
+
+def test_a_settings_file_that_cannot_be_read(tmp_path: Path) -> None:
+    place = script_package(tmp_path / "talker") / "setup.cfg"
+    place.write_bytes(b"\0" * 100)
+    ran = lint(tmp_path)
+    assert [entry["what"] for entry in ran.out["not_checked"]] == ["talker/setup.cfg"]
+
+
 def test_link_loops(tmp_path: Path) -> None:
     good = package(tmp_path / "good", "good")
     (good / "up").symlink_to(tmp_path)

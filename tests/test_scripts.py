@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import pytest
 
-from ros_lint.facts.sight import Facet
+from ros_lint.facts.sight import ANYTHING, Facet
 from ros_lint.interpret import cmake
 from ros_lint.load import Loader
 from ros_lint.report import Target
 from ros_lint.tree import MemoryTree
 from ros_lint.workspace import Workspace
 
-XML = '<package format="3"><name>{}</name><version>1.0.0</version><description>d</description><maintainer email="a@b.c">a'
+XML = '<package format="3"><name>{}</name><version>1.0.0</version><description>d</description><maintainer email="a@b.cd">a'
 XML += "</maintainer><license>MIT</license><buildtool_depend>ament_cmake</buildtool_depend><export><build_type>ament_cmake"
 XML += "</build_type></export></package>"
 HEAD = "cmake_minimum_required(VERSION 3.8)\nproject(p)\nfind_package(ament_cmake REQUIRED)\n"
@@ -55,3 +55,55 @@ def test_a_script_that_fails_us_is_told_of(monkeypatch: pytest.MonkeyPatch) -> N
     reason = "ros-lint failed on it (ValueError: oh); please report this"
     assert [(entry.what, entry.reason) for entry in workspace.not_checked] == [("p/CMakeLists.txt", reason)]
     assert workspace.by_name["p"][0].hidden(Facet.SHARE)
+
+
+SETUP = {
+    "p/setup.py": "from setuptools import setup\n"
+    "setup(name='p', packages=['p'], entry_points={'console_scripts': ['n = p.n:main']})\n",
+    "p/setup.cfg": "[develop]\nscript_dir=$base/lib/p\n[install]\ninstall_scripts=$base/lib/p\n",
+    "p/p/__init__.py": "",
+    "p/p/n.py": "from rclpy.node import Node\n",
+    "p/src/a.cpp": "#include <std_msgs/msg/header.hpp>\n",
+    "p/msg/A.msg": "std_msgs/Header header\n",
+    "p/plugins.xml": "<library path='a'/>\n",
+    "p/CMakeLists.txt": HEAD,
+}
+
+
+class Locked(MemoryTree):
+    """Has a file that nobody may read."""
+
+    def __init__(self, texts: dict[str, str], locked: str) -> None:
+        super().__init__(texts)
+        self._locked = locked
+
+    def read(self, path: str) -> bytes:
+        if path == self._locked:
+            raise PermissionError(13, "Permission denied", path)
+        return super().read(path)
+
+
+@pytest.mark.parametrize(
+    ("locked", "build_type", "hides"),
+    [
+        ("p/CMakeLists.txt", "ament_cmake", ANYTHING),
+        ("p/src/a.cpp", "ament_cmake", Facet.USES | Facet.COMPONENTS),
+        ("p/msg/A.msg", "ament_cmake", Facet.USES | Facet.INTERFACES),
+        ("p/plugins.xml", "ament_cmake", Facet.USES | Facet.COMPONENTS),
+        ("p/p/n.py", "ament_python", Facet.USES),
+        ("p/setup.py", "ament_python", ANYTHING),
+        ("p/setup.cfg", "ament_python", ANYTHING),
+    ],
+)
+def test_a_file_that_nobody_may_read_hides_what_it_could_say(locked: str, build_type: str, hides: Facet) -> None:
+    texts = {"p/package.xml": XML.format("p").replace("ament_cmake", build_type), **SETUP}
+    target = Target("jazzy", "test")
+    seen = Loader(MemoryTree(texts), ("",), target).load().by_name["p"][0]
+    workspace = Loader(Locked(texts, locked), ("",), target).load()
+    package = workspace.by_name["p"][0]
+    assert [(entry.what, entry.reason) for entry in workspace.not_checked] == [(locked, "Permission denied")]
+    assert not seen.hidden(ANYTHING)
+    hidden = Facet(0)
+    for opaque in package.opaque:
+        hidden |= opaque.hides
+    assert hidden == hides

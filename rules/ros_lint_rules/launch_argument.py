@@ -42,6 +42,7 @@ from collections.abc import Iterator
 
 from ros_lint.api import (
     Confidence,
+    Facet,
     Families,
     Finding,
     LaunchAction,
@@ -72,18 +73,19 @@ def check(workspace: Workspace) -> Iterator[Finding]:
     filled = frozenset(name for package in workspace.packages for file in package.parameter_files for name in file.asks)
     for package in workspace.packages:
         for launch in launchable(package):
-            for finding in _of_file(launch.file, links, families, filled):
+            for finding in _of_file(launch.file, links, families, filled, whole=not package.hidden(Facet.SHARE)):
                 yield finding._replace(package=package.name)
 
 
-def _of_file(file: LaunchFile, links: Links, families: Families, filled: frozenset[str]) -> Iterator[Finding]:
+def _of_file(file: LaunchFile, links: Links, families: Families, filled: frozenset[str], *, whole: bool) -> Iterator[Finding]:
+    """``whole``: it is known where the file is installed, by which others include it."""
     for action in everything(file.actions):
         if action.kind == "include":
             yield from _of_include(action, file, links, families, filled)
         elif action.kind == "argument":
             yield from _of_choices(action)
     names, takes = families.names(file), links.takes(file)
-    if not (names.whole and takes.complete):
+    if not (whole and names.whole and takes.complete):
         return
     above = families.above(file)
     there = {*names.declared, *names.made}.union(*([*one.declared, *one.made] for one in above))

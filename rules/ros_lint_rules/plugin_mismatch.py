@@ -51,11 +51,12 @@ from ros_lint.api import (
 )
 
 _EXPORT = "pluginlib_export_plugin_description_file"
+_SEEN = Facet.LIBRARIES | Facet.SHARE | Facet.COMPONENTS
 
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
     script = package.script
-    if script is None or package.builds_with != "ament_cmake" or hidden(package, Facet.LIBRARIES | Facet.SHARE):
+    if script is None or package.builds_with != "ament_cmake" or hidden(package, _SEEN):
         return
     everything = [made for made in package.registrations if made.kind == "plugin"]
     registered = [made for made in everything if not is_apart(relative(package, made.span.path))]

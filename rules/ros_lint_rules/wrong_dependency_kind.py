@@ -40,7 +40,6 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from ros_lint.api import (
-    BuildScript,
     BuildTarget,
     Confidence,
     Declared,
@@ -135,21 +134,18 @@ def _targets(package: Package) -> tuple[BuildTarget, ...]:
 
 
 def _outside(package: Package, need: Need, *, hopeful: bool) -> Iterator[Use]:
-    """Yield the uses of a need as they look to others: nobody includes headers that are not installed.
+    """Yield the uses of a need as they look to others: nobody includes headers that are not installed, or may not be.
 
     ``hopeful``: headers that are not installed in any build will be one day.
     """
     script = package.script
-    if script is None or package.hidden(Facet.LIBRARIES):
-        yield from need.uses
-        return
-    installed: dict[str, bool] | None = None
+    installed: dict[str, bool] | None = {} if script is None or package.hidden(Facet.LIBRARIES) else None
     for use in need.uses:
         if use.via != "include" or not use.role & Role.EXPORT:
             yield use
             continue
         if installed is None:
-            installed = _installed_headers(script)
+            installed = _installed_headers(package)
         always = installed.get(relative(package, use.span.path))
         if always is None:
             yield use if hopeful else use._replace(role=use.role & ~Role.EXPORT)
@@ -157,10 +153,10 @@ def _outside(package: Package, need: Need, *, hopeful: bool) -> Iterator[Use]:
             yield use
 
 
-def _installed_headers(script: BuildScript) -> dict[str, bool]:
+def _installed_headers(package: Package) -> dict[str, bool]:
     """Return the sources of installed headers, and whether they are installed in every build."""
     found: dict[str, bool] = {}
-    for provided in script.provides:
+    for provided in package.script.provides if package.script else ():
         if provided.path.startswith("include/"):
             found[provided.source] = found.get(provided.source, False) or not provided.conditional
     return found
