@@ -15,7 +15,7 @@ from ros_lint.knowledge.reach import Closure
 from ros_lint.knowledge.spelling import is_part, is_vendor
 from ros_lint.strangers import meant
 from ros_lint.text import Span
-from ros_lint.workspace import Package, Workspace, per_package
+from ros_lint.workspace import Package, Workspace, per_package, per_workspace
 
 
 class Need(NamedTuple):
@@ -354,17 +354,25 @@ _OF_TOOLS = ("ament", "cmake", "lint", "common", "tools", "test")
 """Parts of the names of packages that bring build tools, linters or what runs tests."""
 
 
+@per_workspace
+def _found(workspace: Workspace) -> frozenset[str]:
+    """Return what build scripts of ROS 2 do not do without."""
+    scripts = [package.script for package in workspace.packages if package.builds_with == "ament_cmake" and package.script]
+    return frozenset({each.name for script in scripts for each in script.mentions if each.via == "cmake" and not each.optional})
+
+
 def _is_no_package(name: str, workspace: Workspace) -> bool:
     """Whether an unknown name can stand for no package of ROS 2: it is spelt like a key, a slip, or one of ROS 1.
 
-    What nothing took the place of in ROS 2 may have been ported without a release.
+    What a build script finds, and nothing took the place of in ROS 2, was ported without a release.
     """
     if "-" in name or name != name.lower() or name == "ament_python":
         return True
     names = workspace.world.knowledge.names
     gone = names.end_of_life(name)
     if gone:
-        return bool(names.successor(name)) and all(distro.startswith("ROS 1 ") for distro in gone)
+        ported = name in _found(workspace) and not names.successor(name)
+        return not ported and all(distro.startswith("ROS 1 ") for distro in gone)
     world = workspace.world
     if world.meant(name) is not None:
         return True
