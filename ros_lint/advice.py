@@ -52,14 +52,18 @@ def advice(package: Package, workspace: Workspace, name: str, role: Role) -> Adv
 def circle(package: Package, workspace: Workspace, name: str) -> tuple[str, ...]:
     """Return a way by which a name needs a package itself, both ends included, or ().
 
-    Either as colcon orders the workspace, where each tag counts (reference, section B2.2), or when it is installed.
+    Either as colcon orders the workspace, where each tag counts (reference, section B2.2), or when it is installed: in
+    another distribution, too, where this one has no such package.
     """
     graph = workspace.graph if name in workspace.by_name else None
     if graph is not None and package.name in graph.closure(name):
         from ros_lint.graph_paths import paths  # noqa: PLC0415  (few needs are circular)
 
         return paths(lambda each: sorted(graph.arcs[each]), name, package.name, 1).found[0]
-    return workspace.world.path((name,), package.name)
+    world = workspace.world
+    if not world.is_package(name) and world.knowledge.brings_elsewhere(name, package.name):
+        return (name, package.name)
+    return world.path((name,), package.name)
 
 
 def lacks_rule(workspace: Workspace, name: str) -> bool:

@@ -16,15 +16,17 @@ Add `<exec_depend>` to `package.xml`. The fix does this.
 ## When it keeps silent
 
 - The package comes with a declared dependency.
-- The package is used in other ways, too, and reported by `undeclared-dependency`.
+- The package is used in other ways, too, and reported by `undeclared-dependency` or `wrong-dependency-kind`.
 - The launch file asks first what is installed, whatever it asks for (`has_resource`, `get_packages_with_prefixes`,
   `PackageNotFoundError`).
 - The package exists nowhere: that is `launch-unknown-package`. Where nobody said which distribution is meant, a package of
   any will do, and what brings it along there counts.
-- Launch files of tests and examples, and those that are not installed.
+- Launch files of tests and examples, and those that are not installed. What the package declares for its tests, where the
+  launch file is merely called one (`test_arm.launch.py`).
 - What a declared dependency brings along is not known: then the confidence is medium.
 - The other package needs this one itself, in whatever tag, so that declaring it would close a cycle that colcon refuses: then
-  the confidence is medium, too; the launch file may be at home there.
+  the confidence is medium, too; the launch file may be at home there. So it is where neither declares what it needs of the
+  other, for only one of them can.
 """
 
 from __future__ import annotations
@@ -46,14 +48,18 @@ from ros_lint.api import (
     Workspace,
     advice,
     comes_elsewhere,
+    comes_with_launching,
     declared_closure,
+    is_apart,
     is_somewhere,
     launchable,
     may_bring,
+    needs,
     undeclared,
 )
 
 _MOST_RELATED = 4
+_AT_RUN_TIME = Role.EXEC | Role.EXPORT
 _ORDER = ("node", "component", "include", "command", "file", "package")
 _SAYS = {
     "node": "{name} of {package} is started here",
@@ -66,32 +72,59 @@ _SAYS = {
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    manifest = package.manifest
-    if manifest is None or manifest.problems:
-        return
-    named = _named(package, workspace)
-    if not named:
-        return
-    closure = declared_closure(package, workspace, Role.EXEC | Role.EXPORT)
-    reported = {need.name for need, sure in undeclared(package, workspace) if sure}
-    for name, references in named.items():
-        if name in closure or name in reported:
-            continue
-        if not workspace.world.is_package(name) and comes_elsewhere(package, workspace, name):
-            continue
+    closure = declared_closure(package, workspace, _AT_RUN_TIME)
+    for name, references in _lacking(package, workspace):
         best, *others = sorted(references, key=lambda r: (r.package_by_default, r.conditional, _ORDER.index(r.kind), r.span))
         says = _SAYS[best.kind].format(name=best.name, package=name)
         only = ", if only under a condition" if best.conditional else ""
         only = ", by the default of an argument" if best.package_by_default else only
         way_out = advice(package, workspace, name, Role.EXEC)
+        certain = way_out.certain and not may_bring(closure.unknown, name, workspace) and not _needs(workspace, name, package)
         yield Finding(
             f"{says}{only}, but does not come with {package.name}{way_out.ending}",
             best.package_span,
             name,
             tuple(Related("also needed here", span) for span in islice(_elsewhere(best.package_span, others), _MOST_RELATED)),
             way_out.fix,
-            Confidence.MEDIUM if not way_out.certain or may_bring(closure.unknown, name, workspace) else Confidence.HIGH,
+            Confidence.HIGH if certain else Confidence.MEDIUM,
         )
+
+
+def _lacking(package: Package, workspace: Workspace) -> Iterator[tuple[str, list[LaunchReference]]]:
+    """Yield what the launch files of a package need and nothing brings along, with the places: what no other rule tells."""
+    manifest = package.manifest
+    if manifest is None or manifest.problems:
+        return
+    named = _named(package, workspace)
+    if not named:
+        return
+    closure = declared_closure(package, workspace, _AT_RUN_TIME)
+    reported = {need.name for need, sure in undeclared(package, workspace) if sure} | _in_wrong_tags(package, workspace)
+    for name, references in named.items():
+        if name in closure or name in reported:
+            continue
+        if workspace.world.is_package(name) or not comes_elsewhere(package, workspace, name):
+            yield name, references
+
+
+def _in_wrong_tags(package: Package, workspace: Workspace) -> frozenset[str]:
+    """Return what is declared and does not come at run time, though more than starting and including it takes it then."""
+    found: set[str] = set()
+    for need in needs(package, workspace):
+        uses = [use for use in need.uses if use.sure and use.via in ("import", "package") and use.role & Role.EXEC]
+        if need.declared and uses and not comes_with_launching(package, uses):
+            found.update(need.declared)
+    return frozenset(found)
+
+
+def _needs(workspace: Workspace, name: str, package: Package) -> bool:
+    """Whether a package of the workspace needs another one that it does not declare: not both can be declared."""
+    for other in workspace.by_name.get(name, ()):
+        if any(need.name == package.name and sure for need, sure in undeclared(other, workspace)):
+            return True
+        if any(lacking == package.name for lacking, _ in _lacking(other, workspace)):
+            return True
+    return False
 
 
 def _elsewhere(best: Span, others: Sequence[LaunchReference]) -> Iterator[Span]:
@@ -111,6 +144,8 @@ def _named(package: Package, workspace: Workspace) -> Mapping[str, list[LaunchRe
             continue
         for reference in launch.file.references:
             name = reference.package
+            if is_apart(launch.path) and package.declares(name) & Role.TEST:
+                continue
             if name != package.name and not reference.optional and is_somewhere(name, workspace):
                 found.setdefault(name, []).append(reference)
     return found
