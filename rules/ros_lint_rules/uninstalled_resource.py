@@ -16,7 +16,8 @@ In `CMakeLists.txt` add the folder to `install(DIRECTORY ... DESTINATION share/$
 
 ## When it keeps silent
 
-- A part of the build script that cannot be followed may install the file.
+- A part of the build script that cannot be followed may install the file, or one of its name from a folder that is chosen
+  when it is built.
 - Where the file does not exist at all: that is a matter of `launch-missing-include`.
 - Launch files themselves: see `uninstalled-launch`.
 - What a command of the build names, such as the file that `generate_parameter_library()` reads, is taken for its input.
@@ -144,10 +145,14 @@ def _folders(package: Package, kept: set[str], told: set[str]) -> Iterator[Findi
     launches = {launch.path for launch in launchable(package)}
     places = dict(script.named)
     inputs = frozenset(script.inputs)
+    # What is installed from a place that is not known, such as one of several folders, may be any file of the name.
+    chosen = frozenset([provided.path.rpartition("/")[2] for provided in script.provides if not provided.source])
     shared = _shared(package) or _makes_nothing(package)
     of_nodes = _of_nodes(package)
     for folder, found in uninstalled_resources(package.files, kept).items():
         files = [file for file in found if file not in launches and file not in inputs]
+        if any(file.rpartition("/")[2] in chosen for file in files):
+            continue
         if folder.partition("/")[0] in _PICTURES and not any(file in places for file in files):
             files = [file for file in files if not file.lower().endswith(_PICTURE)]
         if (
