@@ -51,6 +51,7 @@ from ros_lint.facts.sight import ANYTHING, Facet, Opaque, Problem
 from ros_lint.facts.sources import Registration, Use
 from ros_lint.graph import Edge, Graph, Reason
 from ros_lint.graph_cut import Knot, knots
+from ros_lint.knowledge.spelling import near_names
 from ros_lint.launch_files import Launchable, Programs, launchable, programs, referred
 from ros_lint.launch_links import Links, defaults_of, everything, filled
 from ros_lint.launch_names import Families, needed
@@ -185,6 +186,7 @@ __all__ = [
     "manifest_edits",
     "may_bring",
     "may_run_built",
+    "near_names",
     "needed",
     "needs",
     "node_targets",

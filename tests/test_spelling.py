@@ -8,7 +8,7 @@ import re
 import pytest
 
 from ros_lint.knowledge import Knowledge
-from ros_lint.knowledge.spelling import Spelling
+from ros_lint.knowledge.spelling import Spelling, near_names
 
 
 def _edits(name: str) -> set[str]:
@@ -55,3 +55,18 @@ def test_spelling_by_dashes_and_capitals() -> None:
     assert Spelling(["cv_bridge", "turtlebot3_fake_node"]).same("cv-bridge") == ("cv_bridge",)
     assert Spelling(["cv_bridge", "turtlebot3_fake_node"]).same("turtlebot3_fakenode") == ("turtlebot3_fake_node",)
     assert Spelling(["ament_cmake_copyright", "rclcpp"]).near("ament_cmake_lint_copyright") == ("ament_cmake_copyright",)
+
+
+@pytest.mark.parametrize(
+    ("name", "names", "wanted"),
+    [
+        ("orca_description", ["ur_description", "leo_description"], []),
+        ("description", ["ur_description", "leo_description"], []),
+        ("launch/rviz.launch.py", ["launch/gps.launch.py", "launch/rviz2.launch.py"], ["launch/rviz2.launch.py"]),
+        ("tower_and_pan_tilt_control", ["tower_pan_tilt_control", "chassis_pan_tilt_control"], ["tower_pan_tilt_control"]),
+        ("small_house_world", ["small_warehouse_world"], ["small_warehouse_world"]),
+        ("follow_waypoints_server", ["follow_waypoints", "follow_waypoints_deg"], ["follow_waypoints"]),
+    ],
+)
+def test_names_that_may_be_meant(name: str, names: list[str], wanted: list[str]) -> None:
+    assert near_names(name, names, 3, 0.6) == wanted

@@ -46,14 +46,12 @@ class Spelling:
 
     def near(self, name: str, most: int = 3) -> tuple[str, ...]:
         """Return names that resemble a name, nearest first."""
-        import difflib  # noqa: PLC0415  (only unknown names need it)
-
         words = _words(name)
         alike = {other for word in words for other in self._having(word)}
         scored = [(-_overlap(words, _words(other)), other) for other in alike]
         candidates = [other for _, other in sorted(scored)[:30]]
         candidates += self.one_slip(name)
-        return tuple(difflib.get_close_matches(name, dict.fromkeys(candidates), most, 0.8))
+        return tuple(near_names(name, dict.fromkeys(candidates), most, 0.8))
 
     def _having(self, word: str) -> list[str]:
         """Return the names that have a word. None for a word of very many: it tells nothing, and comparing takes long."""
@@ -93,6 +91,27 @@ class Spelling:
     @cached_property
     def _backwards(self) -> list[str]:
         return sorted("\n".join(self._names)[::-1].split("\n"))
+
+
+def near_names(name: str, names: Iterable[str], most: int, least: float) -> list[str]:
+    """Return which of some names may be meant by another, nearest first; ``least`` is how alike they are, from 0 to 1.
+
+    Where both have words that the other one lacks, these must resemble each other: front_camera is not meant to be
+    rear_camera, however much of it is the same. What several complete alike, as left_arm and right_arm do arm, is neither.
+    """
+    from difflib import get_close_matches  # noqa: PLC0415  (only unknown names need it)
+
+    words = _words(name)
+    found = [other for other in get_close_matches(name, list(names), most, least) if _may_be_meant(words, _words(other))]
+    longer = [other for other in found if words < _words(other)]
+    return [other for other in found if other not in longer] if len(longer) > 1 else found
+
+
+def _may_be_meant(words: frozenset[str], others: frozenset[str]) -> bool:
+    from difflib import get_close_matches  # noqa: PLC0415
+
+    lacking, more = words - others, others - words
+    return not (lacking and more) or all(get_close_matches(word, more, 1, 0.6) for word in lacking)
 
 
 def plain(name: str) -> str:

@@ -47,6 +47,7 @@ from ros_lint.api import (
     Span,
     Workspace,
     launchable,
+    near_names,
     passed_files,
     referred,
 )
@@ -212,7 +213,7 @@ def _files_without(owner: str, path: str, kind: str, workspace: Workspace) -> tu
 def _hint(path: str, names: tuple[str, ...]) -> str:
     base = path.rpartition("/")[2]
     same = [name for name in names if name.rpartition("/")[2] == base]
-    near = same or difflib.get_close_matches(path, names, 1, 0.8)
+    near = same or near_names(path, names, 1, 0.8)
     return f"; did you mean {near[0]}?" if near else ""
 
 

@@ -25,7 +25,6 @@ Correct the name. The usual slips are the suffix (a console script is called `ta
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -42,6 +41,7 @@ from ros_lint.api import (
     Severity,
     Workspace,
     launchable,
+    near_names,
     programs,
     referred,
     stranded,
@@ -107,7 +107,7 @@ def _missing(owner: str, name: str, workspace: Workspace) -> _Missing | None:
 def _hint(name: str, meant: str, names: tuple[str, ...]) -> str:
     if meant:
         return f": {meant} is meant"
-    near = difflib.get_close_matches(name, names, 3, 0.6)
+    near = near_names(name, names, 3, 0.6)
     if near:
         return f"; did you mean {' or '.join(near)}?"
     if not names:
