@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from ros_lint.collectors.launch import entries
 from ros_lint.collectors.launch_py_actions import LAUNCHED, walker
 from ros_lint.collectors.launch_py_objects import PERHAPS, Frame, Function, OutOfBudget, Raised, Source
-from ros_lint.collectors.launch_py_refused import misplaced, undefined
+from ros_lint.collectors.launch_py_refused import misplaced, misused, undefined
 from ros_lint.collectors.launch_py_run import Machine, Modules
 from ros_lint.collectors.launch_py_texts import Within, texts
 from ros_lint.collectors.launch_py_walk import span_of
@@ -60,7 +60,7 @@ def collect(
         reading.read(tree, helper)
     except (OutOfBudget, RecursionError, MemoryError):
         reading.stopped("following the file takes too many steps")
-    reading.problems.extend((*misplaced(tree, source), *reading.unbound(tree)))
+    reading.problems.extend((*misplaced(tree, source), *reading.refused(tree)))
     references = References(reading.actions, reading.places())
     reading.add_to(references)
     return LaunchFile(
@@ -116,8 +116,9 @@ class _Reading:
     def problems(self) -> list[Problem]:
         return self._walker.problems
 
-    def unbound(self, tree: ast.Module) -> Iterator[Problem]:
-        return undefined(tree, self._source, self._machine.unbound)
+    def refused(self, tree: ast.Module) -> Iterator[Problem]:
+        yield from undefined(tree, self._source, self._machine.unbound)
+        yield from misused(tree, self._source, self._machine.misused)
 
     def read(self, tree: ast.Module, helper: bool) -> None:
         frame = self._machine.run(tree, self._source)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from ros_lint.collectors import launch_text
 from ros_lint.collectors.launch_py_call import Call, Rule, nothing, unknown, unknown_text
 from ros_lint.collectors.launch_py_methods import call_method, items, sort
+from ros_lint.collectors.launch_py_misuse import note
 from ros_lint.collectors.launch_py_objects import (
     Api,
     Bound,
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
 def _str(call: Call) -> Value:
     value = call.get(0)
     if isinstance(value, Made):
+        note(call.machine, value, "formatted", call.node, call.frame)
         return unknown_text(call)
     return call.result(text_of(value)) if value is not None or call.arguments else ""
 

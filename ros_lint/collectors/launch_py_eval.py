@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ros_lint.collectors.launch_py_bindings import bind
 from ros_lint.collectors.launch_py_methods import attribute, items
+from ros_lint.collectors.launch_py_misuse import note
 from ros_lint.collectors.launch_py_objects import (
     PERHAPS,
     Conditions,
@@ -113,6 +114,7 @@ def _formatted(machine: Machine, node: ast.JoinedStr, frame: Frame) -> Value:
             continue
         assert isinstance(part, ast.FormattedValue)
         value = machine.evaluate(part.value, frame)
+        note(machine, value, "formatted", node, frame)
         found = text_of(value)
         if part.format_spec is not None or part.conversion not in (-1, 115):
             spec = machine.evaluate(part.format_spec, frame) if part.format_spec is not None else ""
@@ -130,6 +132,7 @@ def _operation(machine: Machine, node: ast.BinOp, frame: Frame) -> Value:
 def _unary(machine: Machine, node: ast.UnaryOp, frame: Frame) -> Value:
     value = machine.evaluate(node.operand, frame)
     if isinstance(node.op, ast.Not):
+        note(machine, value, "tested", node, frame)
         return negated(machine, value)
     value = plain(value)
     if isinstance(value, _NUMBERS) and isinstance(node.op, ast.USub):
@@ -170,6 +173,10 @@ def _compare(machine: Machine, node: ast.Compare, frame: Frame) -> Value:
     result: Value = True
     for op, right_node in zip(node.ops, node.comparators, strict=True):
         right = machine.evaluate(right_node, frame)
+        if isinstance(op, (ast.Eq, ast.NotEq)):
+            for one, other in ((left, right), (right, left)):
+                if isinstance(other, str):
+                    note(machine, one, "compared", node, frame)
         result = compared(op, left, right)
         if len(node.ops) == 1:
             return result
@@ -181,7 +188,9 @@ def _compare(machine: Machine, node: ast.Compare, frame: Frame) -> Value:
 
 
 def _choice(machine: Machine, node: ast.IfExp, frame: Frame) -> Value:
-    answer, condition = truth(machine, machine.evaluate(node.test, frame))
+    test = machine.evaluate(node.test, frame)
+    note(machine, test, "tested", node.test, frame)
+    answer, condition = truth(machine, test)
     if answer is not None:
         return machine.evaluate(node.body if answer else node.orelse, frame)
     condition = machine.fresh(condition)

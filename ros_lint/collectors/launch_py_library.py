@@ -11,6 +11,7 @@ from ros_lint.collectors import launch_text
 from ros_lint.collectors.launch_py_builtins import FUNCTIONS
 from ros_lint.collectors.launch_py_call import Call, Rule, nothing, unknown, unknown_text
 from ros_lint.collectors.launch_py_methods import items
+from ros_lint.collectors.launch_py_misuse import note
 from ros_lint.collectors.launch_py_objects import (
     Api,
     FilePath,
@@ -151,6 +152,8 @@ def _prefix(call: Call) -> Value:
 
 
 def _join(call: Call) -> Value:
+    for argument in call.arguments:
+        note(call.machine, argument, "joined", call.node, call.frame)
     rows = [call.texts(position) for position in range(len(call.arguments))]
     return call.result(joined(rows, lambda row: posixpath.join("", *row)))
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import posixpath
 from typing import TYPE_CHECKING, Any
 
+from ros_lint.collectors.launch_py_misuse import note
 from ros_lint.collectors.launch_py_objects import (
     PERHAPS,
     Api,
@@ -168,6 +169,8 @@ def _of_text(
     machine: Machine, owner: str, name: str, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame
 ) -> Value:
     if name == "format":
+        for value in (*arguments, *keywords.values()):
+            note(machine, value, "formatted", node, frame)
         return _formatted(owner, arguments, keywords, node, frame)
     if name == "read":
         return owner  # a file that is open is its text

@@ -6,6 +6,7 @@ import ast
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from ros_lint.collectors.launch_py_misuse import note
 from ros_lint.collectors.launch_py_objects import (
     PERHAPS,
     Api,
@@ -180,6 +181,13 @@ _ORDERS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="}
 
 def operation(machine: Machine, op: ast.operator, left: Value, right: Value, node: ast.expr, frame: Frame) -> Value:
     """Return what an operator makes of two values."""
+    if isinstance(op, ast.Add):
+        for one, other in ((left, right), (right, left)):
+            if isinstance(other, (str, list, tuple, Made)):
+                note(machine, one, "added", node, frame)
+    elif isinstance(op, ast.Mod) and isinstance(left, str):
+        for one in right if isinstance(right, tuple) else (right,):
+            note(machine, one, "formatted", node, frame)
     return each(left, lambda one: each(right, lambda other: _single(machine, op, one, other, node, frame)))
 
 

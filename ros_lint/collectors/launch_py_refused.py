@@ -1,18 +1,20 @@
-"""What Python itself refuses in a launch file: at once, or when it comes to a name that nothing binds."""
+"""What Python refuses in a launch file: at once, or when it comes to a name that nothing binds or to a substitution as a text."""
 
 from __future__ import annotations
 
 import ast
 import builtins
 import warnings
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.launch_py_walk import span_of
 from ros_lint.collectors.python_syntax import refusal
+from ros_lint.collectors.python_values import callee
 from ros_lint.facts.sight import Problem
 
 if TYPE_CHECKING:
+    from ros_lint.collectors.launch_py_misuse import How, Misused
     from ros_lint.collectors.launch_py_objects import Source
     from ros_lint.text import Text
 
@@ -69,3 +71,58 @@ def undefined(tree: ast.Module, source: Source, met: Iterable[tuple[ast.Name, So
 
 _KNOWN = _MODULE | set(dir(builtins)) | {"copyright", "credits", "exit", "help", "license", "quit", "WindowsError"}
 """What Python binds, with what it does so only when it starts as people start it, or elsewhere."""
+
+_SAY: Mapping[How, tuple[str, str]] = {
+    "added": ("substitution-refused", "a {name} cannot be added to a text: put both into a list, [a, b]"),
+    "joined": ("substitution-refused", "os.path.join() takes no {name}: say PathJoinSubstitution([a, b])"),
+    "formatted": ("substitution-as-text", "a {name} has no value yet that could be formatted: give a list of texts, [a, b]"),
+    "compared": ("substitution-as-text", "a {name} never equals a text: say EqualsSubstitution(a, b), or ask perform(context)"),
+    "tested": ("substitution-as-text", "a {name} is always true: say IfCondition(a), or ask perform(context)"),
+}
+_TELLS = frozenset({"print", "debug", "info", "warning", "warn", "error", "LogInfo"})
+"""Calls whose texts nobody but people read."""
+
+
+def misused(tree: ast.Module, source: Source, noted: Iterable[Misused]) -> Iterator[Problem]:
+    """Yield what is wrong in a module of all that was noted, once for each line."""
+    noted = [one for one in noted if one.source is source]
+    if not noted:
+        return
+    spared, functions = _spared(tree), _functions(tree)
+    told: set[int] = set()
+    for one in noted:
+        if one.node in spared or one.node.lineno in told:
+            continue
+        # Whoever is given something asks whether that is there at all.
+        if one.how == "tested" and not _same_function(one, functions):
+            continue
+        told.add(one.node.lineno)
+        kind, message = _SAY[one.how]
+        yield Problem(kind, message.format(name=one.made.name), span_of(one.node, source))
+
+
+def _spared(tree: ast.Module) -> set[ast.AST]:
+    """Return what stands where an error is caught, or where it only changes what people read."""
+    found: set[ast.AST] = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Try):
+            found.update(inner for statement in node.body for inner in ast.walk(statement))
+        elif isinstance(node, ast.Call) and callee(node) in _TELLS:
+            found.update(ast.walk(node))
+    return found
+
+
+def _functions(tree: ast.Module) -> list[ast.FunctionDef | ast.AsyncFunctionDef]:
+    return [node for node in ast.walk(tree) if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef))]
+
+
+def _same_function(one: Misused, functions: Iterable[ast.FunctionDef | ast.AsyncFunctionDef]) -> bool:
+    """Whether a substitution is made in the function that tests it, and in its body."""
+    if one.made.source is not one.source:
+        return False
+    return all(_holds(function, one.node) == _holds(function, one.made.node) for function in functions)
+
+
+def _holds(function: ast.FunctionDef | ast.AsyncFunctionDef, node: ast.expr) -> bool:
+    last = function.body[-1]
+    return function.body[0].lineno <= node.lineno <= (last.end_lineno or last.lineno)

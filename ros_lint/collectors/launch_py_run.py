@@ -18,6 +18,7 @@ from ros_lint.collectors.launch_py_builtins import BUILTINS
 from ros_lint.collectors.launch_py_eval import EVALUATE
 from ros_lint.collectors.launch_py_library import call_library, subscript_library
 from ros_lint.collectors.launch_py_methods import call_method
+from ros_lint.collectors.launch_py_misuse import Misused
 from ros_lint.collectors.launch_py_objects import (
     PERHAPS,
     Api,
@@ -76,6 +77,8 @@ class Machine:
         """Packages looked up at once, where, and under which conditions."""
         self.unbound: list[tuple[ast.Name, Source]] = []
         """Names met that nothing has bound so far."""
+        self.misused: list[Misused] = []
+        """Substitutions that were taken for texts."""
         self.wanted: set[str] = set()
         """Modules and files that are read and were not at hand."""
         self.opened: list[tuple[str, ast.expr, Source, Conditions]] = []

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from ros_lint.collectors import launch_py_bindings
 from ros_lint.collectors.launch_py_bindings import bind
 from ros_lint.collectors.launch_py_methods import items
+from ros_lint.collectors.launch_py_misuse import note
 from ros_lint.collectors.launch_py_objects import (
     PERHAPS,
     Bound,
@@ -67,7 +68,9 @@ def _if(machine: Machine, node: ast.If, frame: Frame) -> int:
         for part in reversed(test.values[1:]):
             inner = [ast.copy_location(ast.If(part, inner, []), node)]
         node = ast.copy_location(ast.If(test.values[0], inner, []), node)
-    answer, condition = truth(machine, machine.evaluate(node.test, frame))
+    value = machine.evaluate(node.test, frame)
+    note(machine, value, "tested", node.test, frame)
+    answer, condition = truth(machine, value)
     if answer is not None:
         return execute(machine, node.body if answer else node.orelse, frame)
     return _either(machine, node.body, node.orelse, condition, frame)

@@ -3,13 +3,16 @@
 
 A launch file that the real front end refuses: it does not parse, has a tag, an attribute or a substitution that does not
 exist, misses one that is needed, or holds a value of another type; one in Python that gives a node keywords which do not
-exist or were removed, or comes to a name that nothing defines.
+exist or were removed, or comes to a name that nothing defines. Besides, one in Python that takes a substitution for the
+text that it becomes once something is launched: adds it to a text, formats or compares it.
 So does a file with something that came to the launch format after the distribution that was asked for.
 
 ## Why it matters
 
 `ros2 launch` stops with the first of these, and whoever includes the file stops with it. A file half ported from ROS 1
 fails this way: `$(find p)` is `$(find-pkg-share p)`, `$(arg x)` is `$(var x)`, `type=` of a node is `exec=`.
+`'robot_' + LaunchConfiguration('name')` is an error, too; in an f-string stands `<launch.substitutions... object at 0x7f...>`,
+and `LaunchConfiguration('mode') == 'real'` is never true, both without a word.
 
 ## How to fix it
 
@@ -21,6 +24,7 @@ The message names what is wrong. See the launch format of your distribution for 
 - Tags that packages add to the format.
 - Launch files of tests, examples and templates.
 - What is newer than the distribution, where nobody said which one is meant.
+- A substitution is taken for a text where errors are caught, or only in what people read, such as `print()`.
 """
 
 from __future__ import annotations
@@ -56,6 +60,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             launch.path,
             tuple(Related(_message(other), other.span) for other in others[:_MOST_RELATED]),
             confidence=max(_confidence(problem, workspace) for problem in problems),
+            severity=Severity.WARNING if all(problem.kind == "substitution-as-text" for problem in problems) else None,
         )
 
 

@@ -1,0 +1,33 @@
+"""Notes of where a launch file in Python takes a substitution for the text that it becomes once something is launched."""
+
+from __future__ import annotations
+
+import ast
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+from ros_lint.collectors.launch_py_objects import Made, Value
+from ros_lint.collectors.launch_py_texts import is_text
+from ros_lint.collectors.launch_text import UNKNOWN
+
+if TYPE_CHECKING:
+    from ros_lint.collectors.launch_py_objects import Frame, Source
+    from ros_lint.collectors.launch_py_run import Machine
+
+How = Literal["added", "joined", "formatted", "compared", "tested"]
+
+
+class Misused(NamedTuple):
+    """A place where a substitution is taken for a text."""
+
+    how: How
+    made: Made
+    node: ast.expr
+    source: Source
+
+
+def note(machine: Machine, value: Value, how: How, node: ast.expr, frame: Frame) -> None:
+    """Note that something is done with a value, if that is a substitution and it is not unknown whether it comes to that."""
+    if not isinstance(value, Made) or not is_text(value):
+        return
+    if not any(UNKNOWN in text for condition in machine.conditions for text in condition.texts):
+        machine.misused.append(Misused(how, value, node, frame.source))
