@@ -113,5 +113,13 @@ def _apply_to(source: Text, edits: Sequence[Edit]) -> str:
 
 
 def _collide(a: Edit, b: Edit) -> bool:
+    """Whether two edits want the same place: also what each sets off from the rest by a blank line, though it belongs together."""
     x, y = a.span, b.span
+    if x == y and _sets_apart(a) and _sets_apart(b):
+        return True
     return x.path == y.path and x[1:3] < y[3:5] and y[1:3] < x[3:5]
+
+
+def _sets_apart(edit: Edit) -> bool:
+    blank_before = edit.span.column == 1 and edit.text.startswith(("\n", "\r"))
+    return blank_before or edit.text.endswith(("\n\n", "\r\n\r\n", "\r\r"))

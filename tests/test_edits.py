@@ -33,6 +33,13 @@ def test_a_fix_that_collides_waits() -> None:
     assert edits.choose([first, second, third]) == (first, third)
 
 
+def test_what_sets_itself_apart_at_one_place_waits_too() -> None:
+    apart, beside, joined = fix((5, 5, "\na\n")), fix((5, 5, "\nb\n")), fix((5, 5, "c\n"))
+    assert edits.choose([apart, beside, joined]) == (apart, joined)
+    lines = fix((3, 3, "\na")), fix((3, 3, "\nb"))
+    assert edits.choose(lines) == lines
+
+
 def test_an_encoding_without_the_letter() -> None:
     source = Text("f", "é", "iso8859-1")
     assert edits.encode({"f": "éa"}, lambda path: source) == {"f": b"\xe9a"}
