@@ -22,6 +22,7 @@ Declare what is used, in the tag that the message names. The fix does this.
   the confidence is medium, and nothing is fixed. Nor is it where no key resolves for the distribution.
 - The package merely gives CMake commands, and comes along with the build tool, or it is `action_msgs` and nothing but the
   code that is generated for actions needs it.
+- It is part of what launches, nothing but launch files import it, and `ros2launch` is declared for them.
 - CMake finds it, and no code uses it: `unused-find-package` says so.
 - A vendor package is declared, or a key for the whole of a library that the package uses a part of.
 - Nothing declared brings it along: that is `undeclared-dependency` or `launch-outside-closure`.
@@ -42,6 +43,7 @@ from ros_lint.api import (
     Workspace,
     advice,
     circle,
+    comes_with_launching,
     found_for_nothing,
     needs,
     tells,
@@ -49,6 +51,7 @@ from ros_lint.api import (
 )
 
 _MOST_RELATED = 4
+_LAUNCHER = "ros2launch"
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -57,7 +60,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     declared = tuple(dict.fromkeys(declared.name for declared in package.declared))
     idle = {mention.name for mention in found_for_nothing(package, workspace)}
     for need in needs(package, workspace):
-        if not need.declared and need.brought and not _is_command(need) and need.name not in idle:
+        if need.declared or not need.brought or need.name in idle or _is_command(need):
+            continue
+        if not (_LAUNCHER in declared and comes_with_launching(package, need.uses)):
             yield _finding(package, workspace, declared, need, Confidence.HIGH if need.sure else Confidence.MEDIUM)
     for wish in wishes(package, workspace):
         if wish.brought and not _is_command(wish) and not circle(package, workspace, wish.name):
