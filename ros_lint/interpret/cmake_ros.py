@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import posixpath
 import re
+from itertools import accumulate
 from typing import Final
 
 from ros_lint.facts.build import Component, Provided
@@ -15,7 +16,7 @@ from ros_lint.interpret.cmake_install import unlisted
 from ros_lint.interpret.cmake_released import released, run_released
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_state import Properties
-from ros_lint.interpret.cmake_targets import generate
+from ros_lint.interpret.cmake_targets import SOURCES, generate
 from ros_lint.interpret.cmake_values import HOLE, elements, is_known, sure
 from ros_lint.tree import join as join_path
 
@@ -46,8 +47,23 @@ def foreign(run: Run, name: str, args: list[str]) -> int | None:
         run.wild = True
         if _PRODUCER.search(name):
             hidden = ANYTHING
+        elif _is_given_data(run, args):
+            hidden |= Facet.SHARE
     run.hide(hidden, f"what {name}() does is not known")
     return None
+
+
+def _is_given_data(run: Run, args: list[str]) -> bool:
+    """Whether an argument is the path or the name of a folder of the package without sources: such is there to be installed."""
+    words = frozenset([plain for arg in args if is_known(plain := sure(arg)[0])])
+    below = [file for file in run.files if not words.isdisjoint(_folders(file))]
+    return bool(below) and not any(file.endswith(SOURCES) for file in below)
+
+
+def _folders(file: str) -> list[str]:
+    """Return the folders that a file lies in, by their paths and by their names."""
+    names = file.split("/")[:-1]
+    return [*names, *accumulate(names, join_path)]
 
 
 def _component(run: Run, args: list[str]) -> None:

@@ -15,7 +15,7 @@ from ros_lint.text import Span
 _LIBRARY_TYPES: Final = ("STATIC", "SHARED", "MODULE", "OBJECT", "INTERFACE", "UNKNOWN")
 
 
-_SUFFIXES: Final = (".c", ".C", ".c++", ".cc", ".cpp", ".cxx", ".cu", ".m", ".mm", ".h", ".hh", ".hpp", ".hxx", ".in", ".txx")
+SOURCES: Final = (".c", ".C", ".c++", ".cc", ".cpp", ".cxx", ".cu", ".m", ".mm", ".h", ".hh", ".hpp", ".hxx", ".in", ".txx")
 """What CMake adds to a source that is not there without it (policy CMP0115)."""
 
 
@@ -63,7 +63,7 @@ def _add_sources(run: Run, target: Properties, sources: list[str]) -> None:
         if path in run.files:
             have.append(path if certain else source[0] + path)
         elif path is not None and "$<" not in plain:
-            path = next((f"{path}{suffix}" for suffix in _SUFFIXES if f"{path}{suffix}" in run.files), path)
+            path = next((f"{path}{suffix}" for suffix in SOURCES if f"{path}{suffix}" in run.files), path)
             have.append(path if certain else source[0] + path)
             if certain and path not in run.files:
                 run.missing.append((path, run.where(source), bool(run.muted or run.unsure)))
