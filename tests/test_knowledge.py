@@ -184,7 +184,11 @@ def test_python_modules() -> None:
     assert names.module_packages("tf2_ros", "humble") == ("tf2_ros_py",)
     assert names.module_packages("moveit", "humble") == ("moveit_task_constructor_core",)
     assert names.module_packages("scripts", "humble") == ()
-    assert {*sys.stdlib_module_names} - {name for name in sys.stdlib_module_names if name[0] == "_"} <= PYTHON_MODULES
+    assert names.module("tkinter.ttk") == ("python3-tk",)  # Debian and Ubuntu install Python without it
+    assert {name for name in sys.stdlib_module_names if name[0] != "_"} - PYTHON_MODULES == {"tkinter"}
+    assert names.module("adafruit_motor.servo") == ("python3-adafruit-circuitpython-motor-pip",)
+    assert names.module("Adafruit_PCA9685") == ("adafruit-pca9685-pip",)
+    assert names.module("adafruit_pca9685") == ()  # of adafruit-circuitpython-pca9685, which has no key
 
 
 def test_cmake_names() -> None:

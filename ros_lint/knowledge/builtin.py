@@ -10,8 +10,12 @@ __future__ __main__ _thread aifc annotationlib asynchat asyncore audioop binhex 
 distutils imghdr imp lib2to3 mailcap msilib nis nntplib ossaudiodev pipes smtpd sndhdr spwd sunau telnetlib tomllib uu
 xdrlib
 """
-PYTHON_MODULES = frozenset({*_SOME_PYTHONS.split(), *(name for name in sys.stdlib_module_names if not name.startswith("_"))})
-"""Top-level modules of Python's standard library, of any version from 3.10 to 3.14."""
+_APART = frozenset({"tkinter"})
+"""Modules that Debian and Ubuntu leave out of Python, for who wants them to install."""
+PYTHON_MODULES = (
+    frozenset({*_SOME_PYTHONS.split(), *(name for name in sys.stdlib_module_names if not name.startswith("_"))}) - _APART
+)
+"""Top-level modules of Python's standard library, of any version from 3.10 to 3.14, as far as they come with it."""
 
 _CMAKE_MODULES = """
 ALSA ASPELL AVIFile Armadillo BISON BLAS BZip2 Backtrace Boost Bullet CABLE CUDA CUDAToolkit CURL CVS Coin3D Cups
