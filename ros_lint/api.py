@@ -56,7 +56,7 @@ from ros_lint.launch_files import Launchable, Programs, launchable, programs, re
 from ros_lint.launch_links import Links, defaults_of, everything, filled
 from ros_lint.launch_names import Families, needed
 from ros_lint.launch_parameters import Given, ParameterFiles
-from ros_lint.launch_runs import PassedFile, launched, passed_files
+from ros_lint.launch_runs import Broken, PassedFile, broken_expressions, launched, passed_files
 from ros_lint.needs import (
     Need,
     comes_elsewhere,
@@ -87,6 +87,7 @@ __all__ = [
     "PYTHON_LIKE",
     "ROLES",
     "Advice",
+    "Broken",
     "BuildScript",
     "BuildTarget",
     "Call",
@@ -144,6 +145,7 @@ __all__ = [
     "add_dependency",
     "advice",
     "agree",
+    "broken_expressions",
     "builds_something",
     "called",
     "carriers",

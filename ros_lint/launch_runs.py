@@ -5,7 +5,9 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from ros_lint.collectors.launch_text import UNKNOWN, installed_place, is_settled, share
+from ros_lint.collectors.launch_expression import evaluate, refused
+from ros_lint.collectors.launch_text import UNKNOWN, each_configuration, fill, installed_place, is_settled, readable, share
+from ros_lint.launch_links import defaults_of, values
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -73,3 +75,66 @@ def passed_files(file: LaunchFile, workspace: Workspace, *, settled: bool = Fals
                 if place is not None and place.known and place.share:
                     sure = started.certain and len(texts) == 1
                     yield PassedFile(place.package, place.share, kind, started.span, started.via, started.depth, sure)
+
+
+class Broken(NamedTuple):
+    """An expression that Python cannot evaluate as long as an argument has its default."""
+
+    argument: str
+    """The launch configuration whose default it is."""
+    expression: str
+    """With the defaults in it, for people."""
+    name: str
+    """What Python does not know of it, "" where all of it is no Python."""
+    span: Span
+    conditional: bool
+    """Whether it lies in something that is done only under a condition."""
+
+
+def broken_expressions(file: LaunchFile) -> Iterator[Broken]:
+    """Yield the expressions of a launch file that fail, for the defaults in them, when it is launched without arguments."""
+    defaults = defaults_of(file)
+    waiting = [(action, False) for action in reversed(file.actions)]
+    while waiting:
+        action, conditional = waiting.pop()
+        inner = conditional or bool(action.conditions) or action.kind == "later"
+        waiting += [(child, inner) for child in reversed(action.children)]
+        asked = [(text, action.span, conditional) for condition in action.conditions for text in condition.texts]
+        said = [(text, value.span, inner) for value in values(action) for text in value.texts]
+        for text, span, unsure in (*asked, *said):
+            for argument, expression, name in _broken(text, defaults):
+                yield Broken(argument, readable(expression), name, span, unsure)
+
+
+def _broken(text: str, defaults: Mapping[str, tuple[str, ...]]) -> Iterator[tuple[str, str, str]]:
+    """Yield of each expression in a text that fails the argument, the expression, and the name that is not known."""
+    if text.isascii():
+        return
+    given = {name: texts for name, one in each_configuration(text) if len(texts := fill(one, defaults.get, evaluate)) == 1}
+    whole, without = _expressions(text, defaults.get), _expressions(text, lambda name: ("_",))
+    for expression, itself in zip(whole, without, strict=True) if len(whole) == len(without) else ():
+        own, strange = refused(itself), refused(expression)
+        if own is None or strange == () or (evaluate(expression) != UNKNOWN and not _TRUTHS.intersection(strange or ())):
+            continue
+        for name, (value,) in given.items():
+            inside = refused(value)
+            missing = "" if strange is None else next((one for one in strange if one not in own and one in (inside or ())), "")
+            if missing or (strange is None and inside is None):
+                yield name, expression, missing
+                break
+
+
+_TRUTHS = frozenset({"true", "false"})
+"""What is meant as a truth, and what Python does not know."""
+
+
+def _expressions(text: str, values_of: Callable[[str], tuple[str, ...] | None]) -> list[str]:
+    """Return the expressions in a text, those in others left in, with values for the configurations."""
+    found: list[str] = []
+
+    def take(expression: str) -> str:
+        found.append(expression)
+        return UNKNOWN
+
+    fill(text, values_of, take)
+    return found

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ast
+import builtins
+import math
 import re
 from collections.abc import Callable, Mapping
 from functools import lru_cache
@@ -31,6 +33,23 @@ def evaluate(text: str) -> str:
         return str(_value(ast.parse(text.strip(), mode="eval").body))
     except (_Unknown, SyntaxError, ValueError, TypeError, ArithmeticError, LookupError, RecursionError, MemoryError):
         return UNKNOWN
+
+
+@lru_cache(maxsize=1_024)
+def refused(text: str) -> tuple[str, ...] | None:
+    """Return the names in an expression that Python does not know where launch evaluates it, None if it is no expression."""
+    try:
+        tree = ast.parse(text.lstrip(), mode="eval")
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return None
+    names = [node for node in ast.walk(tree) if isinstance(node, ast.Name)]
+    bound = {node.id for node in names if not isinstance(node.ctx, ast.Load)}
+    bound.update(node.arg for node in ast.walk(tree) if isinstance(node, ast.arg))
+    return tuple(dict.fromkeys([node.id for node in names if node.id not in bound and node.id not in _KNOWN]))
+
+
+_KNOWN = frozenset({*dir(builtins), *dir(math), "math"})
+"""PythonExpression knows what Python does, and what is in math."""
 
 
 def means_true(text: str) -> bool | None:

@@ -168,6 +168,12 @@ def configurations(text: str) -> Iterator[tuple[str, bool]]:
         yield name, bool(mark)
 
 
+def each_configuration(text: str) -> Iterator[tuple[str, str]]:
+    """Yield the names of the launch configurations in a text, each with what stands for it."""
+    for match in _INNERMOST.finditer(text):
+        yield match[1].partition(_DEFAULT)[0], match[0]
+
+
 def runs_xacro(text: str) -> bool:
     """Return whether a text is a command line of xacro, or has the output of one in it."""
     return text.startswith("xacro ") or _OF_XACRO in text

@@ -4,7 +4,9 @@
 - An include that does not give an argument which the included launch file requires, or that gives one which neither this
   file nor any that it includes declares or uses.
 - A launch configuration that is asked for, while nothing declares or sets it.
-- An argument whose default is none of its choices, and one that is declared and never used.
+- An argument whose default is none of its choices, or one that makes an expression fail: with `false` or `fast` for
+  `$(var x)`, `$(eval 'not $(var x)')` and `$(eval '$(var x) == 0')` are no Python that can be evaluated.
+- An argument that is declared and never used.
 
 ## Why it matters
 
@@ -28,6 +30,8 @@ Give the argument, or give it a default where it is declared; correct the name, 
 - A Python launch file imports modules that may ask for its arguments, or parameters are filled in from launch
   configurations (`allow_substs`): whoever gives another file of parameters may use any argument there. Of an argument that
   an include gives the confidence is medium then.
+- An expression fails only under a condition, or files of the workspace that include this one give the argument: then the
+  confidence is medium.
 - A file has nothing but arguments: it sets them for whoever includes it.
 
 What does nothing is an info, since an argument that nobody takes is also set for what is included later; it is a warning
@@ -41,6 +45,7 @@ import sys
 from collections.abc import Iterator
 
 from ros_lint.api import (
+    Broken,
     Confidence,
     Facet,
     Families,
@@ -54,6 +59,7 @@ from ros_lint.api import (
     Severity,
     Span,
     Workspace,
+    broken_expressions,
     everything,
     is_plain,
     launchable,
@@ -85,6 +91,8 @@ def _of_file(file: LaunchFile, links: Links, families: Families, filled: frozens
         elif action.kind == "argument":
             yield from _of_choices(action)
     names, takes = families.names(file), links.takes(file)
+    given = {name for one in families.above(file) for name in one.made}
+    yield from (_failing(broken, sure=whole and broken.argument not in given) for broken in broken_expressions(file))
     if not (whole and names.whole and takes.complete):
         return
     above = families.above(file)
@@ -149,6 +157,19 @@ def _of_choices(action: LaunchAction) -> Iterator[Finding]:
             name,
             severity=Severity.ERROR,
         )
+
+
+def _failing(broken: Broken, *, sure: bool) -> Finding:
+    why = f"Python knows no {broken.name}" if broken.name else "that is no Python"
+    if broken.name:
+        why += f", say {broken.name.capitalize()}" if broken.name in ("true", "false") else ", put it into quotes"
+    return Finding(
+        f"with the default of {broken.argument} this expression becomes {broken.expression}; {why}",
+        broken.span,
+        broken.argument,
+        confidence=Confidence.HIGH if sure and not broken.conditional else Confidence.MEDIUM,
+        severity=Severity.ERROR,
+    )
 
 
 def _of_include(
