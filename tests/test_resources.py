@@ -28,7 +28,7 @@ def names(text: str) -> dict[str, bool]:
         ("<plugin>mock_components/GenericSystem</plugin>", {"mock_components": False}),
         ('<class type="a_plugins::Thing" base_class_type="nav2_core::Behavior">', {}),
         ('<transmission name="arm" type="a_transmissions/Simple">', {"a_transmissions": False}),
-        ('- ros_type_name: "std_msgs/msg/String"\n  gz_type_name: "gz.msgs.StringMsg"', {"std_msgs": False}),
+        ('- ros_type_name: "std_msgs/msg/String"\n  gz_type_name: "gz.msgs.StringMsg"', {}),
         ("  type: example_interfaces/msg/String", {"example_interfaces": False}),
         ("-\n  ros1_package_name: 'a_msgs'\n  ros2_package_name: 'b_msgs'", {"b_msgs": False}),
         ('<include ros_pkg="trees" path="grasp.xml"/>', {"trees": True}),

@@ -32,8 +32,8 @@ _LOOK_UPS = tuple(
 )
 # model://p/a.stl may be a package or a model, and a class is named after its package by habit only: Class: p/Name of
 # rviz and rqt, but what is of rviz_common is built into rviz; type: p/Name of controllers, plugin: "p::Name" of navigation,
-# <plugin>p/Name</plugin>, type="p::Name". A bridge has messages of its own accord: ros_type_name: p/msg/Name of
-# ros_gz_bridge, ros2_package_name: p of ros1_bridge.
+# <plugin>p/Name</plugin>, type="p::Name". What ros1_bridge is to translate has ros2_package_name: p; ros_gz_bridge can only
+# have messages that it brings itself (ros_type_name).
 _CLASS = r"([a-z]\w*)(?:/|::)[A-Za-z]"
 _HABITS = tuple(
     map(
@@ -42,7 +42,6 @@ _HABITS = tuple(
             rf"model://{_NAME}(?=/)",
             rf"""Class["']?[ \t]*:[ \t]*["']?(?!rviz_common/){_CLASS}""",
             rf"""ype["']?[ \t]*[:=][ \t]*["']?{_CLASS}""",
-            rf"""ros_type_name["']?[ \t]*:[ \t]*["']?{_CLASS}""",
             rf"""ros2_package_name["']?[ \t]*:[ \t]*["']?{_NAME}""",
             rf"""plugin(?:_name)?["']?[ \t]*[:>]\s*["']?{_CLASS}""",
         ),
