@@ -21,7 +21,7 @@ WANTED: Final = frozenset({
     "ament_package", "ament_pclint", "ament_pep257", "ament_pycodestyle", "ament_pyflakes", "ament_python_install_package",
     "ament_target_dependencies", "ament_uncrustify", "ament_vendor", "ament_xmllint", "autoware_ament_auto_package",
     "catkin_package", "cmake_minimum_required", "cmake_policy", "exec_program", "execute_process",
-    "find_package", "include", "install", "link_directories", "nav2_package",
+    "find_package", "include", "include_directories", "install", "link_directories", "nav2_package",
     "pluginlib_export_plugin_description_file", "project", "rclcpp_components_register_node", "rclcpp_components_register_nodes",
     "rosidl_generate_interfaces", "rosidl_get_typesupport_target",
     "rosidl_target_interfaces", "set",

@@ -3,7 +3,7 @@
 
 Components that cannot be loaded: CMake registers a class that no source makes loadable under this name with
 `RCLCPP_COMPONENTS_REGISTER_NODE`; a source does so and CMake does not register the class, or does so in a function or in the
-`CMakeLists.txt` of a subfolder; the library of a component is not installed.
+`CMakeLists.txt` of a subfolder; the library of a component is not installed, or not to `lib`.
 
 ## Why it matters
 
@@ -38,6 +38,7 @@ from ros_lint.api import (
     Finding,
     Fix,
     Package,
+    Provided,
     Registration,
     Related,
     Rule,
@@ -162,6 +163,15 @@ def _libraries(package: Package) -> Iterator[Finding]:
     told: set[str] = set()
     for call in called(package, *_REGISTER):
         name = evaluated_name(package, call.texts[0]) if call.args else None
+        if name and name not in told and not call.blocks and (astray := _astray(package, name)):
+            told.add(name)
+            yield Finding(
+                f"the library {name} has components, and is installed to {astray.path.rpartition('/')[0]}; "
+                "the index says that it is in lib, so install it there",
+                astray.span,
+                name,
+                (Related("its components are registered here", call.span(0)),),
+            )
         if name is None or call.blocks or name in told or f"lib{name}.so" in installed or call.texts[0] in listed:
             continue
         target = next((target for target in script.targets if target.name == name), None)
@@ -171,6 +181,14 @@ def _libraries(package: Package) -> Iterator[Finding]:
         fix = Fix(f"install {name}", (cmake_edits.install_library(script.end, name),)) if script.end else None
         message = f"the library {name} has components, and is not installed; install it to lib"
         yield Finding(message, call.span(0), name, (Related("it is built here", target.span),), fix)
+
+
+def _astray(package: Package, name: str) -> Provided | None:
+    """Return the place of a library that every build installs to the folder of the programs, and to no other one."""
+    script = package.script
+    places = [p for p in script.provides if p.target == name and p.path.endswith(".so")] if script else []
+    own = f"lib/{package.name}/"
+    return places[0] if places and all(p.path.startswith(own) and not (p.conditional or p.test) for p in places) else None
 
 
 RULE = Rule(

@@ -2,9 +2,13 @@
 ## What it finds
 
 A package that exports its include folder (`ament_export_include_directories()`, or targets with
-`ament_export_targets()`) or a library (`ament_export_libraries()`), and does not install the headers in `include/`. Packages
-that install a library and no headers are told with medium confidence, so are those that export plugins or components, which
-nobody links; those with programs only with low confidence.
+`ament_export_targets()`) or a library (`ament_export_libraries()`), and does not install the headers in `include/`; also one
+of which another package of the workspace includes a header. Packages that install a library and no headers are told with
+medium confidence, so are those that export plugins or components, which nobody links; those with programs only with low
+confidence.
+
+Also a package that installs its headers and exports nothing at all, while another package of the workspace finds it with
+`find_package()` and includes them.
 
 ## Why it matters
 
@@ -14,16 +18,19 @@ Packages that depend on it find the library and not its headers: "fatal error: r
 
 `install(DIRECTORY include/ DESTINATION include/${PROJECT_NAME})`, with the same folder in
 `target_include_directories(... $<INSTALL_INTERFACE:include/${PROJECT_NAME}>)`. The fix installs to the folder that is
-exported.
+exported. To export them: `ament_export_targets()` with an `install(TARGETS ... EXPORT ...)`, or
+`ament_export_include_directories()` and `ament_export_libraries()`.
 
 ## When it keeps silent
 
-For packages without `include/`, and where something that cannot be followed may install the headers.
+For packages without `include/`, and where something that cannot be followed may install the headers. About who includes them,
+if that package adds a folder outside of its own to its include directories by hand, and for its tests.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Mapping
 
 from ros_lint.api import (
     Call,
@@ -36,10 +43,14 @@ from ros_lint.api import (
     Related,
     Rule,
     Severity,
+    Use,
     Workspace,
     called,
     evaluated_name,
     hidden,
+    is_apart,
+    per_workspace,
+    relative,
 )
 
 _LOADED = (
@@ -47,30 +58,98 @@ _LOADED = (
 )  # fmt: skip
 _LINKED = ("ament_export_interfaces", "ament_export_libraries", "ament_export_targets")
 _HEADERS = (".h", ".hh", ".hpp", ".hxx", ".inl", ".ipp", ".tpp")
+_FOLDERS = ("include_directories", "target_include_directories")
+_HEADER = re.compile(r'[<"]([^<>"]+)[>"]')
+_EXPORTS = (
+    "ament_auto_package", "ament_export_", "configure_package_config_file", "export", "install_basic_package_files", "rosidl_",
+    "write_basic_package_version_file",
+)  # fmt: skip
+"""How the names begin of commands that may tell others of a package where its headers are."""
 
 
-def check(package: Package, _: Workspace) -> Iterator[Finding]:
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_cmake" or hidden(package, Facet.LIBRARIES):
         return
     headers = [file for file in package.files if file.startswith("include/") and file.endswith(_HEADERS)]
     places = [provided.path for provided in script.provides]
-    if not headers or script.end is None or any(path.endswith(_HEADERS) for path in places):
+    if not headers or script.end is None:
+        return
+    names = [(other, use, f"/{header}") for other, use, header in _wanted(workspace).get(package.name, ())]
+    wanted = [(other, use) for other, use, header in names if any(file.endswith(header) for file in headers)]
+    if any(path.endswith(_HEADERS) for path in places):
+        yield from _unexported(package, wanted)
         return
     exports = _exports(package)
     library = any(path.startswith("lib/lib") for path in places)
     loaded = any(True for _ in called(package, *_LOADED, anywhere=True))
     linked = library and not loaded and any(not call.blocks for call in called(package, *_LINKED))
-    sure = Confidence.HIGH if exports or linked else Confidence.MEDIUM if library else Confidence.LOW
+    sure = Confidence.HIGH if exports or linked or wanted else Confidence.MEDIUM if library else Confidence.LOW
+    why = ", but exported" if exports else f", and {wanted[0][0].name} includes them" if wanted else ""
     yield Finding(
-        f"the headers in include/ ({headers[0].rpartition('/')[2]} ...) are not installed{', but exported' if exports else ''}",
+        f"the headers in include/ ({headers[0].rpartition('/')[2]} ...) are not installed{why}",
         script.end,
         "include/",
-        tuple(Related("exported here", call.place) for call in exports),
+        (*(Related("exported here", call.place) for call in exports), *_included_here(wanted)),
         _fix(package, exports),
         sure,
-        None if exports and library else Severity.WARNING,
+        None if (exports and library) or wanted else Severity.WARNING,
     )
+
+
+def _unexported(package: Package, wanted: list[tuple[Package, Use]]) -> Iterator[Finding]:
+    """Speak of a package that tells nobody of its headers, which another one takes from what it exports."""
+    script = package.script
+    assert script is not None
+    assert script.end is not None
+    takers = [(other, use) for other, use in wanted if _takes(other, package.name)]
+    exports = any(name.startswith(_EXPORTS) for name in script.calls) or script.extras or package.opaque
+    calls = [call for call in called(package, "ament_package", "install", anywhere=True) if _is_read(package, call)]
+    if not takers or exports or any(text == "EXPORT" or "CONFIG_EXTRAS" in text for call in calls for text in call.texts):
+        return
+    yield Finding(
+        f"{package.name} exports nothing, and {takers[0][0].name} includes its headers; add "
+        "ament_export_include_directories() and ament_export_libraries(), or ament_export_targets()",
+        script.end,
+        package.name,
+        _included_here(takers),
+    )
+
+
+def _is_read(package: Package, call: Call) -> bool:
+    """Whether a command can be part of the build: not if it is in the CMakeLists.txt of a folder that nobody enters."""
+    folder, _, name = relative(package, call.path).rpartition("/")
+    return not folder or name != "CMakeLists.txt" or (package.script is not None and folder in package.script.entered)
+
+
+def _included_here(wanted: list[tuple[Package, Use]]) -> tuple[Related, ...]:
+    return tuple(Related(f"included in {other.name}", use.span) for other, use in wanted[:3])
+
+
+def _takes(package: Package, name: str) -> bool:
+    mentions = package.script.mentions if package.script else ()
+    return any(mention.name == name and mention.via == "cmake" for mention in mentions)
+
+
+@per_workspace
+def _wanted(workspace: Workspace) -> Mapping[str, list[tuple[Package, Use, str]]]:
+    """Return who includes headers of other packages, and which ones, by package."""
+    found: dict[str, list[tuple[Package, Use, str]]] = {}
+    for package in workspace.packages:
+        if package.script is None or _reaches_out(package):
+            continue
+        for use in package.uses:
+            others = workspace.by_name.get(use.package, ()) if use.via == "include" and use.sure and not use.optional else ()
+            header = _HEADER.search(use.what)
+            if others and header and use.package != package.name and not is_apart(relative(package, use.span.path)):
+                found.setdefault(use.package, []).append((package, use, header[1]))
+    return found
+
+
+def _reaches_out(package: Package) -> bool:
+    """Whether a package looks for headers in folders outside of it: a path that it writes out leads there."""
+    calls = called(package, *_FOLDERS, anywhere=True)
+    return any("../" in text or text.startswith("/") or "ENV{" in text for call in calls for text in call.texts)
 
 
 def _exports(package: Package) -> list[Call]:
@@ -94,7 +173,7 @@ def _fix(package: Package, exports: list[Call]) -> Fix | None:
 RULE = Rule(
     name="uninstalled-headers",
     code="ROS416",
-    summary="headers that are exported must be installed",
+    summary="headers for other packages must be installed and exported",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,

@@ -5,11 +5,13 @@ A library that is built and not installed, although an installed program or libr
 `ament_export_libraries()`, or it is `SHARED` or a `MODULE` and nothing but programs at run time, plugin loaders or other
 packages can use it. Other libraries that are not installed are told with low confidence.
 
+Also a library that is exported with `ament_export_libraries()` and installed to `lib/<package>` instead of `lib`.
+
 ## Why it matters
 
 After the build in its own folder everything runs; from the install space nothing starts: "error while loading shared
-libraries: libx.so: cannot open shared object file". Packages that link an exported library that is not there stop at the
-linker.
+libraries: libx.so: cannot open shared object file". Packages that find one which exports a library that is not in its `lib`
+stop: "exports the library 'x' which couldn't be found".
 
 ## How to fix it
 
@@ -34,6 +36,7 @@ from ros_lint.api import (
     Finding,
     Fix,
     Package,
+    Provided,
     Related,
     Rule,
     Severity,
@@ -61,6 +64,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         for call in called(package, "rclcpp_components_register_node", "rclcpp_components_register_nodes", anywhere=True)
         for name in _names(package, call.texts[:1])
     }
+    yield from _astray(package)
     for target in script.targets:
         if target.kind != "library" or target.test or not target.sources or target.name in installed | listed | components:
             continue
@@ -84,6 +88,26 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             Confidence.HIGH if reason or lone else Confidence.MEDIUM if shared else Confidence.LOW,
             None if reason else Severity.WARNING,
         )
+
+
+def _astray(package: Package) -> Iterator[Finding]:
+    """Speak of exported libraries that are installed where ament_cmake_export_libraries does not look for them."""
+    script = package.script
+    assert script is not None
+    own = f"lib/{package.name}"
+    places: dict[str, list[Provided]] = {}
+    for provided in script.provides:
+        if provided.target and provided.path.endswith((".so", ".a")):
+            places.setdefault(provided.target, []).append(provided)
+    for name, found in places.items():
+        exported = _exported(package, name)
+        if exported and all(p.path.startswith(f"{own}/") and not (p.conditional or p.test) for p in found):
+            yield Finding(
+                f"the library {name} is exported, but installed to {own}, where find_package() does not look; install it to lib",
+                found[0].span,
+                name,
+                (Related("it is exported here", exported),),
+            )
 
 
 def _names(package: Package, texts: tuple[str, ...]) -> Iterator[str]:
