@@ -75,9 +75,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     places = [provided.path for provided in script.provides]
     if not headers or script.end is None:
         return
+    installed = any(path.endswith(_HEADERS) for path in places)
+    if installed and _tells(package):
+        return
     names = [(other, use, f"/{header}") for other, use, header in _wanted(workspace).get(package.name, ())]
     wanted = [(other, use) for other, use, header in names if any(file.endswith(header) for file in headers)]
-    if any(path.endswith(_HEADERS) for path in places):
+    if installed:
         yield from _unexported(package, wanted)
         return
     exports = _exports(package)
@@ -98,22 +101,25 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _unexported(package: Package, wanted: list[tuple[Package, Use]]) -> Iterator[Finding]:
-    """Speak of a package that tells nobody of its headers, which another one takes from what it exports."""
-    script = package.script
-    assert script is not None
-    assert script.end is not None
+    """Speak of a package that tells nobody of its headers, if another one looks for them in what it exports."""
     takers = [(other, use) for other, use in wanted if _takes(other, package.name)]
-    exports = any(name.startswith(_EXPORTS) for name in script.calls) or script.extras or package.opaque
+    if takers and package.script and package.script.end:
+        yield Finding(
+            f"{package.name} exports nothing, and {takers[0][0].name} includes its headers; add "
+            "ament_export_include_directories() and ament_export_libraries(), or ament_export_targets()",
+            package.script.end,
+            package.name,
+            _included_here(takers),
+        )
+
+
+def _tells(package: Package) -> bool:
+    """Whether a package may tell others where its headers are."""
+    script = package.script
+    if script is None or script.extras or package.opaque or any(name.startswith(_EXPORTS) for name in script.calls):
+        return True
     calls = [call for call in called(package, "ament_package", "install", anywhere=True) if _is_read(package, call)]
-    if not takers or exports or any(text == "EXPORT" or "CONFIG_EXTRAS" in text for call in calls for text in call.texts):
-        return
-    yield Finding(
-        f"{package.name} exports nothing, and {takers[0][0].name} includes its headers; add "
-        "ament_export_include_directories() and ament_export_libraries(), or ament_export_targets()",
-        script.end,
-        package.name,
-        _included_here(takers),
-    )
+    return any(text == "EXPORT" or "CONFIG_EXTRAS" in text for call in calls for text in call.texts)
 
 
 def _is_read(package: Package, call: Call) -> bool:
