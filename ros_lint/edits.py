@@ -113,7 +113,7 @@ def _apply_to(source: Text, edits: Sequence[Edit]) -> str:
 
 
 def _collide(a: Edit, b: Edit) -> bool:
-    """Whether two edits want the same place: also what each sets off from the rest by a blank line, though it belongs together."""
+    """Whether two edits want the same place: also what each sets off by a blank line, though it belongs together."""
     x, y = a.span, b.span
     if x == y and _sets_apart(a) and _sets_apart(b):
         return True
