@@ -245,6 +245,15 @@ def test_a_link_to_nowhere_is_no_executable_and_not_missing_either(merged: Path)
     assert "P:controller_interface=arm/VeryFast,arm::Slow<arm::A>" in prov
 
 
+def test_tests_that_were_installed_by_mistake_are_no_modules_of_the_data(isolated: Path) -> None:
+    modules = {f"lib/python3.12/site-packages/{name}/__init__.py": "" for name in ("arm_tools", "test")}
+    prefix = write(isolated / "install/arm", modules)
+    (layer,) = underlay.read([str(prefix)])
+    assert layer.modules("test") == ("arm",)
+    (line,) = [line for line in command.scan([str(prefix)], "mine")[1].splitlines() if line.startswith("arm\t")]
+    assert [field for field in line.split("\t") if field.startswith("Y")] == ["Y:arm_tools"]
+
+
 def test_links_in_a_circle_end(merged: Path) -> None:
     (merged / "share/arm/again").symlink_to(merged / "share/arm")
     (layer,) = underlay.read([str(merged)])

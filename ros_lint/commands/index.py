@@ -9,6 +9,7 @@ from datetime import datetime, timezone
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros_lint import underlay
+from ros_lint.apart import TEST_FOLDERS
 from ros_lint.knowledge import index, provides, rosdep, rosdep_rules, upstream
 from ros_lint.knowledge.provides import LETTERS, Provided
 from ros_lint.knowledge.store import KnowledgeError, Store, user_directory
@@ -96,6 +97,9 @@ def _provided(installed: Installed) -> Provided:
         if facet == "modules" and installed.known("interfaces").names:
             # The module of an interface package is made from its interfaces, and goes without saying.
             names = tuple(name for name in names if name != installed.name)
+        if facet == "modules":
+            # What find_packages() takes along of tests is nobody's to import; the shipped data do not name it either.
+            names = tuple(name for name in names if name not in TEST_FOLDERS)
         if facet == "plugins":
             names = tuple(name.replace(" ", "") for name in names)  # as the shipped data write them
         # Other names with a space could not be told apart in a line.
