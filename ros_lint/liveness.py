@@ -105,7 +105,7 @@ class Liveness:
         python = name.endswith((".py", ".py.in")) or "." not in name
         resource = name.endswith(_RESOURCES)
         folders = set(path.split("/")[:-1])
-        if _TEST_FOLDERS & folders or (python and _is_test(name) and path not in self._started):
+        if _TEST_FOLDERS & folders or self._is_of_tests(path) or (python and _is_test(name) and path not in self._started):
             # pytest takes what is called test, and beside it lie its helpers; elsewhere lies anything.
             taken = self._runs_python_tests and (self._is_run(path) or path in self._started_by_tests)
             alive = not (self._sees_targets or resource or self._is_left_out(path))
@@ -123,6 +123,11 @@ class Liveness:
             alive = path in self._installed_python or (path in self._installed and path in self._beside_launch_files)
             return Role.EXEC, alive or (not self._sees_python and self._is_of_python_package(path, idle=idle))
         return PRODUCTION, not (self._sees_targets or idle or self._is_left_out(path))
+
+    def _is_of_tests(self, path: str) -> bool:
+        """Whether a file lies in a folder that is built for tests only, and is not installed out of there all the same."""
+        folders = self._script.test_folders if self._script else ()
+        return path.startswith(tuple([f"{folder}/" for folder in folders])) and path not in self._always_installed
 
     def _is_of_python_package(self, path: str, *, idle: bool) -> bool:
         """Whether a file is nearly sure to be installed, where it cannot be seen what is: a script may be anybody's."""

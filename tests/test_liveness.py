@@ -318,3 +318,20 @@ def test_to_build_takes_more_than_to_run(line: str, depends: str, missing: list[
     workspace = load(line, {}, f"<buildtool_depend>ament_cmake</buildtool_depend>{depends}")
     assert [need.name for need, _ in undeclared(workspace.packages[0], workspace)] == missing
     assert not [need for need in needs(workspace.packages[0], workspace) if need.name == "libqt5-core"]
+
+
+@pytest.mark.parametrize(
+    ("lines", "role"),
+    [
+        ("if(BUILD_TESTING)\nadd_subdirectory(src/spin)\nendif()", Role.TEST),
+        ("add_subdirectory(src/spin)", Role.EXEC),
+        (
+            "install(PROGRAMS src/spin/tester.py DESTINATION lib/${PROJECT_NAME})\n"
+            "if(BUILD_TESTING)\nadd_subdirectory(src/spin)\nendif()",
+            Role.EXEC,
+        ),
+    ],
+)
+def test_a_folder_that_is_built_for_tests_only_serves_tests(lines: str, role: Role) -> None:
+    files = {"src/spin/CMakeLists.txt": "add_executable(spin spin.cpp)\n", "src/spin/tester.py": "import rclpy\n"}
+    assert use(load(lines, files), "rclpy").role == role

@@ -142,6 +142,8 @@ class BuildScript(NamedTuple):
     texts: tuple[WrittenText, ...] = ()
     entered: tuple[str, ...] = ()
     """Folders below the package whose CMakeLists.txt is part of every build, relative to it."""
+    test_folders: tuple[str, ...] = ()
+    """Folders below the package whose CMakeLists.txt is part of the build where tests are wanted, relative to it."""
     handed_on: tuple[tuple[Mention, bool], ...] = ()
     """Packages that the CMake files for those who find this one search, and whether they do so under no condition."""
     untaken: tuple[Span, ...] = ()

@@ -117,6 +117,7 @@ def _result(run: Run, path: str) -> BuildScript:
         run.end,
         tuple(run.extras),
         entered=tuple(run.entered),
+        test_folders=tuple([folder for folder in run.entered_for_tests if folder]),
         handed_on=tuple(_handed_on(run)),
         untaken=tuple(_untaken(run, taken)),
         bundled=tuple(run.bundled),

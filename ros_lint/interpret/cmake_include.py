@@ -114,6 +114,8 @@ def _add_subdirectory(run: Run, args: list[str]) -> int | None:
     script = f"{path}/CMakeLists.txt" if path else "CMakeLists.txt"
     if not run.unsure and not run.muted:
         run.entered[path] = None
+    if run.testing:
+        run.entered_for_tests[path] = None
     last = posixpath.basename(path)
     if last and (script not in run.sources.scripts or run.is_folder(f"{path}/include/{last}")):
         run.bundled[last] = None  # a library with a folder of its own, or one that is not checked out

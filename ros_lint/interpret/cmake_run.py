@@ -135,6 +135,7 @@ class Run(Paths):
         self.templates: dict[str, None] = {}
         """What files for those who find the package are made of, relative to it."""
         self.entered: dict[str, None] = {}
+        self.entered_for_tests: dict[str, None] = {}
         """Folders below the package whose CMakeLists.txt runs for sure."""
         self.bundled: dict[str, None] = {}
         """Projects that are built along with the package."""
