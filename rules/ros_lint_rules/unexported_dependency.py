@@ -21,9 +21,10 @@ not `gz_sim_vendor`.
 - What the header includes comes with the tools that tests are built with, such as `ament_cmake_gtest`.
 
 The confidence is medium when the other package comes along, or may come along, with one that is exported, when the package
-exports no include directories, so that its headers may be there for itself, and when an exported target has the include
-directories of the other one written out. It is low when the header compiles nowhere else, because it includes a file that is not
-installed, or a package that only ROS 1 has.
+exports no include directories, so that its headers may be there for itself, when an exported target has the include
+directories of the other one written out, and when the package builds programs and no library, and the header belongs to one
+of the sources of a program: what it declares can be linked nowhere else. It is low when the header compiles nowhere else,
+because it includes a file that is not installed, or a package that only ROS 1 has.
 """
 
 from __future__ import annotations
@@ -55,6 +56,7 @@ _EXPORTS = frozenset({"ament_export_include_directories", "ament_export_targets"
 _EXPORTS_ALL = frozenset({"ament_auto_package", "autoware_ament_auto_package"})
 _OF_TOOLS = "ament_cmake_"
 _VENDOR = "_vendor"
+_HEADERS = (".h", ".hh", ".hpp", ".hxx")
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -85,18 +87,36 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             name,
             tuple(Related(f"also included here: {use.what}", use.span) for use in others[:_MOST_RELATED]),
             None,
-            _confidence(package, workspace, name, exported) if compiled else Confidence.LOW,
+            _confidence(package, workspace, name, exported, compiled) if compiled else Confidence.LOW,
         )
 
 
-def _confidence(package: Package, workspace: Workspace, name: str, exported: set[str]) -> Confidence:
+def _confidence(package: Package, workspace: Workspace, name: str, exported: set[str], uses: list[Use]) -> Confidence:
     script = package.script
     assert script is not None
     along = found_along(workspace, exported)
     if name in along or (not along.complete and may_bring(along.unknown, name, workspace)):
         return Confidence.MEDIUM
+    if _of_programs(script).issuperset([_stem(use.span.path) for use in uses]):
+        return Confidence.MEDIUM
     sure = _EXPORTS.intersection(script.calls) and not _is_written_out(package, name)
     return Confidence.HIGH if sure else Confidence.MEDIUM
+
+
+def _of_programs(script: BuildScript) -> frozenset[str]:
+    """Return how the sources of programs are called, without folder and suffix, in a package that builds no library.
+
+    A program of a single source may have all but that in headers, which are there for others, too.
+    """
+    built = [target for target in script.targets if not target.test]
+    if any(target.kind in ("library", "interface") for target in built) or not all(target.whole for target in built):
+        return frozenset()
+    parts = [[source for source in target.sources if not source.endswith(_HEADERS)] for target in built]
+    return frozenset([_stem(source) for sources in parts if len(sources) > 1 for source in sources])
+
+
+def _stem(path: str) -> str:
+    return path.rpartition("/")[2].partition(".")[0]
 
 
 def _is_written_out(package: Package, name: str) -> bool:
