@@ -10,6 +10,7 @@ from typing import Literal
 
 from ros_lint.collectors import launch_text
 from ros_lint.collectors.launch_expression import evaluate
+from ros_lint.collectors.launch_held import held
 from ros_lint.collectors.launch_text import (
     UNKNOWN,
     asked_for,
@@ -38,8 +39,8 @@ class References:
         self.opaque: dict[Opaque, None] = {}
         self._places = places
         actions = tuple(actions)
-        self._defaults = _defaults(actions)
-        self._carriers = carriers_of_places(self._defaults)
+        self._held = held(actions)
+        self._carriers = carriers_of_places(self._held.values)
         self._known: dict[str, tuple[str, ...]] = {}
         self._optional = False
         self._named: set[str] = set()
@@ -166,7 +167,7 @@ class References:
     def _is_made(self, package: str, value: LaunchValue) -> bool:
         """Whether the name of a package is put together of what configurations hold, and stands in no text as it is."""
         prefix = f"{launch_text.prefix(package)}/"
-        texts = [value.texts, *self._defaults.values()]
+        texts = [value.texts, *self._held.values.values()]
         return not any(prefix in f"{text}/" for one in texts for text in one)
 
     def _runs(self, command: str, value: LaunchValue, conditional: bool) -> None:
@@ -177,15 +178,16 @@ class References:
         """Return what a value is with the defaults of the launch arguments, and whether it needed them."""
         if all(is_settled(text) for text in value.texts):
             return value.texts, False
+        by_default = not all(map(self._held.is_own, value.texts))
         if len(value.texts) == 1:
-            return self._fill(value.texts[0]), True
+            return self._fill(value.texts[0]), by_default
         found = dict.fromkeys(text for one in value.texts for text in self._fill(one))
-        return tuple(found), True
+        return tuple(found), by_default
 
     def _fill(self, text: str) -> tuple[str, ...]:
         found = self._known.get(text)
         if found is None:
-            found = self._known[text] = fill(text, self._defaults.get, evaluate)
+            found = self._known[text] = fill(text, self._held.values.get, evaluate)
         return found
 
     def look_up(self, package: str, value: LaunchValue, conditions: Sequence[LaunchCondition]) -> None:
@@ -248,20 +250,6 @@ class References:
     def hide(self, reason: str, span: Span) -> None:
         """Note that something hides which packages are used."""
         self.opaque[Opaque(Facet.USES, reason, span)] = None
-
-
-def _defaults(actions: Sequence[LaunchAction]) -> dict[str, tuple[str, ...]]:
-    """Return the values that launch configurations have when the file is launched as it is."""
-    found: dict[str, tuple[str, ...]] = {}
-    waiting = list(reversed(actions))
-    while waiting:
-        action = waiting.pop()
-        if action.value is not None and action.target is not None and action.kind in ("argument", "set"):
-            for name in action.target.texts:
-                found[name] = action.value.texts
-        if action.children:
-            waiting += reversed(action.children)
-    return found
 
 
 def asks_first(conditions: Iterable[LaunchCondition]) -> bool:

@@ -1,0 +1,56 @@
+"""What launch configurations hold: what a file sets itself is not changed by those who launch it."""
+
+import pytest
+
+from ros_lint.collectors import launch_xml
+from ros_lint.collectors.launch_held import held
+from ros_lint.text import Text
+
+
+@pytest.mark.parametrize(
+    ("body", "values", "own"),
+    [
+        ('<arg name="x" default="a"/>', {"x": ("a",)}, set()),
+        ('<arg name="x"/>', {}, set()),
+        ('<let name="x" value="a"/>', {"x": ("a",)}, {"x"}),
+        ('<arg name="x" default="a"/><let name="x" value="b"/>', {"x": ("b",)}, {"x"}),
+        ('<arg name="x" default="a"/><let name="x" value="b" if="$(var c)"/>', {"x": ("a", "b")}, set()),
+        ('<let name="x" value="a"/><let name="x" value="b" if="$(var c)"/>', {"x": ("a", "b")}, {"x"}),
+        ('<let name="x" value="b" if="$(var c)"/>', {"x": ("b",)}, set()),
+        ('<let name="x" value="b" if="$(var c)"/><let name="x" value="a"/>', {"x": ("a",)}, {"x"}),
+        ('<let name="x" value="a" if="$(var c)"/><let name="x" value="b" unless="$(var c)"/>', {"x": ("a", "b")}, {"x"}),
+        ('<let name="x" value="a" if="$(var c)"/><let name="x" value="b" unless="$(var d)"/>', {"x": ("a", "b")}, set()),
+        (
+            '<arg name="x"/><group if="$(var c)"><let name="x" value="a"/></group>'
+            '<group unless="$(var c)"><let name="x" value="b"/></group>',
+            {"x": ("a", "b")},
+            {"x"},
+        ),
+        ('<timer period="1"><let name="x" value="a"/></timer>', {"x": ("a",)}, set()),
+    ],
+)
+def test_values_and_whose_they_are(body: str, values: dict[str, tuple[str, ...]], own: set[str]) -> None:
+    found = held(launch_xml.collect(Text("a.launch.xml", f"<launch>{body}</launch>")).actions)
+    assert (dict(found.values), set(found.own)) == (values, own)
+
+
+def test_what_depends_on_an_argument_is_not_the_files_own() -> None:
+    body = (
+        '<arg name="a" default="1"/><let name="b" value="$(var a)"/><let name="c" value="2"/><let name="d" value="$(var c)/x"/>'
+    )
+    found = held(launch_xml.collect(Text("a.launch.xml", f"<launch>{body}</launch>")).actions)
+    assert found.own == {"c", "d"}
+
+
+@pytest.mark.parametrize(("let", "by_default"), [('<let name="p" value="a"/>', False), ('<arg name="p" default="a"/>', True)])
+def test_a_package_that_the_file_sets_is_no_default(let: str, by_default: bool) -> None:
+    body = f'<launch>{let}<node pkg="$(var p)" exec="b"/></launch>'
+    (reference,) = launch_xml.collect(Text("a.launch.xml", body)).references
+    assert (reference.package, reference.name, reference.by_default) == ("a", "b", by_default)
+
+
+def test_either_of_two_values_may_be_meant() -> None:
+    lets = '<let name="e" value="one" if="$(var c)"/><let name="e" value="two" unless="$(var c)"/>'
+    body = f'<launch><arg name="c" default="true"/>{lets}<node pkg="a" exec="$(var e)"/></launch>'
+    found = launch_xml.collect(Text("a.launch.xml", body)).references
+    assert [(one.name, one.conditional, one.by_default) for one in found] == [("one", True, False), ("two", True, False)]
