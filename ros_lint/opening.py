@@ -161,12 +161,19 @@ def _underlays(
 
 def no_packages(asked: Asked | Opened) -> str:
     """Return what to say when there is nothing to work on."""
+    from ros_lint.discover import discover  # noqa: PLC0415  (a kept report comes without)
+
     places = ", ".join(root or asked.base for root in asked.roots)
-    for root in asked.roots:
-        if os.path.lexists(os.path.join(asked.base, root, "COLCON_IGNORE")):
-            skipped = f"colcon skips {root or 'it'} for its COLCON_IGNORE; give a folder in it"
-            return f"ros-lint: no package found below {places}: {skipped}"
-    return f"ros-lint: no package found below {places}; is there a package.xml?"
+    skipped = [f"{one.path or '.'} ({one.reason})" for one in discover(DiskTree(asked.base), asked.roots, {}).skipped]
+    if not skipped:
+        return f"ros-lint: no package found below {places}; is there a package.xml?"
+    more = f" and {len(skipped) - _MOST_SKIPPED} more" if len(skipped) > _MOST_SKIPPED else ""
+    named = ", ".join(skipped[:_MOST_SKIPPED])
+    nothing = f"ros-lint: no package found below {places}; not looked into: {named}{more}"
+    return f"{nothing}; name a folder in there to have it checked"
+
+
+_MOST_SKIPPED = 3
 
 
 def _base(paths: Sequence[str]) -> str:

@@ -69,8 +69,18 @@ def test_a_folder_that_colcon_skips(tmp_path: Path) -> None:
     (tmp_path / "COLCON_IGNORE").write_text("")
     ran = lint(tmp_path)
     assert ran.code == 2
-    assert f"below {tmp_path}: colcon skips it for its COLCON_IGNORE; give a folder in it" in ran.err
+    assert f"below {tmp_path}; not looked into: . (COLCON_IGNORE); name a folder in there" in ran.err
     assert lint(tmp_path / "ws").out["packages"] == 1
+
+
+def test_folders_below_that_colcon_skips(tmp_path: Path) -> None:
+    for name in ("arm", "base", "camera", "lidar"):
+        package(tmp_path / "src" / name, name)
+        (tmp_path / "src" / name / "COLCON_IGNORE").write_text("")
+    ran = lint(tmp_path)
+    assert ran.code == 2
+    named = ", ".join(f"src/{name} (COLCON_IGNORE)" for name in ("arm", "base", "camera"))
+    assert f"not looked into: {named} and 1 more; name a folder in there" in ran.err
 
 
 def test_a_missing_path(tmp_path: Path) -> None:
