@@ -4,7 +4,9 @@
 Python packages in the sources of an `ament_python` package that are not installed: a sub-package that a written list
 `packages=[package_name]` leaves out, and the folder of an entry point that is not listed, or that `find_packages()` passes
 over because it has no `__init__.py`. And programs of any package that import a module which lies beside them in the
-sources, and not where they are installed.
+sources, and not where they are installed. And the Python package of an `ament_cmake` package, called as it is, of which nothing
+is installed: the confidence is high if it has a `setup.cfg` for `ament_python_install_package()`, or another package of the
+workspace imports it, else medium.
 
 ## Why it matters
 
@@ -15,7 +17,7 @@ ModuleNotFoundError.
 
 `packages=find_packages(exclude=['test'])`, or name the sub-package: `packages=[package_name, package_name + '.sub']`. The
 fix adds it to the list. For a program, make the module part of a Python package (`ament_python_install_package()`), or
-install it beside the program.
+install it beside the program. In `CMakeLists.txt`: `ament_python_install_package(${PROJECT_NAME})`, which the fix adds.
 
 ## When it keeps silent
 
@@ -28,13 +30,28 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Confidence, Facet, Finding, Fix, Package, Rule, Severity, Slot, Span, Workspace, setup_edits
+from ros_lint.api import (
+    Confidence,
+    Edit,
+    Facet,
+    Finding,
+    Fix,
+    Package,
+    Related,
+    Rule,
+    Severity,
+    Slot,
+    Span,
+    Workspace,
+    setup_edits,
+)
 
 _APART = frozenset({"test", "tests", "testing", "launch", "doc", "docs", "example", "examples", "scripts", "resource", "build"})
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     yield from _beside_programs(package, workspace)
+    yield from _of_cmake(package, workspace)
     script = package.script
     if script is None or package.builds_with != "ament_python" or package.hidden(Facet.PYTHON):
         return
@@ -89,6 +106,39 @@ def _beside_programs(package: Package, workspace: Workspace) -> Iterator[Finding
             left.source,
             confidence=Confidence.HIGH if left.sure else Confidence.MEDIUM,
         )
+
+
+def _of_cmake(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    """Speak of the Python package of an ament_cmake package that is not installed, nor any of its modules."""
+    script = package.script
+    hidden = package.hidden(Facet.PYTHON | Facet.EXECUTABLES | Facet.SHARE)
+    if script is None or package.builds_with != "ament_cmake" or hidden or script.end is None:
+        return
+    if script.interfaces or any(module.partition(".")[0] == package.name for module in script.python_packages):
+        return  # what is imported under this name is generated, or built
+    files = frozenset(package.files)
+    folder = next((f for f in (package.name, f"src/{package.name}") if f"{f}/__init__.py" in files), "")
+    modules = [file for file in package.files if file.startswith(f"{folder}/") and file.endswith(".py")] if folder else []
+    if len(modules) < 2 or not files.isdisjoint(p.source for p in script.provides if p.source.startswith(f"{folder}/")):
+        return
+    users = [
+        (other, use)
+        for other in workspace.packages
+        for use in other.uses
+        if use.via == "import" and use.package == package.name != other.name and not use.optional and use.sure
+    ]
+    why = f", and {users[0][0].name} imports it" if users else ""
+    inner = "" if folder == package.name else f" PACKAGE_DIR {folder}"
+    call = f"ament_python_install_package(${{PROJECT_NAME}}{inner})"
+    yield Finding(
+        f"the Python package {folder}/ is not installed{why}; add {call}",
+        script.end,
+        folder,
+        tuple(Related("imported here", use.span) for _, use in users[:3]),
+        Fix(f"install {folder}/", (Edit(script.end, f"find_package(ament_cmake_python REQUIRED)\n{call}\n"),), safe=False),
+        Confidence.HIGH if users or f"{folder}/setup.cfg" in files else Confidence.MEDIUM,
+        None if users else Severity.WARNING,
+    )
 
 
 def _packages(package: Package) -> Iterator[tuple[str, str]]:
