@@ -221,6 +221,8 @@ class Loader:
                 unusable_headers=public_headers.unusable(done.script, done.facts, found.files),
                 left_behind=tuple(own_files.left_behind(found.files, done.script, done.facts)),
             )
+            if package.registrations and done.script and done.script.plugins:
+                package = package._replace(unwritten=traces.unwritten(tree, package))
             if search:
                 package = package._replace(
                     traces=traces.of_package(tree, package, source, world, types),

@@ -72,6 +72,32 @@ def of_found(tree: Tree, package: Package, source: Source, world: World, types: 
     return found.union(types.used(source, [name for name in wanted if name not in found]))
 
 
+def unwritten(tree: Tree, package: Package) -> frozenset[str]:
+    """Return the classes in plugin descriptions of a package, as they are written there, whose name stands in no source of it.
+
+    None where names are put together, so that they need not stand there.
+    """
+    made = {registration.name for registration in package.registrations}
+    plugins = package.script.plugins if package.script else ()
+    described = [one.type for plugin in plugins for library in plugin.libraries for one in library.classes]
+    wanted = [name for name in dict.fromkeys(described) if name.replace(" ", "").removeprefix("::") not in made]
+    if not wanted:
+        return frozenset()
+    sources = [file for file in package.files if file.endswith(_OF_CODE) or file.endswith(_OF_BUILD)]
+    data = b"\n".join([content for _, content in contents(tree, package.path, sources)])
+    if _PUT_TOGETHER.search(data):
+        return frozenset()
+    words = {name: name.rpartition("::")[2].strip().encode() for name in wanted}
+    return frozenset([name for name, word in words.items() if word and not re.search(rb"\b%s\b" % re.escape(word), data)])
+
+
+_PUT_TOGETHER = re.compile(rb"#[ \t]*define\b(?:[^\n]|\\\n)*(?:PLUGINLIB_EXPORT_|CLASS_LOADER_REGISTER_)CLASS")
+"""A macro that makes classes loadable: it may make their names, too."""
+
+_OF_CODE = (".c", ".cc", ".cpp", ".cu", ".cxx", ".em", ".h", ".hh", ".hpp", ".hxx", ".in", ".inl", ".ipp", ".jinja", ".py")
+"""Sources, and what sources are made of."""
+
+
 def _unknown_folders(package: Package, source: Source) -> frozenset[str]:
     """Return the folders of headers that are included and nobody is known to have.
 

@@ -66,6 +66,8 @@ class Package(NamedTuple):
     """Names that CMake finds and no code is seen to use, while something else says that they are used."""
     registrations: tuple[Registration, ...] = ()
     """Classes that its C++ sources make loadable."""
+    unwritten: frozenset[str] = frozenset()
+    """Classes that its plugin descriptions name and none of its sources does."""
     look_ups: tuple[LookUp, ...] = ()
     """Files that its models, displays and parameters look up in packages."""
     parameter_files: tuple[ParameterFile, ...] = ()

@@ -21,7 +21,8 @@ sources and in `add_library()`. The fix exports a description whose base classes
 ## When it keeps silent
 
 Where the libraries cannot be seen whole, for tests, for descriptions that are exported under a condition only, and for classes
-in packages that register some with macros of their own.
+in packages that register some with macros of their own. Where a source has the name of a class that none makes loadable, the
+confidence is medium.
 """
 
 from __future__ import annotations
@@ -149,7 +150,7 @@ def _libraries(package: Package, plugin: PluginFile, registered: list[Registrati
         else:
             yield from _library(package, plugin, library)
         for one in library.classes:
-            yield from _class(plugin, one, registered)
+            yield from _class(package, plugin, one, registered)
 
 
 def _library(package: Package, plugin: PluginFile, library: PluginLibrary) -> Iterator[Finding]:
@@ -178,7 +179,7 @@ def _plain(path: str) -> str:
     return name.removesuffix(".so").removesuffix(".a").removesuffix(".dll").removeprefix("lib")
 
 
-def _class(plugin: PluginFile, one: PluginClass, registered: list[Registration]) -> Iterator[Finding]:
+def _class(package: Package, plugin: PluginFile, one: PluginClass, registered: list[Registration]) -> Iterator[Finding]:
     wanted = one.type.replace(" ", "").removeprefix("::")
     if not wanted or not registered or any(made.name == wanted for made in registered):
         return
@@ -191,7 +192,7 @@ def _class(plugin: PluginFile, one: PluginClass, registered: list[Registration])
         one.span,
         f"{plugin.path}#{one.type}",
         related,
-        confidence=Confidence.HIGH if alike else Confidence.MEDIUM,
+        confidence=Confidence.HIGH if alike or one.type in package.unwritten else Confidence.MEDIUM,
     )
 
 
