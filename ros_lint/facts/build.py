@@ -156,5 +156,7 @@ class BuildScript(NamedTuple):
     moved: tuple[str, ...] = ()
     """Files with Python modules that it installs, relative to the package, and folders of them, with a slash at the end,
     where they lie elsewhere than the names say: ``package_dir`` of a setup.py."""
+    export_sets: tuple[str, ...] = ()
+    """Sets that targets are exported in by install(TARGETS ... EXPORT)."""
     failed: bool = False
     """Whether it could not be evaluated by a mistake of ours, which ``opaque`` then tells."""

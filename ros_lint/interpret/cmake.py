@@ -30,7 +30,7 @@ from ros_lint.interpret import (
 from ros_lint.interpret.cmake_run import BudgetError, Run, folded
 from ros_lint.interpret.cmake_sources import Helper, Sources
 from ros_lint.interpret.cmake_state import STOP, Frame
-from ros_lint.interpret.cmake_values import SOURCE
+from ros_lint.interpret.cmake_values import SOURCE, is_known
 from ros_lint.knowledge.cmake_commands import macros
 from ros_lint.text import Span
 from ros_lint.tree import join
@@ -122,6 +122,7 @@ def _result(run: Run, path: str) -> BuildScript:
         untaken=tuple(_untaken(run, taken)),
         bundled=tuple(run.bundled),
         runs=_runs(run),
+        export_sets=tuple(dict.fromkeys([made.exported_in for made in run.installed_targets if is_known(made.exported_in)])),
     )
 
 

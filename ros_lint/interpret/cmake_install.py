@@ -92,6 +92,7 @@ def _install(run: Run, args: list[str]) -> None:
 def _install_targets(run: Run, args: list[str]) -> None:
     names: list[str] = []
     destinations: dict[str, str] = {}
+    exported_in = ""
     artifact = ""
     room = -1
     keyword = ""
@@ -105,6 +106,10 @@ def _install_targets(run: Run, args: list[str]) -> None:
         elif keyword == "DESTINATION" and room:
             destinations[artifact] = arg
             room -= 1
+        elif keyword == "EXPORT" and not exported_in:
+            exported_in = sure(arg)[0]
+            if not is_known(exported_in):
+                run.hide(Facet.LIBRARIES, "the set that targets are exported in is not known")
     everywhere = destinations.get("")
     runtime = run.destination(sure(destinations.get("RUNTIME") or everywhere or "bin")[0])
     library = run.destination(sure(destinations.get("LIBRARY") or everywhere or "lib")[0])
@@ -115,7 +120,8 @@ def _install_targets(run: Run, args: list[str]) -> None:
             run.hide(Facet.EXECUTABLES | Facet.LIBRARIES, "install() of targets whose names are not known")
         elif not run.muted:
             conditional = run.conditional or run.testing or not certain
-            run.installed_targets.append(InstalledTarget(plain, runtime, library, archive, conditional, run.where(name)))
+            span = run.where(name)
+            run.installed_targets.append(InstalledTarget(plain, runtime, library, archive, conditional, span, exported_in))
 
 
 _PYTHON: Final = f"{VARIABLES['PYTHON_INSTALL_DIR']}/"
@@ -123,7 +129,7 @@ _PYTHON: Final = f"{VARIABLES['PYTHON_INSTALL_DIR']}/"
 
 def installed_targets(run: Run) -> Iterator[Provided]:
     """Return the files of the targets that were installed, after the whole script has run."""
-    for name, executables, libraries, archives, conditional, span in run.installed_targets:
+    for name, executables, libraries, archives, conditional, span, _ in run.installed_targets:
         target = real_target(run, name)
         if target is None:
             if not run.open_world or "::" not in name:

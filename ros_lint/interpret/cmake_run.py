@@ -36,6 +36,8 @@ class InstalledTarget(NamedTuple):
     archives: str | None
     conditional: bool
     span: Span
+    exported_in: str = ""
+    """The set that it is exported in."""
 
 
 @lru_cache(maxsize=4096)
@@ -329,8 +331,19 @@ class Run(Paths):
 
     def mention(self, name: str, via: Via, span: Span, what: str = "", *, optional: bool = False, purpose: Purpose = "") -> None:
         """Note that a line names a package."""
+        if via == "target" and not purpose and self._is_helped() and span == self.here():
+            purpose = "helper"
         if not self.muted:
             self.mentions[Mention(name, via, span, what, optional or self.unsure > 0, self.testing, purpose)] = None
+
+    def _is_helped(self) -> bool:
+        """Whether a command runs that another package of the workspace gives."""
+        for frame in reversed(self.frames):
+            if frame.own:
+                return False
+            if (frame.procedure.provider if frame.procedure else frame.provider) in self.helpers:
+                return True
+        return False
 
     def hide(self, facet: Facet, reason: str, span: Span | None = None, below: str = "") -> None:
         """Note that something cannot be seen through, and where in the prefix it can only be.

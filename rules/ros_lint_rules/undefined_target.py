@@ -89,9 +89,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _unfilled(package: Package) -> Iterator[Finding]:
     """Yield what is to say of exported sets of targets (reference, section C3): that none is in them."""
-    filled = [_export_set(package, call) for call in called(package, "install", anywhere=True)]
-    if None in filled:
+    filled = {_export_set(package, call) for call in called(package, "install", anywhere=True)}
+    if package.script is None or None in filled:
         return
+    filled.update(package.script.export_sets)
     for call in called(package, "ament_export_targets", "ament_export_interfaces"):
         for index, text in enumerate(call.texts):
             name = evaluated_name(package, text)
