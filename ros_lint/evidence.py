@@ -212,7 +212,7 @@ class _Uses:
         """Add what the mentions in a file come to. ``looked_up`` is what packages are for whose files are looked up."""
         package, answer, found = self.package, self.resolver.answer, self._found
         own = self._own.included(path)
-        for name, via, span, what, optional, test, _ in mentions:
+        for name, via, span, what, optional, test, purpose in mentions:
             if (via == "include" and (name in own or self._is_bundled(name))) or (
                 via == "import" and self._is_own_module(name, path)
             ):
@@ -231,8 +231,9 @@ class _Uses:
                 known = known and name.partition(".")[0] not in self._absent
             elif self._absent and known:
                 known = self.resolver.names.is_package(providers[0]) or self._absent.isdisjoint(_WORD.findall(name))
-            found[span, providers[0], via] = _make(
-                Use, (providers[0], providers, needed, what or usual, via, spared, span, sure and known)
+            by: Via = "macro" if purpose == "helper" else via
+            found[span, providers[0], by] = _make(
+                Use, (providers[0], providers, needed, what or usual, by, spared, span, sure and known)
             )
 
     def _is_spared(self, name: str, span: Span, best: str) -> bool:

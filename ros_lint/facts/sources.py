@@ -11,9 +11,10 @@ from ros_lint.text import Span
 Via = Literal["package", "cmake", "macro", "target", "include", "import", "interface", "symbol", "launch", "key"]
 """In which of the name spaces a mention is to be looked up; they differ (reference, section D6 and E3.8)."""
 
-Purpose = Literal["", "export", "interfaces", "plugins"]
-"""What CMake takes a package for: to hand it on to those who find this one, to generate the code of interfaces, or because it
-loads the plugins of this one. Most is for code, and nothing says so."""
+Purpose = Literal["", "export", "interfaces", "plugins", "helper"]
+"""What CMake takes a package for: to hand it on to those who find this one, to generate the code of interfaces, because it
+loads the plugins of this one, or because a command that another package of the workspace gives has it in itself. Most is for
+code, and nothing says so."""
 
 
 class Mention(NamedTuple):

@@ -28,7 +28,7 @@ from collections.abc import Iterator
 from ros_lint.api import Confidence, Facet, Finding, Package, Related, Rule, Severity, Workspace, come_along, found_names
 
 _MOST_RELATED = 4
-_NOT_SOUGHT = ("export", "plugins")
+_NOT_SOUGHT = ("export", "plugins", "helper")
 """What names packages without asking whether they have been found here."""
 
 
