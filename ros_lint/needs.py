@@ -215,11 +215,16 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
             continue
         sure = need.sure and any(use.via != "launch" or use.role is _TEST for use in need.uses)
         if not is_available(need.name, workspace):
-            if comes_elsewhere(package, workspace, need.name):
+            if comes_elsewhere(package, workspace, need.name) or _is_declared_as_key(package, workspace, need.name):
                 continue
             sure = sure and not workspace.target.told
         found.append((need, sure and not (unknown and _may_satisfy(unknown, need, workspace))))
     return tuple(found)
+
+
+def _is_declared_as_key(package: Package, workspace: Workspace, name: str) -> bool:
+    """Whether what once was a package is now a library of the system, and declared by a key of its name: libnlopt-dev."""
+    return any(workspace.world.is_key(each.name) and is_part(each.name, name) for each in package.declared)
 
 
 def is_available(name: str, workspace: Workspace) -> bool:

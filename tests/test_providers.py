@@ -18,6 +18,19 @@ def prefix(tmp_path: Path) -> str:
     return write_prefix(tmp_path)
 
 
+@pytest.mark.parametrize(
+    ("header", "package"),
+    [
+        ("mrpt/core/Clock.h", "mrpt_libbase"),
+        ("mrpt/obs/CObservation.h", "mrpt_libobs"),
+        ("mrpt/ros2bridge/pose.h", "mrpt_libros_bridge"),
+    ],
+)
+def test_libraries_of_mrpt_come_in_several_packages(header: str, package: str) -> None:
+    found = world().by_include(header)
+    assert (found.names[0], found.sure) == (package, True)
+
+
 def test_what_packages_provide(prefix: str) -> None:
     found = world(member("mine"), prefixes=(prefix,))
     assert found.executables("demo_nodes_cpp").ask("talker") == "exists"
