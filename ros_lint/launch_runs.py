@@ -5,8 +5,17 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
+from ros_lint.collectors import launch_text
 from ros_lint.collectors.launch_expression import evaluate, refused
-from ros_lint.collectors.launch_text import UNKNOWN, each_configuration, fill, installed_place, is_settled, readable, share
+from ros_lint.collectors.launch_text import (
+    UNKNOWN,
+    each_configuration,
+    fill,
+    installed_place,
+    is_settled,
+    readable,
+    share,
+)
 from ros_lint.launch_links import defaults_of, values
 
 if TYPE_CHECKING:
@@ -18,6 +27,8 @@ if TYPE_CHECKING:
     from ros_lint.workspace import Workspace
 
 _NOTHING: Mapping[str, str] = MappingProxyType({})
+_EXPRESSION = launch_text.expression("")[0]
+"""What an expression in a text begins with."""
 
 
 class PassedFile(NamedTuple):
@@ -108,7 +119,7 @@ def broken_expressions(file: LaunchFile) -> Iterator[Broken]:
 
 def _broken(text: str, defaults: Mapping[str, tuple[str, ...]]) -> Iterator[tuple[str, str, str]]:
     """Yield of each expression in a text that fails the argument, the expression, and the name that is not known."""
-    if text.isascii():
+    if _EXPRESSION not in text:
         return
     given = {name: texts for name, one in each_configuration(text) if len(texts := fill(one, defaults.get, evaluate)) == 1}
     whole, without = _expressions(text, defaults.get), _expressions(text, lambda name: ("_",))
