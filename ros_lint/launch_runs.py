@@ -110,17 +110,15 @@ def broken_expressions(file: LaunchFile) -> Iterator[Broken]:
         action, conditional = waiting.pop()
         inner = conditional or bool(action.conditions) or action.kind == "later"
         waiting += [(child, inner) for child in reversed(action.children)]
-        asked = [(text, action.span, conditional) for condition in action.conditions for text in condition.texts]
-        said = [(text, value.span, inner) for value in values(action) for text in value.texts]
-        for text, span, unsure in (*asked, *said):
+        asked = [(text, action.span, conditional) for one in action.conditions for text in one.texts if _EXPRESSION in text]
+        asked += [(text, value.span, inner) for value in values(action) for text in value.texts if _EXPRESSION in text]
+        for text, span, unsure in asked:
             for argument, expression, name in _broken(text, defaults):
                 yield Broken(argument, readable(expression), name, span, unsure)
 
 
 def _broken(text: str, defaults: Mapping[str, tuple[str, ...]]) -> Iterator[tuple[str, str, str]]:
     """Yield of each expression in a text that fails the argument, the expression, and the name that is not known."""
-    if _EXPRESSION not in text:
-        return
     given = {name: texts for name, one in each_configuration(text) if len(texts := fill(one, defaults.get, evaluate)) == 1}
     whole, without = _expressions(text, defaults.get), _expressions(text, lambda name: ("_",))
     for expression, itself in zip(whole, without, strict=True) if len(whole) == len(without) else ():
