@@ -80,6 +80,8 @@ class Liveness:
             return True
         if not name.endswith(".py"):
             return False
+        if name == "conf.py" and not {f"{folder}/index.rst", f"{folder}/index.md"}.isdisjoint(self._files):
+            return True  # of Sphinx, in a folder of any name
         return not _OF_PAGES.isdisjoint(folders) or name in _RECIPES
 
     def is_optional(self, path: str) -> bool:

@@ -233,6 +233,8 @@ def test_what_has_no_part_in_a_package_needs_nothing() -> None:
         "talker/conanfile.py": "import yaml\n",
         "talker/docs/source/conf.py": "import yaml\n",
         "talker/docs/source/youtube.py": "import yaml\n",
+        "talker/pages/conf.py": "import yaml\n",
+        "talker/pages/index.rst": "Talker\n",
         "talker/templates/node.jinja.cpp": "#include <rclcpp/rclcpp.hpp>\n",
         "talker/resource/setup.py.em": "import yaml\n",
         "talker/scripts/.ipynb_checkpoints/main-checkpoint.py": "import yaml\n",
