@@ -191,6 +191,13 @@ def test_python_modules() -> None:
     assert names.module("adafruit_pca9685") == ()  # of adafruit-circuitpython-pca9685, which has no key
 
 
+def test_headers_that_tell_their_key() -> None:
+    names = Names(Store())
+    assert names.header("gst/app/gstappsink.h")[0] == "libgstreamer1.0-dev"
+    assert names.header_sure("gst/gst.h")  # the released packages that use it declare it, too
+    assert not names.header_sure("GLFW/glfw3.h")  # too few use it to tell
+
+
 def test_cmake_names() -> None:
     names = Names(Store())
     assert names.cmake("Eigen3")[0] == "eigen"
