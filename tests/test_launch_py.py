@@ -265,6 +265,15 @@ def test_places_are_exact_beyond_ascii() -> None:
     assert (source.slice(node.span), source.slice(node.package_span), node.exact) == ("ö", "a", True)
 
 
+def test_a_text_that_is_added_to_is_where_it_was_written() -> None:
+    body = (
+        "    world = os.path.join(get_package_share_directory('a'), 'worlds', 'w.sdf')\n    world += ' -r'\n"
+        "    return [ExecuteProcess(cmd=['gz', 'sim', world])]\n"
+    )
+    source, found = collect("a.launch.py", HEAD + body)
+    assert {source.slice(each.span)[:12] for each in found.references if each.kind == "file"} == {"os.path.join"}
+
+
 @pytest.mark.parametrize(
     ("body", "wanted"),
     [

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ros_lint.collectors.launch_py_methods import items
-from ros_lint.collectors.launch_py_objects import Api, Frame, Instance, Made, Unknown, Value, alternatives, plain, union
+from ros_lint.collectors.launch_py_objects import Api, Frame, Instance, Made, Unknown, Value, Written, alternatives, plain, union
 from ros_lint.collectors.launch_py_operations import hashable, operation
 from ros_lint.collectors.launch_py_texts import SUBSTITUTIONS
 
@@ -39,7 +39,9 @@ def _augmented(machine: Machine, node: ast.AugAssign, frame: Frame) -> None:
         machine.spend(len(found))
         one += [machine.guard(element) for element in found]
         return
-    bind(machine, node.target, operation(machine, node.op, before, value, node.value, frame), frame)
+    # A text that is added to is still the one that was written before.
+    where = one.node if isinstance(one, Written) and one.source is frame.source else node.value
+    bind(machine, node.target, operation(machine, node.op, before, value, where, frame), frame)
 
 
 def bind(machine: Machine, target: ast.expr, value: Value, frame: Frame) -> None:
