@@ -145,6 +145,8 @@ def _boolean(machine: Machine, node: ast.BoolOp, frame: Frame) -> Value:
     perhaps: list[Value] = []
     for part in node.values:
         value = machine.evaluate(part, frame)
+        if part is not node.values[-1]:
+            note(machine, value, "tested", part, frame)
         answer, _ = truth(machine, value)
         if answer is stop_at:
             return union([*perhaps, value]) if perhaps else value

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from ros_lint.collectors.launch_py_objects import Frame, Source
     from ros_lint.collectors.launch_py_run import Machine
 
-How = Literal["added", "joined", "formatted", "compared", "tested"]
+How = Literal["added", "joined", "formatted", "compared", "tested", "combined"]
 
 
 class Misused(NamedTuple):
@@ -27,7 +27,14 @@ class Misused(NamedTuple):
 
 def note(machine: Machine, value: Value, how: How, node: ast.expr, frame: Frame) -> None:
     """Note that something is done with a value, if that is a substitution and it is not unknown whether it comes to that."""
-    if not isinstance(value, Made) or not is_text(value):
+    if not isinstance(value, Made):
+        return
+    if how == "tested" and value.name in _CONDITIONS:
+        how = "combined"
+    elif not is_text(value):
         return
     if not any(UNKNOWN in text for condition in machine.conditions for text in condition.texts):
         machine.misused.append(Misused(how, value, node, frame.source))
+
+
+_CONDITIONS = frozenset({"IfCondition", "UnlessCondition", "LaunchConfigurationEquals", "LaunchConfigurationNotEquals"})

@@ -9,13 +9,14 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.launch_py_walk import span_of
+from ros_lint.collectors.launch_text import UNKNOWN
 from ros_lint.collectors.python_syntax import refusal
 from ros_lint.collectors.python_values import callee
 from ros_lint.facts.sight import Problem
 
 if TYPE_CHECKING:
     from ros_lint.collectors.launch_py_misuse import How, Misused
-    from ros_lint.collectors.launch_py_objects import Source
+    from ros_lint.collectors.launch_py_objects import Made, Source, Value
     from ros_lint.text import Text
 
 _ANYWHERE = frozenset({"exec", "eval", "globals", "locals", "vars", "setattr"})
@@ -78,6 +79,7 @@ _SAY: Mapping[How, tuple[str, str]] = {
     "formatted": ("substitution-as-text", "a {name} has no value yet that could be formatted: give a list of texts, [a, b]"),
     "compared": ("substitution-as-text", "a {name} never equals a text: say EqualsSubstitution(a, b), or ask perform(context)"),
     "tested": ("substitution-as-text", "a {name} is always true: say IfCondition(a), or ask perform(context)"),
+    "combined": ("substitution-as-text", "Python takes one of two conditions here: say IfCondition(AndSubstitution(a, b))"),
 }
 _TELLS = frozenset({"print", "debug", "info", "warning", "warn", "error", "LogInfo"})
 """Calls whose texts nobody but people read."""
@@ -94,7 +96,7 @@ def misused(tree: ast.Module, source: Source, noted: Iterable[Misused]) -> Itera
         if one.node in spared or one.node.lineno in told:
             continue
         # Whoever is given something asks whether that is there at all.
-        if one.how == "tested" and not _same_function(one, functions):
+        if one.how in ("tested", "combined") and not _same_function(one, functions):
             continue
         told.add(one.node.lineno)
         kind, message = _SAY[one.how]
@@ -126,3 +128,57 @@ def _same_function(one: Misused, functions: Iterable[ast.FunctionDef | ast.Async
 def _holds(function: ast.FunctionDef | ast.AsyncFunctionDef, node: ast.expr) -> bool:
     last = function.body[-1]
     return function.body[0].lineno <= node.lineno <= (last.end_lineno or last.lineno)
+
+
+_WHERE: Mapping[str, tuple[tuple[int, str], ...]] = {
+    **dict.fromkeys(("IfCondition", "UnlessCondition"), ((0, "predicate_expression"),)),
+    **dict.fromkeys(("SetLaunchConfiguration", "SetEnvironmentVariable", "AppendEnvironmentVariable"), ((1, "value"),)),
+    **dict.fromkeys(("Node", "LifecycleNode"), ((-1, "arguments"), (-1, "ros_arguments"), (-1, "remappings"))),
+    "DeclareLaunchArgument": ((-1, "default_value"),),
+    "ExecuteProcess": ((-1, "cmd"),),
+    "IncludeLaunchDescription": ((1, "launch_arguments"),),
+    "PathJoinSubstitution": ((0, "substitutions"),),
+    "PythonExpression": ((0, "expression"),),
+    "PushRosNamespace": ((0, "namespace"),),
+}
+"""Where the launch libraries take texts and substitutions, and stop at anything else (``normalize_to_list_of_substitutions``)."""
+
+
+def no_texts(tree: ast.Module, source: Source, made: Iterable[Made]) -> Iterator[Problem]:
+    """Yield where a number or a truth is given for a text, and arguments that are a dictionary and no list of pairs."""
+    found: list[tuple[str, ast.expr]] = []
+    for one in made:
+        for position, name in _WHERE.get(one.name, ()) if one.source is source and not _is_unsure(one) else ():
+            value = one.get(position, name)
+            if name == "launch_arguments" and not one.seen:
+                continue  # what is passed is looked at when it is launched
+            if name == "launch_arguments" and isinstance(value, dict):
+                found.append(("launch_arguments are pairs: say .items()", one.written(position, name)))
+            elif (number := _number_in(value)) is not None:
+                message = f"{name} of {one.name} takes texts and substitutions: say '{number}' instead of {number}"
+                found.append((message, one.written(position, name)))
+    spared = _spared(tree) if found else set()
+    for message, node in found:
+        if node not in spared:
+            yield Problem("no-text", message, span_of(node, source))
+
+
+def _is_unsure(made: Made) -> bool:
+    return any(UNKNOWN in text for condition in made.conditions for text in condition.texts)
+
+
+def _number_in(value: Value) -> bool | int | float | None:
+    """Return a number that is a value, or stands in the lists in it."""
+    waiting = [value]
+    for _ in range(_MOST_ITEMS):
+        if not waiting:
+            break
+        one = waiting.pop()
+        if isinstance(one, (bool, int, float)):
+            return one
+        if isinstance(one, (list, tuple)):
+            waiting += one
+    return None
+
+
+_MOST_ITEMS = 200
