@@ -348,11 +348,12 @@ def _is_far(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
 _CHANCE = 0.02
 """How likely it may be that one of the unknown names brings a package along, going by how many released packages do."""
 
-_EVERYDAY = frozenset({"ros", "ros2", "ament", "cmake", "python", "python3", "lib", "dev", "msgs", "common", "utils", "tools"})
+_EVERYDAY = frozenset({"ros", "ament", "cmake", "python", "lib", "dev", "msgs", "common", "utils", "tools"})
 
 
 def _words(name: str) -> frozenset[str]:
-    return frozenset(re.split("[-_]", name)) - _EVERYDAY
+    """Return the telling words of a name, without the number of a generation: mrpt2 is of the family of mrpt_libobs."""
+    return frozenset([word.rstrip("0123456789") or word for word in re.split("[-_]", name)]) - _EVERYDAY
 
 
 _OF_TOOLS = ("ament", "cmake", "lint", "common", "tools", "test")
