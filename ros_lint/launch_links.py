@@ -63,6 +63,7 @@ class Links:
         self._places: dict[str, Linked] = {}
         self._takes: dict[str, Takes] = {}
         self._owns: dict[str, _Own] = {}
+        self._sets: dict[str, Mapping[str, tuple[str, ...]]] = {}
         for package in packages:
             for file, path in installed_below_share(package, package.launch):
                 linked = Linked(package, file, path)
@@ -71,11 +72,22 @@ class Links:
 
     def target(self, value: LaunchValue | None, source: LaunchFile) -> Linked | None:
         """Return the one launch file of the workspace that an include in a file means, None when it is not that clear."""
-        if value is None or len(value.texts) != 1:
+        texts = () if value is None else value.texts if all(map(is_settled, value.texts)) else filled(value, self._set_in(source))
+        if len(texts) != 1:
             return None
-        place = self.installed_at(value.texts[0], source)
+        place = self.installed_at(texts[0], source)
         found = self._by_path.get(place, []) if place is not None else []
         return found[0] if len(found) == 1 else None
+
+    def _set_in(self, file: LaunchFile) -> Mapping[str, tuple[str, ...]]:
+        """Return the configurations that a file sets for itself, and that nobody can give it as arguments."""
+        done = self._sets.get(file.path)
+        if done is None:
+            asked = [action.target for action in everything(file.actions) if action.kind == "argument" and action.target]
+            arguments = {name for target in asked for name in target.texts}
+            done = {name: texts for name, texts in defaults_of(file).items() if name not in arguments}
+            self._sets[file.path] = done
+        return done
 
     def installed_at(self, text: str, source: LaunchFile) -> tuple[str, str] | None:
         """Return the package, and the place below its share folder, that a path in a launch file means; None if unclear."""
