@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from ros_lint.collectors.launch import entries
 from ros_lint.collectors.launch_py_actions import LAUNCHED, walker
+from ros_lint.collectors.launch_py_names import strays
 from ros_lint.collectors.launch_py_objects import PERHAPS, Frame, Function, OutOfBudget, Raised, Source
 from ros_lint.collectors.launch_py_refused import misplaced, misused, no_texts, undefined
 from ros_lint.collectors.launch_py_run import Machine, Modules
@@ -120,6 +121,7 @@ class _Reading:
         yield from undefined(tree, self._source, self._machine.unbound)
         yield from misused(tree, self._source, self._machine.misused)
         yield from no_texts(tree, self._source, self._machine.made)
+        yield from strays(tree, self._source)
 
     def read(self, tree: ast.Module, helper: bool) -> None:
         frame = self._machine.run(tree, self._source)

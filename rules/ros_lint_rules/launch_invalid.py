@@ -3,9 +3,9 @@
 
 A launch file that the real front end refuses: it does not parse, has a tag, an attribute or a substitution that does not
 exist, misses one that is needed, or holds a value of another type; one in Python that gives a node keywords which do not
-exist or were removed, or comes to a name that nothing defines. Besides, one in Python that takes a substitution for the
-text that it becomes once something is launched: adds it to a text, formats or compares it; or that gives numbers and truths
-where texts are taken, `default_value=True`.
+exist or were removed, comes to a name that nothing defines, or takes one from a module that has none. Besides, one in
+Python that takes a substitution for the text that it becomes once something is launched: adds it to a text, formats or
+compares it; or that gives numbers and truths where texts are taken, `default_value=True`.
 So does a file with something that came to the launch format after the distribution that was asked for.
 
 ## Why it matters

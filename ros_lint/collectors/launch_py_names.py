@@ -1,0 +1,84 @@
+"""Which module of the launch libraries has which name: what a launch file in Python takes from the wrong one stops it."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
+
+from ros_lint.collectors.launch_py_walk import span_of
+from ros_lint.facts.sight import Problem
+
+if TYPE_CHECKING:
+    from ros_lint.collectors.launch_py_objects import Source
+
+_MODULES: Mapping[str, frozenset[str]] = {
+    module: frozenset(names.split())
+    for module, names in {
+        "launch.action": "Action",
+        "launch.actions": """AppendEnvironmentVariable DeclareLaunchArgument EmitEvent ExecuteLocal ExecuteProcess ForEach ForLoop
+            GroupAction IncludeLaunchDescription LogInfo OpaqueCoroutine OpaqueFunction PopEnvironment PopLaunchConfigurations
+            PushEnvironment PushLaunchConfigurations RegisterEventHandler ResetEnvironment ResetLaunchConfigurations
+            SetEnvironmentVariable SetLaunchConfiguration Shutdown TimerAction UnregisterEventHandler UnsetEnvironmentVariable
+            UnsetLaunchConfiguration""",
+        "launch.conditions": "IfCondition LaunchConfigurationEquals LaunchConfigurationNotEquals UnlessCondition",
+        "launch.event_handlers": """OnActionEventBase OnExecutionComplete OnIncludeLaunchDescription OnProcessExit OnProcessIO
+            OnProcessStart OnShutdown""",
+        "launch.launch_description_sources": """AnyLaunchDescriptionSource FrontendLaunchDescriptionSource
+            PythonLaunchDescriptionSource""",
+        "launch.substitution": "Substitution",
+        "launch.substitutions": """AllSubstitution AndSubstitution AnonName AnySubstitution Command EnvironmentVariable
+            EqualsSubstitution FileContent FindExecutable ForLoopIndex IfElseSubstitution LaunchConfiguration LaunchLogDir
+            LocalSubstitution NotEqualsSubstitution NotSubstitution OrSubstitution PathJoinSubstitution PathSubstitution
+            PythonExpression StringJoinSubstitution TextSubstitution ThisLaunchFile ThisLaunchFileDir""",
+        "launch_ros.actions": """ComposableNodeContainer LifecycleNode LifecycleTransition LoadComposableNodes Node
+            PushROSNamespace PushRosNamespace RosTimer ROSTimer SetParameter SetParametersFromFile SetROSLogDir SetRemap
+            SetUseSimTime""",
+        "launch_ros.descriptions": "ComposableLifecycleNode ComposableNode ParameterFile ParameterValue",
+        "launch_ros.substitutions": "ExecutableInPackage FindPackage FindPackagePrefix FindPackageShare",
+    }.items()
+}
+"""What the modules offer in any distribution, as far as launch files ask for it (launch 3.7.1, launch_ros 0.28 and later)."""
+_HOMES: Mapping[str, tuple[str, ...]] = {
+    name: tuple(module for module, names in _MODULES.items() if name in names) for names in _MODULES.values() for name in names
+}
+
+
+_IMPORTS = re.compile(r"^\s*import\s.*\blaunch", re.MULTILINE)
+
+
+def strays(tree: ast.Module, source: Source) -> Iterator[Problem]:
+    """Yield the names that are taken from a module of the launch libraries which has none, while another one has it."""
+    for node in tree.body:
+        if isinstance(node, ast.ImportFrom) and node.module is not None and not node.level:
+            for alias in node.names:
+                yield from _stray(node.module, alias.name, alias, source)
+    if not _IMPORTS.search(source.text.text):
+        return
+    imported = _imported(tree)
+    for one in ast.walk(tree):
+        if isinstance(one, ast.Attribute) and one.attr in _HOMES and isinstance(one.value, ast.Attribute):
+            root = one.value.value
+            if isinstance(root, ast.Name) and root.id in imported:
+                yield from _stray(f"{root.id}.{one.value.attr}", one.attr, one, source)
+
+
+def _stray(module: str, name: str, node: ast.AST, source: Source) -> Iterator[Problem]:
+    homes = _HOMES.get(name, ())
+    if homes and module in _MODULES and module not in homes:
+        yield Problem("stray-name", f"{module} has no {name}: {' and '.join(homes)} has it", span_of(node, source))
+
+
+def _imported(tree: ast.Module) -> frozenset[str]:
+    """Return which of the launch libraries are imported as what they are called, and nothing else of these names."""
+    found: set[str] = set()
+    other: set[str] = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            found.update(alias.name.partition(".")[0] for alias in node.names if alias.asname is None)
+        elif isinstance(node, ast.arg):
+            other.add(node.arg)
+        elif isinstance(node, ast.Name) and not isinstance(node.ctx, ast.Load):
+            other.add(node.id)
+    return frozenset({"launch", "launch_ros"} & found - other)
