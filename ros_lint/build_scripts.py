@@ -148,3 +148,30 @@ def forgotten_nodes(package: Package) -> frozenset[str]:
     if script is None or hidden(package, Facet.EXECUTABLES) or installs_built(script) or may_run_built(script):
         return frozenset()
     return node_targets(package).intersection(target.name for target in programs_built(script))
+
+
+def left_out_nodes(package: Package) -> frozenset[str]:
+    """Return the nodes of every build that a package does not install, while it installs others of its nodes.
+
+    No tests, examples or what measures, by the name or the folder of a source, and nothing that the build may run.
+    """
+    script = package.script
+    if script is None or hidden(package, Facet.EXECUTABLES) or may_run_built(script):
+        return frozenset()
+    nodes = node_targets(package)
+    installed = {provided.target for provided in script.provides if provided.target}
+    listed = {text for call in called(package, "install", anywhere=True) for text in call.texts}
+    if nodes.isdisjoint(installed):
+        return frozenset()
+    return frozenset(
+        target.name
+        for target in programs_built(script)
+        if target.name in nodes - installed - listed and not is_on_request(package, target) and not _is_aside(target)
+    )
+
+
+_ASIDE = re.compile(r"(?:^|_)(?:bench\w*|demo|dummy|example|mock|perf\w*|sample|try|tutorial)(?:s?)(?:_|$)|test", re.IGNORECASE)
+
+
+def _is_aside(target: Target) -> bool:
+    return bool(_ASIDE.search(target.name)) or any(is_apart(source) for source in target.sources)

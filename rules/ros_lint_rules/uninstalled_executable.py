@@ -4,7 +4,7 @@
 Programs that are built and land where nobody looks for them:
 
 - an executable that a launch file of the workspace starts and that is not installed at all;
-- a node, if nothing at all of what the package builds is installed;
+- a node, if nothing at all of what the package builds is installed, or if others of its nodes are;
 - an executable that is installed to `bin/` instead of `lib/<package>`, if it is a node (its sources or their own
   headers include rclcpp) or a launch file starts it. Where only another header of the package includes rclcpp, the confidence
   is medium.
@@ -20,8 +20,9 @@ the destination is right for other programs, and wrong for nodes.
 
 ## When it keeps silent
 
-For tests; for targets that are also installed to `lib/<package>`; with `ament_auto_package(INSTALL_TO_PATH)`. Where something
-that cannot be followed may install the target, the confidence is medium, or nothing is said.
+For tests, examples and what measures; for targets that are also installed to `lib/<package>`; with
+`ament_auto_package(INSTALL_TO_PATH)`. Where something that cannot be followed may install the target, the confidence is
+medium, or nothing is said.
 """
 
 from __future__ import annotations
@@ -45,6 +46,7 @@ from ros_lint.api import (
     cmake_edits,
     forgotten_nodes,
     hidden,
+    left_out_nodes,
     node_targets,
     programs_built,
     with_client,
@@ -67,6 +69,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             places.setdefault(provided.target, []).append((folder, name, provided.span))
     nodes = node_targets(package)
     forgotten = forgotten_nodes(package)
+    left_out = left_out_nodes(package)
     started = workspace.started.get(package.name, {})
     for target in programs_built(script):
         found = places.get(target.name, [])
@@ -100,6 +103,14 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 target.span,
                 target.name,
                 fix=_install(script.end, target.name),
+            )
+        elif target.name in left_out:
+            yield Finding(
+                f"{target.name} is built and, unlike other nodes of the package, not installed; install it to lib/{package.name}",
+                target.span,
+                target.name,
+                fix=_install(script.end, target.name),
+                severity=Severity.WARNING,
             )
 
 

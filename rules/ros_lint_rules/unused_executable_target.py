@@ -15,7 +15,7 @@ Install it to `lib/${PROJECT_NAME}`, or build it only when tests or examples are
 
 Where something that cannot be followed may install it; where it is not part of every build, or an example; where a custom
 command runs it during the build; where `uninstalled-executable` speaks: a launch file starts it, or it is a node of a package
-that installs nothing. It is off unless it is asked for.
+that installs nothing, or other nodes. It is off unless it is asked for.
 """
 
 from __future__ import annotations
@@ -35,6 +35,7 @@ from ros_lint.api import (
     forgotten_nodes,
     hidden,
     is_on_request,
+    left_out_nodes,
     may_run_built,
 )
 
@@ -45,7 +46,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     installed = {provided.target for provided in script.provides}
     listed = {text for call in called(package, "install", anywhere=True) for text in call.texts}
-    forgotten = forgotten_nodes(package)
+    forgotten = forgotten_nodes(package) | left_out_nodes(package)
     for target in script.targets:
         if target.kind != "executable" or target.test or target.name in installed | listed:
             continue
