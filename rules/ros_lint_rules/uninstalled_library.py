@@ -107,6 +107,7 @@ def _astray(package: Package) -> Iterator[Finding]:
                 found[0].span,
                 name,
                 (Related("it is exported here", exported),),
+                severity=Severity.WARNING,
             )
 
 
