@@ -14,7 +14,8 @@ that are called `a.launch.py` as well as `a_launch.py`; the fix writes this wher
 
 ## When it keeps silent
 
-Where the pattern cannot be evaluated, and where several globs are added up.
+Where the pattern cannot be evaluated, where several globs are added up, and where git ignores what the pattern names: such
+files are made or fetched.
 """
 
 from __future__ import annotations
@@ -25,12 +26,12 @@ from collections.abc import Iterator
 from ros_lint.api import Confidence, Edit, Finding, Fix, Package, Rule, Severity, Workspace
 
 
-def check(package: Package, _: Workspace) -> Iterator[Finding]:
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_python":
         return
     for problem in script.problems:
-        if problem.kind == "empty-glob":
+        if problem.kind == "empty-glob" and not workspace.is_made(package, problem.subject):
             folder = _folder(problem.subject)
             inside = any(file.startswith(f"{folder}/") for file in package.files) if folder else True
             # A folder that is not there yet is a template for the future; files that are passed over are a mistake.

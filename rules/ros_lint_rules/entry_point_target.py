@@ -16,7 +16,7 @@ message says so. The fix takes away the `()`, and writes the missing comma.
 
 ## When it keeps silent
 
-- For modules of other packages.
+- For modules of other packages, but where this package has just that module under its own name.
 - For modules that import `*`, define `__getattr__`, or cannot be read: they may have any name.
 - For modules that are made during the build.
 """
@@ -33,18 +33,18 @@ _GLUED = re.compile(r"[:=].*=")
 _TARGET = re.compile(r"\s*([\w.]+)\s*(?::\s*([\w.]+)\s*)?(?:\[.*\])?\s*\Z")
 
 
-def check(package: Package, _: Workspace) -> Iterator[Finding]:
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None:
         return
     for entry in script.entry_points:
-        yield from _entry(package, entry)
+        yield from _entry(package, entry, workspace)
     for problem in script.problems:
         if problem.kind == "entry-point-form":
             yield Finding(problem.message, problem.span, problem.subject)
 
 
-def _entry(package: Package, entry: EntryPoint) -> Iterator[Finding]:
+def _entry(package: Package, entry: EntryPoint, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     assert script is not None
     runs = entry.group in ("console_scripts", "gui_scripts")
@@ -72,7 +72,7 @@ def _entry(package: Package, entry: EntryPoint) -> Iterator[Finding]:
             yield Finding(f"{entry.name} names a module and no function; {way_out}", entry.span, entry.name)
         return
     if module is None:
-        yield from _no_module(package, entry, name)
+        yield from _no_module(package, entry, name, workspace)
         return
     first = attribute.partition(".")[0]
     if not module.open and first not in module.names and not _is_submodule(package, name, first):
@@ -97,7 +97,7 @@ def _is_submodule(package: Package, module: str, name: str) -> bool:
     return script is not None and f"{module}.{name}" in script.python_packages
 
 
-def _no_module(package: Package, entry: EntryPoint, name: str) -> Iterator[Finding]:
+def _no_module(package: Package, entry: EntryPoint, name: str, workspace: Workspace) -> Iterator[Finding]:
     """Speak of a module that is not in the sources, if it must be one of the package's own."""
     script = package.script
     if script is None or name in script.python_packages or package.hidden(Facet.PYTHON):
@@ -105,12 +105,13 @@ def _no_module(package: Package, entry: EntryPoint, name: str) -> Iterator[Findi
     tops = {module.partition(".")[0] for module in script.python_packages}
     own = name.partition(".")[0]
     hint = ""
-    if own not in tops:
-        near = difflib.get_close_matches(own, [*tops, package.name], 1, 0.85)
-        if own != package.name and not near:
-            return
     modules = [module for module in script.python_packages if "." in module]
     near = difflib.get_close_matches(name, modules, 1, 0.9)
+    if own not in tops and own != package.name and not difflib.get_close_matches(own, [*tops, package.name], 1, 0.85):
+        # The name of a package that was copied, before a module that is here.
+        near = [module for module in modules if module.partition(".")[2] == name.partition(".")[2]]
+        if not near or workspace.world.by_import(own).known:
+            return
     if near:
         hint = f"; is {near[0]} meant?"
     yield Finding(

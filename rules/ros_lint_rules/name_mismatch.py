@@ -18,8 +18,8 @@ is an unsafe one, for folders and files may be named after the same variable.
 ## When it keeps silent
 
 Where the name is not known for certain: it comes from a variable that cannot be evaluated, or what is installed depends on
-a condition. Dashes, underscores and capitals in the name of a Python distribution make no difference to setuptools; only
-the installed paths do.
+a condition. Further markers and manifests beside those of the right name do no harm. Dashes, underscores and capitals in the
+name of a Python distribution make no difference to setuptools; only the installed paths do.
 """
 
 from __future__ import annotations
@@ -71,10 +71,10 @@ def _python(manifest: Manifest, script: BuildScript) -> Iterator[Finding]:
     if script.name and script.name_span and _distribution(script.name) != _distribution(manifest.name):
         message = f"setup() calls the package {script.name}"
         wrong[script.name] = [Related(message, script.name_span)]
-    markers = {provided.path.removeprefix(_MARKERS) for provided in script.provides if provided.path.startswith(_MARKERS)}
+    told = {_installed_for(provided)[::-1] for provided in script.provides}
     for provided in script.provides:
         name, what = _installed_for(provided)
-        if name in ("", manifest.name) or provided.conditional or (what == "marker" and manifest.name in markers):
+        if name in ("", manifest.name) or provided.conditional or (what != "program" and (what, manifest.name) in told):
             continue
         places = wrong.setdefault(name, [])
         message = _PLACES[what].format(name)
