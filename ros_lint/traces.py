@@ -205,9 +205,15 @@ _SEPARATOR = re.compile(rb"[-_/]|::")
 def _spellings(name: str) -> tuple[str, ...]:
     """Return how a package may be written: with dashes, as a nested namespace or include folder.
 
+    The outer namespace is left out by who is in it, and libraries leave out that they are such.
     Conversions of tf2 are found by the types of their arguments, and bear no name but tf2.
     """
     found = [name, name.replace("-", "_"), name.replace("_", "-"), name.replace("_", "::", 1), name.replace("_", "/", 1)]
+    inner = name.partition("_")[2]
+    if "_" in inner and name not in _CONVERSIONS:
+        found.append(f"{inner}::")
+    if name.startswith("lib"):
+        found += [f"{name[3:]}/", f"{name[3:]}::"]
     return tuple(dict.fromkeys([*found, "tf2"] if name in _CONVERSIONS else found))
 
 
@@ -220,11 +226,15 @@ _JOINING = b"-_"
 def _find_word(data: bytes, word: bytes, joining: bytes) -> int:
     """Return the offset of a word, -1 when there is none. A search for letters is many times faster than for a pattern.
 
-    ``joining`` are the bytes that are part of a word besides letters and digits.
+    ``joining`` are the bytes that are part of a word besides letters and digits. A word that ends with a mark is a whole one
+    before anything.
     """
     start = data.find(word)
+    after = 1 if word[-1:].isalnum() else 0
+    joining = joining if after else _JOINING
     while start >= 0:
-        around = data[max(start - 1, 0) : start], data[start + len(word) : start + len(word) + 1]
+        end = start + len(word)
+        around = data[max(start - 1, 0) : start], data[end : end + after]
         if not any(each.isalnum() or (each and each in joining) for each in around):
             return start
         start = data.find(word, start + 1)

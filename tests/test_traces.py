@@ -26,6 +26,20 @@ def test_a_name_leaves_traces_in_many_spellings() -> None:
     }
 
 
+def test_a_namespace_is_written_from_within_another_and_a_library_without_saying_so() -> None:
+    files = [
+        ("a.cpp", b"int route_tools = 0; draw_tools::Pen pen; my_line_tools::Line line;\n"),
+        ("b.cpp", b"namespace acme { route_tools::Route route; }\n"),
+        ("c.cpp", b"#include <arm/arm.hpp>\nleg::Leg left;\n"),
+    ]
+    found = traces(("acme_route_tools", "acme_tools", "acme_draw", "acme_line_tools", "libarm", "libleg", "libfoot"), files)
+    assert {name: (span.path, span.line) for name, span in found.items()} == {
+        "acme_route_tools": ("b.cpp", 1),
+        "libarm": ("c.cpp", 1),
+        "libleg": ("c.cpp", 2),
+    }
+
+
 def test_words_leave_traces_whatever_their_capitals() -> None:
     files = [("a.cpp", b"#include <cpprest/http_client.h>\n"), ("CMakeLists.txt", b"find_package(CHOLMOD)\n")]
     names = Names(Store())
