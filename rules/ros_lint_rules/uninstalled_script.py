@@ -16,8 +16,8 @@ or low: it may be a tool for the sources only.
 
 ## When it keeps silent
 
-For files without interpreter line or executable bit, for tests, for those that the build itself runs, and where something
-that cannot be followed may install them.
+For files without interpreter line or executable bit, for tests, for those that the build itself runs, for those that
+import what only ROS 1 has, and where something that cannot be followed may install them.
 """
 
 from __future__ import annotations
@@ -42,15 +42,18 @@ from ros_lint.api import (
 )
 
 
-def check(package: Package, _: Workspace) -> Iterator[Finding]:
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_cmake" or hidden(package, Facet.EXECUTABLES | Facet.SHARE):
         return
     installed = {provided.source for provided in script.provides}
     nodes = {relative(package, use.span.path) for use in package.uses if use.via == "import" and use.package == "rclpy"}
+    standing = workspace.world.standing
+    left = installed.union(script.inputs)
+    left |= {relative(package, use.span.path) for use in package.uses if standing(use.package) == "end-of-life"}
     with_nodes = {file.rpartition("/")[0] for file in nodes & installed}
     for file in script.files:
-        if file.path in installed or file.path in script.inputs or not (file.shebang and file.main) or is_apart(file.path):
+        if file.path in left or not (file.shebang and file.main) or is_apart(file.path):
             continue
         path = f"{package.path}/{file.path}" if package.path else file.path
         forgotten = file.path in nodes and file.path.rpartition("/")[0] in with_nodes
