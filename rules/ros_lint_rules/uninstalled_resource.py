@@ -161,7 +161,9 @@ def _folders(package: Package, kept: set[str], told: set[str]) -> Iterator[Findi
             or (folder != "controllers" and all(file.rpartition(".")[2] in _PLAIN for file in files))
         ):
             continue
-        looked_up = [file for file in files if file in places]
+        # What the files say of each other tells nothing of who reads the first of them.
+        below = f"{package.path}/{folder}/" if package.path else f"{folder}/"
+        looked_up = [file for file in files if file in places and not places[file].path.startswith(below)]
         shown = [file.rpartition("/")[2] for file in looked_up + [file for file in files if file not in places]]
         named = ", ".join(shown[:3]) + (" ..." if len(shown) > 3 else "")
         yield Finding(
