@@ -9,6 +9,7 @@ from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint import resource_files
+from ros_lint.apart import is_apart
 from ros_lint.collect import FAILED
 from ros_lint.collectors import cmake_calls, plugin_xml, python_names, setup_layout, setup_texts
 from ros_lint.collectors.cmake_syntax import Parsed, parse
@@ -27,7 +28,8 @@ _SCRIPTS = re.compile(r"(?:scripts|nodes|bin|script)/[^/]+\Z")
 _MOST_RESOURCES = 40
 """Of a folder: a tree of models has thousands of files, and one that is named is enough."""
 _MOST_UNSEEN = 5_000
-_TELLS = (".md", ".rst", ".txt", ".sh", ".bash", ".py", ".yaml", ".yml")
+_PAGES = (".md", ".rst", ".txt", ".sh", ".bash")
+_TELLS = (*_PAGES, ".py", ".yaml", ".yml")
 """Texts that may say how a program is started."""
 _PYTHON = ("setup.py", "setup.cfg", "pyproject.toml")
 
@@ -193,10 +195,7 @@ def _with_files(tree: Tree, parts: Parts, script: BuildScript) -> BuildScript:
     sources.update(dict.fromkeys(_programs(found.files, folders)))
     executables = _Executables(tree, found)
     files = [_script_file(file, text, file in executables) for file in sources if (text := _text(tree, found, file))]
-    kept = {provided.source for provided in script.provides}
-    lost = [file.path for file in files if file.path not in kept and file.shebang and file.main]
-    run = _run(tree, found, lost) if lost else {}
-    files = [file._replace(run=run.get(file.path)) for file in files] if run else files
+    files = _with_runs(tree, found, script, files)
     hidden = any(opaque.hides & Facet.SHARE for opaque in script.opaque)
     missing = {} if hidden else resource_files.uninstalled(found.files, [provided.source for provided in script.provides])
     if not (plugins or files or missing):
@@ -255,7 +254,40 @@ def _named(tree: Tree, found: Found, missing: Mapping[str, Sequence[str]]) -> It
             return
 
 
-def _run(tree: Tree, found: Found, programs: Sequence[str]) -> dict[str, Span]:
+def _with_runs(tree: Tree, found: Found, script: BuildScript, files: list[ScriptFile]) -> list[ScriptFile]:
+    """Return the scripts of a package with where they are started, and with modules that are, if they are not installed.
+
+    CMake installs what lies among scripts; setup.py also makes programs of the modules that its entry points name.
+    """
+    if script.path.endswith(".txt"):
+        kept = {provided.source for provided in script.provides}
+        lost = [file.path for file in files if file.path not in kept and file.shebang and file.main]
+        run = _run(tree, found, lost, _TELLS) if lost else {}
+        return [file._replace(run=run.get(file.path)) for file in files] if run else files
+    names = {provided.path.rpartition("/")[2] for provided in script.provides if not provided.path.startswith("share/")}
+    named = {entry.module.replace(".", "/") for entry in script.entry_points}
+    inside = (file for file in found.files if file.startswith(f"{found.name}/") and file.endswith(".py"))
+    modules = [file for file in inside if file.removesuffix(".py") not in named]
+    lost = [f for f in (*modules, *_programs(found.files, ())) if names.isdisjoint(_called(f)) and not is_apart(f)]
+    run = _run(tree, found, lost, _PAGES) if lost else {}
+    texts = {path: text for path in run if (text := _text(tree, found, path))}
+    executables = _Executables(tree, found)
+    started = [
+        _script_file(path, text, path in executables)._replace(
+            run=run[path], main="def main(" in text.text or "__main__" in text.text
+        )
+        for path, text in texts.items()
+    ]
+    return [*(file for file in files if file.path not in texts), *started]
+
+
+def _called(program: str) -> tuple[str, str]:
+    """Return how a program may be called: with its ending and without."""
+    name = program.rpartition("/")[2]
+    return name, name.removesuffix(".py")
+
+
+def _run(tree: Tree, found: Found, programs: Sequence[str], endings: tuple[str, ...]) -> dict[str, Span]:
     """Return where a text of the package starts programs with ``ros2 run``, by their paths: a script, or a page that tells how.
 
     With or without their ending, for who installs a program may rename it. The pages of the folders above count, too.
@@ -265,7 +297,7 @@ def _run(tree: Tree, found: Found, programs: Sequence[str]) -> dict[str, Span]:
     words = b"|".join([re.escape(name.encode()) for name in names])
     command = re.compile(rb"\bros2 run +%s +(%s)(?![\w-]|\.\w)" % (re.escape(found.name.encode()), words))
     above = [join(folder, "README.md") for folder in _above(found.path)]
-    told = [file for file in found.files if file.endswith(_TELLS) and not file.startswith("CHANGELOG")]
+    told = [file for file in found.files if file.endswith(endings) and not file.startswith("CHANGELOG")]
     places: dict[str, Span] = {}
     for path, data in (*contents(tree, found.path, told), *contents(tree, "", above)):
         for hit in command.finditer(data) if b"ros2 run" in data else ():

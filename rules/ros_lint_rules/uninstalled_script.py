@@ -6,13 +6,17 @@ not installed, that an `ament_cmake` package does not install. The confidence is
 starts it with `ros2 run`, and for an executable node beside nodes that are installed (both import `rclpy`). Else it is medium
 or low: it may be a tool for the sources only.
 
+Also a script or a module of an `ament_python` package that a page or a script of the package starts with `ros2 run`, and that
+is neither among the `scripts` nor the entry points.
+
 ## Why it matters
 
 `ros2 run` and launch do not find it.
 
 ## How to fix it
 
-`install(PROGRAMS scripts/a.py DESTINATION lib/${PROJECT_NAME})`. The fix adds this rule.
+`install(PROGRAMS scripts/a.py DESTINATION lib/${PROJECT_NAME})`. The fix adds this rule. In `setup.py`: an entry point,
+`'a = robot.a:main'`.
 
 ## When it keeps silent
 
@@ -44,7 +48,11 @@ from ros_lint.api import (
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
-    if script is None or package.builds_with != "ament_cmake" or hidden(package, Facet.EXECUTABLES | Facet.SHARE):
+    if script is None or hidden(package, Facet.EXECUTABLES | Facet.SHARE):
+        return
+    if package.builds_with == "ament_python":
+        yield from _of_setup(package)
+    if package.builds_with != "ament_cmake":
         return
     installed = {provided.source for provided in script.provides}
     nodes = {relative(package, use.span.path) for use in package.uses if use.via == "import" and use.package == "rclpy"}
@@ -69,6 +77,18 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             fix,
             Confidence.HIGH if sure else Confidence.MEDIUM if forgotten or file.executable else Confidence.LOW,
         )
+
+
+def _of_setup(package: Package) -> Iterator[Finding]:
+    """Speak of programs that setup.py does not install, and that are said to be started with ``ros2 run``."""
+    for file in package.script.files if package.script else ():
+        if file.run is not None and file.main:
+            yield Finding(
+                f"{file.path} is a program, and setup.py does not install it, so ros2 run does not find it; add an entry point",
+                Span(f"{package.path}/{file.path}" if package.path else file.path, 1, 1, 1, 1),
+                file.path,
+                (Related("it is started here", file.run),),
+            )
 
 
 RULE = Rule(
