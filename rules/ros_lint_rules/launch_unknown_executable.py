@@ -110,9 +110,14 @@ def _hint(name: str, meant: str, names: tuple[str, ...]) -> str:
     near = near_names(name, names, 3, 0.6)
     if near:
         return f"; did you mean {' or '.join(near)}?"
-    if not names:
+    started = [name for name in names if not name.endswith(_LIBRARY)]
+    if not started:
         return ", and no other either"
-    return f"; it installs {', '.join(names[:5])}{' ...' if len(names) > 5 else ''}"
+    return f"; it installs {', '.join(started[:5])}{' ...' if len(started) > 5 else ''}"
+
+
+_LIBRARY = (".a", ".so")
+"""Such files are put beside the programs by a build script that says the one folder for all of its targets."""
 
 
 _SUFFIX = re.compile(r"(?:\.py|\.sh|_?node|_?exe|_?main)+$")

@@ -80,13 +80,13 @@ def _unknown(stranger: Stranger, workspace: Workspace) -> Finding:
     installing = world.knowledge.rosdep.installing(name)
     sure = _confidence(stranger, meant.by if meant else "system" if installing else "", workspace)
     if meant is None and installing:
-        message = f"{what}, but what {_CALLED_SO_BY['system']} calls it: write {' or '.join(installing[:_MOST_KEYS])}"
+        message = f"{what}, but what {_caller('system', installing[0])} calls it: write {' or '.join(installing[:_MOST_KEYS])}"
     elif meant is None:
         near = world.suggest(name, python=stranger.runs_python)
         hint = f"did you mean {' or '.join(near)}?" if near else "correct it, or add what provides it"
         message = f"{what}: {hint}"
     else:
-        caller = _CALLED_SO_BY.get(meant.by)
+        caller = _caller(meant.by, meant.name)
         why = f", but what {caller} calls it" if caller else ""
         again = stranger.package.declares(meant.name)
         message = f"{what}{why}: " + (f"remove it, {meant.name} is declared, too" if again else f"write {meant.name}")
@@ -104,6 +104,11 @@ def _unknown(stranger: Stranger, workspace: Workspace) -> Finding:
         confidence=sure,
         package=stranger.package.name,
     )
+
+
+def _caller(by: str, key: str) -> str:
+    """Return who calls by another name what a rosdep key installs, or ""."""
+    return "pip" if by == "system" and key.endswith("-pip") else _CALLED_SO_BY.get(by, "")
 
 
 def _is_found_as_declared(package: Package, name: str) -> bool:
