@@ -141,6 +141,11 @@ class Workspace:
             found[package.name] = (*found.get(package.name, ()), package)
         return found
 
+    def unread(self, package: Package | None = None) -> bool:
+        """Whether a file of a package, or any at all, could not be read: what nobody says in sight may stand there."""
+        folder = f"{package.path}/" if package is not None and package.path else ""
+        return any(entry.span is not None and entry.span.path.startswith(folder) for entry in self.not_checked)
+
     def is_made(self, package: Package, path: str) -> bool:
         """Whether a path in a package, which need not exist, is one that git ignores: then it is made or fetched."""
         return bool(self._ignores) and ignored.is_ignored(self._ignores, join(package.path, path))

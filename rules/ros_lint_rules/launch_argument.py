@@ -78,13 +78,14 @@ def check(workspace: Workspace) -> Iterator[Finding]:
     families = Families([file for package in workspace.packages for file in package.launch], links)
     filled = frozenset(name for package in workspace.packages for file in package.parameter_files for name in file.asks)
     for package in workspace.packages:
+        whole = not package.hidden(Facet.SHARE) and not workspace.unread()
         for launch in launchable(package):
-            for finding in _of_file(launch.file, links, families, filled, whole=not package.hidden(Facet.SHARE)):
+            for finding in _of_file(launch.file, links, families, filled, whole=whole):
                 yield finding._replace(package=package.name)
 
 
 def _of_file(file: LaunchFile, links: Links, families: Families, filled: frozenset[str], *, whole: bool) -> Iterator[Finding]:
-    """``whole``: it is known where the file is installed, by which others include it."""
+    """``whole``: it is known where the file is installed, by which others include it, and all of these can be read."""
     for action in everything(file.actions):
         if action.kind == "include":
             yield from _of_include(action, file, links, families, filled)

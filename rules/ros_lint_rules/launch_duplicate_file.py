@@ -37,7 +37,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
             sources = [f"{base}{place.source}" for place in places]
             if included is None:
                 included = _included(workspace)
-            if len(set(sources)) > 1 and included.issuperset(sources):
+            if len(set(sources)) > 1 and (workspace.unread() or included.issuperset(sources)):
                 continue
             paths = ", ".join(place.path.partition(f"share/{package.name}/")[2] for place in places)
             yield Finding(

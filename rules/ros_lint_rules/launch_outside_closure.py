@@ -80,6 +80,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         only = ", by the default of an argument" if best.package_by_default else only
         way_out = advice(package, workspace, name, Role.EXEC)
         certain = way_out.certain and not may_bring(closure.unknown, name, workspace) and not _needs(workspace, name, package)
+        certain = certain and not workspace.unread(package)  # it may be the script that runs the file as a test
         yield Finding(
             f"{says}{only}, but does not come with {package.name}{way_out.ending}",
             best.package_span,

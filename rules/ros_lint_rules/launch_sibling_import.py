@@ -26,10 +26,12 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 
-from ros_lint.api import Finding, Package, Rule, Severity, Workspace, launchable
+from ros_lint.api import Facet, Finding, Package, Rule, Severity, Workspace, launchable
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    if package.hidden(Facet.PYTHON):
+        return
     files = frozenset(package.files)
     for launch in launchable(package):
         folder = launch.path.rpartition("/")[0]

@@ -47,7 +47,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"colcon does not see {nested.name}: it lies in {_outer(package)}; move it out, or mark it with COLCON_IGNORE",
             nested.name_span,
             nested.name,
-            confidence=Confidence.MEDIUM if data else Confidence.HIGH,
+            confidence=Confidence.MEDIUM if data or workspace.unread(package) else Confidence.HIGH,
         )
 
 

@@ -68,7 +68,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
         file = together[0].file
         if not file.nodes:
             yield from (one._replace(package=package.name) for one in _flat(together))
-        elif file.path not in taken or len({name for name, _ in file.nodes}) == 1:
+        elif not workspace.unread() and (file.path not in taken or len({name for name, _ in file.nodes}) == 1):
             yield _of_others(together)._replace(package=package.name)
 
 

@@ -52,11 +52,11 @@ _SUFFIX = re.compile(r"(?:[._-]?launch\.(?:py|xml|ya?ml)|\.launch)$")
 _TEST_PACKAGE = re.compile(r"(?:^|_)(?:tests?|testing)(?:_|$)")
 
 
-def check(package: Package, _workspace: Workspace) -> Iterator[Finding]:
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with not in ("ament_cmake", "ament_python"):
         return
-    if package.hidden(Facet.SHARE) or _TEST_PACKAGE.search(package.name):
+    if package.hidden(Facet.SHARE) or workspace.unread(package) or _TEST_PACKAGE.search(package.name):
         return
     missing: dict[str, list[str]] = {}
     kept: set[str] = set()

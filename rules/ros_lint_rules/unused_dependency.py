@@ -117,7 +117,7 @@ def _unused(package: Package, workspace: Workspace) -> Iterator[tuple[Declared, 
             says = "there is no test that could use it"
         else:
             continue
-        yield declared, says, Confidence.MEDIUM if unknown or mostly_run else Confidence.HIGH
+        yield declared, says, Confidence.MEDIUM if unknown or mostly_run or workspace.unread() else Confidence.HIGH
 
 
 def _is_used(package: Package, name: str) -> bool:

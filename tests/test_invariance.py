@@ -1,0 +1,107 @@
+"""What must not change what is found: how files are spelt, and files that cannot be read."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+from ros_lint import engine, registry
+from ros_lint.load import Loader
+from ros_lint.report import Target
+from ros_lint.rule import Confidence
+from ros_lint.testing import Case, read_cases
+from ros_lint.tree import MemoryTree, Tree
+from ros_lint.underlay import in_tree
+
+FIXTURES = Path(__file__).parent.parent / "fixtures"
+RULES = registry.load()
+CASES = [case for source in sorted(FIXTURES.glob("*.md")) for case in read_cases(source)]
+TEXTS = re.compile(r'"(?:\\.|[^"\\])*"|#\[(=*)\[.*?\]\1\]|#[^\n]*|\[(=*)\[.*?\]\2\]|\\.|[()]|[ \t]+|[^\s"#()\[\\]+|.', re.DOTALL)
+TAGS = re.compile(r"""<!--.*?-->|<!\[CDATA\[.*?\]\]>|<\?.*?\?>|<[A-Za-z](?:[^<>"']|"[^"]*"|'[^']*')*>""", re.DOTALL)
+ATTRIBUTE = re.compile(r"""\s+([\w:.-]+)\s*=\s*("[^"<]*"|'[^'<]*')""")
+
+
+def found(tree: Tree, case: Case, *, default: bool = False) -> Counter[tuple[str, str, str, str]]:
+    """Return what is said of a case, or by ``default``: rule, package, subject and message of each finding."""
+    target = Target(case.distro, "--distro" if case.told else "default", case.told)
+    underlays = (in_tree(tree, case.underlay, case.distro),) if case.underlay else ()
+    loader = Loader(tree, ("",), target, underlays=underlays)
+    checked = engine.check(loader.load(), RULES, loader.suppressions(), RULES)
+    assert not checked.crashes
+    return Counter(
+        (issue.rule.name, issue.package, issue.finding.subject, issue.finding.message)
+        for issue in checked.issues
+        if not default or (issue.rule.default and issue.finding.confidence is Confidence.HIGH)
+    )
+
+
+def spelt(path: str, text: str) -> str:
+    """Return a file that says the same in another spelling, as another editor or formatter would have left it."""
+    if path.endswith(("CMakeLists.txt", ".cmake")):
+        return _cmake(text)
+    if path.endswith(".py"):
+        return _python(text)
+    if path.endswith((".launch", ".launch.xml", ".urdf", ".xacro")):
+        return TAGS.sub(_on_lines, text).replace("\n", "\r\n")
+    if path.endswith((".hpp", ".h", ".cpp")):
+        return re.sub(r"(?m)^#include[ \t]*", "/* #include <a/b.hpp> */ #  include\t", text)
+    return text
+
+
+def _cmake(text: str) -> str:
+    """Write commands in capitals, and arguments a line each with remarks between them."""
+    parts = []
+    depth = 0
+    for match in TEXTS.finditer(re.sub(r"(?m)^([ \t]*)([A-Za-z]\w*)(?=[ \t]*\()", lambda m: m[1] + m[2].upper(), text)):
+        depth += (match[0] == "(") - (match[0] == ")")
+        parts.append('\n    # not "this (\n    ' if depth > 0 and not match[0].strip(" \t") else match[0])
+    return "".join(parts)
+
+
+def _python(text: str) -> str:
+    head = text.partition("\n")[0] + "\n" if text.startswith("#!") else ""
+    try:
+        return f"{head}{ast.unparse(ast.parse(text))}\n"
+    except SyntaxError:
+        return text
+
+
+def _on_lines(tag: re.Match[str]) -> str:
+    if tag[0].startswith(("<!", "<?")):
+        return tag[0]
+    return ATTRIBUTE.sub(lambda attribute: f"\n  {attribute[1]} = {attribute[2]}", tag[0])
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case.source.stem}: {case.title}")
+def test_another_spelling(case: Case) -> None:
+    if case.source.stem.endswith("-suppression"):
+        return  # the comments are what these rules are about
+    other = {path: spelt(path, text) for path, text in case.files.items()}
+    assert found(MemoryTree(other, case.executable), case) == found(case.tree(), case)
+
+
+class Locked(MemoryTree):
+    """Has a file that nobody may read."""
+
+    def __init__(self, case: Case, locked: str) -> None:
+        super().__init__(case.files, case.executable)
+        self._locked = locked
+
+    def read(self, path: str) -> bytes:
+        if path == self._locked:
+            raise PermissionError(13, "Permission denied", path)
+        return super().read(path)
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case.source.stem}: {case.title}")
+def test_a_file_that_nobody_may_read(case: Case) -> None:
+    before = Counter(issue[:2] for issue in found(case.tree(), case).elements())
+    for path in case.files:
+        if path.endswith(("package.xml", ".gitignore", ".gitmodules")) or path == "setup.py":
+            continue  # what says where packages are, and what only git reads
+        after = Counter(issue[:2] for issue in found(Locked(case, path), case, default=True).elements())
+        assert not after - before, path
