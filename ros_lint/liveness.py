@@ -74,15 +74,12 @@ class Liveness:
         folders = folder.split("/")
         if not _COPIES.isdisjoint(folders):
             return True
-        if path in self._installed_python or path in self._production:
-            return False
-        if any(part in name for part in _STAND_INS) or (name.startswith("setup.py.") and folder):
-            return True
-        if not name.endswith(".py"):
-            return False
-        if name == "conf.py" and not {f"{folder}/index.rst", f"{folder}/index.md"}.isdisjoint(self._files):
-            return True  # of Sphinx, in a folder of any name
-        return not _OF_PAGES.isdisjoint(folders) or name in _RECIPES
+        looks_so = any(part in name for part in _STAND_INS) or (name.startswith("setup.py.") and folder)
+        if not looks_so and name.endswith(".py"):
+            # The recipe of Sphinx lies beside the first page, in a folder of any name.
+            of_sphinx = name == "conf.py" and not {f"{folder}/index.rst", f"{folder}/index.md"}.isdisjoint(self._files)
+            looks_so = of_sphinx or name in _RECIPES or not _OF_PAGES.isdisjoint(folders)
+        return bool(looks_so) and path not in self._installed_python and path not in self._production
 
     def is_optional(self, path: str) -> bool:
         """Return whether only some builds compile a file, going by a condition that need not be true."""
