@@ -47,7 +47,6 @@ from collections.abc import Iterator
 from ros_lint.api import (
     Broken,
     Confidence,
-    Facet,
     Families,
     Finding,
     LaunchAction,
@@ -77,15 +76,15 @@ def check(workspace: Workspace) -> Iterator[Finding]:
     links = workspace.links
     families = Families([file for package in workspace.packages for file in package.launch], links)
     filled = frozenset(name for package in workspace.packages for file in package.parameter_files for name in file.asks)
+    whole = not workspace.unread()
     for package in workspace.packages:
-        whole = not package.hidden(Facet.SHARE) and not workspace.unread()
         for launch in launchable(package):
             for finding in _of_file(launch.file, links, families, filled, whole=whole):
                 yield finding._replace(package=package.name)
 
 
 def _of_file(file: LaunchFile, links: Links, families: Families, filled: frozenset[str], *, whole: bool) -> Iterator[Finding]:
-    """``whole``: it is known where the file is installed, by which others include it, and all of these can be read."""
+    """``whole``: all files can be read, and with them whoever includes this one."""
     for action in everything(file.actions):
         if action.kind == "include":
             yield from _of_include(action, file, links, families, filled)
