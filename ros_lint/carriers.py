@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, NamedTuple
 from ros_lint.cmake_finds import not_seen_used
 from ros_lint.declare import is_mostly_run, works_unseen
 from ros_lint.facts.manifest import Role
-from ros_lint.facts.sight import Facet
 from ros_lint.needs import needs
 from ros_lint.workspace import per_package, per_workspace
 
@@ -116,13 +115,10 @@ def _hanging_by_name(workspace: Workspace) -> Mapping[str, Sequence[tuple[Packag
 @per_package
 def found_for_nothing(package: Package, workspace: Workspace) -> tuple[Mention, ...]:
     """Return each find_package() of a package that the code does not use, in no way that can be seen."""
-    script = package.script
-    if script is None or script.problems or package.builds_with != "ament_cmake" or package.hidden(Facet.USES):
-        return ()
     return tuple(
         [
             mention
-            for mention in not_seen_used(package, script)
+            for mention in not_seen_used(package)
             if mention.name not in package.perhaps_used
             and not works_unseen(package, workspace, mention.name)
             and not is_mostly_run(workspace, mention.name)

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from ros_lint.facts.build import BuildScript
+from ros_lint.facts.sight import Facet
 from ros_lint.facts.sources import Mention, Purpose
 from ros_lint.workspace import Package, Workspace
 
@@ -33,11 +34,15 @@ def finds_declared(package: Package) -> bool:
     return package.script is not None and not _FIND_DECLARED.isdisjoint(package.script.calls)
 
 
-def not_seen_used(package: Package, script: BuildScript) -> Iterator[Mention]:
+def not_seen_used(package: Package) -> Iterator[Mention]:
     """Yield the first find_package() of each name that is needed, tests aside, and that no code is seen to use.
 
-    That targets are linked or exported is no use by code; interfaces and plugins that macros are given by name are.
+    That targets are linked or exported is no use by code; interfaces and plugins that macros are given by name are. None
+    where what is used is not seen whole.
     """
+    script = package.script
+    if script is None or script.problems or package.builds_with != "ament_cmake" or package.hidden(Facet.USES):
+        return
     used = {name for use in package.uses if use.via not in _BY_SCRIPT for name in use.providers}
     used |= {
         mention.name.partition("::")[0]

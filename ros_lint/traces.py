@@ -54,10 +54,7 @@ def of_found(tree: Tree, package: Package, source: Source, world: World, types: 
     Their name stands in a text, build scripts aside, for namespaces are often known by way of a header of another package;
     or the script takes more of them than what is linked; or they may have a header that nobody is known to have.
     """
-    script = package.script
-    if script is None or script.problems or package.builds_with != "ament_cmake":
-        return frozenset()
-    wanted = [each.name for each in not_seen_used(package, script) if not is_unseen_by_name(world, each.name)]
+    wanted = [each.name for each in not_seen_used(package) if not is_unseen_by_name(world, each.name)]
     if not wanted:
         return frozenset()
     texts: dict[bool, list[tuple[str, bytes]]] = {True: [], False: []}
