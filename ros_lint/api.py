@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from ros_lint import cmake_edits, conditions, manifest_edits, setup_edits
-from ros_lint.advice import Advice, advice, circle, lacks_rule
+from ros_lint.advice import Advice, advice, lacks_rule
 from ros_lint.apart import is_apart
 from ros_lint.build_scripts import (
     called,
@@ -151,7 +151,6 @@ __all__ = [
     "called",
     "carriers",
     "change_dependency",
-    "circle",
     "cmake_edits",
     "come_along",
     "comes_elsewhere",

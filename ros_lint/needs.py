@@ -9,6 +9,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
+from ros_lint.advice import circle
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Use, Via
 from ros_lint.knowledge.reach import Closure
@@ -63,11 +64,13 @@ def needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
 def wishes(package: Package, workspace: Workspace) -> tuple[Need, ...]:
     """Return what a package uses only if it is there and does not declare, in the order of the best evidence.
 
-    Symbols are left out: in languages other than C++ they may as well come from elsewhere.
+    Symbols are left out: in languages other than C++ they may as well come from elsewhere. So is what needs the package
+    itself, and cannot be declared.
     """
     needed = {name for use in package.uses if not use.optional for name in use.providers}
     uses = [use for use in package.uses if use.optional and use.via != "symbol" and needed.isdisjoint(use.providers)]
-    return tuple([need for need in _gathered(package, workspace, uses) if not need.declared])
+    found = [need for need in _gathered(package, workspace, uses) if not need.declared]
+    return tuple([need for need in found if not circle(package, workspace, need.name)])
 
 
 def _gathered(package: Package, workspace: Workspace, uses: Iterable[Use]) -> tuple[Need, ...]:

@@ -42,7 +42,6 @@ from ros_lint.api import (
     Severity,
     Workspace,
     advice,
-    circle,
     comes_with_launching,
     found_for_nothing,
     needs,
@@ -65,7 +64,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if not (_LAUNCHER in declared and comes_with_launching(package, need.uses)):
             yield _finding(package, workspace, declared, need, Confidence.HIGH if need.sure else Confidence.MEDIUM)
     for wish in wishes(package, workspace):
-        if wish.brought and not _is_command(wish) and not circle(package, workspace, wish.name):
+        if wish.brought and not _is_command(wish):
             yield _finding(package, workspace, declared, wish, Confidence.LOW)._replace(fix=None)
 
 

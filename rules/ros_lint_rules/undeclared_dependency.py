@@ -50,7 +50,6 @@ from ros_lint.api import (
     Severity,
     Workspace,
     advice,
-    circle,
     comes_with_launching,
     is_somewhere,
     tells,
@@ -74,7 +73,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             severity=severity
         )
     for wish in wishes(package, workspace):
-        if not wish.brought and not circle(package, workspace, wish.name):
+        if not wish.brought:
             says = "is used here if it is there, and package.xml does not declare it"
             yield _finding(package, workspace, wish, says, Confidence.LOW)._replace(fix=None)
 
