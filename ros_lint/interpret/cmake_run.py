@@ -137,8 +137,9 @@ class Run(Paths):
         self.templates: dict[str, None] = {}
         """What files for those who find the package are made of, relative to it."""
         self.entered: dict[str, None] = {}
-        self.entered_for_tests: dict[str, None] = {}
         """Folders below the package whose CMakeLists.txt runs for sure."""
+        self.entered_for_tests: dict[str, None] = {}
+        """Those whose CMakeLists.txt runs, if it does, while tests are built."""
         self.bundled: dict[str, None] = {}
         """Projects that are built along with the package."""
         self.fetched: dict[str, list[str]] = {}
