@@ -65,6 +65,11 @@ def facet_of(run: Run, destination: str | None) -> Facet:
     return Facet.LIBRARIES
 
 
+def _hide(run: Run, destination: str | None, reason: str) -> None:
+    """Note that it is not known what comes to a place, None if that is unknown, too."""
+    run.hide(facet_of(run, destination), reason, below=destination or "")
+
+
 def _install(run: Run, args: list[str]) -> None:
     mode = args[0] if args else ""
     if args[1:2] and (args[1] == "DESTINATION" or (mode == "TARGETS" and args[1] in _ARTIFACTS)):
@@ -172,7 +177,7 @@ def _install_files(run: Run, args: list[str], program: bool) -> None:
         plain, certain = sure(value)
         name = rename or posixpath.basename(plain)
         if destination is None or HOLE in name or not is_fixed(name):
-            run.hide(facet_of(run, destination), "install() of files whose names or place are not known", below=destination or "")
+            _hide(run, destination, "install() of files whose names or place are not known")
             continue
         _install_file(run, value, join_path(destination, name), program, certain, "OPTIONAL" in parts)
 
@@ -235,7 +240,7 @@ def _install_directories(run: Run, args: list[str]) -> None:
     destination = _destination(run, parts)
     patterns = _patterns(args[at:]) if at < len(args) else []
     if patterns is None:
-        run.hide(facet_of(run, destination), "install(DIRECTORY) with a pattern that is not known", below=destination or "")
+        _hide(run, destination, "install(DIRECTORY) with a pattern that is not known")
         return
     permissions = parts.get("FILE_PERMISSIONS")
     executable: bool | None = None if "USE_SOURCE_PERMISSIONS" in parts else False
@@ -246,10 +251,9 @@ def _install_directories(run: Run, args: list[str]) -> None:
         plain = sure(value)[0]
         source = run.source(plain)
         if destination is None or HOLE in plain:
-            reason = "install(DIRECTORY) of a folder or to a place that is not known"
-            run.hide(facet_of(run, destination), reason, below=destination or "")
+            _hide(run, destination, "install(DIRECTORY) of a folder or to a place that is not known")
         elif source is None:
-            run.hide(facet_of(run, destination), "install(DIRECTORY) of a folder that is not in the sources", below=destination)
+            _hide(run, destination, "install(DIRECTORY) of a folder that is not in the sources")
             _install_configured(run, value, destination, rule)
         elif not run.muted:
             target = destination
