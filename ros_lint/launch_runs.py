@@ -5,12 +5,12 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from ros_lint.collectors import launch_text
 from ros_lint.collectors.launch_expression import evaluate, refused
 from ros_lint.collectors.launch_text import (
     UNKNOWN,
     each_configuration,
     fill,
+    has_expression,
     installed_place,
     is_settled,
     readable,
@@ -27,8 +27,6 @@ if TYPE_CHECKING:
     from ros_lint.workspace import Workspace
 
 _NOTHING: Mapping[str, str] = MappingProxyType({})
-_EXPRESSION = launch_text.expression("")[0]
-"""What an expression in a text begins with."""
 
 
 class PassedFile(NamedTuple):
@@ -110,8 +108,8 @@ def broken_expressions(file: LaunchFile) -> Iterator[Broken]:
         action, conditional = waiting.pop()
         inner = conditional or bool(action.conditions) or action.kind == "later"
         waiting += [(child, inner) for child in reversed(action.children)]
-        asked = [(text, action.span, conditional) for one in action.conditions for text in one.texts if _EXPRESSION in text]
-        asked += [(text, value.span, inner) for value in values(action) for text in value.texts if _EXPRESSION in text]
+        asked = [(text, action.span, conditional) for one in action.conditions for text in one.texts if has_expression(text)]
+        asked += [(text, value.span, inner) for value in values(action) for text in value.texts if has_expression(text)]
         for text, span, unsure in asked:
             for argument, expression, name in _broken(text, defaults):
                 yield Broken(argument, readable(expression), name, span, unsure)

@@ -114,6 +114,11 @@ def expression(text: str) -> str:
     return f"{_EXPRESSION[0]}{text}{_EXPRESSION[1]}"
 
 
+def has_expression(text: str) -> bool:
+    """Return whether the value of a Python expression is part of a text."""
+    return _EXPRESSION[0] in text
+
+
 def quoted(text: str) -> str:
     """Return a text as a literal of Python, marks kept, and expressions as they are: their values come to stand there."""
     if _EXPRESSION[0] not in text:
