@@ -106,10 +106,10 @@ def _value(node: ast.expr) -> Any:
             return _small(tuple([_value(element) for element in elts]))
         case ast.Dict(keys=keys, values=values):
             return _small({_value(key): _value(value) for key, value in zip(keys, values, strict=True) if key is not None})
-        case ast.Subscript(value=owner, slice=key) if not isinstance(key, ast.Slice):
-            return _value(owner)[_value(key)]
         case ast.Subscript(value=owner, slice=ast.Slice(lower=lower, upper=upper, step=step)):
             return _value(owner)[slice(*[None if part is None else _value(part) for part in (lower, upper, step)])]
+        case ast.Subscript(value=owner, slice=key):
+            return _value(owner)[_value(key)]
         case ast.Call():
             return _call(node)
     return _refuse()
