@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Container, Iterable, Mapping
 from typing import NamedTuple
 
 from ros_lint.collectors.launch_text import UNKNOWN, is_plain, is_settled, named_in
@@ -19,7 +19,7 @@ class Held(NamedTuple):
 
     def is_own(self, text: str) -> bool:
         """Return whether a text is the same whatever the file is launched with, or one of the same."""
-        return is_settled(text) or _named(text) <= self.own
+        return _hangs_on(text, self.own)
 
 
 def held(actions: Iterable[LaunchAction]) -> Held:
@@ -74,12 +74,11 @@ def _is_known(condition: LaunchCondition) -> bool:
 def _own(values: Mapping[str, tuple[str, ...]], given: set[str]) -> frozenset[str]:
     """Return the configurations that depend on nothing but each other."""
     own = values.keys() - given
-    while lost := {name for name in own if not all(is_settled(text) or _named(text) <= own for text in values[name])}:
+    while lost := {name for name in own if not all(_hangs_on(text, own) for text in values[name])}:
         own -= lost
     return frozenset(own)
 
 
-def _named(text: str) -> frozenset[str]:
-    """Return the configurations in a text, with one that there is not for those whose names are computed."""
-    names = named_in(text)
-    return frozenset({"\0"} if names is None or not names else names)
+def _hangs_on(text: str, names: Container[str]) -> bool:
+    """Whether a text hangs on nothing, or only on some configurations; not so where their names are computed."""
+    return is_settled(text) or all(name in names for name in named_in(text) or ("\0",))
