@@ -10,7 +10,7 @@ from ros_lint.collectors.launch_py_texts import is_text
 from ros_lint.collectors.launch_text import UNKNOWN
 
 if TYPE_CHECKING:
-    from ros_lint.collectors.launch_py_objects import Frame, Source
+    from ros_lint.collectors.launch_py_objects import Conditions, Frame, Source
     from ros_lint.collectors.launch_py_run import Machine
 
 How = Literal["added", "joined", "formatted", "compared", "tested", "combined"]
@@ -33,8 +33,13 @@ def note(machine: Machine, value: Value, how: How, node: ast.expr, frame: Frame)
         how = "combined"
     elif not is_text(value):
         return
-    if not any(UNKNOWN in text for condition in machine.conditions for text in condition.texts):
+    if not are_unknown(machine.conditions):
         machine.misused.append(Misused(how, value, node, frame.source))
+
+
+def are_unknown(conditions: Conditions) -> bool:
+    """Return whether it is unknown what one of some conditions asks for."""
+    return any(UNKNOWN in text for condition in conditions for text in condition.texts)
 
 
 _CONDITIONS = frozenset({"IfCondition", "UnlessCondition", "LaunchConfigurationEquals", "LaunchConfigurationNotEquals"})

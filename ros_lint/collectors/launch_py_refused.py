@@ -8,8 +8,8 @@ import warnings
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
+from ros_lint.collectors.launch_py_misuse import are_unknown
 from ros_lint.collectors.launch_py_walk import span_of
-from ros_lint.collectors.launch_text import UNKNOWN
 from ros_lint.collectors.python_syntax import refusal
 from ros_lint.collectors.python_values import callee
 from ros_lint.facts.sight import Problem
@@ -63,11 +63,17 @@ def undefined(tree: ast.Module, source: Source, met: Iterable[tuple[ast.Name, So
         elif isinstance(node, ast.MatchMapping):
             bound.add(node.rest or "")
         elif isinstance(node, ast.Try):
-            guarded.update(inner for statement in node.body for inner in ast.walk(statement))
+            guarded.update(_tried(node))
     for node in names:
         if node.id not in bound and node not in guarded:
             bound.add(node.id)  # once is enough
             yield Problem("undefined-name", f"{node.id} is not defined", span_of(node, source))
+
+
+def _tried(node: ast.Try) -> Iterator[ast.AST]:
+    """Yield all that stands where an error is caught."""
+    for statement in node.body:
+        yield from ast.walk(statement)
 
 
 _KNOWN = _MODULE | set(dir(builtins)) | {"copyright", "credits", "exit", "help", "license", "quit", "WindowsError"}
@@ -108,7 +114,7 @@ def _spared(tree: ast.Module) -> set[ast.AST]:
     found: set[ast.AST] = set()
     for node in ast.walk(tree):
         if isinstance(node, ast.Try):
-            found.update(inner for statement in node.body for inner in ast.walk(statement))
+            found.update(_tried(node))
         elif isinstance(node, ast.Call) and callee(node) in _TELLS:
             found.update(ast.walk(node))
     return found
@@ -148,7 +154,7 @@ def no_texts(tree: ast.Module, source: Source, made: Iterable[Made]) -> Iterator
     """Yield where a number or a truth is given for a text, and arguments that are a dictionary and no list of pairs."""
     found: list[tuple[str, ast.expr]] = []
     for one in made:
-        for position, name in _WHERE.get(one.name, ()) if one.source is source and not _is_unsure(one) else ():
+        for position, name in _WHERE.get(one.name, ()) if one.source is source and not are_unknown(one.conditions) else ():
             value = one.get(position, name)
             if name == "launch_arguments" and not one.seen:
                 continue  # what is passed is looked at when it is launched
@@ -161,10 +167,6 @@ def no_texts(tree: ast.Module, source: Source, made: Iterable[Made]) -> Iterator
     for message, node in found:
         if node not in spared:
             yield Problem("no-text", message, span_of(node, source))
-
-
-def _is_unsure(made: Made) -> bool:
-    return any(UNKNOWN in text for condition in made.conditions for text in condition.texts)
 
 
 def _number_in(value: Value) -> bool | int | float | None:
