@@ -15,7 +15,8 @@ Rename one, or install it once. Including works all the same, since an include n
 ## When it keeps silent
 
 - The files are installed under conditions that are not known, or are not called like launch files.
-- Each of them is included by another launch file of the workspace: then they are parts, which nobody launches by name.
+- Each of them is included by another launch file of the workspace: then they are parts, which nobody launches by name. So
+  they may be where a file of the workspace cannot be read.
 - Launch files of tests and examples.
 """
 

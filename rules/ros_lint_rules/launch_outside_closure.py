@@ -23,7 +23,8 @@ Add `<exec_depend>` to `package.xml`. The fix does this.
   any will do, and what brings it along there counts.
 - Launch files of tests and examples, and those that are not installed. What the package declares for its tests, where the
   launch file is merely called one (`test_arm.launch.py`).
-- What a declared dependency brings along is not known: then the confidence is medium.
+- What a declared dependency brings along is not known, or a file of the package cannot be read, which may be the script that
+  runs the launch file as a test: then the confidence is medium.
 - The other package needs this one itself, in whatever tag, so that declaring it would close a cycle that colcon refuses: then
   the confidence is medium, too; the launch file may be at home there. So it is where neither declares what it needs of the
   other, for only one of them can.

@@ -18,6 +18,7 @@ and import it from there; or include a launch file instead.
 - The launch file changes `sys.path`.
 - The import is guarded, or inside a function.
 - A package of the workspace offers a module of that name, or Python itself does.
+- A part of the package's build script that cannot be followed may install Python modules.
 - Launch files of tests and examples.
 """
 

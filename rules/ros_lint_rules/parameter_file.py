@@ -23,6 +23,7 @@ A parameter file has the full name of the node, `ros__parameters`, and then the 
 - The file is installed by no package of the workspace, or rewritten before it is given.
 - One of several nodes that the launch file gives it to is among those in the file; or the file has parameters of several
   nodes, and another launch file gives it to one of them.
+- A file of the workspace cannot be read, and this one has parameters of other nodes: who gets it may stand there.
 - Containers, whose components take what is for them. A component also takes a file that has nothing but its parameters.
 - The name fits, and the namespace may come from a launch file that includes this one.
 - Launch files of tests and examples.
