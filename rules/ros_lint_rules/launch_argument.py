@@ -32,6 +32,8 @@ Give the argument, or give it a default where it is declared; correct the name, 
   an include gives the confidence is medium then.
 - An expression fails only under a condition, or files of the workspace that include this one give the argument: then the
   confidence is medium.
+- A file of the workspace cannot be read: it may include this one and give it anything. What is asked for and declared
+  nowhere, and what is declared and never used, is not told of then, and of an expression that fails the confidence is medium.
 - A file has nothing but arguments: it sets them for whoever includes it.
 
 What does nothing is an info, since an argument that nobody takes is also set for what is included later; it is a warning
@@ -90,12 +92,11 @@ def _of_file(file: LaunchFile, links: Links, families: Families, filled: frozens
             yield from _of_include(action, file, links, families, filled)
         elif action.kind == "argument":
             yield from _of_choices(action)
-    names, takes = families.names(file), links.takes(file)
-    given = {name for one in families.above(file) for name in one.made}
+    names, takes, above = families.names(file), links.takes(file), families.above(file)
+    given = {name for one in above for name in one.made}
     yield from (_failing(broken, sure=whole and broken.argument not in given) for broken in broken_expressions(file))
     if not (whole and names.whole and takes.complete):
         return
-    above = families.above(file)
     there = {*names.declared, *names.made}.union(*([*one.declared, *one.made] for one in above))
     inside = _known_inside(file, links)
     strange = names.asked - there - inside
