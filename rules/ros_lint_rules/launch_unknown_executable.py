@@ -110,7 +110,7 @@ def _hint(name: str, meant: str, names: tuple[str, ...]) -> str:
     near = near_names(name, names, 3, 0.6)
     if near:
         return f"; did you mean {' or '.join(near)}?"
-    started = [name for name in names if not name.endswith(_LIBRARY)]
+    started = [other for other in names if not other.endswith(_LIBRARY)]
     if not started:
         return ", and no other either"
     return f"; it installs {', '.join(started[:5])}{' ...' if len(started) > 5 else ''}"
