@@ -6,6 +6,7 @@ from ros_lint import cmake_edits, conditions, manifest_edits, setup_edits
 from ros_lint.advice import Advice, advice, lacks_rule
 from ros_lint.apart import is_apart
 from ros_lint.build_scripts import (
+    astray,
     called,
     evaluated_name,
     forgotten_nodes,
@@ -14,6 +15,7 @@ from ros_lint.build_scripts import (
     installs_built,
     is_on_request,
     left_out_nodes,
+    listed_to_install,
     may_run_built,
     node_targets,
     programs_built,
@@ -146,6 +148,7 @@ __all__ = [
     "add_dependency",
     "advice",
     "agree",
+    "astray",
     "broken_expressions",
     "builds_something",
     "called",
@@ -186,6 +189,7 @@ __all__ = [
     "launched",
     "leaves_trace",
     "left_out_nodes",
+    "listed_to_install",
     "manifest_edits",
     "may_bring",
     "may_run_built",

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Iterator
 
 from ros_lint.apart import is_apart
-from ros_lint.facts.build import BuildScript
+from ros_lint.facts.build import BuildScript, Provided
 from ros_lint.facts.cmake import Call, Target
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sight import Facet, Opaque
@@ -142,6 +142,28 @@ def installs_built(script: BuildScript) -> bool:
     return any(provided.target or provided.path.startswith(("lib/", "bin/")) for provided in script.provides)
 
 
+def listed_to_install(package: Package) -> frozenset[str]:
+    """Return every argument of install(), as it is written: what stands there may be installed, whether or not it is seen."""
+    return frozenset([text for call in called(package, "install", anywhere=True) for text in call.texts])
+
+
+def astray(package: Package, endings: tuple[str, ...]) -> dict[str, Provided]:
+    """Return the libraries that every build installs to the folder of the programs and to no other, with the first place.
+
+    Of the files of a library those count that have one of some endings.
+    """
+    places: dict[str, list[Provided]] = {}
+    for provided in package.script.provides if package.script else ():
+        if provided.target and provided.path.endswith(endings):
+            places.setdefault(provided.target, []).append(provided)
+    own = f"lib/{package.name}/"
+    return {
+        name: found[0]
+        for name, found in places.items()
+        if all(each.path.startswith(own) and not (each.conditional or each.test) for each in found)
+    }
+
+
 def forgotten_nodes(package: Package) -> frozenset[str]:
     """Return the nodes of a package that installs nothing at all of what it builds: no tests, nothing that the build may run."""
     script = package.script
@@ -160,17 +182,17 @@ def left_out_nodes(package: Package) -> frozenset[str]:
         return frozenset()
     nodes = node_targets(package)
     installed = {provided.target for provided in script.provides if provided.target}
-    listed = {text for call in called(package, "install", anywhere=True) for text in call.texts}
     if nodes.isdisjoint(installed):
         return frozenset()
+    left_out = nodes - installed - listed_to_install(package)
     return frozenset(
         target.name
         for target in programs_built(script)
-        if target.name in nodes - installed - listed and not is_on_request(package, target) and not _is_aside(target)
+        if target.name in left_out and not is_on_request(package, target) and not _is_aside(target)
     )
 
 
-_ASIDE = re.compile(r"(?:^|_)(?:bench\w*|demo|dummy|example|mock|perf\w*|sample|try|tutorial)(?:s?)(?:_|$)|test", re.IGNORECASE)
+_ASIDE = re.compile(r"(?:^|_)(?:bench\w*|demo|dummy|example|mock|perf\w*|sample|try|tutorial)s?(?:_|$)|test", re.IGNORECASE)
 
 
 def _is_aside(target: Target) -> bool:

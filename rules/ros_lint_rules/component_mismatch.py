@@ -38,16 +38,17 @@ from ros_lint.api import (
     Finding,
     Fix,
     Package,
-    Provided,
     Registration,
     Related,
     Rule,
     Severity,
     Workspace,
+    astray,
     called,
     cmake_edits,
     evaluated_name,
     is_apart,
+    listed_to_install,
     relative,
 )
 
@@ -159,16 +160,17 @@ def _libraries(package: Package) -> Iterator[Finding]:
     script = package.script
     assert script is not None
     installed = {p.path.rpartition("/")[2] for p in script.provides}
-    listed = {text for call in called(package, "install", anywhere=True) for text in call.texts}
+    listed = listed_to_install(package)
+    elsewhere = astray(package, (".so",))
     told: set[str] = set()
     for call in called(package, *_REGISTER):
         name = evaluated_name(package, call.texts[0]) if call.args else None
-        if name and name not in told and not call.blocks and (astray := _astray(package, name)):
+        if name and name not in told and not call.blocks and (place := elsewhere.get(name)):
             told.add(name)
             yield Finding(
-                f"the library {name} has components, and is installed to {astray.path.rpartition('/')[0]}; "
+                f"the library {name} has components, and is installed to {place.path.rpartition('/')[0]}; "
                 "the index says that it is in lib, so install it there",
-                astray.span,
+                place.span,
                 name,
                 (Related("its components are registered here", call.span(0)),),
             )
@@ -181,14 +183,6 @@ def _libraries(package: Package) -> Iterator[Finding]:
         fix = Fix(f"install {name}", (cmake_edits.install_library(script.end, name),)) if script.end else None
         message = f"the library {name} has components, and is not installed; install it to lib"
         yield Finding(message, call.span(0), name, (Related("it is built here", target.span),), fix)
-
-
-def _astray(package: Package, name: str) -> Provided | None:
-    """Return the place of a library that every build installs to the folder of the programs, and to no other one."""
-    script = package.script
-    places = [p for p in script.provides if p.target == name and p.path.endswith(".so")] if script else []
-    own = f"lib/{package.name}/"
-    return places[0] if places and all(p.path.startswith(own) and not (p.conditional or p.test) for p in places) else None
 
 
 RULE = Rule(

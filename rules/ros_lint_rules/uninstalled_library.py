@@ -36,12 +36,12 @@ from ros_lint.api import (
     Finding,
     Fix,
     Package,
-    Provided,
     Related,
     Rule,
     Severity,
     Span,
     Workspace,
+    astray,
     called,
     cmake_edits,
     evaluated_name,
@@ -92,19 +92,12 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
 
 def _astray(package: Package) -> Iterator[Finding]:
     """Speak of exported libraries that are installed where ament_cmake_export_libraries does not look for them."""
-    script = package.script
-    assert script is not None
-    own = f"lib/{package.name}"
-    places: dict[str, list[Provided]] = {}
-    for provided in script.provides:
-        if provided.target and provided.path.endswith((".so", ".a")):
-            places.setdefault(provided.target, []).append(provided)
-    for name, found in places.items():
-        exported = _exported(package, name)
-        if exported and all(p.path.startswith(f"{own}/") and not (p.conditional or p.test) for p in found):
+    for name, place in astray(package, (".so", ".a")).items():
+        if exported := _exported(package, name):
             yield Finding(
-                f"the library {name} is exported, but installed to {own}, where find_package() does not look; install it to lib",
-                found[0].span,
+                f"the library {name} is exported, but installed to lib/{package.name}, where find_package() does not look; "
+                "install it to lib",
+                place.span,
                 name,
                 (Related("it is exported here", exported),),
                 severity=Severity.WARNING,

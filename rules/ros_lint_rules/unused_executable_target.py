@@ -30,12 +30,12 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
-    called,
     cmake_edits,
     forgotten_nodes,
     hidden,
     is_on_request,
     left_out_nodes,
+    listed_to_install,
     may_run_built,
 )
 
@@ -44,15 +44,13 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_cmake" or hidden(package, Facet.EXECUTABLES) or may_run_built(script):
         return
-    installed = {provided.target for provided in script.provides}
-    listed = {text for call in called(package, "install", anywhere=True) for text in call.texts}
-    forgotten = forgotten_nodes(package) | left_out_nodes(package)
+    left = {provided.target for provided in script.provides} | listed_to_install(package)
+    left |= forgotten_nodes(package) | left_out_nodes(package)  # another rule says so
+    left.update(workspace.started.get(package.name, {}))
     for target in script.targets:
-        if target.kind != "executable" or target.test or target.name in installed | listed:
+        if target.kind != "executable" or target.test or target.name in left:
             continue
         if is_on_request(package, target):
-            continue
-        if target.name in workspace.started.get(package.name, {}) or target.name in forgotten:
             continue
         fix = None
         if script.end is not None:
