@@ -71,10 +71,10 @@ def _python(manifest: Manifest, script: BuildScript) -> Iterator[Finding]:
     if script.name and script.name_span and _distribution(script.name) != _distribution(manifest.name):
         message = f"setup() calls the package {script.name}"
         wrong[script.name] = [Related(message, script.name_span)]
-    told = {_installed_for(provided)[::-1] for provided in script.provides}
+    told = {_installed_for(provided) for provided in script.provides}
     for provided in script.provides:
         name, what = _installed_for(provided)
-        if name in ("", manifest.name) or provided.conditional or (what != "program" and (what, manifest.name) in told):
+        if name in ("", manifest.name) or provided.conditional or (what != "program" and (manifest.name, what) in told):
             continue
         places = wrong.setdefault(name, [])
         message = _PLACES[what].format(name)
