@@ -18,7 +18,7 @@ message says so. The fix takes away the `()`, and writes the missing comma.
 
 - For modules of other packages, but where this package has just that module under its own name.
 - For modules that import `*`, define `__getattr__`, or cannot be read: they may have any name.
-- For modules that are made during the build.
+- For modules that are made during the build, and for those that are not there where a file of the package cannot be read.
 """
 
 from __future__ import annotations
@@ -71,10 +71,12 @@ def _entry(package: Package, entry: EntryPoint, workspace: Workspace) -> Iterato
                 way_out = f"{module.path} has no main, so define one there and {way_out}"
             yield Finding(f"{entry.name} names a module and no function; {way_out}", entry.span, entry.name)
         return
-    if module is None and not workspace.unread(package):
-        yield from _no_module(package, entry, name, workspace)
+    if module is None:
+        if not workspace.unread(package):
+            yield from _no_module(package, entry, name, workspace)
+        return
     first = attribute.partition(".")[0]
-    if module is not None and not module.open and first not in module.names and not _is_submodule(package, name, first):
+    if not module.open and first not in module.names and not _is_submodule(package, name, first):
         path = f"{package.path}/{module.path}" if package.path else module.path
         near = difflib.get_close_matches(first, module.names, 1, 0.7)
         hint = f"; is {near[0]} meant?" if near else ""
