@@ -18,7 +18,8 @@ Add `find_package(package REQUIRED)`, before the first use.
 - The package comes along with one that is found, for then it is found, too: then, and when nobody knows what comes along,
   the confidence is medium.
 - The script cannot be followed everywhere, or the use hangs on a condition that cannot be decided.
-- The name belongs to no ROS package that is known.
+- The name belongs to no ROS package that is known, or is that of a package that is found, in other capitals.
+- A command that another package of the workspace gives has it in itself: that package is to find it.
 """
 
 from __future__ import annotations

@@ -23,7 +23,8 @@ install it beside the program. In `CMakeLists.txt`: `ament_python_install_packag
 
 For tests, for folders without modules, for those whose modules `data_files` puts elsewhere, and where `packages` cannot be
 evaluated. About what a program imports, where anybody else offers a module of that name; the confidence is medium where
-the program changes `sys.path`.
+the program changes `sys.path`. About the Python package of an `ament_cmake` package that has a single module, and where the
+package makes interfaces, or builds what is imported by this name.
 """
 
 from __future__ import annotations

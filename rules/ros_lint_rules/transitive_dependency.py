@@ -19,7 +19,8 @@ Declare what is used, in the tag that the message names. The fix does this.
 - The files that use it are perhaps not built or installed, or colcon rejects `package.xml`: then the confidence is
   medium. The use is optional: then it is low, and nothing is fixed.
 - The package needs this one itself, in whatever tag, so that declaring it would close a cycle that colcon refuses: then, too,
-  the confidence is medium, and nothing is fixed. Nor is it where no key resolves for the distribution.
+  the confidence is medium, and nothing is fixed, and of an optional use nothing is said. Nor is it fixed where no key resolves
+  for the distribution.
 - The package merely gives CMake commands, and comes along with the build tool, or it is `action_msgs` and nothing but the
   code that is generated for actions needs it.
 - It is part of what launches, nothing but launch files import it, and `ros2launch` is declared for them.

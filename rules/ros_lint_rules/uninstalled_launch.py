@@ -18,7 +18,7 @@ written out.
 
 ## When it keeps silent
 
-- A part of the build script that cannot be followed may install the files.
+- A part of the build script that cannot be followed may install the files, or a file of the package cannot be read.
 - Launch files of tests, examples and templates, those of ROS 1, and modules that only build actions for launch files;
   packages that are called tests.
 - Files that are installed under a condition, and those that a rule leaves out which installs others of their kind

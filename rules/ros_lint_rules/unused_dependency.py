@@ -20,8 +20,8 @@ Where a type of it stands in C++ code by its bare name, which a header of a thir
 whenever the dependency might be needed in a way that leaves no trace: linters, run-time and tool dependencies, tags
 under a condition, packages whose build scripts cannot be followed everywhere, metapackages, vendor packages and packages
 without code, and dependencies that give CMake macros or plugins. For rosdep keys of libraries, which others' headers may
-need, for packages that nobody knows, and for messages and Python packages that are mostly declared to be run, the
-confidence is medium.
+need, for packages that nobody knows, for messages and Python packages that are mostly declared to be run, and where a file
+of the workspace cannot be read, the confidence is medium.
 
 So it is where nothing uses the dependency, but something else that is used and not declared comes along with it alone, in
 this package or in another one of the workspace. That is to be declared instead, and nothing is removed.
