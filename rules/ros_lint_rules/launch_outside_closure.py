@@ -73,22 +73,25 @@ _SAYS = {
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    closure = declared_closure(package, workspace, _AT_RUN_TIME)
-    for name, references in _lacking(package, workspace):
+    lacking = tuple(_lacking(package, workspace))
+    if not lacking:
+        return
+    unknown = declared_closure(package, workspace, _AT_RUN_TIME).unknown
+    sighted = not workspace.unread(package)  # a file that cannot be read may be the script that runs these as tests
+    for name, references in lacking:
         best, *others = sorted(references, key=lambda r: (r.package_by_default, r.conditional, _ORDER.index(r.kind), r.span))
         says = _SAYS[best.kind].format(name=best.name, package=name)
         only = ", if only under a condition" if best.conditional else ""
         only = ", by the default of an argument" if best.package_by_default else only
         way_out = advice(package, workspace, name, Role.EXEC)
-        certain = way_out.certain and not may_bring(closure.unknown, name, workspace) and not _needs(workspace, name, package)
-        certain = certain and not workspace.unread(package)  # it may be the script that runs the file as a test
+        certain = sighted and way_out.certain and not may_bring(unknown, name, workspace)
         yield Finding(
             f"{says}{only}, but does not come with {package.name}{way_out.ending}",
             best.package_span,
             name,
             tuple(Related("also needed here", span) for span in islice(_elsewhere(best.package_span, others), _MOST_RELATED)),
             way_out.fix,
-            Confidence.HIGH if certain else Confidence.MEDIUM,
+            Confidence.HIGH if certain and not _needs(workspace, name, package) else Confidence.MEDIUM,
         )
 
 
