@@ -130,10 +130,8 @@ class References:
         elif "/" not in package and not package.endswith((".py", ".xml", ".yaml", ".launch")):
             self._add("package", package, "", value, value, conditional, default)
 
-    def _paths(
-        self, value: LaunchValue, package_span: Span | None, conditional: bool, reads: Callable[[str], str] | None = None
-    ) -> None:
-        """Note the places that a value mentions. ``reads`` returns the part of a text that names a file which is read."""
+    def _paths(self, value: LaunchValue, package_span: Span | None, conditional: bool, reads: _Reads | None = None) -> None:
+        """Note the places that a value mentions."""
         texts, default = self._filled(value)
         for text in texts:
             if text.isascii() and not runs_xacro(text):
@@ -258,6 +256,7 @@ def asks_first(conditions: Iterable[LaunchCondition]) -> bool:
 
 
 _Reads = Callable[[str], str]
+"""Returns the part of a text that names a file which is read."""
 _DISPLAY = re.compile(r"(?:^|\s)(?:-d|--display-config)(?:[\s=]+(\S+)|$)")
 """The option of rviz2 that names the file with its displays."""
 
