@@ -6,7 +6,7 @@ import ast
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from ros_lint.collectors.launch_py_objects import Made, Value
-from ros_lint.collectors.launch_py_texts import is_text
+from ros_lint.collectors.launch_py_texts import CONDITIONS, is_text
 from ros_lint.collectors.launch_text import UNKNOWN
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ def note(machine: Machine, value: Value, how: How, node: ast.expr, frame: Frame)
     """Note that something is done with a value, if that is a substitution and it is not unknown whether it comes to that."""
     if not isinstance(value, Made):
         return
-    if how == "tested" and value.name in _CONDITIONS:
+    if how == "tested" and value.name in CONDITIONS:
         how = "combined"
     elif not is_text(value):
         return
@@ -40,6 +40,3 @@ def note(machine: Machine, value: Value, how: How, node: ast.expr, frame: Frame)
 def are_unknown(conditions: Conditions) -> bool:
     """Return whether it is unknown what one of some conditions asks for."""
     return any(UNKNOWN in text for condition in conditions for text in condition.texts)
-
-
-_CONDITIONS = frozenset({"IfCondition", "UnlessCondition", "LaunchConfigurationEquals", "LaunchConfigurationNotEquals"})

@@ -208,15 +208,21 @@ def is_text(value: Value) -> bool:
     return isinstance(made, Made) and made.name in SUBSTITUTIONS
 
 
+_ASKING = frozenset({"IfCondition", "UnlessCondition"})
+_COMPARING = frozenset({"LaunchConfigurationEquals", "LaunchConfigurationNotEquals"})
+CONDITIONS = _ASKING | _COMPARING
+"""Classes whose objects are conditions."""
+
+
 def conditions_of(value: Value, within: Within | None = None) -> Conditions:
     """Return what a condition of launch asks for: IfCondition, UnlessCondition and the two that compare a configuration."""
     found: list[LaunchCondition] = []
     for one in alternatives(value):
         made = one.value
-        if isinstance(made, Made) and made.name in ("IfCondition", "UnlessCondition"):
+        if isinstance(made, Made) and made.name in _ASKING:
             asked = tuple(map(str, texts(made.get(0, "predicate_expression"), within)))
             found.append(LaunchCondition(asked, None, made.name == "IfCondition"))
-        elif isinstance(made, Made) and made.name in ("LaunchConfigurationEquals", "LaunchConfigurationNotEquals"):
+        elif isinstance(made, Made) and made.name in _COMPARING:
             names = texts(made.get(0, "launch_configuration_name"), within)
             wanted = texts(made.get(1, "expected_value"), within)
             if len(names) != 1 or len(wanted) != 1:
