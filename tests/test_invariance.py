@@ -16,6 +16,7 @@ from ros_lint.rule import Confidence
 from ros_lint.testing import Case, read_cases
 from ros_lint.tree import MemoryTree, Tree
 from ros_lint.underlay import in_tree
+from tests.trees import Locked
 
 FIXTURES = Path(__file__).parent.parent / "fixtures"
 RULES = registry.load()
@@ -84,24 +85,11 @@ def test_another_spelling(case: Case) -> None:
     assert found(MemoryTree(other, case.executable), case) == found(case.tree(), case)
 
 
-class Locked(MemoryTree):
-    """Has a file that nobody may read."""
-
-    def __init__(self, case: Case, locked: str) -> None:
-        super().__init__(case.files, case.executable)
-        self._locked = locked
-
-    def read(self, path: str) -> bytes:
-        if path == self._locked:
-            raise PermissionError(13, "Permission denied", path)
-        return super().read(path)
-
-
 @pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case.source.stem}: {case.title}")
 def test_a_file_that_nobody_may_read(case: Case) -> None:
     before = Counter(issue[:2] for issue in found(case.tree(), case).elements())
     for path in case.files:
         if path.endswith(("package.xml", ".gitignore", ".gitmodules")) or path == "setup.py":
             continue  # what says where packages are, and what only git reads
-        after = Counter(issue[:2] for issue in found(Locked(case, path), case, default=True).elements())
+        after = Counter(issue[:2] for issue in found(Locked(case.files, path, case.executable), case, default=True).elements())
         assert not after - before, path

@@ -10,6 +10,7 @@ from ros_lint.load import Loader
 from ros_lint.report import Target
 from ros_lint.tree import MemoryTree
 from ros_lint.workspace import Workspace
+from tests.trees import Locked
 
 XML = '<package format="3"><name>{}</name><version>1.0.0</version><description>d</description><maintainer email="a@b.cd">a'
 XML += "</maintainer><license>MIT</license><buildtool_depend>ament_cmake</buildtool_depend><export><build_type>ament_cmake"
@@ -68,19 +69,6 @@ SETUP = {
     "p/plugins.xml": "<library path='a'/>\n",
     "p/CMakeLists.txt": HEAD,
 }
-
-
-class Locked(MemoryTree):
-    """Has a file that nobody may read."""
-
-    def __init__(self, texts: dict[str, str], locked: str) -> None:
-        super().__init__(texts)
-        self._locked = locked
-
-    def read(self, path: str) -> bytes:
-        if path == self._locked:
-            raise PermissionError(13, "Permission denied", path)
-        return super().read(path)
 
 
 @pytest.mark.parametrize(
