@@ -48,7 +48,7 @@ def needed(file: LaunchFile, names: frozenset[str]) -> dict[str, Span]:
     found: dict[str, Span] = {}
     for action in everything(file.actions):
         for text, span in texts_of(action):
-            for name, has_default in configurations(text):
+            for name, has_default, _ in configurations(text):
                 if name in names and not has_default:
                     found.setdefault(name, span)
     return found

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 from ros_lint.collectors.launch_expression import evaluate, refused
 from ros_lint.collectors.launch_text import (
     UNKNOWN,
-    each_configuration,
+    configurations,
     fill,
     has_expression,
     installed_place,
@@ -117,7 +117,7 @@ def broken_expressions(file: LaunchFile) -> Iterator[Broken]:
 
 def _broken(text: str, defaults: Mapping[str, tuple[str, ...]]) -> Iterator[tuple[str, str, str]]:
     """Yield of each expression in a text that fails the argument, the expression, and the name that is not known."""
-    given = {name: texts for name, one in each_configuration(text) if len(texts := fill(one, defaults.get, evaluate)) == 1}
+    given = {name: texts for name, _, one in configurations(text) if len(texts := fill(one, defaults.get, evaluate)) == 1}
     whole, without = _expressions(text, defaults.get), _expressions(text, lambda name: ("_",))
     for expression, itself in zip(whole, without, strict=True) if len(whole) == len(without) else ():
         own, strange = refused(itself), refused(expression)

@@ -121,7 +121,7 @@ def has_expression(text: str) -> bool:
 
 def quoted(text: str) -> str:
     """Return a text as a literal of Python, marks kept, and expressions as they are: their values come to stand there."""
-    if _EXPRESSION[0] not in text:
+    if not has_expression(text):
         return f"'{_escaped(text)}'"
     depth, parts = 0, []
     for part in _EXPRESSION_MARKS.split(text):
@@ -166,17 +166,11 @@ def is_settled(text: str) -> bool:
     return text.isascii() or not _UNSETTLED.search(text)
 
 
-def configurations(text: str) -> Iterator[tuple[str, bool]]:
-    """Yield the names of the launch configurations that a text depends on, and whether it does without."""
+def configurations(text: str) -> Iterator[tuple[str, bool, str]]:
+    """Yield the names of the launch configurations that a text depends on, whether it does without, and what stands for each."""
     for match in _INNERMOST.finditer(text):
         name, mark, _ = match[1].partition(_DEFAULT)
-        yield name, bool(mark)
-
-
-def each_configuration(text: str) -> Iterator[tuple[str, str]]:
-    """Yield the names of the launch configurations in a text, each with what stands for it."""
-    for match in _INNERMOST.finditer(text):
-        yield match[1].partition(_DEFAULT)[0], match[0]
+        yield name, bool(mark), match[0]
 
 
 def runs_xacro(text: str) -> bool:
@@ -396,7 +390,7 @@ class _Filling:
 
 
 def _settle(text: str, evaluate: Callable[[str], str]) -> str:
-    while _EXPRESSION[0] in text and (match := _INNER_EXPRESSION.search(text)):
+    while has_expression(text) and (match := _INNER_EXPRESSION.search(text)):
         value = evaluate(match[1]) if is_settled(match[1]) else UNKNOWN
         text = text[: match.start()] + value + text[match.end() :]
     # A configuration that holds an absolute path replaces what it was joined to.

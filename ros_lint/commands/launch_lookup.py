@@ -54,7 +54,7 @@ class LookUp:
             for action in everything(one.actions):
                 texts = [text for value in values(action) for text in value.texts]
                 texts += [text for condition in action.conditions for text in condition.texts]
-                found.update(name for text in texts for name, _ in configurations(text))
+                found.update(name for text in texts for name, *_ in configurations(text))
         return frozenset(found)
 
     def absent(self, path: str) -> Absent | None:

@@ -85,7 +85,7 @@ class Filling:
 
     def _reasons(self, text: str, scope: Scope) -> Iterator[str]:
         """Yield why a text is not known."""
-        for name, has_default in configurations(text):
+        for name, has_default, _ in configurations(text):
             value = self._value(name, scope)
             if name.startswith("$"):
                 if value is None and not has_default:
