@@ -16,7 +16,7 @@ from ros_lint.workspace import Package
 
 def top_file(package: Package) -> str:
     """Return the path of the package's own CMakeLists.txt, relative to the base."""
-    return join(package.path, "CMakeLists.txt")
+    return from_base(package, "CMakeLists.txt")
 
 
 def called(package: Package, *names: str, anywhere: bool = False) -> Iterator[Call]:
@@ -43,6 +43,11 @@ def hidden(package: Package, facet: Facet) -> tuple[Opaque, ...]:
 def relative(package: Package, path: str) -> str:
     """Return a path relative to the package."""
     return path.removeprefix(f"{package.path}/") if package.path else path
+
+
+def from_base(package: Package, path: str) -> str:
+    """Return a path of the package relative to the base, as places have it: the reverse of :func:`relative`."""
+    return join(package.path, path)
 
 
 _PROJECT_NAME = re.compile(r"\$\{(?:PROJECT_NAME|CMAKE_PROJECT_NAME)\}")

@@ -43,6 +43,7 @@ from ros_lint.api import (
     Severity,
     Span,
     Workspace,
+    from_base,
     relative,
     setup_edits,
 )
@@ -68,7 +69,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     defining = {module.name for module in script.modules if _NODES.intersection(module.names)}
     sure = any(entry.name in started or entry.module in defining for entry in nodes)
-    config = f"{package.path}/setup.cfg" if package.path else "setup.cfg"
+    config = from_base(package, "setup.cfg")
     there = "setup.cfg" in package.files
     names = [entry.name for entry in nodes]
     named = ", ".join(names[:3]) + (" ..." if len(names) > 3 else "")

@@ -27,7 +27,7 @@ import difflib
 import re
 from collections.abc import Iterator
 
-from ros_lint.api import Edit, EntryPoint, Facet, Finding, Fix, Package, Related, Rule, Severity, Span, Workspace
+from ros_lint.api import Edit, EntryPoint, Facet, Finding, Fix, Package, Related, Rule, Severity, Span, Workspace, from_base
 
 _GLUED = re.compile(r"[:=].*=")
 _TARGET = re.compile(r"\s*([\w.]+)\s*(?::\s*([\w.]+)\s*)?(?:\[.*\])?\s*\Z")
@@ -77,7 +77,7 @@ def _entry(package: Package, entry: EntryPoint, workspace: Workspace) -> Iterato
         return
     first = attribute.partition(".")[0]
     if not module.open and first not in module.names and not _is_submodule(package, name, first):
-        path = f"{package.path}/{module.path}" if package.path else module.path
+        path = from_base(package, module.path)
         near = difflib.get_close_matches(first, module.names, 1, 0.7)
         hint = f"; is {near[0]} meant?" if near else ""
         yield Finding(

@@ -46,6 +46,7 @@ from ros_lint.api import (
     Workspace,
     called,
     cmake_edits,
+    from_base,
     relative,
 )
 
@@ -77,7 +78,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _line(package: Package, file: ScriptFile, name: str, started: bool) -> Iterator[Finding]:
     """Yield what is wrong with the interpreter line, or else with the permissions of the source."""
-    path = f"{package.path}/{file.path}" if package.path else file.path
+    path = from_base(package, file.path)
     place = Span(path, 1, 1, 1, 1)
     if file.carriage_return:
         message = f"the first line of {file.path} ends with a carriage return, so no interpreter is found; save it with LF"
@@ -128,7 +129,7 @@ def _confidence(package: Package, call: Call | None) -> Confidence:
 
 
 def _source(package: Package, provided: Provided) -> Span:
-    path = f"{package.path}/{provided.source}" if package.path else provided.source
+    path = from_base(package, provided.source)
     return Span(path, 1, 1, 1, 1)
 
 

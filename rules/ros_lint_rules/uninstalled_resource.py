@@ -44,6 +44,7 @@ from ros_lint.api import (
     Span,
     Workspace,
     cmake_edits,
+    from_base,
     is_apart,
     launchable,
     relative,
@@ -162,7 +163,7 @@ def _folders(package: Package, kept: set[str], told: set[str]) -> Iterator[Findi
         ):
             continue
         # What the files say of each other tells nothing of who reads the first of them.
-        below = f"{package.path}/{folder}/" if package.path else f"{folder}/"
+        below = from_base(package, f"{folder}/")
         looked_up = [file for file in files if file in places and not places[file].path.startswith(below)]
         shown = [file.rpartition("/")[2] for file in looked_up + [file for file in files if file not in places]]
         named = ", ".join(shown[:3]) + (" ..." if len(shown) > 3 else "")

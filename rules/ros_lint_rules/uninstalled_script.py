@@ -40,6 +40,7 @@ from ros_lint.api import (
     Span,
     Workspace,
     cmake_edits,
+    from_base,
     hidden,
     is_apart,
     relative,
@@ -63,7 +64,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for file in script.files:
         if file.path in left or not (file.shebang and file.main) or is_apart(file.path):
             continue
-        path = f"{package.path}/{file.path}" if package.path else file.path
+        path = from_base(package, file.path)
         forgotten = file.path in nodes and file.path.rpartition("/")[0] in with_nodes
         fix = None
         if script.end is not None:
@@ -85,7 +86,7 @@ def _of_setup(package: Package) -> Iterator[Finding]:
         if file.run is not None and file.main:
             yield Finding(
                 f"{file.path} is a program, and setup.py does not install it, so ros2 run does not find it; add an entry point",
-                Span(f"{package.path}/{file.path}" if package.path else file.path, 1, 1, 1, 1),
+                Span(from_base(package, file.path), 1, 1, 1, 1),
                 file.path,
                 (Related("it is started here", file.run),),
             )
