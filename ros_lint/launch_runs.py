@@ -5,7 +5,6 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from ros_lint.collectors.launch_expression import evaluate, refused
 from ros_lint.collectors.launch_text import (
     UNKNOWN,
     configurations,
@@ -117,6 +116,8 @@ def broken_expressions(file: LaunchFile) -> Iterator[Broken]:
 
 def _broken(text: str, defaults: Mapping[str, tuple[str, ...]]) -> Iterator[tuple[str, str, str]]:
     """Yield of each expression in a text that fails the argument, the expression, and the name that is not known."""
+    from ros_lint.collectors.launch_expression import evaluate, refused  # noqa: PLC0415  (it takes the parser of Python)
+
     given = {name: texts for name, _, one in configurations(text) if len(texts := fill(one, defaults.get, evaluate)) == 1}
     whole, without = _expressions(text, defaults.get), _expressions(text, lambda name: ("_",))
     for expression, itself in zip(whole, without, strict=True) if len(whole) == len(without) else ():
