@@ -1,7 +1,7 @@
 """Did you mean: names near an unknown one.
 
 Two questions, two answers. Which name is meant, for a fix: one of which nobody would doubt. Which names are near, for a
-hint.
+hint. Besides, what a name says of another one: that of a vendor package of its library, that of a part of its whole.
 """
 
 from __future__ import annotations
