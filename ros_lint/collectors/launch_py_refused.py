@@ -1,4 +1,7 @@
-"""What Python refuses in a launch file: at once, or when it comes to a name that nothing binds or to a substitution as a text."""
+"""What Python and the launch libraries refuse in a launch file.
+
+At once, or when it comes to a name that nothing binds, to a substitution as a text, or to a number where texts are taken.
+"""
 
 from __future__ import annotations
 
