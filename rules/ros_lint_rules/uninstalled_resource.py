@@ -85,11 +85,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     folders = frozenset(file.partition("/")[0] for file in package.files if _is_resource(file))
     for look_up in workspace.looked_up.get(package.name, ()):
         path, span = look_up.path.rstrip("/"), look_up.span
-        if f"share/{package.name}/{path}" in installed or _is_launch(path) or not (path in files or path in folders):
+        place = f"share/{package.name}/{path}"
+        if place in installed or _is_launch(path) or not (path in files or path in folders):
             continue
-        if any(place.startswith(f"share/{package.name}/{path}/") for place in installed):
-            continue
-        if any(opaque.reaches(f"share/{package.name}/{path}") for opaque in hidden):
+        if any(each.startswith(f"{place}/") for each in installed) or any(opaque.reaches(place) for opaque in hidden):
             continue
         missing.setdefault(_unit(path, kept), []).append((path, span))
     for unit, found in missing.items():
