@@ -224,14 +224,14 @@ def _find_word(data: bytes, word: bytes, joining: bytes) -> int:
     """Return the offset of a word, -1 when there is none. A search for letters is many times faster than for a pattern.
 
     ``joining`` are the bytes that are part of a word besides letters and digits. A word that ends with a mark is a whole one
-    before anything.
+    whatever follows.
     """
     start = data.find(word)
-    after = 1 if word[-1:].isalnum() else 0
-    joining = joining if after else _JOINING
+    marked = not word[-1:].isalnum()
+    joining = _JOINING if marked else joining
     while start >= 0:
         end = start + len(word)
-        around = data[max(start - 1, 0) : start], data[end : end + after]
+        around = data[max(start - 1, 0) : start], b"" if marked else data[end : end + 1]
         if not any(each.isalnum() or (each and each in joining) for each in around):
             return start
         start = data.find(word, start + 1)
