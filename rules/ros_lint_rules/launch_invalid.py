@@ -3,17 +3,20 @@
 
 A launch file that the real front end refuses: it does not parse, has a tag, an attribute or a substitution that does not
 exist, misses one that is needed, or holds a value of another type; one in Python that gives a node keywords which do not
-exist or were removed, comes to a name that nothing defines, or takes one from a module that has none. Besides, one in
-Python that takes a substitution for the text that it becomes once something is launched: adds it to a text, formats or
-compares it; or that gives numbers and truths where texts are taken, `default_value=True`.
-So does a file with something that came to the launch format after the distribution that was asked for.
+exist or were removed, comes to a name that nothing defines, or takes one from a module that has none; or one with something
+that came to the launch format after the distribution that was asked for.
+
+Besides, one in Python that takes a substitution for the text that it becomes once something is launched: adds it to a text,
+formats, compares or tests it; that joins conditions by `and` and `or`; or that gives numbers and truths where texts are
+taken, `default_value=True`, and `launch_arguments` without `.items()`.
 
 ## Why it matters
 
 `ros2 launch` stops with the first of these, and whoever includes the file stops with it. A file half ported from ROS 1
 fails this way: `$(find p)` is `$(find-pkg-share p)`, `$(arg x)` is `$(var x)`, `type=` of a node is `exec=`.
 `'robot_' + LaunchConfiguration('name')` is an error, too; in an f-string stands `<launch.substitutions... object at 0x7f...>`,
-and `LaunchConfiguration('mode') == 'real'` is never true, both without a word.
+and `LaunchConfiguration('mode') == 'real'` is never true, both without a word: where a file has nothing worse, that is a
+warning.
 
 ## How to fix it
 
@@ -25,7 +28,8 @@ The message names what is wrong. See the launch format of your distribution for 
 - Tags that packages add to the format.
 - Launch files of tests, examples and templates.
 - What is newer than the distribution, where nobody said which one is meant.
-- A substitution is taken for a text where errors are caught, or only in what people read, such as `print()`.
+- A substitution is taken for a text, or a number given for one, where errors are caught, or only in what people read, such as
+  `print()`. A substitution is tested in a function that it was given to: that may ask whether it is there at all.
 """
 
 from __future__ import annotations
