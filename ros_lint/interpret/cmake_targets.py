@@ -16,7 +16,7 @@ _LIBRARY_TYPES: Final = ("STATIC", "SHARED", "MODULE", "OBJECT", "INTERFACE", "U
 
 
 SOURCES: Final = (".c", ".C", ".c++", ".cc", ".cpp", ".cxx", ".cu", ".m", ".mm", ".h", ".hh", ".hpp", ".hxx", ".in", ".txx")
-"""What CMake adds to a source that is not there without it (policy CMP0115)."""
+"""How sources end: what CMake adds to one that is not there without it (policy CMP0115)."""
 
 
 def _add_executable(run: Run, args: list[str]) -> None:
