@@ -44,6 +44,7 @@ def with_(*children: str, form: str = "3", own: str = GOOD) -> str:
 @example(0, [], 8)
 @example(1, [], 4)
 @example(1, [], 7)
+@example(0, [(21679, 0, 1617)] * 2, 0)  # two byte order marks
 def test_same_as_catkin_pkg(seed: int, ops: list[tuple[int, int, int]], encoding: int) -> None:
     assert list(differences(mutate(seed, ops, encoding))) == []
 

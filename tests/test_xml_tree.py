@@ -65,6 +65,11 @@ def test_what_libxml2_refuses_is_refused(text: str, data: st.DataObject) -> None
         _agree(damaged, parse(damaged), expected)
 
 
+def test_a_second_byte_order_mark_is_no_white_space() -> None:
+    with pytest.raises(XmlError):
+        parse("\ufeff<launch/>")  # the first one has been taken off with the encoding
+
+
 def _libxml2(text: str) -> etree._Element:
     # The text is decoded already: an encoding that it claims is not asked.
     parser = etree.XMLParser(resolve_entities=False, no_network=True, encoding="utf-8", remove_comments=True, remove_pis=True)

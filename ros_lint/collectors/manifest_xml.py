@@ -11,6 +11,7 @@ from contextlib import suppress
 from typing import Final, NamedTuple
 from xml.parsers import expat
 
+from ros_lint.collectors.xml_tree import unmarked
 from ros_lint.text import Text
 
 _new = tuple.__new__  # half the time of calling a named tuple
@@ -181,7 +182,7 @@ def _as_utf8(source: Text) -> tuple[str, tuple[Fault, ...]]:
 
 
 def _parse(text: str) -> Document:
-    data = text.encode()
+    data = unmarked(text.encode())
     events, fault, stopped = _events(text, data)
     if len(data) != len(text):
         events = _in_code_points(events, data)

@@ -57,7 +57,7 @@ def parse(text: str) -> Element:
 
 def parse_as(text: str, make: Callable[[str, dict[str, str], int], _E]) -> _E:
     """Return the root as an element of a kind of its own, made from tag, attributes and offset; else as :func:`parse`."""
-    data = text.encode("utf-8", "surrogateescape")
+    data = unmarked(text.encode("utf-8", "surrogateescape"))
     offset = _Offsets(data).of
     parser = expat.ParserCreate("utf-8")  # the text is decoded already, whatever its declaration says
     parser.buffer_text = True
@@ -86,6 +86,11 @@ def parse_as(text: str, make: Callable[[str, dict[str, str], int], _E]) -> _E:
         message = expat.ErrorString(error.code) or "not well-formed"
         raise XmlError(message, offset(parser.ErrorByteIndex)) from None
     return root[0]
+
+
+def unmarked(data: bytes) -> bytes:
+    """Return a text for expat, which would pass over a second byte order mark as it does over the first, taken off already."""
+    return b"\xef\xbf\xbe" + data[3:] if data.startswith(b"\xef\xbb\xbf") else data
 
 
 def attribute_places(text: str, element: Element) -> dict[str, tuple[int, int]]:
