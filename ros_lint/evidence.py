@@ -233,7 +233,7 @@ class _Uses:
                 known = self.resolver.names.is_package(providers[0]) or self._absent.isdisjoint(_WORD.findall(name))
             by: Via = "macro" if purpose == "helper" else via
             found[span, providers[0], by] = _make(
-                Use, (providers[0], providers, needed, what or usual, by, spared, span, sure and known)
+                Use, (providers[0], providers, needed, what or usual, by, spared, span, sure and known, name)
             )
 
     def _is_spared(self, name: str, span: Span, best: str) -> bool:

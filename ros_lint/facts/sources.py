@@ -49,6 +49,8 @@ class Use(NamedTuple):
     span: Span
     sure: bool = True
     """False where the file may be dead: in no target, not installed, no test."""
+    name: str = ""
+    """What is named there, as ``via`` says: the path of a header, a module, a name of find_package."""
 
 
 class LookUp(NamedTuple):

@@ -29,7 +29,6 @@ if that package adds a folder outside of its own to its include directories by h
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping
 
 from ros_lint.api import (
@@ -59,7 +58,6 @@ _LOADED = (
 _LINKED = ("ament_export_interfaces", "ament_export_libraries", "ament_export_targets")
 _HEADERS = (".h", ".hh", ".hpp", ".hxx", ".inl", ".ipp", ".tpp")
 _FOLDERS = ("include_directories", "target_include_directories")
-_HEADER = re.compile(r'[<"]([^<>"]+)[>"]')
 _EXPORTS = (
     "ament_auto_package", "ament_export_", "configure_package_config_file", "export", "install_basic_package_files", "rosidl_",
     "write_basic_package_version_file",
@@ -78,8 +76,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     installed = any(path.endswith(_HEADERS) for path in places)
     if installed and _tells(package):
         return
-    names = [(other, use, f"/{header}") for other, use, header in _wanted(workspace).get(package.name, ())]
-    wanted = [(other, use) for other, use, header in names if any(file.endswith(header) for file in headers)]
+    takers = _wanted(workspace).get(package.name, ())
+    wanted = [(other, use) for other, use in takers if any(file.endswith(f"/{use.name}") for file in headers)]
     if installed:
         yield from _unexported(package, wanted)
         return
@@ -138,17 +136,16 @@ def _takes(package: Package, name: str) -> bool:
 
 
 @per_workspace
-def _wanted(workspace: Workspace) -> Mapping[str, list[tuple[Package, Use, str]]]:
-    """Return who includes headers of other packages, and which ones, by package."""
-    found: dict[str, list[tuple[Package, Use, str]]] = {}
+def _wanted(workspace: Workspace) -> Mapping[str, list[tuple[Package, Use]]]:
+    """Return who includes headers of other packages, and where, by package."""
+    found: dict[str, list[tuple[Package, Use]]] = {}
     for package in workspace.packages:
         if package.script is None or _reaches_out(package):
             continue
         for use in package.uses:
             others = workspace.by_name.get(use.package, ()) if use.via == "include" and use.sure and not use.optional else ()
-            header = _HEADER.search(use.what)
-            if others and header and use.package != package.name and not is_apart(relative(package, use.span.path)):
-                found.setdefault(use.package, []).append((package, use, header[1]))
+            if others and use.package != package.name and not is_apart(relative(package, use.span.path)):
+                found.setdefault(use.package, []).append((package, use))
     return found
 
 
