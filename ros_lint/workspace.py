@@ -92,9 +92,9 @@ class Package(NamedTuple):
         """Return the build type: ament_cmake, ament_python, cmake ..."""
         return self.type.removeprefix("ros.")
 
-    def hidden(self, facet: Facet) -> tuple[Opaque, ...]:
-        """Return what hides a facet of the package. Empty: it can be seen whole."""
-        return tuple(opaque for opaque in self.opaque if opaque.hides & facet)
+    def hidden(self, facet: Facet, place: str = "") -> tuple[Opaque, ...]:
+        """Return what hides a facet of the package, or of it what may be at a ``place`` in the prefix. Empty: all can be seen."""
+        return tuple(opaque for opaque in self.opaque if opaque.hides & facet and (not place or opaque.reaches(place)))
 
     def declares(self, name: str) -> Role:
         """Return everything that the package declares a name for, conditions that may be false included."""

@@ -146,10 +146,7 @@ class LookUp:
                     source = f"{one.path}/{provided.source}" if one.path else provided.source
                     return self._sources.get(source) or self._read(source)
         if packages:
-            hidden = any(
-                one.script is None or any(opaque.reaches(path) for opaque in one.hidden(Facet.SHARE)) for one in packages
-            )
-            if hidden:
+            if any(one.script is None or one.hidden(Facet.SHARE, path) for one in packages):
                 return Absent(f"{package} may install it in a way that cannot be seen", surely=False)
             return Absent(f"{package} installs no {name}", surely=True)
         below = self._workspace.world.installed(package)

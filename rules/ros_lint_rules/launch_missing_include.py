@@ -196,7 +196,7 @@ def _files_without(owner: str, path: str, kind: str, workspace: Workspace) -> tu
     for one in owners:
         if one.script is None or one.builds_with not in ("ament_cmake", "ament_python"):
             return None
-        if any(opaque.reaches(f"{share}{path}") for opaque in one.hidden(Facet.SHARE)):
+        if one.hidden(Facet.SHARE, f"{share}{path}"):
             return None
         names.update(p.path[len(share) :] for p in one.script.provides if p.path.startswith(share))
         # What is in the sources and installed nowhere is told by another rule, also when the folders differ.

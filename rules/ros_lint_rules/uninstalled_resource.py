@@ -77,7 +77,6 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with not in ("ament_cmake", "ament_python"):
         return
-    hidden = package.hidden(Facet.SHARE)
     installed = {provided.path for provided in script.provides}
     kept = {provided.source for provided in script.provides if provided.source}
     missing: dict[str, list[tuple[str, Span]]] = {}
@@ -88,12 +87,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         place = f"share/{package.name}/{path}"
         if place in installed or _is_launch(path) or not (path in files or path in folders):
             continue
-        if any(each.startswith(f"{place}/") for each in installed) or any(opaque.reaches(place) for opaque in hidden):
+        if any(each.startswith(f"{place}/") for each in installed) or package.hidden(Facet.SHARE, place):
             continue
         missing.setdefault(_unit(path, kept), []).append((path, span))
     for unit, found in missing.items():
         yield _named(package, unit, found)
-    if hidden:
+    if package.hidden(Facet.SHARE):
         return
     told = {unit.partition("/")[0] for unit in missing}
     yield from _folders(package, kept, told)
