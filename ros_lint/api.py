@@ -32,7 +32,6 @@ from ros_lint.collectors.launch_text import agree, is_plain, renames
 from ros_lint.declare import (
     PYTHON_LIKE,
     add_dependency,
-    builds_something,
     change_dependency,
     is_built_in_sight,
     is_library,
@@ -151,7 +150,6 @@ __all__ = [
     "agree",
     "astray",
     "broken_expressions",
-    "builds_something",
     "called",
     "carriers",
     "change_dependency",

@@ -90,28 +90,17 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 Confidence.HIGH if sure and all(_is_in_bin(package, opaque) for opaque in unseen) else Confidence.MEDIUM,
             )
         elif not found and launched and not unseen:
-            yield Finding(
-                f"{target.name} is built, but not installed, so launch does not find it; install it to lib/{package.name}",
-                target.span,
-                target.name,
-                related,
-                _install(script.end, target.name),
-            )
+            yield _left(package, target, ", but not installed, so launch does not find it")._replace(related=related)
         elif target.name in forgotten:
-            yield Finding(
-                f"{target.name} is built, but nothing that the package builds is installed; install it to lib/{package.name}",
-                target.span,
-                target.name,
-                fix=_install(script.end, target.name),
-            )
+            yield _left(package, target, ", but nothing that the package builds is installed")
         elif target.name in left_out:
-            yield Finding(
-                f"{target.name} is built and, unlike other nodes of the package, not installed; install it to lib/{package.name}",
-                target.span,
-                target.name,
-                fix=_install(script.end, target.name),
-                severity=Severity.WARNING,
-            )
+            says = " and, unlike other nodes of the package, not installed"
+            yield _left(package, target, says)._replace(severity=Severity.WARNING)
+
+
+def _left(package: Package, target: BuildTarget, says: str) -> Finding:
+    fix = _install(package.script.end if package.script else None, target.name)
+    return Finding(f"{target.name} is built{says}; install it to lib/{package.name}", target.span, target.name, fix=fix)
 
 
 def _is_in_bin(package: Package, opaque: Opaque) -> bool:
