@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-TEST_FOLDERS = frozenset({"test", "tests", "testing", "integration_tests", "benchmark", "benchmarks", "unit_tests"})
+TEST_FOLDERS = frozenset(
+    {"test", "tests", "testing", "integration_tests", "benchmark", "benchmarks", "unit_tests", "test_data", "testdata",
+     "test_resources"}
+)  # fmt: skip
 _APART = frozenset({"example", "examples", "template", "templates", "doc", "docs"})
 
 
