@@ -21,6 +21,8 @@ Add what the message names. The fix does this for package.xml.
 - The other package comes along with one that is listed.
 - The run-time package comes along with another declared dependency, or may do so: then nothing fails, the severity is info and
   the confidence medium.
+- The script names the run-time package, too, as in `ament_export_dependencies(rosidl_default_runtime)`: then
+  `undeclared-dependency` tells of it, once.
 
 Where a folder of the package has a manifest of its own beside its CMakeLists.txt, CMake reads that one.
 """
@@ -48,6 +50,7 @@ from ros_lint.api import (
     given_for,
     manifest_edits,
     relative,
+    undeclared,
 )
 
 _GROUP = "rosidl_interface_packages"
@@ -105,7 +108,7 @@ def _join(manifest: Manifest) -> tuple[Edit, ...]:
 
 def _runtime(package: Package, workspace: Workspace, place: Span, sure: Confidence) -> Iterator[Finding]:
     starts = [each.name for each in package.declared if each.role & (Role.EXEC | Role.EXPORT)]
-    if _RUNTIME in starts or _CORE in starts:
+    if _RUNTIME in starts or _CORE in starts or any(need.name == _RUNTIME for need, sure in undeclared(package, workspace) if sure):
         return
     closure = workspace.world.closure(starts)
     along = _RUNTIME in closure or bool(closure.unknown)
