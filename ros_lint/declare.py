@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING
 
 from ros_lint import manifest_edits
@@ -57,11 +57,14 @@ def add_dependency(package: Package, tag: str, name: str) -> tuple[Edit, ...]:
     return tuple(manifest_edits.add(manifest, each, name) for each in tags)
 
 
-def change_dependency(package: Package, depends: Sequence[Depend], tag: str) -> tuple[Edit, ...]:
-    """Return the edits that make one tag of all those that a name is declared in. The package has a manifest."""
+def change_dependency(package: Package, depends: Sequence[Depend], tag: str, alike: Collection[Depend] = ()) -> tuple[Edit, ...]:
+    """Return the edits that make one tag of all those that a name is declared in. The package has a manifest.
+
+    ``alike`` are all that change to this tag.
+    """
     assert package.manifest is not None
     kept = next((depend for depend in depends if depend.tag == tag), depends[0])
-    edits = () if kept.tag == tag else manifest_edits.change_tag(kept, tag)
+    edits = () if kept.tag == tag else manifest_edits.change_kind(package.manifest, kept, tag, alike)
     return (*edits, *(manifest_edits.remove(package.manifest, depend) for depend in depends if depend is not kept))
 
 

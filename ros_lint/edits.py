@@ -103,8 +103,8 @@ _NEW_MODE = 0o644
 
 def _apply_to(source: Text, edits: Sequence[Edit]) -> str:
     text = source.text
-    # From the end, so that earlier offsets stay true; insertions at one place keep their order.
-    numbered = sorted(enumerate(edits), key=lambda pair: (pair[1].span[1:], pair[0]))
+    # From the end, so that earlier offsets stay true.
+    numbered = sorted(enumerate(edits), key=lambda pair: (pair[1].span[1:], pair[1].rank, pair[0]))
     for _, edit in reversed(numbered):
         start = source.offset(edit.span.line, edit.span.column)
         end = source.offset(edit.span.end_line, edit.span.end_column)

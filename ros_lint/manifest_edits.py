@@ -7,8 +7,8 @@ that the manifest was read from; of a text that is not well-formed the edits are
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from itertools import pairwise
+from collections.abc import Collection, Iterable, Iterator
+from itertools import groupby, pairwise
 from typing import Final, NamedTuple
 
 from ros_lint.facts.manifest import Depend, Element, Manifest
@@ -38,13 +38,31 @@ def add(manifest: Manifest, tag: str, name: str) -> Edit:
     It goes among the tags of its kind, at its place if they are sorted; else to where the usual order wants it, set off by
     a blank line if that is the habit of the file.
     """
-    layout = _Layout(manifest)
-    element = f"<{tag}>{_escape(name)}</{tag}>"
+    return _put(_Layout(manifest), tag, name, f"<{tag}>{_escape(name)}</{tag}>")
+
+
+def _put(layout: _Layout, tag: str, name: str, element: str) -> Edit:
+    """Return the edit that puts an element for a dependency where the file has its like, and in its order beside others."""
+    order = name if _is_sorted(layout.manifest, tag) else ""
+    return _place(layout, tag, name, element)._replace(rank=f"{_HABIT.index(tag):02} {order}")
+
+
+def _is_sorted(manifest: Manifest, tag: str) -> bool:
+    """Whether the dependencies of a kind are sorted by name; of a kind with less than two, whether those of all others are."""
+    names: dict[str, list[str]] = {}
+    for depend in manifest.depends:
+        names.setdefault(depend.tag, []).append(depend.name)
+    several = {kind: found for kind, found in names.items() if len(found) > 1}
+    asked = [several[tag]] if tag in several else list(several.values())
+    return bool(asked) and all(found == sorted(found) for found in asked)
+
+
+def _place(layout: _Layout, tag: str, name: str, element: str) -> Edit:
+    manifest = layout.manifest
     siblings = [depend for depend in manifest.depends if depend.tag == tag]
     if siblings:
-        names = [depend.name for depend in siblings]
         before = siblings
-        if len(names) > 1 and names == sorted(names):
+        if _is_sorted(manifest, tag):
             before = [depend for depend in siblings if depend.name < name]
         return layout.after(before[-1].span, element) if before else layout.before(siblings[0].span, element)
     if manifest.depends:
@@ -75,6 +93,23 @@ def rename(depend: Depend, name: str) -> Edit:
     if not depend.name:
         return Edit(depend.span, _written(depend._replace(name=name)))
     return Edit(depend.name_span, _escape(name))
+
+
+def change_kind(manifest: Manifest, depend: Depend, tag: str, alike: Collection[Depend]) -> tuple[Edit, ...]:
+    """Return the edits that make another kind of dependency of one.
+
+    It goes to those of its new kind where the file keeps kinds together. Otherwise it stays where it is: so does a row of one
+    kind that changes as a whole, where there are none of the new one; ``alike`` are those that change to the same kind.
+    """
+    depends = manifest.depends
+    runs = [list(run) for _, run in groupby(depends, key=lambda each: each.tag)]
+    row = next(run for run in runs if depend in run)
+    kinds = {each.tag for each in depends}
+    whole = tag not in kinds and all(each in alike for each in row)
+    layout = _Layout(manifest)
+    if len(runs) > len(kinds) or whole or not layout.alone(depend.span) or not _is_verbatim(depend):
+        return change_tag(depend, tag)
+    return (_put(layout, tag, depend.name, _written(depend._replace(tag=tag))), layout.removal(depend.span))
 
 
 def change_tag(depend: Depend, tag: str) -> tuple[Edit, ...]:

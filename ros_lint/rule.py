@@ -40,6 +40,8 @@ class Edit(NamedTuple):
 
     span: Span
     text: str
+    rank: str = ""
+    """Of several insertions at one place the one of the least rank comes first; those of one rank keep their order."""
 
 
 class Fix(NamedTuple):

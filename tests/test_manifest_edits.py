@@ -120,6 +120,8 @@ def test_change_tag_and_rename(text: str, which: int, tag: str) -> None:
     changed = apply(text, manifest_edits.change_tag(depend, tag))
     gone = Counter([(depend.tag, depend.name, depend.condition)])
     assert declared(changed) == declared(text) - gone + Counter([(tag, depend.name, depend.condition)])
+    moved = apply(text, manifest_edits.change_kind(manifest, depend, tag, depends[:2]))
+    assert declared(moved) == declared(changed)
     renamed = apply(text, [manifest_edits.rename(depend, "renamed")])
     assert declared(renamed) == declared(text) - gone + Counter([(depend.tag, "renamed", depend.condition)])
 
@@ -219,6 +221,60 @@ def test_add_finds_the_place(body: str, tag: str, name: str, expected: str) -> N
 def test_set_build_type(body: str, expected: str) -> None:
     text = manifest_of(body)
     assert apply(text, [manifest_edits.set_build_type(read(text), "cmake")]) == manifest_of(expected)
+
+
+@pytest.mark.parametrize(
+    ("body", "changed", "expected"),
+    [
+        (  # a kind stays together, and sorted
+            "  <test_depend>a</test_depend>\n  <test_depend>x</test_depend>\n\n  <depend>b</depend>\n  <depend>z</depend>",
+            "x",
+            "  <test_depend>a</test_depend>\n\n  <depend>b</depend>\n  <depend>x</depend>\n  <depend>z</depend>",
+        ),
+        (  # one of several goes to where its new kind belongs
+            "  <build_depend>a</build_depend>\n  <test_depend>b</test_depend>\n  <test_depend>x</test_depend>\n"
+            "  <test_depend>y</test_depend>",
+            "x",
+            "  <depend>x</depend>\n  <build_depend>a</build_depend>\n  <test_depend>b</test_depend>\n"
+            "  <test_depend>y</test_depend>",
+        ),
+        (  # all of a row stay, for nothing is torn apart
+            "  <build_depend>x</build_depend>\n  <build_depend>y</build_depend>\n  <test_depend>b</test_depend>",
+            "xy",
+            "  <depend>x</depend>\n  <depend>y</depend>\n  <test_depend>b</test_depend>",
+        ),
+        (  # where kinds are mixed
+            "  <depend>a</depend>\n  <test_depend>x</test_depend>\n  <depend>c</depend>\n  <test_depend>d</test_depend>",
+            "x",
+            "  <depend>a</depend>\n  <depend>x</depend>\n  <depend>c</depend>\n  <test_depend>d</test_depend>",
+        ),
+        (  # a comment says what it is for
+            "  <depend>a</depend>\n\n  <!-- why -->\n  <test_depend>x</test_depend>",
+            "x",
+            "  <depend>a</depend>\n\n  <!-- why -->\n  <depend>x</depend>",
+        ),
+    ],
+)
+def test_change_kind_finds_the_place(body: str, changed: str, expected: str) -> None:
+    text = manifest_of(body)
+    manifest = read(text)
+    alike = [depend for depend in manifest.depends if depend.name in changed]
+    edits_made = [edit for depend in alike for edit in manifest_edits.change_kind(manifest, depend, "depend", alike)]
+    assert apply(text, edits_made) == manifest_of(expected)
+
+
+@pytest.mark.parametrize(
+    ("body", "wanted", "expected"),
+    [
+        ("<depend>a</depend>\n<depend>m</depend>", ["depend z", "depend n"], "amnz"),
+        ("<depend>m</depend>\n<depend>a</depend>", ["depend z", "depend n"], "mazn"),
+        ("<depend>a</depend>\n<depend>m</depend>", ["test_depend z", "exec_depend y", "test_depend n", "depend o"], "amoynz"),
+    ],
+)
+def test_what_is_added_at_one_place_is_in_order(body: str, wanted: list[str], expected: str) -> None:
+    text = manifest_of(body)
+    added = [manifest_edits.add(read(text), *each.split()) for each in wanted]
+    assert [depend.name for depend in read(apply(text, added)).depends] == list(expected)
 
 
 def test_raise_format() -> None:

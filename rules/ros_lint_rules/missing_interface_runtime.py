@@ -108,7 +108,8 @@ def _join(manifest: Manifest) -> tuple[Edit, ...]:
 
 def _runtime(package: Package, workspace: Workspace, place: Span, sure: Confidence) -> Iterator[Finding]:
     starts = [each.name for each in package.declared if each.role & (Role.EXEC | Role.EXPORT)]
-    if _RUNTIME in starts or _CORE in starts or any(need.name == _RUNTIME for need, sure in undeclared(package, workspace) if sure):
+    told = {need.name for need, certain in undeclared(package, workspace) if certain}
+    if not {_RUNTIME, _CORE}.isdisjoint(starts) or _RUNTIME in told:
         return
     closure = workspace.world.closure(starts)
     along = _RUNTIME in closure or bool(closure.unknown)

@@ -43,6 +43,7 @@ from ros_lint.api import (
     BuildTarget,
     Confidence,
     Declared,
+    Depend,
     Facet,
     Finding,
     Fix,
@@ -80,7 +81,35 @@ _TO_BUILD = Role.BUILD | Role.TOOL
 _AFTERWARDS = Role.EXEC | Role.EXPORT
 
 
+class _Wrong(NamedTuple):
+    """A name that is declared in tags which do not reach far enough."""
+
+    name: str
+    depends: list[Depend]
+    tag: str
+    """What to write instead."""
+    why: str
+    uses: list[Use]
+    confidence: Confidence
+
+
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    every = list(_wrong(package, workspace))
+    for wrong in every:
+        name, tag = wrong.name, wrong.tag
+        written = " and ".join(dict.fromkeys(f"<{depend.tag}>" for depend in wrong.depends))
+        alike = [depend for other in every if other.tag == tag for depend in other.depends]
+        yield Finding(
+            f"{name} is declared as {written} only, {wrong.why}: make it <{tag}>{name}</{tag}>",
+            wrong.depends[0].span,
+            name,
+            tuple(Related(f"used here: {use.what}", use.span) for use in wrong.uses[:_MOST_RELATED]),
+            Fix(f"declare {name} as <{tag}>", change_dependency(package, wrong.depends, tag, alike)),
+            wrong.confidence,
+        )
+
+
+def _wrong(package: Package, workspace: Workspace) -> Iterator[_Wrong]:
     manifest = package.manifest
     if manifest is None or manifest.problems or manifest.format == 1:
         return
@@ -113,15 +142,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         said.add(name)
         mine = [declared.depend for declared in tags if declared.name == name]
         tag = tag_for(package, workspace, name, seen.role | (_given(tags, name) & ~_TEST))
-        written = " and ".join(dict.fromkeys(f"<{depend.tag}>" for depend in mine))
-        yield Finding(
-            f"{name} is declared as {written} only, {lacking.why}: make it <{tag}>{name}</{tag}>",
-            mine[0].span,
-            name,
-            tuple(Related(f"used here: {use.what}", use.span) for use in uses[:_MOST_RELATED]),
-            Fix(f"declare {name} as <{tag}>", change_dependency(package, mine, tag)),
-            lacking.confidence,
-        )
+        yield _Wrong(name, mine, tag, lacking.why, uses, lacking.confidence)
 
 
 def _is_for_all(declared: Declared) -> bool:
