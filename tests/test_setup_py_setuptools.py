@@ -222,6 +222,28 @@ def test_same_as_setuptools(variant: str, truth: dict[str, dict[str, object]]) -
         assert {name.rpartition(".")[0] for name in set(found.python_packages) - packages} <= packages
 
 
+BUILT = """
+import json, os, sys, setuptools
+out = []
+for packages in json.load(sys.stdin)["packages"]:
+    command = setuptools.Distribution({"packages": packages, "script_name": "setup.py"}).get_command_obj("build_py")
+    command.ensure_finalized()
+    paths = command.get_outputs(include_bytecode=0)
+    out.append([os.path.normpath(os.path.relpath(path, command.build_lib)) for path in paths])
+json.dump(out, sys.stdout)
+"""
+
+
+def test_same_modules_as_build_py(tmp_path: Path) -> None:
+    """A package may be named by its path, which setuptools only warns of."""
+    write_package(tmp_path / "pkg")
+    lists = [["pkg"], ["pkg", "pkg.sub"], ["pkg", "pkg/sub"], ["pkg", "pkg/sub/"], ["pkg/sub"]]
+    given: object = run_python(BUILT, tmp_path / "pkg", {"packages": lists})
+    for packages, paths in zip(lists, given, strict=True):  # type: ignore[call-overload]
+        modules = {path.removesuffix(".py").replace("/", ".").removesuffix(".__init__") for path in paths}
+        assert set(script(f"setup(name='pkg', packages={packages})").python_packages) == modules, packages
+
+
 # What setup.cfg and pyproject.toml add to setup(name='pkg').
 CONFIGURATIONS: dict[str, tuple[str, str, str]] = {
     "setup.cfg": (

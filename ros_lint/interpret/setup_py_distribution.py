@@ -105,7 +105,7 @@ class Distribution:
             packages, known = self._discovered(known)
         for name, _ in self._items(packages, Facet.PYTHON):
             if isinstance(name, str):
-                self._package(name, folder_of(name, known))
+                self._package(name, known)
         for name, _ in self._items(modules, Facet.PYTHON):
             if isinstance(name, str):
                 path = posixpath.join(known.get("", ""), name.replace(".", "/") + ".py")
@@ -115,11 +115,13 @@ class Distribution:
                 if not self._context.files.is_file(path):
                     self._problem("missing-file", f"{path} does not exist", name, path)
 
-    def _package(self, name: str, folder: str) -> None:
+    def _package(self, given: str, folders: Mapping[str, str]) -> None:
         files = self._context.files
-        self.python_packages.append(str(name))
+        name = given.strip("/").replace("/", ".")  # setuptools warns of a path, and installs what lies there
+        folder = folder_of(name, folders)
+        self.python_packages.append(name)
         if not files.is_folder(folder or "."):
-            self._problem("missing-file", f"there is no folder {folder} for the package {name}", name, folder)
+            self._problem("missing-file", f"there is no folder {folder} for the package {name}", given, folder)
         modules = files.modules(folder)
         self.python_packages += [f"{name}.{module}" for module in modules if module != "__init__"]
         lies = posixpath.normpath(folder)
