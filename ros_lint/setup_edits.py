@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import posixpath
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.setup_py import Slot
@@ -16,25 +16,43 @@ def slot(script: BuildScript, option: str) -> Slot | None:
     return next((found for found in script.slots if found.option == option and found.size), None)
 
 
-def add(place: Slot, element: str) -> Edit:
+def add(to: Slot, element: str) -> Edit:
     """Add an element after the last one: on a line of its own if that has one, and with a comma if that has one."""
-    gap = " " if place.indent is None else f"\n{place.indent}"
-    return Edit(place.end, f"{gap}{element}," if place.comma else f",{gap}{element}")
+    gap = " " if to.indent is None else f"\n{to.indent}"
+    return Edit(to.end, f"{gap}{element}," if to.comma else f",{gap}{element}")
 
 
-def files(place: Slot, package: str, paths: Sequence[str], others: Sequence[str]) -> str:
-    """Return an element of data_files that installs files of one folder under the same folder of the share directory.
+def place(script: BuildScript) -> Span:
+    """Return where a build script says what is installed: where a rule can be added, or else where it names the package."""
+    found = slot(script, "data_files")
+    return script.end or (found.end if found else script.name_span) or Span(script.path, 1, 1, 1, 1)
 
-    They are globbed by their ending, if setup.py globs and no other file of the folder, among ``others``, has it.
+
+def add_files(to: Slot, package: str, paths: Iterable[str], others: Sequence[str]) -> Edit | None:
+    """Add to data_files what installs files of the package under their folders in the share directory.
+
+    Those of a folder are globbed if setup.py globs: by their ending, unless another file of the folder, among ``others``, has
+    it, or all of them, where it has no folder in it, which data_files do not take. None where files lie beside setup.py itself.
     """
+    by_folder: dict[str, list[str]] = {}
+    for path in sorted(paths):
+        by_folder.setdefault(posixpath.dirname(path), []).append(path)
+    if not all(by_folder):
+        return None
+    gap = " " if to.indent is None else f"\n{to.indent}"
+    return add(to, f",{gap}".join(_files(to, package, inner, others) for inner in by_folder.values()))
+
+
+def _files(to: Slot, package: str, paths: Sequence[str], others: Sequence[str]) -> str:
     folder = posixpath.dirname(paths[0])
-    target = joined(place, package, "share/", f"/{folder}" if folder else "")
+    target = joined(to, package, "share/", f"/{folder}")
     ending = _ending(paths)
-    pattern = posixpath.join(folder, f"*{ending}")
-    alike = [other for other in others if posixpath.dirname(other) == folder and other.endswith(ending)]
-    if place.glob and ending and sorted(alike) == sorted(paths):
-        return f"({target}, {place.glob}('{pattern}'))"
-    return f"({target}, [{', '.join(repr(path) for path in paths)}])"
+    inside = [other for other in others if other.startswith(f"{folder}/")]
+    files = [other for other in inside if posixpath.dirname(other) == folder]
+    alike = [other for other in files if other.endswith(ending)]
+    if to.glob and (ending or inside == files) and sorted(alike) == sorted(paths):
+        return f"({target}, {to.glob}({quoted(to, f'{folder}/*{ending}')}))"
+    return f"({target}, [{', '.join(quoted(to, path) for path in paths)}])"
 
 
 def _ending(paths: Sequence[str]) -> str:
@@ -44,11 +62,26 @@ def _ending(paths: Sequence[str]) -> str:
     return shared[shared.find(".") :] if "." in shared else ""
 
 
-def joined(place: Slot, package: str, before: str, after: str = "") -> str:
-    """Return an expression for a text with the name of the package in it, by the variable that holds it if there is one."""
-    if not place.variable:
-        return f"'{before}{package}{after}'"
-    return " + ".join(part for part in (f"'{before}'" if before else "", place.variable, f"'{after}'" if after else "") if part)
+def joined(to: Slot, package: str, before: str, after: str = "") -> str:
+    """Return an expression for a text with the name of the package in it, by the variable that holds it if there is one.
+
+    It is put together as others in the list are. Slashes stand between what goes before, the name, and what comes after.
+    """
+    name = to.variable
+    if to.joins not in ("", "f") and "/" in before + after:
+        parts = (*before.split("/"), package, *after.split("/"))
+        return f"{to.joins}({', '.join(name if name and part == package else quoted(to, part) for part in parts if part)})"
+    if not name:
+        return quoted(to, f"{before}{package}{after}")
+    if to.joins == "f":
+        return f"f{quoted(to, f'{before}{{{name}}}{after}')}"
+    return " + ".join(part for part in (quoted(to, before) if before else "", name, quoted(to, after) if after else "") if part)
+
+
+def quoted(to: Slot, text: str) -> str:
+    """Return a text as Python writes it, with the quotes of the list."""
+    plain = repr(text)
+    return plain if to.quote in plain[1:-1] or "\\" in plain else f"{to.quote}{text}{to.quote}"
 
 
 _FOLDERS = (("develop", "script_dir"), ("install", "install_scripts"))

@@ -77,4 +77,27 @@ def _slot(source: Text, option: str, found: ast.List, variable: str) -> Slot:
     end = comma.end() if comma else at
     if comma and (remark := re.compile(r"[ \t]*#[^\n]*").match(source.text, end)):
         end = remark.end()
-    return Slot(option, source.span(end, end), comma is not None, None if before.strip() else before, len(found.elts), variable)
+    written = source.text[start_of(source, found) : close]
+    return Slot(
+        option,
+        source.span(end, end),
+        comma is not None,
+        None if before.strip() else before,
+        len(found.elts),
+        variable,
+        quote='"' if written.count('"') > written.count("'") else "'",
+        joins=_joins(found),
+    )
+
+
+def _joins(found: ast.List) -> str:
+    """Return how the last folder of data_files is put together that is not written as one text."""
+    folders = [element.elts[0] for element in found.elts if isinstance(element, ast.Tuple) and element.elts]
+    for folder in reversed(folders):
+        if isinstance(folder, ast.Call) and ast.unparse(folder.func).rpartition(".")[2] == "join":
+            return ast.unparse(folder.func)
+        if isinstance(folder, ast.JoinedStr):
+            return "f"
+        if not isinstance(folder, ast.Constant):
+            return ""
+    return ""

@@ -52,6 +52,10 @@ class Slot(NamedTuple):
     """A variable that holds the name of the package, if setup.py has one."""
     glob: str = ""
     """By which name setup.py calls glob.glob, "" if it does not import it."""
+    quote: str = "'"
+    """What stands around most texts in the list."""
+    joins: str = ""
+    """How folders are put together there: by this function, by f-strings ("f") or by ``+`` ("")."""
 
 
 class WrittenText(NamedTuple):

@@ -27,7 +27,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Facet, Finding, Fix, Package, Rule, Severity, Slot, Span, Workspace, setup_edits
+from ros_lint.api import Facet, Finding, Fix, Package, Rule, Severity, Slot, Workspace, setup_edits
 
 _MARKERS = "share/ament_index/resource_index/packages"
 
@@ -40,13 +40,14 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         return
     slot = setup_edits.slot(script, "data_files")
     paths = {provided.path for provided in script.provides}
-    place = slot.end if slot else script.name_span or Span(script.path, 1, 1, 1, 1)
+    place = setup_edits.place(script)
     unfound = any(problem.kind == "missing-file" and "resource/" in problem.subject for problem in script.problems)
     if not unfound and not any(path.startswith(f"{_MARKERS}/") for path in paths):
         marker = f"resource/{package.name}"
         fix = None
         if slot and marker in package.files:
-            fix = _add(slot, f"('{_MARKERS}', [{setup_edits.joined(slot, package.name, 'resource/')}])")
+            marker_too = setup_edits.joined(slot, package.name, "resource/")
+            fix = _add(slot, f"({setup_edits.quoted(slot, _MARKERS)}, [{marker_too}])")
         yield Finding(
             f"the marker of the package is not installed, so ROS does not find it; add {marker} to data_files",
             place,
@@ -58,8 +59,12 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             f"package.xml is not installed; add ('share/{package.name}', ['package.xml']) to data_files",
             place,
             "package.xml",
-            fix=_add(slot, f"({setup_edits.joined(slot, package.name, 'share/')}, ['package.xml'])") if slot else None,
+            fix=_add(slot, _manifest(slot, package.name)) if slot else None,
         )
+
+
+def _manifest(slot: Slot, package: str) -> str:
+    return f"({setup_edits.joined(slot, package, 'share/')}, [{setup_edits.quoted(slot, 'package.xml')}])"
 
 
 def _add(slot: Slot, element: str) -> Fix:

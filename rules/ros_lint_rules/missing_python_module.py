@@ -155,7 +155,7 @@ def _fix(slot: Slot | None, name: str, package: str) -> Fix | None:
     if slot is None:
         return None
     inside = name.startswith(f"{package}.")
-    element = setup_edits.joined(slot, package, "", name.removeprefix(package)) if inside else f"'{name}'"
+    element = setup_edits.joined(slot, package, "", name.removeprefix(package)) if inside else setup_edits.quoted(slot, name)
     return Fix(f"add {name} to packages", (setup_edits.add(slot, element),))
 
 

@@ -113,7 +113,7 @@ def _finding(package: Package, folder: str, paths: Iterable[str], whole: bool) -
     base = f"{package.path}/" if package.path else ""
     return Finding(
         f"{what}: ros2 launch will not find {'it' if len(paths) == 1 else 'them'}",
-        script.end or Span(script.path, 1, 1, 1, 1),
+        setup_edits.place(script),
         folder or paths[0],
         tuple(Related("this launch file", Span(f"{base}{path}", 1, 1, 1, 1)) for path in paths[:_MOST_RELATED]),
         _fix(package, folder, paths, whole),
@@ -139,17 +139,8 @@ def _fix(package: Package, folder: str, paths: Iterable[str], whole: bool) -> Fi
 
 def _fix_of_setup(package: Package, folder: str, paths: Iterable[str], whole: bool) -> Fix | None:
     slot = setup_edits.slot(package.script, "data_files") if package.script else None
-    if slot is None:
-        return None
-    by_folder: dict[str, list[str]] = {}
-    for path in sorted(paths):
-        by_folder.setdefault(path.rpartition("/")[0], []).append(path)
-    if not all(by_folder):
-        return None  # beside setup.py itself
-    elements = [setup_edits.files(slot, package.name, inner, package.files) for inner in by_folder.values()]
-    gap = " " if slot.indent is None else f"\n{slot.indent}"
-    what = f"{folder}/" if whole else " ".join(sorted(paths))
-    return Fix(f"install {what}", (setup_edits.add(slot, f",{gap}".join(elements)),))
+    edit = setup_edits.add_files(slot, package.name, paths, package.files) if slot else None
+    return Fix(f"install {f'{folder}/' if whole else ' '.join(sorted(paths))}", (edit,)) if edit else None
 
 
 RULE = Rule(

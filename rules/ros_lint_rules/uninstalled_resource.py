@@ -12,7 +12,8 @@ At run time only the install space counts: "No such file or directory: .../insta
 ## How to fix it
 
 In `CMakeLists.txt` add the folder to `install(DIRECTORY ... DESTINATION share/${PROJECT_NAME})`; the fix does this. In
-`setup.py` add an entry to `data_files`: `('share/' + package_name + '/config', glob('config/*'))`.
+`setup.py` add an entry to `data_files`: `('share/' + package_name + '/config', glob('config/*'))`; the fix does this, too,
+where `data_files` is written out and the files are not too many.
 
 ## When it keeps silent
 
@@ -123,18 +124,11 @@ def _named(package: Package, unit: str, found: list[tuple[str, Span]]) -> Findin
     inside = f"{named} is looked up in it" if unit.endswith("/") and paths else "is looked up at run time"
     return Finding(
         f"{unit} is not installed, and {inside}",
-        _place(package),
+        setup_edits.place(script),
         unit,
         tuple(Related("looked up here", span) for _, span in found[:4]),
         _fix(package, unit),
     )
-
-
-def _place(package: Package) -> Span:
-    script = package.script
-    assert script is not None
-    slot = setup_edits.slot(script, "data_files")
-    return script.end or (slot.end if slot else script.name_span) or Span(script.path, 1, 1, 1, 1)
 
 
 def _folders(package: Package, kept: set[str], told: set[str]) -> Iterator[Finding]:
@@ -167,7 +161,7 @@ def _folders(package: Package, kept: set[str], told: set[str]) -> Iterator[Findi
         named = ", ".join(shown[:3]) + (" ..." if len(shown) > 3 else "")
         yield Finding(
             f"{folder}/ ({named}) is not installed, so nothing finds it at run time",
-            _place(package),
+            setup_edits.place(script),
             f"{folder}/",
             tuple(Related(f"{file.rpartition('/')[2]} is named here", places[file]) for file in looked_up[:4]),
             fix=_fix(package, f"{folder}/") if "/" not in folder else None,
@@ -215,6 +209,10 @@ def _confidence(folder: str, files: list[str], looked_up: list[str], shared: boo
     return Confidence.HIGH if (shared and for_run_time) or for_nodes else Confidence.MEDIUM
 
 
+_MOST_LISTED = 12
+"""Files that a fix lists or globs in ``data_files``; a folder with more may need another way."""
+
+
 def _fix(package: Package, unit: str) -> Fix | None:
     script = package.script
     assert script is not None
@@ -225,9 +223,9 @@ def _fix(package: Package, unit: str) -> Fix | None:
             edit = cmake_edits.install_folder(package, folder)
         elif script.end:
             edit = cmake_edits.install_file(script.end, unit)
-    elif name and (slot := setup_edits.slot(script, "data_files")):
-        place = setup_edits.joined(slot, package.name, "share/", f"/{folder}" if folder else "")
-        edit = setup_edits.add(slot, f"({place}, ['{unit}'])")
+    elif slot := setup_edits.slot(script, "data_files"):
+        paths = [unit] if name else [file for file in package.files if file.startswith(unit)]
+        edit = setup_edits.add_files(slot, package.name, paths, package.files) if len(paths) <= _MOST_LISTED else None
     return Fix(f"install {unit}", (edit,)) if edit else None
 
 
