@@ -136,12 +136,14 @@ def _include(reader: Reader, entity: Entity) -> LaunchAction:
     if any(child.tag == "let" for child in entity.children):
         arguments += reader.named(entity, "let")
         reader.note_newer("<let> in <include>", next(child.span for child in entity.children if child.tag == "let"))
+    spans = [child.place("name") for tag in ("arg", "let") for child in entity.children if child.tag == tag]
     return LaunchAction(
         "include",
         entity.span,
         target=target,
         package_span=reader.package_span(entity, "file"),
         arguments=arguments,
+        argument_spans=tuple(spans) if len(spans) == len(arguments) else (),
         conditions=conditions,
     )
 

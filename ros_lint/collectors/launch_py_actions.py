@@ -13,6 +13,7 @@ from ros_lint.collectors.launch_py_texts import SUBSTITUTIONS, is_text, texts
 from ros_lint.collectors.launch_py_walk import Rule, Walker, place_of
 from ros_lint.collectors.launch_text import UNKNOWN
 from ros_lint.facts.launch import LaunchAction, LaunchValue
+from ros_lint.text import Span
 
 _MOST_TEXTS = 2_000
 
@@ -31,18 +32,21 @@ def _include(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchA
     if isinstance(source, Made) and source.name == "LaunchDescription":
         return walker.actions(source, conditions)
     target = walker.text(source, node, where)
+    passed = list(_pairs(walker, made.get(1, "launch_arguments"), made))
     include = LaunchAction(
         "include",
         place_of(made),
         target=target,
         package_span=walker.package_span(target),
-        arguments=tuple(_pairs(walker, made.get(1, "launch_arguments"), made)),
+        arguments=tuple([(name, value) for name, _, value in passed]),
+        argument_spans=tuple([span for _, span, _ in passed]),
         conditions=conditions,
     )
     return walker.apart(include, given)
 
 
-def _pairs(walker: Walker, value: Value, made: Made) -> Iterator[tuple[str, LaunchValue]]:
+def _pairs(walker: Walker, value: Value, made: Made) -> Iterator[tuple[str, Span, LaunchValue]]:
+    """Yield what is passed to an included file: its name, where that stands, and the value."""
     node = made.written(1, "launch_arguments")
     given = plain(value)
     if isinstance(given, dict):
@@ -51,10 +55,12 @@ def _pairs(walker: Walker, value: Value, made: Made) -> Iterator[tuple[str, Laun
     for pair in pairs if pairs is not None else [given]:
         parts = items(walker.machine, pair)
         if parts is None or len(parts) != 2:
-            yield UNKNOWN, walker.text(UNKNOWN, node, made.source)
+            unknown = walker.text(UNKNOWN, node, made.source)
+            yield UNKNOWN, unknown.span, unknown
             continue
+        place = walker.text(parts[0], node, made.source).span
         for name in texts(parts[0]):
-            yield str(name), walker.text(parts[1], node, made.source)
+            yield str(name), place, walker.text(parts[1], node, made.source)
 
 
 def _declare(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:

@@ -48,6 +48,8 @@ class LaunchAction(NamedTuple):
     arguments: tuple[tuple[str, LaunchValue], ...] = ()
     """What is passed to an included file by name; the words that a process or node is given, under "", and what else it is
     given by name: ``$VARIABLE`` of its environment, ``cwd``, ``prefix``."""
+    argument_spans: tuple[Span, ...] = ()
+    """Where the names of what is passed to an included file stand: one for each of ``arguments``, or none."""
     choices: tuple[str, ...] = ()
     parameters: tuple[tuple[str, LaunchValue], ...] = ()
     """By name; a file under "", any number of parameters that are not known under UNKNOWN."""

@@ -53,7 +53,6 @@ from ros_lint.api import (
     Finding,
     LaunchAction,
     LaunchFile,
-    LaunchValue,
     Links,
     Related,
     Rule,
@@ -177,7 +176,8 @@ def _of_include(
     action: LaunchAction, source: LaunchFile, links: Links, families: Families, filled: frozenset[str]
 ) -> Iterator[Finding]:
     target = links.target(action.target, source)
-    given = {name: value for name, value in action.arguments if name}
+    places = action.argument_spans or [value.span for _, value in action.arguments]
+    given = {name: place for (name, _), place in zip(action.arguments, places, strict=True) if name}
     if target is None or not all(is_plain(name) for name in given):
         return
     takes = links.takes(target.file)
@@ -200,17 +200,17 @@ def _of_include(
             )
     left = takes.known - given.keys()
     sure = not families.fill(target.file)
-    for name, value in given.items() if takes.complete else ():
+    for name, place in given.items() if takes.complete else ():
         if name not in takes.known and (sure or name not in filled):
-            yield _useless(file, name, value, left, sure=sure)
+            yield _useless(file, name, place, left, sure=sure)
 
 
-def _useless(file: str, name: str, value: LaunchValue, left: frozenset[str], *, sure: bool) -> Finding:
+def _useless(file: str, name: str, place: Span, left: frozenset[str], *, sure: bool) -> Finding:
     """Return the finding for an argument that nobody takes. One that resembles an argument not given was renamed."""
     near = difflib.get_close_matches(name, left, 1, 0.85)
     return Finding(
         f"{file} takes no argument {name}: it does nothing there{f'; did you mean {near[0]}?' if near else ''}",
-        value.span,
+        place,
         f"{file}:{name}",
         confidence=Confidence.HIGH if sure else Confidence.MEDIUM,
         severity=None if near else Severity.INFO,
