@@ -92,6 +92,16 @@ def test_targets_and_variables_of_other_packages() -> None:
     }  # fmt: skip
 
 
+def test_what_pkg_config_is_told_to_call_its_variables_is_the_name_of_no_package() -> None:
+    script = run(
+        "find_package(Eigen3 REQUIRED)\npkg_check_modules(EIGEN3 eigen3)\npkg_check_modules(libcamera REQUIRED libcamera>=0.1)\n"
+        "add_library(core a.cpp)\n"
+        "target_include_directories(core PUBLIC ${libcamera_INCLUDE_DIRS} ${EIGEN3_INCLUDE_DIRS})\n",
+        ("a.cpp",),
+    )
+    assert [mention.name for mention in script.mentions if mention.via == "target"] == ["Eigen3"]
+
+
 def test_what_targets_are_linked_with() -> None:
     text = """
     set(DEPS a pkg::b rclcpp::rclcpp)

@@ -69,7 +69,7 @@ def found(run: Run, name: str, *, required: bool) -> None:
     else:
         run.set(f"{name}_FOUND", HOLE)
     run.open_world = True
-    run.prefixes[name] = None
+    run.prefixes[name] = True
     if name in _SHARED_LIBRARIES and run.get("BUILD_SHARED_LIBS") is None:
         run.put(run.cache, "BUILD_SHARED_LIBS", "ON")
         run.settable.add("BUILD_SHARED_LIBS")
@@ -94,7 +94,7 @@ def _find_all(run: Run, args: list[str]) -> None:
         names = run.sources.build_depends
         run.set(f"{run.get('PROJECT_NAME') or ''}_FOUND_BUILD_DEPENDS", _FOUND_DECLARED)
     run.open_world = True
-    run.prefixes.update(dict.fromkeys(names))
+    run.prefixes.update(dict.fromkeys(names, True))
     packages = run.packages
     for name in names:
         if name not in packages:
@@ -132,7 +132,7 @@ def _pkg_config(run: Run, args: list[str]) -> None:
     if not args or HOLE in args[0]:
         return
     run.open_world = True
-    run.prefixes[args[0]] = None
+    run.prefixes.setdefault(args[0], False)
     run.set(f"{args[0]}_FOUND", "1" if "REQUIRED" in args else HOLE)
 
 
@@ -182,10 +182,10 @@ def _link_libraries(run: Run, args: list[str]) -> None:
 
 def _package_of(run: Run, prefix: str) -> str:
     """Return the found package whose variables begin with a prefix, or ""."""
-    if prefix in run.prefixes:
+    if run.prefixes.get(prefix):
         return prefix
     letters = folded(prefix)
-    return next((name for name in run.prefixes if folded(name) == letters), "")
+    return next((name for name, is_package in run.prefixes.items() if is_package and folded(name) == letters), "")
 
 
 def _hide(run: Run, args: list[str]) -> None:

@@ -91,8 +91,10 @@ class Run(Paths):
         """The package's own find modules, by what they find."""
         self.packages: Properties = Properties()
         """Packages that were found for sure."""
-        self.prefixes: dict[str, None] = {}
-        """Beginnings of the names of variables that found packages may have set."""
+        self.prefixes: dict[str, bool] = {}
+        """Beginnings of the names of variables that found packages may have set, and whether each is the name of one.
+
+        pkg-config is told what to call them."""
         self._folded: tuple[str, ...] = ()
         self.open_world = False
         """Whether code that is not in sight has run."""
