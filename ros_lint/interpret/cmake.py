@@ -242,7 +242,8 @@ def _unnamed(run: Run, names: Iterable[str]) -> list[str]:
 def _missing(run: Run) -> list[Problem]:
     found = []
     for source, span, unsure in run.missing:
-        if not unsure and source not in run.generated and not run.is_unseen(source):
+        # CMake takes a folder among the sources, and does nothing with it.
+        if not unsure and source not in run.generated and not run.is_folder(source):
             found.append(Problem("missing-file", f"{source} does not exist", span, subject=source))
     return list(dict.fromkeys(found))
 

@@ -19,7 +19,7 @@ Correct the path, add the file to the repository, or remove the line. A folder t
 ## When it keeps silent
 
 - Paths that cannot be evaluated, files in the build folder, and files that the build generates.
-- Under a condition that may not hold, and with `OPTIONAL`.
+- Under a condition that may not hold, and with `OPTIONAL`. Folders among the sources of a target, which CMake passes over.
 - The confidence is medium where the script runs programs that may make files or downloads them, for what git ignores or may
   be a submodule, and for what is installed where custom commands or targets work in the source folder: they may make it.
 """
