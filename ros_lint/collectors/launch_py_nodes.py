@@ -8,7 +8,7 @@ from typing import Literal
 
 from ros_lint.collectors.launch_py_events import later
 from ros_lint.collectors.launch_py_methods import items
-from ros_lint.collectors.launch_py_objects import PERHAPS, Conditions, FilePath, Made, Value, alternatives, plain
+from ros_lint.collectors.launch_py_objects import PERHAPS, Conditions, FilePath, Guarded, Made, Value, alternatives, plain, union
 from ros_lint.collectors.launch_py_texts import is_text, texts
 from ros_lint.collectors.launch_py_walk import Rule, Walker, place_of, span_of
 from ros_lint.collectors.launch_text import UNKNOWN, named_in
@@ -199,10 +199,12 @@ def _remappings(walker: Walker, made: Made) -> tuple[tuple[LaunchValue, LaunchVa
     if "remappings" in made.keywords:
         node = made.written(-1, "remappings")
         for pair in items(walker.machine, made.keywords["remappings"]) or ():
-            parts = items(walker.machine, pair)
-            if parts is not None and len(parts) == 2:
-                found.append((walker.text(parts[0], node, made.source), walker.text(parts[1], node, made.source)))
-            elif parts is not None or isinstance(plain(pair), str):
+            choices = [(items(walker.machine, one.value), one) for one in alternatives(pair)]
+            pairs = [(parts, one.conditions) for parts, one in choices if parts is not None and len(parts) == 2]
+            if pairs and len(pairs) == len(choices):
+                first, second = (union(Guarded(parts[at], conditions) for parts, conditions in pairs) for at in (0, 1))
+                found.append((walker.text(first, node, made.source), walker.text(second, node, made.source)))
+            elif any(isinstance(one.value, str) if parts is None else len(parts) != 2 for parts, one in choices):
                 walker.problems.append(Problem("remapping", "a remapping is a pair of names", span_of(node, made.source)))
     return tuple(found)
 
