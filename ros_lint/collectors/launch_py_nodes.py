@@ -115,8 +115,8 @@ def _load(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchActi
 def _process(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
     command = made.get(0, "cmd")
     words = items(walker.machine, command) if command is not None else None
-    node = made.written(0, "cmd")
-    arguments = [("", walker.text(word, node, made.source)) for word in words or ()]
+    places = elements(made.written(0, "cmd"), len(words or ()))
+    arguments = [("", walker.text(word, node, made.source)) for word, node in zip(words or (), places, strict=True)]
     target = arguments[0][1] if arguments else None
     process = LaunchAction(
         "process",
@@ -138,11 +138,16 @@ def _given(walker: Walker, made: Made, *names: str) -> tuple[tuple[str, LaunchVa
         given = plain(made.keywords[name])
         node = made.written(-1, name)
         if isinstance(given, dict):
-            found += [(f"${_key(key)}", walker.text(plain(value), node, made.source)) for key, value in given.items()]
+            places = elements(node, len(given))
+            found += [
+                (f"${_key(key)}", walker.text(plain(value), place, made.source))
+                for (key, value), place in zip(given.items(), places, strict=True)
+            ]
             continue
         word = "" if name in ("arguments", "ros_arguments") else name
         values = items(walker.machine, given) or [given]
-        found += [(word, walker.text(plain(value), node, made.source)) for value in values]
+        places = elements(node, len(values))
+        found += [(word, walker.text(plain(value), place, made.source)) for value, place in zip(values, places, strict=True)]
     return tuple(found)
 
 
@@ -150,32 +155,45 @@ def _parameters(walker: Walker, made: Made) -> tuple[tuple[str, LaunchValue], ..
     found: list[tuple[str, LaunchValue]] = []
     if "parameters" not in made.keywords:
         return ()
-    node = made.written(-1, "parameters")
-    for given in items(walker.machine, made.keywords["parameters"]) or [made.keywords["parameters"]]:
+    every = items(walker.machine, made.keywords["parameters"]) or [made.keywords["parameters"]]
+    for given, node in zip(every, elements(made.written(-1, "parameters"), len(every)), strict=True):
         for one in alternatives(given):
             _parameter(walker, one.value, node, made, found)
     return tuple(found)
 
 
 def _parameter(walker: Walker, value: Value, node: ast.expr, made: Made, found: list[tuple[str, LaunchValue]]) -> None:
-    waiting = [("", value)]
+    waiting = [("", value, node)]
     for _ in range(_MOST_PARAMETERS):
         if not waiting:
             break
         walker.machine.spend(_STEPS_A_PARAMETER)
-        name, one = waiting.pop()
+        name, one, place = waiting.pop()
         if isinstance(one, dict):
             walker.machine.spend(len(one))
-            waiting += reversed([(f"{name}.{key}" if name else _key(key), plain(inner)) for key, inner in one.items()])
+            names = [f"{name}.{key}" if name else _key(key) for key in one]
+            waiting += reversed(list(zip(names, map(plain, one.values()), elements(place, len(one)), strict=True)))
         elif isinstance(one, (list, tuple)) and not name and not all(_names_file(plain(part)) for part in one):
             walker.machine.spend(len(one))
-            waiting += [("", plain(inner)) for inner in reversed(one)]
+            waiting += [
+                ("", plain(inner), at) for inner, at in zip(reversed(one), reversed(elements(place, len(one))), strict=True)
+            ]
         elif name:
-            found.append((name, walker.text(_list(one), node, made.source)))
+            found.append((name, walker.text(_list(one), place, made.source)))
         else:
             # What is not known is mostly a dictionary of parameters, and no file.
             known = isinstance(one, (list, tuple)) or _names_file(one)
-            found.append(("" if known else UNKNOWN, walker.text(one, node, made.source)))
+            found.append(("" if known else UNKNOWN, walker.text(one, place, made.source)))
+
+
+def elements(node: ast.expr, count: int) -> list[ast.expr]:
+    """Return where each element of a list, or value of a dictionary, is written: where that is, if it is not written out."""
+    written: list[ast.expr] = []
+    if isinstance(node, (ast.List, ast.Tuple)):
+        written = [element if not isinstance(element, ast.Starred) else node for element in node.elts]
+    elif isinstance(node, ast.Dict) and None not in node.keys:
+        written = node.values
+    return written if len(written) == count else [node] * count
 
 
 def _names_file(value: Value) -> bool:
