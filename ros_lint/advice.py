@@ -29,7 +29,7 @@ class Advice(NamedTuple):
     @property
     def ending(self) -> str:
         """Return how a message goes on that has said what is amiss."""
-        return f", and cannot be declared: {self.obstacle}" if self.obstacle else f": add {self.written}"
+        return f", and it cannot be declared: {self.obstacle}" if self.obstacle else f": add {self.written}"
 
 
 def advice(package: Package, workspace: Workspace, name: str, role: Role) -> Advice:

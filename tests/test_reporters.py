@@ -261,7 +261,7 @@ def test_json_says_all_there_is() -> None:
             assert (found["fix"]["title"], found["fix"]["safe"], edits) == (
                 finding.fix.title,
                 finding.fix.safe,
-                list(finding.fix.edits),
+                [(edit.span, edit.text) for edit in finding.fix.edits],
             )
     assert document["summary"] == {"error": 3, "warning": 7, "info": 2, "fixable": 1, "unsafely_fixable": 1}
 

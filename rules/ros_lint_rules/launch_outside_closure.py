@@ -63,12 +63,12 @@ _MOST_RELATED = 4
 _AT_RUN_TIME = Role.EXEC | Role.EXPORT
 _ORDER = ("node", "component", "include", "command", "file", "package")
 _SAYS = {
-    "node": "{name} of {package} is started here",
-    "component": "{name} of {package} is loaded here",
-    "include": "{name} of {package} is included here",
+    "node": "{what} is started here",
+    "component": "{what} is loaded here",
+    "include": "{what} is included here",
     "command": "{name} is run here",
-    "file": "{name} of {package} is used here",
-    "package": "{package} is looked up here",
+    "file": "{what} is used here",
+    "package": "{what} is looked up here",
 }
 
 
@@ -80,13 +80,14 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     sighted = not workspace.unread(package)  # a file that cannot be read may be the script that runs these as tests
     for name, references in lacking:
         best, *others = sorted(references, key=lambda r: (r.package_by_default, r.conditional, _ORDER.index(r.kind), r.span))
-        says = _SAYS[best.kind].format(name=best.name, package=name)
+        what = best.name if best.name in ("", name) else f"{best.name} of {name}"
+        says = _SAYS[best.kind].format(what=what or name, name=best.name)
         only = ", if only under a condition" if best.conditional else ""
         only = ", by the default of an argument" if best.package_by_default else only
         way_out = advice(package, workspace, name, Role.EXEC)
         certain = sighted and way_out.certain and not may_bring(unknown, name, workspace)
         yield Finding(
-            f"{says}{only}, but does not come with {package.name}{way_out.ending}",
+            f"{says}{only}, but {package.name} does not depend on it{way_out.ending}",
             best.package_span,
             name,
             tuple(Related("also needed here", span) for span in islice(_elsewhere(best.package_span, others), _MOST_RELATED)),
