@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
 from ros_lint.collectors import launch_py_events, launch_py_nodes
 from ros_lint.collectors.launch_py_methods import items
 from ros_lint.collectors.launch_py_nodes import nested, started_node
-from ros_lint.collectors.launch_py_objects import Conditions, Made, Source, Value, plain
+from ros_lint.collectors.launch_py_objects import Conditions, Made, Source, Value, alternatives, plain
 from ros_lint.collectors.launch_py_run import Machine
 from ros_lint.collectors.launch_py_texts import SUBSTITUTIONS, is_text, texts
 from ros_lint.collectors.launch_py_walk import Rule, Walker, place_of
@@ -38,15 +38,19 @@ def _include(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchA
         place_of(made),
         target=target,
         package_span=walker.package_span(target),
-        arguments=tuple([(name, value) for name, _, value in passed]),
-        argument_spans=tuple([span for _, span, _ in passed]),
+        arguments=tuple([(name, value) for name, _, value, _ in passed]),
+        argument_spans=tuple([span for _, span, _, _ in passed]),
+        perhaps=_perhaps(passed),
         conditions=conditions,
     )
     return walker.apart(include, given)
 
 
-def _pairs(walker: Walker, value: Value, made: Made) -> Iterator[tuple[str, Span, LaunchValue]]:
-    """Yield what is passed to an included file: its name, where that stands, and the value."""
+_Passed = tuple[str, Span, LaunchValue, bool]
+"""What is passed to an included file: its name, where that stands, the value, and whether nobody knows if it is passed."""
+
+
+def _pairs(walker: Walker, value: Value, made: Made) -> Iterator[_Passed]:
     node = made.written(1, "launch_arguments")
     given = plain(value)
     if isinstance(given, dict):
@@ -56,11 +60,21 @@ def _pairs(walker: Walker, value: Value, made: Made) -> Iterator[tuple[str, Span
         parts = items(walker.machine, pair)
         if parts is None or len(parts) != 2:
             unknown = walker.text(UNKNOWN, node, made.source)
-            yield UNKNOWN, unknown.span, unknown
+            yield UNKNOWN, unknown.span, unknown, True
             continue
         place = walker.text(parts[0], node, made.source).span
+        conditions = (condition for one in alternatives(pair) for condition in one.conditions)
+        perhaps = any(UNKNOWN in text for condition in conditions for text in condition.texts)
         for name in texts(parts[0]):
-            yield str(name), place, walker.text(parts[1], node, made.source)
+            yield str(name), place, walker.text(parts[1], node, made.source), perhaps
+
+
+def _perhaps(passed: Iterable[_Passed]) -> tuple[str, ...]:
+    """Return what nobody knows to be passed; what either side of a branch passes is."""
+    sides: dict[str, int] = {}
+    for name, _, _, perhaps in passed:
+        sides[name] = sides.get(name, 0) + (1 if perhaps else 2)
+    return tuple([name for name, count in sides.items() if count == 1])
 
 
 def _declare(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:

@@ -11,6 +11,7 @@ from ros_lint.collectors.launch_py_methods import attribute, items
 from ros_lint.collectors.launch_py_misuse import note
 from ros_lint.collectors.launch_py_objects import (
     PERHAPS,
+    Api,
     Conditions,
     Frame,
     Guarded,
@@ -22,6 +23,7 @@ from ros_lint.collectors.launch_py_objects import (
     written,
 )
 from ros_lint.collectors.launch_py_operations import (
+    INSTALLED,
     compared,
     each,
     hashable,
@@ -256,7 +258,10 @@ def _lambda(machine: Machine, node: ast.Lambda, frame: Frame) -> Value:
 def _comprehension(machine: Machine, node: ast.ListComp | ast.SetComp | ast.GeneratorExp, frame: Frame) -> Value:
     found: list[Value] = []
     inner = Frame(frame.source, frame, {})
-    _generate(machine, node.generators, inner, lambda: found.append(machine.guard(machine.evaluate(node.elt, inner))))
+    of = machine.evaluate(node.generators[0].iter, inner)
+    if isinstance(of, Api) and of.name == INSTALLED:
+        return of  # whatever is made of each: who asks what is in it asks what is installed
+    _generate(machine, node.generators, of, inner, lambda: found.append(machine.guard(machine.evaluate(node.elt, inner))))
     return found
 
 
@@ -268,13 +273,16 @@ def _dict_comprehension(machine: Machine, node: ast.DictComp, frame: Frame) -> V
         key = hashable(plain(machine.evaluate(node.key, inner)))
         found[key] = machine.evaluate(node.value, inner)
 
-    _generate(machine, node.generators, inner, add)
+    _generate(machine, node.generators, machine.evaluate(node.generators[0].iter, inner), inner, add)
     return found
 
 
-def _generate(machine: Machine, generators: list[ast.comprehension], frame: Frame, produce: Callable[[], None]) -> None:
+def _generate(
+    machine: Machine, generators: list[ast.comprehension], of: Value, frame: Frame, produce: Callable[[], None]
+) -> None:
+    """Produce something for every choice of elements; ``of`` is what the first generator goes through."""
     first, rest = generators[0], generators[1:]
-    values = items(machine, machine.evaluate(first.iter, frame))
+    values = items(machine, of)
     guards: list[tuple[Value, Conditions]] = []
     if values is None:
         guards.append((Unknown("element of what is not known"), (PERHAPS,)))
@@ -292,7 +300,7 @@ def _generate(machine: Machine, generators: list[ast.comprehension], frame: Fram
         else:
             with machine.under(*needed):
                 if rest:
-                    _generate(machine, rest, frame, produce)
+                    _generate(machine, rest, machine.evaluate(rest[0].iter, frame), frame, produce)
                 else:
                     produce()
 

@@ -104,7 +104,7 @@ def _note(call: Call, package: Value, at: ast.expr, eager: bool) -> None:
     for one in alternatives(package):
         node, where = getattr(one.value, "node", at), getattr(one.value, "source", source)
         if isinstance(one.value, str):
-            call.machine.look_up(str(one.value), node, where, eager)
+            call.machine.look_up(str(one.value), node, where, eager, one.conditions)
 
 
 _ADDS = frozenset({"add_action", "add_entity", "append"})
@@ -269,6 +269,7 @@ _BY_LAST: Mapping[str, Rule] = {
     "get_package_prefix": _prefix,
     "get_packages_with_prefixes": lambda call: Api(INSTALLED),
     "get_resources": lambda call: Api(INSTALLED),
+    "get_search_paths": lambda call: Api(INSTALLED),
     "has_resource": _has_resource,
     "perform_substitutions": _perform(1),
     "normalize_to_list_of_substitutions": _first,

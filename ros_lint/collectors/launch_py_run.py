@@ -355,14 +355,14 @@ class Machine:
         """Return an element of something that a library has."""
         return subscript_library(self, owner, key)
 
-    def look_up(self, package: str, at: ast.expr, source: Source, eager: bool) -> None:
-        """Note that a package is looked up."""
+    def look_up(self, package: str, at: ast.expr, source: Source, eager: bool, conditions: Conditions) -> None:
+        """Note that a package is looked up; ``conditions`` are those under which it is this one."""
         if UNKNOWN not in package:
             known = self.named.get(package)
             if known is None or (_says(at, package) and not _says(known[0], package)):
                 self.named[package] = (at, source)
         if eager:
-            self.looked_up.append((package, at, source, self.conditions))
+            self.looked_up.append((package, at, source, (*self.conditions, *conditions)))
         else:
             self.lazily.add(package)
 

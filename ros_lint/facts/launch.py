@@ -57,6 +57,8 @@ class LaunchAction(NamedTuple):
     conditions: tuple[LaunchCondition, ...] = ()
     """All of them must hold; an unknown one has UNKNOWN for its text."""
     children: tuple[LaunchAction, ...] = ()
+    perhaps: tuple[str, ...] = ()
+    """Names of what is passed to an included file only if something holds of which nothing is known."""
 
 
 class LaunchReference(NamedTuple):

@@ -21,7 +21,8 @@ Give the argument, or give it a default where it is declared; correct the name, 
 
 ## When it keeps silent
 
-- Which file is included, or which arguments it gets, is not known from the launch files alone.
+- Which file is included, or which arguments it gets, is not known from the launch files alone; so it is with one that is
+  passed only if something holds of which nothing is known, such as what a function finds out about the included file.
 - A file that is included further down is not in the workspace: it may take the argument, or declare it.
 - Arguments that are declared under a condition or in a group are not required.
 - A file asks for arguments by names that it computes.
@@ -201,7 +202,7 @@ def _of_include(
     left = takes.known - given.keys()
     sure = not families.fill(target.file)
     for name, place in given.items() if takes.complete else ():
-        if name not in takes.known and (sure or name not in filled):
+        if name not in takes.known and name not in action.perhaps and (sure or name not in filled):
             yield _useless(file, name, place, left, sure=sure)
 
 
