@@ -51,7 +51,7 @@ def not_seen_used(package: Package) -> Iterator[Mention]:
     }
     used.add(package.name)
     for mention in script.mentions:
-        if mention.via == "cmake" and not (mention.optional or mention.test or mention.name in used):
+        if mention.via == "cmake" and not (mention.optional or mention.test or mention.purpose or mention.name in used):
             used.add(mention.name)
             yield mention
 

@@ -40,8 +40,9 @@ def find_package(run: Run, args: list[str]) -> int | None:
         run.bundled[name] = None  # the script says where it lies among the sources
     required = "REQUIRED" in args
     module = run.modules.get(name) if run.modules and "CONFIG" not in args and "NO_MODULE" not in args else None
-    if name and module is None and run.at_home() and not run.is_bundled(name):
-        span = run.where(args[0])
+    span = run.where(args[0]) if name else run.here()
+    told = run.at_home() or (run.is_helped() and span != run.here())  # or the package tells a helper what to find
+    if name and module is None and told and not run.is_bundled(name):
         optional = not certain or ("QUIET" in args and not required)
         run.mention(name, "cmake", span, optional=optional)
         if name in _PYTHON and any(arg.startswith("Development") for arg in args):

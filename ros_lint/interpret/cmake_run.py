@@ -334,12 +334,12 @@ class Run(Paths):
 
     def mention(self, name: str, via: Via, span: Span, what: str = "", *, optional: bool = False, purpose: Purpose = "") -> None:
         """Note that a line names a package."""
-        if via == "target" and not purpose and self._is_helped() and span == self.here():
+        if not purpose and self.is_helped() and (via == "cmake" or (via == "target" and span == self.here())):
             purpose = "helper"
         if not self.muted:
             self.mentions[Mention(name, via, span, what, optional or self.unsure > 0, self.testing, purpose)] = None
 
-    def _is_helped(self) -> bool:
+    def is_helped(self) -> bool:
         """Whether a command runs that another package of the workspace gives."""
         for frame in reversed(self.frames):
             if frame.own:
