@@ -238,7 +238,7 @@ class Liveness:
     def _generates(self) -> frozenset[str] | None:
         """Interface files that code is generated from, None where nobody knows."""
         script = self._script
-        if script is None or any(opaque.hides & Facet.INTERFACES for opaque in script.opaque):
+        if script is None or script.hides(Facet.INTERFACES):
             return None
         files = (file for file in self._files if file.endswith(_INTERFACES))
         return frozenset([file for file in files if _interface(file) in script.interfaces])

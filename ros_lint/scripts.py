@@ -196,8 +196,8 @@ def _with_files(tree: Tree, parts: Parts, script: BuildScript) -> BuildScript:
     executables = _Executables(tree, found)
     files = [_script_file(file, text, file in executables) for file in sources if (text := _text(tree, found, file))]
     files = _with_runs(tree, found, script, files)
-    hidden = any(opaque.hides & Facet.SHARE for opaque in script.opaque)
-    missing = {} if hidden else resource_files.uninstalled(found.files, [provided.source for provided in script.provides])
+    provided = [each.source for each in script.provides]
+    missing = {} if script.hides(Facet.SHARE) else resource_files.uninstalled(found.files, provided)
     if not (plugins or files or missing):
         return script
     return script._replace(

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from ros_lint.facts.cmake import Call, Target
 from ros_lint.facts.setup_py import EntryPoint, PythonModule, Slot, WrittenText
-from ros_lint.facts.sight import Opaque, Problem
+from ros_lint.facts.sight import Facet, Opaque, Problem
 from ros_lint.facts.sources import Mention
 from ros_lint.text import Span
 
@@ -160,3 +160,7 @@ class BuildScript(NamedTuple):
     """Sets that targets are exported in by install(TARGETS ... EXPORT)."""
     failed: bool = False
     """Whether it could not be evaluated by a mistake of ours, which ``opaque`` then tells."""
+
+    def hides(self, facet: Facet) -> bool:
+        """Whether the script cannot be seen through as to a facet. What code computes when it runs is no matter here."""
+        return any(opaque.hides & facet for opaque in self.opaque)

@@ -35,7 +35,7 @@ _NOT_SOUGHT = ("export", "plugins", "helper")
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
-    if script is None or script.problems or package.builds_with != "ament_cmake" or package.hidden(Facet.USES):
+    if script is None or script.problems or package.builds_with != "ament_cmake" or script.hides(Facet.USES):
         return
     found = found_names(package, script)
     spelt = {name.lower() for name in found}  # namespaces of targets may be spelt another way: RTABMap, rtabmap::core

@@ -63,7 +63,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or script.problems or package.builds_with != "ament_cmake":
         return
-    if package.hidden(Facet.USES) or _EXPORTS_ALL.intersection(script.calls):
+    if script.hides(Facet.USES) or _EXPORTS_ALL.intersection(script.calls):
         return
     by_cmake = workspace.world.by_cmake
     exported = {mention.name for mention in given_for(script, "export", "interfaces")}

@@ -42,7 +42,7 @@ _CALLS = {
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
-    if script is None or script.problems or package.builds_with != "ament_cmake" or package.hidden(Facet.USES):
+    if script is None or script.problems or package.builds_with != "ament_cmake" or script.hides(Facet.USES):
         return
     if _FIND.intersection(script.calls) or _checks_what_it_generates(package):
         return
