@@ -57,6 +57,7 @@ from ros_lint.api import (
     declared_closure,
     launchable,
     may_bring,
+    tag_for,
 )
 
 _MOST_RELATED = 4
@@ -80,8 +81,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             and not (best.idle or best.conditional)
             and _never_comes(name, package, workspace)
         )
+        told = _undeclared(name, package, workspace) if left_out and not verdict.known else ""
         yield Finding(
-            f"there is no package {name}{verdict.hint}{_LEFT_OUT if left_out else ''}",
+            f"there is no package {name}{verdict.hint}{told}",
             best.reference.package_span,
             name,
             tuple(Related("also named here", other.reference.package_span) for other in others[:_MOST_RELATED]),
@@ -104,7 +106,10 @@ class _Place(NamedTuple):
     reference: LaunchReference
 
 
-_LEFT_OUT = "; wherever it comes from, package.xml does not declare it"
+def _undeclared(name: str, package: Package, workspace: Workspace) -> str:
+    """Return how a message goes on about a package that may be had elsewhere, and that is not declared either."""
+    tag = tag_for(package, workspace, name, Role.EXEC)
+    return f"; if it comes from elsewhere, declare it: add <{tag}>{name}</{tag}>"
 
 
 def _never_comes(name: str, package: Package, workspace: Workspace) -> bool:
@@ -129,6 +134,8 @@ class _Verdict(NamedTuple):
     meant: str = ""
     resembles: bool = True
     """Whether it is a slip, or was renamed, rather than a package that is nowhere to be had."""
+    known: bool = False
+    """Whether the hint names what does the same in ROS 2."""
 
 
 def _unknown(package: Package, workspace: Workspace) -> Mapping[str, list[_Place]]:
@@ -165,8 +172,10 @@ def _verdict(name: str, package: Package, workspace: Workspace) -> _Verdict | No
         return _Verdict(f": {family} is meant", Confidence.HIGH, family)
     ended = world.knowledge.names.end_of_life(name)
     if ended:
-        hint = f" in {distro}, only in {', '.join(ended)}, which are no longer supported"
-        return _Verdict(hint, Confidence.MEDIUM, resembles=False)
+        successor = world.knowledge.names.successor(name)
+        use = f": use {successor}" if world.is_package(successor) else ""
+        hint = f" in {distro}, it was last released for {ended[0]} (data of {date}){use}"
+        return _Verdict(hint, Confidence.MEDIUM, resembles=False, known=bool(use))
     near = [other for other in world.suggest(name) if world.is_package(other)]
     hint = f"; did you mean {' or '.join(near)}?" if near else ""
     nowhere = f" in the workspace, the underlays or {distro} (data of {date})"
