@@ -188,6 +188,7 @@ class _Reading:
             if source is self._source:
                 references.opens(self._walker.text(path, node, source), conditions)
         self._spare(references)
+        references.do_without(path for paths in self._machine.asked.values() for path in paths)
         for package, node, source, conditions in self._machine.looked_up:
             value = self._walker.text(package, node, source)
             if value.texts == (package,):

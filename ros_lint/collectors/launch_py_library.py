@@ -191,6 +191,10 @@ def _is_there(names: tuple[str, ...]) -> Value:
     return Unknown("whether something is installed", LaunchCondition((asked,), None))
 
 
+def _exists(call: Call) -> Value:
+    return call.machine.ask(call.texts(0, "path"))
+
+
 def _first(call: Call) -> Value:
     return call.get(0)
 
@@ -243,6 +247,8 @@ _BY_NAME: Mapping[str, Rule] = {
     "os.path.expanduser": _on_path(str),
     "os.path.expandvars": _on_path(str),
     "os.path.normpath": _on_path(posixpath.normpath),
+    "os.path.exists": _exists,
+    "os.path.isfile": _exists,
     "os.path.split": _split(posixpath.split),
     "os.path.splitext": _split(posixpath.splitext),
     "os.fspath": _on_path(str),

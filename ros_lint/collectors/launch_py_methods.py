@@ -343,4 +343,6 @@ def _call_of_path(
                 return FilePath(posixpath.join(head, given if name == "with_name" else tail.rpartition(".")[0] + given))
         case "open" | "read_text" | "read_bytes":
             return machine.open_file(owner.text, node, frame.source)
+        case "exists" | "is_file":
+            return machine.ask((owner.text,))
     return Unknown(f"{name}() of a path")

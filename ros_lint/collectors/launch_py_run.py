@@ -83,6 +83,8 @@ class Machine:
         """Modules and files that are read and were not at hand."""
         self.opened: list[tuple[str, ast.expr, Source, Conditions]] = []
         """Paths of files that are opened at once to be read, where, and under which conditions: those that must be there."""
+        self.asked: dict[tuple[str, ...], tuple[str, ...]] = {}
+        """Paths of files that it asks for, by what stands for the answer: it does without those that are not there."""
         self.guarded = 0
         """How many statements around would catch that a file is missing."""
         self.lazily: set[str] = set()
@@ -354,6 +356,12 @@ class Machine:
     def subscript_of_library(self, owner: Value, key: Value) -> Value:
         """Return an element of something that a library has."""
         return subscript_library(self, owner, key)
+
+    def ask(self, paths: tuple[str, ...]) -> Value:
+        """Return whether a file is there, which is not known."""
+        answer = LaunchCondition((self.another(),), None)
+        self.asked[answer.texts] = paths
+        return Unknown("whether a file is there", answer)
 
     def look_up(self, package: str, at: ast.expr, source: Source, eager: bool, conditions: Conditions) -> None:
         """Note that a package is looked up; ``conditions`` are those under which it is this one."""

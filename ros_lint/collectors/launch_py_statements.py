@@ -94,7 +94,10 @@ def _either(
     if LEAVE in (first, second):
         # The rest of the function runs only if the other side was taken.
         frame.names = _kept(first_names, second_names) if first == LEAVE else _kept(second_names, first_names)
-        if not _gives_up(body if first == LEAVE else other, everywhere=not before):
+        leaving = body if first == LEAVE else other
+        if _stops(leaving):
+            machine.asked.pop(condition.texts, None)  # it does not do without
+        if not _gives_up(leaving, everywhere=not before):
             machine.conditions = (*before, opposite if first == LEAVE else condition)
         return NEXT
     frame.names = first_names
@@ -117,8 +120,14 @@ def _gives_up(body: Sequence[ast.stmt], *, everywhere: bool) -> bool:
     Where not everyone comes by, an error that is made there tells those who do what they have to install.
     """
     last = body[-1] if body else None
+    return _stops(body) and (everywhere or not (isinstance(last, ast.Raise) and isinstance(last.exc, ast.Call)))
+
+
+def _stops(body: Sequence[ast.stmt]) -> bool:
+    """Whether a block ends the program, unless somebody catches what it raises."""
+    last = body[-1] if body else None
     if isinstance(last, ast.Raise):
-        return everywhere or not isinstance(last.exc, ast.Call)
+        return True
     return isinstance(last, ast.Expr) and isinstance(last.value, ast.Call) and callee(last.value) in ("exit", "quit", "_exit")
 
 

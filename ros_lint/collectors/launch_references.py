@@ -245,6 +245,14 @@ class References:
             for found in self.found
         }
 
+    def do_without(self, paths: Iterable[str]) -> None:
+        """Note files of which the launch file asks first if they are there."""
+        asked = {(place.package, place.share) for path in paths for text in self._fill(path) for place in installed(text)}
+        self.found = {
+            found._replace(asked=True) if found.kind in ("file", "include") and (found.package, found.name) in asked else found: None
+            for found in self.found
+        }
+
     def hide(self, reason: str, span: Span) -> None:
         """Note that something hides which packages are used."""
         self.opaque[Opaque(Facet.USES, reason, span)] = None

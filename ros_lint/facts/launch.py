@@ -86,6 +86,8 @@ class LaunchReference(NamedTuple):
     """The same of the package: its name is made of the default of an argument, and stands nowhere as it is."""
     read: bool = False
     """Whether what is started reads this file for certain, so that it cannot be one that is written: parameters, displays."""
+    asked: bool = False
+    """Whether the launch file asks first if this file is there, and does without."""
 
 
 class LaunchFile(NamedTuple):

@@ -24,7 +24,7 @@ Correct the path; the message names files of the same name that the package does
   confidence, and so have records beside which one of nearly the same name is installed; unless that one is the only one
   that nothing names.
 - For a released package: its launch files are not known whole; other files of it are not known at all.
-- The launch file asks first if the package is there.
+- The launch file asks first if the package is there, or the file (`os.path.exists`), unless it stops where it is not.
 
 Where the name hangs on the default of an argument, which others can replace, the confidence is medium.
 """
@@ -67,7 +67,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
 def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
     """Yield what is missing of the files that launch files name by themselves."""
     for (owner, path), named in referred(package, ("include", "file")).items():
-        references = [reference for reference in named if not reference.optional]
+        references = [reference for reference in named if not (reference.optional or reference.asked)]
         if not references:
             continue
         best, *others = sorted(references, key=lambda one: (one.by_default, one.kind != "include", not one.read, one.span))
