@@ -248,10 +248,9 @@ class References:
     def do_without(self, paths: Iterable[str]) -> None:
         """Note files of which the launch file asks first if they are there."""
         asked = {(place.package, place.share) for path in paths for text in self._fill(path) for place in installed(text)}
-        self.found = {
-            found._replace(asked=True) if found.kind in ("file", "include") and (found.package, found.name) in asked else found: None
-            for found in self.found
-        }
+        named = [one for one in self.found if one.kind in ("file", "include") and (one.package, one.name) in asked]
+        for one in named:
+            self.found[one._replace(asked=True)] = self.found.pop(one)
 
     def hide(self, reason: str, span: Span) -> None:
         """Note that something hides which packages are used."""
