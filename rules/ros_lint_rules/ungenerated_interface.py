@@ -15,12 +15,14 @@ Add the file to the call, or remove it. The fix adds it below another of the sam
 
 ## When it keeps silent
 
-For packages that generate nothing, for files in other folders, and where the list of files cannot be followed. A call that
+For packages that generate nothing, for files in other folders, and where the list of files cannot be followed. Nothing could
+be generated from a file whose name rosidl refuses, such as `State copy.msg`: it is a copy that was left lying. A call that
 stands under a condition is told of with medium confidence.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from ros_lint.api import (
@@ -42,6 +44,8 @@ from ros_lint.api import (
 _GENERATE = "rosidl_generate_interfaces"
 _KINDS = {"msg": ("msg", "idl"), "srv": ("srv", "idl"), "action": ("action", "idl")}
 """Suffixes of interfaces, by folder."""
+_NAME = re.compile(r"[A-Z][A-Za-z0-9]*")
+"""What rosidl takes for the name of a message; it asks nothing of those of files in IDL."""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -54,7 +58,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for file in package.files:
         folder, _, name = file.partition("/")
         stem, _, suffix = name.rpartition(".")
-        if suffix in _KINDS.get(folder, ()) and "/" not in name and f"{folder}/{stem}" not in script.interfaces:
+        if suffix not in _KINDS.get(folder, ()) or "/" in name or f"{folder}/{stem}" in script.interfaces:
+            continue
+        if suffix == "idl" or _NAME.fullmatch(stem):
             yield _finding(package, calls, file)
 
 
