@@ -44,8 +44,8 @@ class Unseen(NamedTuple):
 
     what: str
     """In words: "executables"."""
-    packages: int
-    """How many it concerns."""
+    packages: tuple[str, ...]
+    """The names of those that it concerns, in the order of the workspace."""
 
 
 class Crash(NamedTuple):

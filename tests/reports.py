@@ -176,7 +176,7 @@ EVERYTHING = Report(
         NotChecked("the file", "Permission denied", Span("ws/secret/package.xml", 1, 1, 1, 1)),
         NotChecked("unknown-dependency", "there is no index for distribution jazzy", None),
     ),
-    unseen=(Unseen("executables", 2), Unseen("uses", 1)),
+    unseen=(Unseen("executables", ("bringup", "talker")), Unseen("uses", ("talker",))),
     crashes=(Crash("unused-dependency", "talker", TRACEBACK), Crash("dependency-cycle", "", TRACEBACK)),
     workspace="ws",
 )

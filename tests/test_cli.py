@@ -116,7 +116,7 @@ def test_what_cannot_be_done_is_said(arguments: list[str], message: str) -> None
 
 
 def test_the_distribution_is_a_choice(demo: Path) -> None:
-    assert " for lyrical (newest long-term release known)" in run(demo).stdout
+    assert " for lyrical (newest long-term release known; --distro names another)" in run(demo).stdout
     assert " for humble (ROS_DISTRO)" in run(demo, env={"ROS_DISTRO": "humble"}).stdout
     assert " for kilted (--distro)" in run(demo, "--distro", "kilted", env={"ROS_DISTRO": "humble"}).stdout
     (demo / "ros-lint.toml").write_text('distro = "jazzy"')

@@ -164,13 +164,16 @@ def _unseen(workspace: Workspace) -> tuple[Unseen, ...]:
     from ros_lint.facts.sight import Facet  # noqa: PLC0415
 
     words = {
-        Facet.USES: "what they use",
+        Facet.USES: "uses",
         Facet.EXECUTABLES: "executables",
         Facet.SHARE: "share files",
         Facet.PYTHON: "Python modules",
-        Facet.LIBRARIES: "libraries and headers",
+        Facet.LIBRARIES: "libraries",
         Facet.INTERFACES: "interfaces",
-        Facet.COMPONENTS: "components and plugins",
+        Facet.COMPONENTS: "components",
     }
-    counts = [(word, sum(bool(package.hidden(facet)) for package in workspace.packages)) for facet, word in words.items()]
-    return tuple(Unseen(word, count) for word, count in counts if count)
+    blind = {
+        word: tuple([package.name or package.path for package in workspace.packages if package.hidden(facet)])
+        for facet, word in words.items()
+    }
+    return tuple(Unseen(word, packages) for word, packages in blind.items() if packages)

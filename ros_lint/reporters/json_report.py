@@ -35,7 +35,9 @@ def render(report: Report, texts: Texts, style: Style) -> str:  # noqa: ARG001  
             {"what": entry.what, "reason": entry.reason, **(_place(entry.span) if entry.span else _NOWHERE)}
             for entry in report.not_checked
         ],
-        "not_seen_through": [{"what": unseen.what, "packages": unseen.packages} for unseen in report.unseen],
+        "not_seen_through": [
+            {"what": unseen.what, "packages": len(unseen.packages), "names": list(unseen.packages)} for unseen in report.unseen
+        ],
         "crashes": [crash._asdict() for crash in report.crashes],
         "summary": {
             **{str(severity): report.count(severity) for severity in sorted(Severity, reverse=True)},

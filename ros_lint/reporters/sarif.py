@@ -14,7 +14,7 @@ from urllib.parse import quote
 from ros_lint.reporters.encode import encode
 from ros_lint.reporters.fingerprint import line_hashes
 from ros_lint.reporters.sarif_rules import LEVELS, TOPICS, capital, descriptor, sentence, topic
-from ros_lint.reporters.summary import and_list, count, crashed, told
+from ros_lint.reporters.summary import and_list, crashed, some, told
 from ros_lint.text import Span, Text
 
 if TYPE_CHECKING:
@@ -272,7 +272,7 @@ def _notes(report: Report, codes: dict[str, int]) -> Iterator[Object]:
     for hidden in report.hidden:
         yield _note("NotShown", "note", f"not shown: {hidden.count} {hidden.reason}")
     for unseen in report.unseen:
-        yield _note("NotSeenThrough", "note", f"not seen through: {unseen.what} of {count(unseen.packages, 'package')}")
+        yield _note("NotSeenThrough", "note", f"not seen through: {unseen.what} of {some(unseen.packages)}")
 
 
 def _cut(groups: Sequence[Group], kept: Sequence[Group]) -> Iterator[Object]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from typing import TYPE_CHECKING
 
 from ros_lint.reporters.ansi import Style, paint, safe
@@ -14,6 +15,12 @@ if TYPE_CHECKING:
 
 _LISTED = 10
 """Entries of a list to show; the json format has all."""
+
+_NAMED = 5
+"""Packages to name in a sentence, before the others are only counted."""
+
+_FEW = 10
+"""Findings that need no overview by rules."""
 
 
 def summary(report: Report, style: Style) -> str:
@@ -31,16 +38,22 @@ def and_list(words: Sequence[str]) -> str:
     return " and ".join(filter(None, (", ".join(words[:-1]), *words[-1:])))
 
 
+def some(packages: Sequence[str]) -> str:
+    """Return the names of packages, or how many there are."""
+    return and_list(packages) if len(packages) <= _NAMED else count(len(packages), "package")
+
+
 def blind_spots(report: Report) -> Iterator[str]:
     """Yield, as sentences without a full stop, what the findings shown do not tell."""
     if report.hidden:
         yield f"Not shown: {'; '.join(f'{hidden.count} {hidden.reason}' for hidden in report.hidden)}"
     if report.unseen:
-        sides: dict[int, list[str]] = {}
+        sides: dict[tuple[str, ...], list[str]] = {}
         for unseen in report.unseen:
             sides.setdefault(unseen.packages, []).append(unseen.what)
-        told_of = "; ".join(f"{and_list(what)} of {count(number, 'package')}" for number, what in sides.items())
-        yield f"Not seen through: {told_of}. Rules that would claim something is missing kept silent there"
+        told_of = "; ".join(f"{and_list(what)} of {some(packages)}" for packages, what in sides.items())
+        why = "Rules that would claim something is missing kept silent there; ros-lint explain-package NAME says where"
+        yield f"Not seen through: {told_of}. {why}"
 
 
 def told(entry: NotChecked) -> str:
@@ -58,6 +71,7 @@ def crashed(crash: Crash) -> str:
 
 def _lines(report: Report, style: Style) -> Iterator[str]:
     yield _verdict(report, style)
+    yield from _by_rule(report, style)
     fixes = {"--fix": report.fixable(safe=True), "--fix --unsafe-fixes": report.fixable(safe=False)}
     if any(fixes.values()):
         yield f"Fixable: {and_list([f'{number} with {how}' for how, number in fixes.items() if number])}."
@@ -73,9 +87,24 @@ def _lines(report: Report, style: Style) -> Iterator[str]:
         yield from (f"  {safe(line, style)}" for line in report.crashes[0].traceback.rstrip().split("\n"))
 
 
+_TITLES = {Severity.ERROR: "Errors", Severity.WARNING: "Warnings", Severity.INFO: "Info"}
+
+
+def _by_rule(report: Report, style: Style) -> Iterator[str]:
+    """Yield which rules found how much, those with most first, where that is more than can be seen at a glance."""
+    if len(report.issues) <= _FEW:
+        return
+    for severity, title in _TITLES.items():
+        found = Counter(issue.rule.name for issue in report.issues if issue.severity is severity)
+        if found:
+            counted = ", ".join(f"{number} {name}" for name, number in found.most_common())
+            yield f"{paint(style, str(severity), title)}: {counted}."
+
+
 def _verdict(report: Report, style: Style) -> str:
     data = f", with data of {report.data_date}" if report.data_date else ""
-    world = f"for {report.target.distro} ({report.target.source}){data}"
+    chosen = report.target.source if report.target.told else f"{report.target.source}; --distro names another"
+    world = f"for {report.target.distro} ({chosen}){data}"
     if not report.packages:
         return f"{paint(style, 'error', 'No package found')}, so nothing was checked {world}."
     numbers = {severity: report.count(severity) for severity in (Severity.ERROR, Severity.WARNING, Severity.INFO)}
