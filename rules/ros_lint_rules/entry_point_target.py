@@ -73,7 +73,7 @@ def _entry(package: Package, entry: EntryPoint, workspace: Workspace) -> Iterato
         return
     if module is None:
         if not workspace.unread(package):
-            yield from _no_module(package, entry, name, workspace)
+            yield from _no_module(package, entry, name, attribute, workspace)
         return
     first = attribute.partition(".")[0]
     if not module.open and first not in module.names and not _is_submodule(package, name, first):
@@ -98,7 +98,7 @@ def _is_submodule(package: Package, module: str, name: str) -> bool:
     return script is not None and f"{module}.{name}" in script.python_packages
 
 
-def _no_module(package: Package, entry: EntryPoint, name: str, workspace: Workspace) -> Iterator[Finding]:
+def _no_module(package: Package, entry: EntryPoint, name: str, function: str, workspace: Workspace) -> Iterator[Finding]:
     """Speak of a module that is not in the sources, if it must be one of the package's own."""
     script = package.script
     if script is None or name in script.python_packages or package.hidden(Facet.PYTHON):
@@ -106,7 +106,8 @@ def _no_module(package: Package, entry: EntryPoint, name: str, workspace: Worksp
     tops = {module.partition(".")[0] for module in script.python_packages}
     own = name.partition(".")[0]
     hint = ""
-    modules = [module for module in script.python_packages if "." in module]
+    taken = {other.target for other in script.entry_points}  # no two programs are the same one
+    modules = [module for module in script.python_packages if "." in module and f"{module}:{function}" not in taken]
     near = difflib.get_close_matches(name, modules, 1, 0.9)
     if own not in tops and own != package.name and not difflib.get_close_matches(own, [*tops, package.name], 1, 0.85):
         # The name of a package that was copied, before a module that is here.
