@@ -20,8 +20,8 @@ Where a type of it stands in C++ code by its bare name, which a header of a thir
 whenever the dependency might be needed in a way that leaves no trace: linters, run-time and tool dependencies, tags
 under a condition, packages whose build scripts cannot be followed everywhere, metapackages, vendor packages and packages
 without code, and dependencies that give CMake macros or plugins. For rosdep keys of libraries, which others' headers may
-need, for packages that nobody knows, for messages and Python packages that are mostly declared to be run, and where a file
-of the workspace cannot be read, the confidence is medium.
+need, for packages that nobody knows, for messages and Python packages that are mostly declared to be run, where a file
+of the workspace cannot be read, and where no module is there that an entry point names, the confidence is medium.
 
 So it is where nothing uses the dependency, but something else that is used and not declared comes along with it alone, in
 this package or in another one of the workspace. That is to be declared instead, and nothing is removed.
@@ -94,6 +94,7 @@ def _unused(package: Package, workspace: Workspace) -> Iterator[tuple[Declared, 
     if script is None or not is_built_in_sight(package):
         return
     whole = is_seen_whole(package)
+    unsure = workspace.unread() or _lacks_programs(package, script)
     world = workspace.world
     built = [each.name for each in package.declared if each.depend.tag in _TAGS and not each.depend.condition]
     used = used_names(built, package.uses)
@@ -117,7 +118,12 @@ def _unused(package: Package, workspace: Workspace) -> Iterator[tuple[Declared, 
             says = "there is no test that could use it"
         else:
             continue
-        yield declared, says, Confidence.MEDIUM if unknown or mostly_run or workspace.unread() else Confidence.HIGH
+        yield declared, says, Confidence.MEDIUM if unknown or mostly_run or unsure else Confidence.HIGH
+
+
+def _lacks_programs(package: Package, script: BuildScript) -> bool:
+    """Whether no module is there that an entry point names: then the code that uses what is declared is elsewhere yet."""
+    return bool(script.entry_points) and not script.modules
 
 
 def _is_used(package: Package, name: str) -> bool:
