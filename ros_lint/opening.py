@@ -10,7 +10,7 @@ from ros_lint import cache
 from ros_lint.config import Settings, settle
 from ros_lint.knowledge import Knowledge, distros, newest_lts
 from ros_lint.knowledge.store import user_directory
-from ros_lint.options import OPTIONS
+from ros_lint.options import COMMANDS, OPTIONS
 from ros_lint.registry import BUILTIN
 from ros_lint.report import RefusalError, Target
 from ros_lint.tree import DiskTree
@@ -67,7 +67,7 @@ def ask(said: Mapping[str, Any], environment: Mapping[str, str]) -> Asked:
     paths = [os.path.realpath(path) for path in said.get("paths") or ["."]]
     for path, written in zip(paths, said.get("paths") or ["."], strict=True):
         if not os.path.exists(path):
-            raise UsageError(f"{written}: no such file or directory")
+            raise UsageError(f"{written}: no such file or directory{_command(written)}")
         if not os.path.isdir(path):
             raise UsageError(f"{written}: not a directory; ros-lint checks workspaces and packages")
     base = _base(paths)
@@ -176,6 +176,14 @@ def no_packages(asked: Asked | Opened) -> str:
 _MOST_SKIPPED = 3
 
 
+def _command(written: str) -> str:
+    """Return what to say of a path that is not there, and may be meant for a command."""
+    import difflib  # noqa: PLC0415
+
+    close = difflib.get_close_matches(written, COMMANDS, 1)
+    return f"; did you mean the command {close[0]}?" if close else ""
+
+
 def _base(paths: Sequence[str]) -> str:
     """Return the root of the repository that holds the paths, or their common folder.
 
@@ -203,8 +211,12 @@ def _target(settings: Settings, places: Sequence[str]) -> tuple[Target, tuple[st
         return Target(distro, "ROS_DISTRO"), (f"nothing is known of ROS_DISTRO {distro}; there are {', '.join(known)}",)
     import difflib  # noqa: PLC0415
 
+    from ros_lint.knowledge.names import END_OF_LIFE  # noqa: PLC0415
+
     close = difflib.get_close_matches(distro, known, 1)
     hint = f", did you mean {close[0]}?" if close else ""
+    if distro.capitalize() in [name.rpartition(" ")[2] for name in END_OF_LIFE.values()]:
+        hint = ", which is no longer supported"
     raise UsageError(f"{settings.origin('distro')}: nothing is known of {distro}{hint} (there are {', '.join(known)})")
 
 

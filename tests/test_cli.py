@@ -103,6 +103,8 @@ def test_what_is_heavy_is_imported_when_needed(clean: Path, arguments: list[str]
         (["--slect", "all"], "unrecognized arguments: --slect all, did you mean --select?"),
         (["--select", "undeclared-dependancy"], "there is no rule undeclared-dependancy, did you mean undeclared-dependency?"),
         (["--distro", "jazy"], "--distro: nothing is known of jazy, did you mean jazzy?"),
+        (["--distro", "foxy"], "--distro: nothing is known of foxy, which is no longer supported (there are humble, "),
+        (["chek"], "chek: no such file or directory; did you mean the command check?"),
         (["--format", "xml"], "argument --format: invalid choice: 'xml'"),
         (["--config", "nowhere.toml"], "nowhere.toml: no such configuration file"),
         (["--underlay", "nowhere"], "nowhere"),
