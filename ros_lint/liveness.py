@@ -23,7 +23,7 @@ HEADERS = (".h", ".hh", ".hpp", ".hxx", ".inl", ".ipp", ".tpp", ".cuh")
 _SOURCES = (".c", ".cc", ".cpp", ".cxx", ".cu")
 _INTERFACES = (".msg", ".srv", ".action", ".idl")
 _RESOURCES = (".urdf", ".xacro", ".sdf", ".world", ".rviz", ".yaml", ".yml", ".xml")
-_RUNNERS = ("pytest", "launch_test", "ros_test", "add_test", "nose")
+_RUNNERS = ("pytest", "launch_test", "ros_test", "add_test", "isolated_test", "nose")
 """Parts of the names of CMake commands that run tests in Python."""
 
 _RECIPES = frozenset({"conanfile.py", "noxfile.py"})
@@ -108,7 +108,7 @@ class Liveness:
             # pytest takes what is called test, and beside it lie its helpers; elsewhere lies anything.
             taken = self._runs_python_tests and (self._is_run(path) or path in self._started_by_tests)
             alive = not (self._sees_targets or resource or self._is_left_out(path))
-            return Role.TEST, (taken or path in self._launched) if python else alive
+            return Role.TEST, (taken or self._may_be_launched(path)) if python else alive
         if path in self._launched and (path in self._installed or path in self._installed_python):
             return Role.EXEC, True
         idle = bool(_IDLE_FOLDERS & folders)
@@ -122,6 +122,11 @@ class Liveness:
             alive = path in self._installed_python or (path in self._installed and path in self._beside_launch_files)
             return Role.EXEC, alive or (not self._sees_python and self._is_of_python_package(path, idle=idle))
         return PRODUCTION, not (self._sees_targets or idle or self._is_left_out(path))
+
+    def _may_be_launched(self, path: str) -> bool:
+        """Whether a file among the tests is a launch file, and not one that is left out of what is known to be run."""
+        sees_all = self._script is not None and self._script.runs is not None
+        return path in self._launched and (not sees_all or path in self._installed)
 
     def _is_of_tests(self, path: str) -> bool:
         """Whether a file lies in a folder that is built for tests only, and is not installed out of there all the same."""

@@ -113,6 +113,9 @@ def test_beside_what_is_compiled_by_name_lies_what_is_not() -> None:
         ("foreach(name a b)\nament_add_pytest_test(${name} test/test_${name}.py)\nendforeach()", True),
         ("add_launch_test(test/test_b.py)", False),
         ("add_test(NAME a COMMAND python3 ${CMAKE_CURRENT_SOURCE_DIR}/test/test_a.py)", True),
+        ("ament_add_ros_isolated_test(a COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test/test_a.py)", True),
+        ("ament_add_ros_isolated_test(b COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test/test_b.py)", False),
+        ("nav2_add_test(b COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test/test_b.py)", False),
         ("acme_add_pytest_test(unit test/test_b.py)", True),  # nobody knows what that runs
         ("add_launch_test(${UNHEARD_OF})\nfind_package(acme)\nadd_launch_test(${acme_TESTS})", True),
         ("", False),
@@ -121,6 +124,22 @@ def test_beside_what_is_compiled_by_name_lies_what_is_not() -> None:
 def test_a_test_is_alive_where_it_is_run(line: str, sure: bool) -> None:
     files = {"test/test_a.py": "import requests\n", "test/test_b.py": "import pandas\n"}
     assert use(load(f"if(BUILD_TESTING)\n{line}\nendif()", files), "python3-requests").sure is sure
+
+
+@pytest.mark.parametrize(
+    ("lines", "sure"),
+    [
+        ("ament_add_test(a COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test/test_a.launch.py)", True),
+        ("ament_add_test(b COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test/test_b.launch.py)", False),
+        ("ament_add_test(b COMMAND test/test_b.launch.py)\ninstall(DIRECTORY test DESTINATION share/robot)", True),
+        ("ament_add_gtest(a test/a.cpp)", True),  # people start it, or the program does
+    ],
+)
+def test_a_launch_file_of_tests_is_alive_unless_others_are_run(lines: str, sure: bool) -> None:
+    launch = "import requests\n\ndef generate_launch_description():\n    return LaunchDescription([])\n"
+    files = {"test/test_a.launch.py": launch, "test/test_b.launch.py": "", "test/a.cpp": ""}
+    workspace = load(f"if(BUILD_TESTING)\n{lines}\nendif()", files)
+    assert use(workspace, "python3-requests").sure is sure
 
 
 def test_helpers_lie_beside_tests_that_are_run() -> None:

@@ -282,6 +282,7 @@ def _tests(run: Run, args: list[str]) -> None:
 RUNNERS: Final = frozenset({
     "ament_add_pytest_test", "ament_add_nose_test", "add_launch_test", "add_ros_test", "ament_add_ros_isolated_pytest_test",
     "ament_add_test", "nav2_add_pytest_test", "add_test", "add_ros_isolated_launch_test", "add_launch_ros_test",
+    "ament_add_ros_isolated_test", "nav2_add_test",
 })  # fmt: skip
 """Commands that run tests which are not compiled, all of them through ros_lint_runs()."""
 
