@@ -36,6 +36,8 @@ Give the argument, or give it a default where it is declared; correct the name, 
 - A file of the workspace cannot be read: it may include this one and give it anything. What is asked for and declared
   nowhere, and what is declared and never used, is not told of then, and of an expression that fails the confidence is medium.
 - A file has nothing but arguments: it sets them for whoever includes it.
+- An argument that does nothing is empty by default, and another launch file of the folder requires it: this one may be put
+  in the place of the other, and takes what that one takes.
 
 What does nothing is an info, since an argument that nobody takes is also set for what is included later; it is a warning
 if it resembles an argument that is not given.
@@ -45,7 +47,7 @@ from __future__ import annotations
 
 import difflib
 import sys
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from ros_lint.api import (
     Broken,
@@ -80,13 +82,23 @@ def check(workspace: Workspace) -> Iterator[Finding]:
     filled = frozenset(name for package in workspace.packages for file in package.parameter_files for name in file.asks)
     whole = not workspace.unread()
     for package in workspace.packages:
+        required: dict[str, set[str]] = {}
+        for file in package.launch:
+            required.setdefault(_folder(file), set()).update(links.takes(file).required)
         for launch in launchable(package):
-            for finding in _of_file(launch.file, links, families, filled, whole=whole):
+            beside = required[_folder(launch.file)]
+            for finding in _of_file(launch.file, links, families, filled, beside, whole=whole):
                 yield finding._replace(package=package.name)
 
 
-def _of_file(file: LaunchFile, links: Links, families: Families, filled: frozenset[str], *, whole: bool) -> Iterator[Finding]:
-    """``whole``: all files can be read, and with them whoever includes this one."""
+def _folder(file: LaunchFile) -> str:
+    return file.path.rpartition("/")[0]
+
+
+def _of_file(
+    file: LaunchFile, links: Links, families: Families, filled: frozenset[str], beside: Collection[str], *, whole: bool
+) -> Iterator[Finding]:
+    """``whole``: all files can be read, and with them whoever includes this one; ``beside``: what those of its folder require."""
     for action in everything(file.actions):
         if action.kind == "include":
             yield from _of_include(action, file, links, families, filled)
@@ -108,14 +120,22 @@ def _of_file(file: LaunchFile, links: Links, families: Families, filled: frozens
     if families.fill(file) or all(action.kind in ("argument", "set") for action in file.actions):
         return
     asked = names.asked.union(inside, *(one.asked for one in above))
+    taken = {name for name in _empty(file) if name in beside}
     for name, span in names.declared.items():
-        if name not in asked:
+        if name not in asked and name not in taken:
             yield Finding(
                 f"the argument {name} is declared and never used: it does nothing",
                 span,
                 name,
                 severity=Severity.INFO,
             )
+
+
+def _empty(file: LaunchFile) -> Iterator[str]:
+    """Yield the arguments that have the empty text for their default."""
+    for action in everything(file.actions):
+        if action.kind == "argument" and action.target is not None and action.value is not None and action.value.texts == ("",):
+            yield from action.target.texts
 
 
 def _is_of_launch(module: str) -> bool:
