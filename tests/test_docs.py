@@ -1,11 +1,13 @@
 """Every example in the docs is what the tool does."""
 
+import json
 import re
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+import yaml
 
 from ros_lint import docs, registry
 from ros_lint.config import read
@@ -74,11 +76,56 @@ def test_links_lead_somewhere(document: Path) -> None:
             assert (document.parent / target).exists(), target
 
 
-def test_rules_and_settings_named_in_the_docs_exist() -> None:
+@pytest.mark.parametrize("document", [ROOT / "README.md", ROOT / "docs" / "adopting.md"], ids=lambda path: path.name)
+def test_rules_and_settings_named_in_the_docs_exist(document: Path) -> None:
     names = {rule.name for rule in RULES} | {option.name for option in OPTIONS}
-    text = (ROOT / "README.md").read_text("utf-8")
+    text = document.read_text("utf-8")
     for name in re.findall(r"^\s*\"?([a-z]+(?:-[a-z]+)+)\"? = ", text, re.MULTILINE):
         assert name in names, name
     for listed in re.findall(r"(?:ignore|select) = \[([^\]]*)\]", text):
         for name in re.findall(r'"([^"]+)"', listed):
             assert name in names, name
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
+def test_yaml_examples_are_yaml(document: Path) -> None:
+    for kind, body in BLOCK.findall(document.read_text("utf-8")):
+        if kind == "yaml":
+            assert yaml.safe_load(body)
+
+
+def test_every_page_is_named_in_the_readme() -> None:
+    text = (ROOT / "README.md").read_text("utf-8")
+    assert [path.name for path in DOCUMENTS[1:] if f"](docs/{path.name})" not in text] == []
+
+
+def demo(*arguments: str) -> str:
+    command = [sys.executable, "-m", "ros_lint", "fixtures/workspaces/demo", "--distro", "jazzy", *arguments]
+    return subprocess.run(command, capture_output=True, text=True, cwd=ROOT, check=False).stdout
+
+
+def example(kind: str, word: str) -> str:
+    """Return the block of a kind in the page about adopting that has a word."""
+    text = (ROOT / "docs" / "adopting.md").read_text("utf-8")
+    return next(body for found, body in BLOCK.findall(text) if found == kind and word in body)
+
+
+def test_the_report_for_gitlab(tmp_path: Path) -> None:
+    (tmp_path / "ros-lint.json").write_text(demo("--format", "json"), "utf-8")
+    subprocess.run([sys.executable, "-c", example("python", "fingerprint")], cwd=tmp_path, check=True)
+    report = json.loads((tmp_path / "gl-code-quality-report.json").read_text("utf-8"))
+    findings = json.loads((tmp_path / "ros-lint.json").read_text("utf-8"))["findings"]
+    assert len({entry["fingerprint"] for entry in report}) == len(report) == len(findings)
+    for entry in report:  # what GitLab requires of an entry
+        assert entry["severity"] in ("info", "minor", "major", "critical", "blocker")
+        assert all((entry["description"], entry["check_name"], entry["location"]["path"], entry["location"]["lines"]["begin"]))
+
+
+def test_the_problem_matcher_of_the_editor() -> None:
+    pattern = json.loads(example("json", "problemMatcher"))["tasks"][0]["problemMatcher"]["pattern"]
+    found = [match for line in demo("--format", "concise").splitlines() if (match := re.match(pattern["regexp"], line))]
+    findings = json.loads(demo("--format", "json"))["findings"]
+    keys = (("path", "file"), ("line", "line"), ("column", "column"), ("severity", "severity"), ("rule", "code"))
+    assert sorted([match[pattern[group]] for _, group in keys] for match in found) == sorted(
+        [str(finding[key]) for key, _ in keys] for finding in findings
+    )
