@@ -33,6 +33,7 @@ class Names(Protocol):
     def by_import(self, module: str) -> Providers: ...
     def is_package(self, name: str) -> bool: ...
     def standing(self, name: str) -> Standing: ...
+    def is_declared(self, name: str) -> bool: ...
 
 
 _make = tuple.__new__
@@ -76,6 +77,8 @@ class Answer(NamedTuple):
 
 
 _NOBODY = Answer(())
+_INTERFACES = re.compile(r"[a-z][a-z0-9_]*[./](?:msg|srv|action)(?:[./]|\Z)")
+"""Headers and modules of messages: only packages of ROS have them, whoever has the package."""
 _OF_TESTS = ("gtest/", "gmock/")
 """Headers that a header without a source of its own can include for nobody but tests."""
 
@@ -88,11 +91,11 @@ class Resolver:
         self._headers = include_index(sources)
         self._ask: Mapping[Via, Callable[[str], Answer]] = {
             "include": self._include,
-            "import": lambda name: self._told(self.names.by_import(name), name.partition(".")[0]),
+            "import": lambda name: self._told(self.names.by_import(name), name.partition(".")[0], name),
             "cmake": lambda name: self._told(self.names.by_cmake(name), name),
             "target": lambda name: self._told(self.names.by_cmake(name.partition("::")[0]), name.partition("::")[0]),
             "macro": lambda name: self._told(self.names.by_macro(name.partition("::")[0]), name.partition("::")[0]),
-            "interface": lambda name: self._package(name.partition("/")[0]),
+            "interface": lambda name: self._interface(name.partition("/")[0]),
             "package": self._package,
             "symbol": lambda name: Answer((name,)) if self.names.is_package(name) else _NOBODY,
             "launch": self._package,
@@ -112,7 +115,7 @@ class Resolver:
         found = self._headers.get(header)
         first, slash, _ = header.partition("/")
         if not found:
-            return self._told(self.names.by_include(header), first if slash else "")
+            return self._told(self.names.by_include(header), first if slash else "", header)
         if slash and first not in found:
             known = self.names.by_include(header)
             if known.known and not set(found).intersection(known.names):  # then this is a copy of what is known elsewhere
@@ -122,13 +125,27 @@ class Resolver:
     def _package(self, name: str) -> Answer:
         return Answer((name,)) if self.names.is_package(name) else self._strange(name)
 
-    def _told(self, providers: Providers, name: str) -> Answer:
-        return Answer(providers.names, providers.sure) if providers.known else self._strange(name)
+    def _interface(self, name: str) -> Answer:
+        # Definitions that tests parse are full of names that nobody has.
+        return Answer((name,)) if self.names.is_package(name) else self._strange(name, self.names.is_declared(name))
 
-    def _strange(self, name: str) -> Answer:
-        """Return what is to be made of a name that nobody here has: a package that other distributions have, or had."""
-        standing = self.names.standing(name) if name else "unknown"
-        return Answer((name,), standing == "elsewhere") if standing in ("elsewhere", "end-of-life") else _NOBODY
+    def _told(self, providers: Providers, name: str, whole: str = "") -> Answer:
+        if providers.known:
+            return Answer(providers.names, providers.sure)
+        return self._strange(name, bool(whole) and _INTERFACES.match(whole) is not None)
+
+    def _strange(self, name: str, interfaces: bool = False) -> Answer:
+        """Return what is to be made of a name that nobody here has.
+
+        It is a package that other distributions have, or had, or one whose ``interfaces`` are used. That one is no left-over if
+        the workspace declares it.
+        """
+        standing = self.names.standing(name) if name else "unknowable"
+        if standing == "elsewhere":
+            return Answer((name,))
+        if standing == "end-of-life" or (standing == "unknown" and interfaces):
+            return Answer((name,), interfaces and self.names.is_declared(name))
+        return _NOBODY
 
 
 _WHAT: Mapping[Via, str] = {

@@ -220,7 +220,7 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
         if not is_available(need.name, workspace):
             if comes_elsewhere(package, workspace, need.name) or _is_declared_as_key(package, workspace, need.name):
                 continue
-            sure = sure and not workspace.target.told
+            sure = sure and not (workspace.target.told and workspace.world.where_else(need.name))
         found.append((need, sure and not (unknown and _may_satisfy(unknown, need, workspace))))
     return tuple(found)
 

@@ -116,6 +116,14 @@ class World:
             return "elsewhere"
         return "end-of-life" if self.knowledge.names.end_of_life(name) else "unknown"
 
+    def is_declared(self, name: str) -> bool:
+        """Return whether a package of the workspace declares a name, in whatever tag."""
+        return name in self._declared
+
+    @cached_property
+    def _declared(self) -> frozenset[str]:
+        return frozenset([name for one in self._members.values() for names in one.depends.values() for name in names])
+
     def version(self, name: str) -> str | None:
         """Return the version of a package where it is taken from, or None."""
         member = self._members.get(name)

@@ -23,7 +23,8 @@ needed at run time, `<exec_depend>` for what is needed at run time only, `<test_
   low, and nothing is fixed. It is silent where the package needs this one itself.
 - It is named only in a template for other packages, by what makes the pages of the documentation, or in an editor's copy.
 - colcon rejects `package.xml`, which is to be mended first: then the confidence is medium.
-- The name belongs to no package or rosdep key that is known, or to the system.
+- The name belongs to no package or rosdep key that is known, or to the system. Whose messages are used is a package all the
+  same: the confidence is medium, unless another package of the workspace declares it.
 - Only other distributions have the package, or had it: then the confidence is medium and the message names them, unless
   nobody said which distribution is meant. What brings it along there counts.
 - A declared dependency is itself not known, so that the package might come with it: then the confidence is medium.
@@ -107,7 +108,8 @@ def _where(name: str, workspace: Workspace) -> str:
     world = workspace.world
     if world.is_key(name) or is_somewhere(name, workspace):
         return ""
-    return ", ".join(world.where_else(name) or world.knowledge.names.end_of_life(name))
+    ended = () if world.is_declared(name) else world.knowledge.names.end_of_life(name)  # whoever declares it has its sources
+    return ", ".join(world.where_else(name) or ended)
 
 
 RULE = Rule(
