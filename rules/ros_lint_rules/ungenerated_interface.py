@@ -11,13 +11,14 @@ No code is generated from such a file: "fatal error: robot/msg/state.hpp: No suc
 
 ## How to fix it
 
-Add the file to the call, or remove it. The fix adds it below another of the same folder, where these are written out.
+Add the file to the call, or remove it. The fix adds it below another of the same folder, where these are written out. rosidl
+refuses names like `motor_state.msg`: such a file has to be called `MotorState.msg` first.
 
 ## When it keeps silent
 
-For packages that generate nothing, for files in other folders, and where the list of files cannot be followed. Nothing could
-be generated from a file whose name rosidl refuses, such as `State copy.msg`: it is a copy that was left lying. A call that
-stands under a condition is told of with medium confidence.
+For packages that generate nothing, for files in other folders, and where the list of files cannot be followed. So it does of
+copies that were left lying, such as `State copy.msg` or `State.old.msg`. A call that stands under a condition is told of with
+medium confidence.
 """
 
 from __future__ import annotations
@@ -60,18 +61,25 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         stem, _, suffix = name.rpartition(".")
         if suffix not in _KINDS.get(folder, ()) or "/" in name or f"{folder}/{stem}" in script.interfaces:
             continue
-        if suffix == "idl" or _NAME.fullmatch(stem):
-            yield _finding(package, calls, file)
+        if stem.isidentifier():
+            yield _finding(package, calls, file, "" if suffix == "idl" or _NAME.fullmatch(stem) else _camel(stem))
 
 
-def _finding(package: Package, calls: list[Call], file: str) -> Finding:
+def _camel(stem: str) -> str:
+    """Return a name as rosidl wants it."""
+    return "".join(word[:1].upper() + word[1:] for word in stem.split("_"))
+
+
+def _finding(package: Package, calls: list[Call], file: str, wanted: str) -> Finding:
+    """``wanted``: what the file has to be called before anything can be generated from it, "" if it is."""
     base = f"{package.path}/" if package.path else ""
+    rename = f"; rosidl wants it to be called {wanted}" if wanted else ""
     return Finding(
-        f"{file} is not given to {_GENERATE}(), so nothing is generated from it",
+        f"{file} is not given to {_GENERATE}(), so nothing is generated from it{rename}",
         calls[0].place,
         file,
         (Related("this file", Span(f"{base}{file}", 1, 1, 1, 1)),),
-        _fix(calls, file),
+        None if wanted else _fix(calls, file),
         Confidence.MEDIUM if calls[0].blocks else Confidence.HIGH,
     )
 
