@@ -15,6 +15,7 @@ from ros_lint.collectors.launch_text import (
     UNKNOWN,
     asked_for,
     carriers_of_places,
+    configurations,
     fill,
     installed,
     is_plain,
@@ -42,16 +43,18 @@ class References:
         self._held = held(actions)
         self._carriers = carriers_of_places(self._held.values)
         self._known: dict[str, tuple[str, ...]] = {}
+        self._narrowed: Mapping[str, tuple[str, ...]] = {}
         self._optional = False
         self._named: set[str] = set()
         for action in actions:
             self._action(action, conditional=False)
 
     def _action(self, action: LaunchAction, conditional: bool) -> None:
-        before = self._optional
+        before, narrowed = self._optional, self._narrowed
         if action.conditions:
             conditional = True
             self._optional = before or asks_first(action.conditions)
+            self._narrow(action.conditions)
         match action.kind:
             case "node" | "component":
                 self._program(action, conditional)
@@ -64,7 +67,7 @@ class References:
                 self._paths(value, action.package_span, conditional, reads)
         for child in action.children:
             self._action(child, conditional)
-        self._optional = before
+        self._optional, self._narrowed = before, narrowed
 
     def _program(self, action: LaunchAction, conditional: bool) -> None:
         kind: Kind = "node" if action.kind == "node" else "component"
@@ -182,7 +185,20 @@ class References:
         found = dict.fromkeys(text for one in value.texts for text in self._fill(one))
         return tuple(found), by_default
 
+    def _narrow(self, conditions: Iterable[LaunchCondition]) -> None:
+        """Leave configurations only those values with which conditions hold that ask for one of them and nothing else."""
+        for (text, *others), equals, wanted in conditions:
+            name = next((name for name, _, whole in configurations(text) if whole == text), "")
+            if name and equals is not None and not others and is_plain(equals):
+                left = [value for value in self._value(name) or () if value != equals]
+                self._narrowed = {**self._narrowed, name: (equals,) if wanted else tuple(left)}
+
+    def _value(self, name: str) -> tuple[str, ...] | None:
+        return self._narrowed[name] or None if name in self._narrowed else self._held.values.get(name)
+
     def _fill(self, text: str) -> tuple[str, ...]:
+        if self._narrowed:
+            return fill(text, self._value, evaluate)
         found = self._known.get(text)
         if found is None:
             found = self._known[text] = fill(text, self._held.values.get, evaluate)
