@@ -45,6 +45,8 @@ def advice(package: Package, workspace: Workspace, name: str, role: Role) -> Adv
         return Advice(written, None, obstacle, circular=False, certain=usable)
     if is_of_pip(workspace, name):
         written += " (from pip: what is released cannot depend on it)"
+    if there := _elsewhere(workspace, name):
+        written += f" ({workspace.target.distro} has none, only {there})"
     fix = Fix(f"declare {name} as <{tag}>", add_dependency(package, tag, name)) if usable else None
     return Advice(written, fix, "", circular=False, certain=usable)
 
@@ -81,6 +83,12 @@ def is_of_pip(workspace: Workspace, name: str) -> bool:
     """Whether a name is a key that only pip installs, which the build farm does not take."""
     key = None if workspace.world.is_package(name) else workspace.world.knowledge.rosdep.get(name)
     return key is not None and bool(key.pip) and not key.apt
+
+
+def _elsewhere(workspace: Workspace, name: str) -> str:
+    """Return the distributions that have a package, where the one that is assumed has none."""
+    world = workspace.world
+    return "" if world.is_package(name) or world.is_key(name) else ", ".join(world.where_else(name))
 
 
 def _where(workspace: Workspace, name: str) -> str:

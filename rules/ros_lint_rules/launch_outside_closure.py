@@ -20,7 +20,7 @@ Add `<exec_depend>` to `package.xml`. The fix does this.
 - The launch file asks first what is installed, whatever it asks for (`has_resource`, `get_packages_with_prefixes`,
   `PackageNotFoundError`).
 - The package exists nowhere: that is `launch-unknown-package`. Where nobody said which distribution is meant, a package of
-  any will do, and what brings it along there counts.
+  any will do, what brings it along there counts, and the message says which have it.
 - Launch files of tests and examples, and those that are not installed. What the package declares for its tests, where the
   launch file is merely called one (`test_arm.launch.py`).
 - What a declared dependency brings along is not known, or a file of the package cannot be read, which may be the script that
