@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from functools import cached_property
+from itertools import accumulate
 
 from ros_lint import apart
 from ros_lint.facts.manifest import Role
@@ -94,7 +95,7 @@ class Liveness:
         if path in self._public:
             if path in self._installed_for_tests and path not in self._production:
                 return Role.TEST, True
-            return PUBLIC, path in self._production or path not in self._left_over
+            return PUBLIC, path in self._production or not (path in self._left_over or self._is_of_ros_1(path))
         if path in self._production:
             return PRODUCTION, True
         if path in self._tests:
@@ -127,6 +128,11 @@ class Liveness:
         """Whether a file among the tests is a launch file, and not one that is left out of what is known to be run."""
         sees_all = self._script is not None and self._script.runs is not None
         return path in self._launched and (not sees_all or path in self._installed)
+
+    def _is_of_ros_1(self, path: str) -> bool:
+        """Whether a header includes those of roscpp whatever the build, so that it compiles nowhere in ROS 2."""
+        mentions = self._facts[path].mentions if path in self._facts else ()
+        return any(each.name.startswith("ros/") and each.via == "include" and not each.optional for each in mentions)
 
     def _is_of_tests(self, path: str) -> bool:
         """Whether a file lies in a folder that is built for tests only, and is not installed out of there all the same."""
@@ -328,7 +334,20 @@ class Liveness:
         moved = self._script.moved if self._script else ()
         inside = (*(f"{package}/" for package in packages), *(each for each in moved if each.endswith("/")))
         modules = {f"{package}{suffix}" for package in packages for suffix in (".py", ".py.in")}.union(moved)
-        return frozenset([file for file in self._files if file in modules or file.startswith(inside)] if packages else ())
+        found = [file for file in self._files if file in modules or file.startswith(inside)] if packages else []
+        whole = {folder.rstrip("/") for folder in inside}
+        apart = {folder for file in found if file.endswith(".py") and (folder := file.rpartition("/")[0]) not in whole}
+        apart = {folder for folder in apart if f"{folder}/__init__.py" not in self._facts}
+        apart -= self._imported_folders if apart else apart
+        return frozenset([file for file in found if not file.endswith(".py") or file.rpartition("/")[0] not in apart])
+
+    @cached_property
+    def _imported_folders(self) -> frozenset[str]:
+        """Folders that a file of the package imports from, or that an entry point is in: those of other packages, too."""
+        names = {mention.name for facts in self._facts.values() for mention in facts.mentions if mention.via == "import"}
+        names.update([entry.module for entry in self._script.entry_points] if self._script else ())
+        paths = {path for name in names for path in accumulate(name.split("."), "{}/{}".format)}
+        return frozenset([*paths, *(f"src/{path}" for path in paths)])
 
 
 def _interface(path: str) -> str:

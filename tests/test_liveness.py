@@ -213,6 +213,46 @@ def test_what_only_some_builds_compile_is_optional(lines: str, optional: bool) -
     assert not use(workspace, "sensor_msgs").optional
 
 
+@pytest.mark.parametrize(
+    ("header", "source", "sure"),
+    [
+        ("#include <ros/ros.h>\n", "", False),
+        ("#include <ros/ros.h>\n", "#include <robot/robot.hpp>\n", True),
+        ("#ifdef ROS1\n#include <ros/ros.h>\n#endif\n", "", True),
+        ("", "", True),
+    ],
+)
+def test_a_header_of_ros_1_that_nothing_includes_is_left_over(header: str, source: str, sure: bool) -> None:
+    files = {"src/robot.cpp": source, "include/robot/robot.hpp": header + include("nav_msgs")}
+    lines = INSTALLED + "add_library(robot src/robot.cpp)\n"
+    assert placed(load(lines, files), "nav_msgs") == (PUBLIC, sure, False)
+
+
+@pytest.mark.parametrize(
+    ("more", "sure"),
+    [
+        ({}, False),
+        ({"robot/tools/__init__.py": ""}, True),
+        ({"robot/node.py": "from robot.tools.learn import main\n"}, True),
+        ({"robot/node.py": "from other.tools import main\n"}, False),
+        ({"setup.py": "setup(packages=['robot', 'robot.tools'])\n"}, True),
+        ({"setup.py": "setup(packages=['robot'], entry_points={'console_scripts': ['learn = robot.tools.learn:main']})\n"}, True),
+    ],
+)
+def test_a_folder_in_a_python_package_is_none_by_itself(more: dict[str, str], sure: bool) -> None:
+    files = {
+        "package.xml": MANIFEST.format(depends="").replace("ament_cmake", "ament_python"),
+        "setup.py": "setup(packages=['robot'])\n",
+        "robot/__init__.py": "",
+        "robot/tools/learn.py": "import nav_msgs.msg\n",
+        **more,
+    }
+    files["setup.py"] = "from setuptools import setup\n" + files["setup.py"]
+    tree = MemoryTree({f"robot/{path}": text for path, text in files.items()})
+    workspace = Loader(tree, ("",), Target("jazzy", "test")).load()
+    assert placed(workspace, "nav_msgs") == (Role.EXEC, sure, False)
+
+
 def test_headers_that_are_installed_for_tests_serve_tests() -> None:
     lines = "if(BUILD_TESTING)\ninstall(DIRECTORY test/ DESTINATION include/robot)\nendif()\n" + INSTALLED
     files = {"test/common.hpp": include("nav_msgs"), "include/robot/robot.hpp": include("shape_msgs")}
