@@ -48,9 +48,12 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         if slot and marker in package.files:
             marker_too = setup_edits.joined(slot, package.name, "resource/")
             fix = _add(slot, f"({setup_edits.quoted(slot, _MARKERS)}, [{marker_too}])")
+        astray = next((provided for provided in script.provides if provided.source == marker), None)
+        where = f"installed to {astray.path.rpartition('/')[0]}" if astray else "not installed"
+        way_out = f"install it to {_MARKERS}" if astray else f"add {marker} to data_files"
         yield Finding(
-            f"the marker of the package is not installed, so ROS does not find it; add {marker} to data_files",
-            place,
+            f"the marker of the package is {where}, so ROS does not find it; {way_out}",
+            astray.span if astray else place,
             marker,
             fix=fix,
         )
