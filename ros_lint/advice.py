@@ -47,6 +47,8 @@ def advice(package: Package, workspace: Workspace, name: str, role: Role) -> Adv
         written += " (from pip: what is released cannot depend on it)"
     if there := _elsewhere(workspace, name):
         written += f" ({workspace.target.distro} has none, only {there})"
+    if _is_exported(package, name):
+        written += " (the one in <export> declares nothing)"
     fix = Fix(f"declare {name} as <{tag}>", add_dependency(package, tag, name)) if usable else None
     return Advice(written, fix, "", circular=False, certain=usable)
 
@@ -66,6 +68,12 @@ def circle(package: Package, workspace: Workspace, name: str) -> tuple[str, ...]
     if not world.is_package(name) and world.knowledge.brings_elsewhere(name, package.name):
         return (name, package.name)
     return world.path((name,), package.name)
+
+
+def _is_exported(package: Package, name: str) -> bool:
+    """Whether a tag for a name stands in <export>, where catkin_pkg takes it for nobody's."""
+    exports = package.manifest.exports if package.manifest else ()
+    return any(element.tag.endswith("depend") and element.text.strip() == name for element in exports)
 
 
 def lacks_rule(workspace: Workspace, name: str) -> bool:
