@@ -333,13 +333,14 @@ class Liveness:
         packages = [name.replace(".", "/") for name in self._script.python_packages] if self._script else []
         moved = self._script.moved if self._script else ()
         inside = (*(f"{package}/" for package in packages), *(each for each in moved if each.endswith("/")))
-        modules = {f"{package}{suffix}" for package in packages for suffix in (".py", ".py.in")}.union(moved)
-        found = [file for file in self._files if file in modules or file.startswith(inside)] if packages else []
+        modules = frozenset([*moved, *(f"{package}{suffix}" for package in packages for suffix in (".py", ".py.in"))])
+        below = [file for file in self._files if file.startswith(inside)] if packages else []
         whole = {folder.rstrip("/") for folder in inside}
-        apart = {folder for file in found if file.endswith(".py") and (folder := file.rpartition("/")[0]) not in whole}
+        apart = {folder for file in below if file.endswith(".py") and (folder := file.rpartition("/")[0]) not in whole}
         apart = {folder for folder in apart if f"{folder}/__init__.py" not in self._facts}
         apart -= self._imported_folders if apart else apart
-        return frozenset([file for file in found if not file.endswith(".py") or file.rpartition("/")[0] not in apart])
+        kept = [file for file in below if not file.endswith(".py") or file.rpartition("/")[0] not in apart]
+        return modules.intersection(self._files).union(kept) if packages else frozenset()
 
     @cached_property
     def _imported_folders(self) -> frozenset[str]:
