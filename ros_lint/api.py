@@ -54,7 +54,7 @@ from ros_lint.facts.sight import ANYTHING, Facet, Opaque, Problem
 from ros_lint.facts.sources import Registration, Use
 from ros_lint.graph import Edge, Graph, Reason
 from ros_lint.graph_cut import Knot, knots
-from ros_lint.knowledge.spelling import near_names
+from ros_lint.knowledge.spelling import may_be_package, near_names
 from ros_lint.launch_files import Launchable, Programs, launchable, programs, referred
 from ros_lint.launch_links import Links, defaults_of, everything, filled
 from ros_lint.launch_names import Families, needed
@@ -77,7 +77,7 @@ from ros_lint.providers import Meant
 from ros_lint.report import Target
 from ros_lint.resource_files import uninstalled as uninstalled_resources
 from ros_lint.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
-from ros_lint.strangers import Stranger, declared_names, strangers
+from ros_lint.strangers import Stranger, declared_names, is_near_tool, strangers
 from ros_lint.suppress import Outcome
 from ros_lint.text import Span
 from ros_lint.workspace import Declared, Package, Workspace, per_workspace
@@ -178,6 +178,7 @@ __all__ = [
     "is_built_in_sight",
     "is_library",
     "is_mostly_run",
+    "is_near_tool",
     "is_on_request",
     "is_plain",
     "is_seen_whole",
@@ -191,6 +192,7 @@ __all__ = [
     "left_out_nodes",
     "listed_to_install",
     "manifest_edits",
+    "may_be_package",
     "may_bring",
     "may_run_built",
     "near_names",

@@ -6,15 +6,15 @@ The rules about dependencies share this, so that each need is judged once and na
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from ros_lint.advice import circle
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Use, Via
 from ros_lint.knowledge.reach import Closure
-from ros_lint.knowledge.spelling import is_part, is_vendor
-from ros_lint.strangers import meant
+from ros_lint.knowledge.spelling import is_part, is_vendor, may_be_package
+from ros_lint.strangers import is_near_tool, meant
 from ros_lint.text import Span
 from ros_lint.workspace import Package, Workspace, per_package, per_workspace
 
@@ -221,8 +221,16 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
             if comes_elsewhere(package, workspace, need.name) or _is_declared_as_key(package, workspace, need.name):
                 continue
             sure = sure and not (workspace.target.told and workspace.world.where_else(need.name))
-        found.append((need, sure and not (unknown and _may_satisfy(unknown, need, workspace))))
+        found.append(_despite(unknown, need, workspace) if sure and unknown else (need, sure))
     return tuple(found)
+
+
+def _despite(unknown: Sequence[str], need: Need, workspace: Workspace) -> tuple[Need, bool]:
+    """Return a need, and whether it is sure though names are declared of which nothing is known: first what they cannot bring."""
+    satisfied = satisfiable(unknown, need.uses, workspace)
+    if all(satisfied[use.providers] for use in need.uses if use.sure):
+        return need, False
+    return need._replace(uses=tuple(sorted(need.uses, key=lambda use: satisfied[use.providers]))), True
 
 
 def _is_declared_as_key(package: Package, workspace: Workspace, name: str) -> bool:
@@ -270,9 +278,13 @@ def _comes_with(need: Need, others: Iterable[Need], workspace: Workspace) -> boo
     return any(need.name in workspace.world.closure((other.name,)) for other in others if other is not need)
 
 
-def _may_satisfy(unknown: Sequence[str], need: Need, workspace: Workspace) -> bool:
-    names = dict.fromkeys([name for use in need.uses for name in use.providers])
-    return any(may_bring(unknown, name, workspace) for name in names)
+def satisfiable(unknown: Sequence[str], uses: Iterable[Use], workspace: Workspace) -> Mapping[tuple[str, ...], bool]:
+    """Return for the providers of each use whether one of the declared names of which nothing is known could bring one along.
+
+    Each place has to be satisfied: a library may come with anything, which helps no script that finds the package.
+    """
+    answers = dict.fromkeys([use.providers for use in uses])
+    return {names: any(may_bring(unknown, name, workspace) for name in names) for names in answers}
 
 
 def only_launched(package: Package, uses: Sequence[Use]) -> bool:
@@ -375,15 +387,11 @@ def _is_no_package(name: str, workspace: Workspace) -> bool:
 
     What a build script finds, and nothing took the place of in ROS 2, was ported without a release.
     """
-    if "-" in name or name != name.lower() or name == "ament_python":
+    if not may_be_package(name) or name == "ament_python":
         return True
     names = workspace.world.knowledge.names
     gone = names.end_of_life(name)
     if gone:
         ported = name in _found(workspace) and not names.successor(name)
         return not ported and all(distro.startswith("ROS 1 ") for distro in gone)
-    world = workspace.world
-    if world.meant(name) is not None:
-        return True
-    # Of ament nearly everything is released, so what is near one of its names is a slip.
-    return name.startswith("ament_") and any(near.startswith("ament_") for near in world.suggest(name))
+    return workspace.world.meant(name) is not None or is_near_tool(name, workspace)

@@ -61,6 +61,11 @@ def strangers(name: str, packages: Iterable[Package]) -> Iterator[Stranger]:
             yield Stranger(package, first, tuple(declared.depend for declared in tags))
 
 
+def is_near_tool(name: str, workspace: Workspace) -> bool:
+    """Whether an unknown name is near one of ament: nearly everything of that is released, so it is a slip and no package."""
+    return name.startswith("ament_") and any(near.startswith("ament_") for near in workspace.world.suggest(name))
+
+
 @per_package
 def meant(package: Package, workspace: Workspace) -> frozenset[str]:
     """Return what a package must mean by those of its declared names that do not exist: nobody else need declare it."""

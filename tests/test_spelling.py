@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 import re
+from itertools import pairwise
 
 import pytest
 
@@ -40,7 +41,12 @@ def test_slips_are_those_that_brute_force_finds() -> None:
 
 @pytest.mark.parametrize(
     ("wrong", "right"),
-    [("laser_filter", "laser_filters"), ("geometry_msg", "geometry_msgs"), ("buildin_interfaces", "builtin_interfaces")],
+    [
+        ("laser_filter", "laser_filters"),
+        ("geometry_msg", "geometry_msgs"),
+        ("buildin_interfaces", "builtin_interfaces"),
+        ("rivz_default_plugins", "rviz_default_plugins"),
+    ],
 )
 def test_slips(wrong: str, right: str) -> None:
     assert Spelling(Knowledge("jazzy").index.names()).one_slip(wrong) == (right,)
@@ -49,6 +55,15 @@ def test_slips(wrong: str, right: str) -> None:
 @pytest.mark.parametrize("name", ["python3-pcl", "lcm", "mrpt2", "camera_2", "rclcpp"])
 def test_no_slips(name: str) -> None:
     assert Spelling(["python3-pil", "icm", "mrpt1", "camera_1", "rclcpp"]).one_slip(name) == ()
+
+
+def test_no_two_known_names_are_letters_swapped() -> None:
+    """Why words of four letters will do for it."""
+    names = {*Knowledge("jazzy").index.names(), *Knowledge("jazzy").rosdep.names()}
+    for name in names:
+        for at, (left, right) in enumerate(pairwise(name)):
+            if left != right and left.isalpha() and right.isalpha():
+                assert f"{name[:at]}{right}{left}{name[at + 2 :]}" not in names
 
 
 def test_spelling_by_dashes_and_capitals() -> None:

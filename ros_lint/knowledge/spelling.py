@@ -18,7 +18,12 @@ if TYPE_CHECKING:
 _SHORTEST = 5
 """Words with fewer letters are one letter apart by chance, such as pcl and pil."""
 
+_SHORTEST_SWAPPED = 4
+"""Letters are swapped by chance in no two names that are known, however short the word."""
+
 _COMMON = 150
+
+_OF_PACKAGES = re.compile(r"[a-z][a-z0-9_]*")
 
 
 class Spelling:
@@ -114,6 +119,11 @@ def _may_be_meant(words: frozenset[str], others: frozenset[str]) -> bool:
     return not (lacking and more) or all(get_close_matches(word, more, 1, 0.6) for word in lacking)
 
 
+def may_be_package(name: str) -> bool:
+    """Return whether a package of ROS may have a name: small letters, digits and underscores after a small letter (REP 144)."""
+    return _OF_PACKAGES.fullmatch(name) is not None
+
+
 def plain(name: str) -> str:
     """Return a name without what people get wrong first."""
     return name.replace("-", "").replace("_", "").lower()
@@ -172,11 +182,11 @@ def _is_slip(one: str, other: str) -> bool:
         alike = longer[start + 1 :] == shorter[start:]
         plural = longer[start] == "s" and not longer[start + 1 : start + 2].isalnum()
         return alike and (plural or _word_length(longer, start) >= _SHORTEST)
+    letters = _word_length(longer, start)
     swapped = longer[start + 1 : start + 2] + longer[start]
-    return _word_length(longer, start) >= _SHORTEST and (
-        longer[start + 1 :] == shorter[start + 1 :]
-        or (swapped == shorter[start : start + 2] and longer[start + 2 :] == shorter[start + 2 :])
-    )
+    if swapped == shorter[start : start + 2] and longer[start + 2 :] == shorter[start + 2 :]:
+        return letters >= _SHORTEST_SWAPPED
+    return letters >= _SHORTEST and longer[start + 1 :] == shorter[start + 1 :]
 
 
 def _word_length(name: str, at: int) -> int:

@@ -27,7 +27,8 @@ needed at run time, `<exec_depend>` for what is needed at run time only, `<test_
   same: the confidence is medium, unless another package of the workspace declares it.
 - Only other distributions have the package, or had it: then the confidence is medium and the message names them, unless
   nobody said which distribution is meant. What brings it along there counts.
-- A declared dependency is itself not known, so that the package might come with it: then the confidence is medium.
+- A declared dependency is itself not known, so that the package might come with it, and nothing else needs it that could not:
+  then the confidence is medium.
 - All evidence is in files that are perhaps not built or installed: then, too, the confidence is medium.
 - The package needs this one itself, in whatever tag, so that declaring it would close a cycle that colcon refuses: then,
   too, the confidence is medium, and nothing is fixed. Nor is it where no key resolves for the distribution.

@@ -18,15 +18,14 @@ is not released, put its sources into the workspace, or name the prefix it is in
 ## When it keeps silent
 
 For tags under a condition that is false or cannot be evaluated, for packages of ROS 1 (build type catkin), and when there
-is no index of the distribution. Unless the name is clearly a slip, or one that no package has (REP 144: no dashes, no
-capitals), the confidence is medium, so that the finding shows with `--pedantic` only: packages that are not released
-anywhere cannot be told from those that do not exist. So it is for the names of libraries when a `.repos` file or
-`.gitmodules` says that sources of the workspace are elsewhere.
+is no index of the distribution. Unless the name is clearly a slip, near one of the tools of ament, of which nearly everything
+is released, or one that no package has (REP 144: no dashes, no capitals), the confidence is medium, so that the finding shows
+with `--pedantic` only: packages that are not released anywhere cannot be told from those that do not exist. So it is for the
+names of libraries when a `.repos` file or `.gitmodules` says that sources of the workspace are elsewhere.
 """
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 
 from ros_lint.api import (
@@ -41,12 +40,13 @@ from ros_lint.api import (
     Workspace,
     called,
     declared_names,
+    is_near_tool,
+    may_be_package,
     remove_dependency,
     strangers,
 )
 
 _CALLED_SO_BY = {"cmake": "find_package", "python": "Python", "system": "the system's package manager"}
-_MAY_BE_A_PACKAGE = re.compile(r"[a-z][a-z0-9_]*")
 _PYTHON_BUILD = "ament_python"
 _MOST_KEYS = 3
 _FINDS_DECLARED = "ament_auto_find_build_dependencies"
@@ -121,10 +121,11 @@ def _is_found_as_declared(package: Package, name: str) -> bool:
 def _confidence(stranger: Stranger, by: str, workspace: Workspace) -> Confidence:
     if not by:
         # Packages are called otherwise (REP 144), and rosdep knows its keys.
-        return Confidence.MEDIUM if _MAY_BE_A_PACKAGE.fullmatch(stranger.name) else Confidence.HIGH
+        exists = may_be_package(stranger.name) and not is_near_tool(stranger.name, workspace)
+        return Confidence.MEDIUM if exists else Confidence.HIGH
     # A library may be wrapped in a package of its own name whose sources come with another repository.
     elsewhere = bool(workspace.source_lists) and by in _CALLED_SO_BY
-    return Confidence.MEDIUM if elsewhere and _MAY_BE_A_PACKAGE.fullmatch(stranger.name) else Confidence.HIGH
+    return Confidence.MEDIUM if elsewhere and may_be_package(stranger.name) else Confidence.HIGH
 
 
 def _rename(stranger: Stranger, name: str) -> tuple[Edit, ...]:
