@@ -45,8 +45,8 @@ class Meant(NamedTuple):
     name: str
     """A package, or a rosdep key that resolves for the distribution."""
     by: Literal["spelling", "cmake", "python", "system", "slip"]
-    """How the wrong name comes about: dashes and capitals; what find_package, import, or apt and pip call it; one
-    letter."""
+    """How the wrong name comes about: dashes, capitals and what is in the package; what find_package, import, or apt and pip
+    call it; one letter."""
 
 
 _NONE_NEEDED = Providers(none_needed=True)
@@ -158,6 +158,9 @@ def meant(world: World, name: str, *, python: bool) -> Meant | None:
     ``python`` says whether it is needed to run Python code, where find_package has no say.
     """
     names = world.knowledge.names
+    package = name.replace(".", "/").partition("/")[0]
+    if package != name and world.is_package(package):  # a message, or a module: std_msgs/msg/String, rclpy.qos
+        return Meant(package, "spelling")
     by_cmake = None if python else _first(world, _libraries(names.cmake(name)), "cmake")
     if by_cmake is not None:
         return by_cmake
