@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from itertools import combinations
 from pathlib import Path
 
 import pytest
@@ -89,6 +90,16 @@ def test_the_maps_name_only_what_there_is() -> None:
         for line in store.lines(file)[1]:
             names = {*(line + "\t").split("\t")[1].split()} - {NOTHING_NEEDED}
             assert names <= known, f"{file}: {line}"
+
+
+def test_the_best_key_of_a_module_comes_first() -> None:
+    """What the system packages goes before what pip brings, and the keys of Python 2 go last: rosdep drops them."""
+    for line in Store().lines("py_import.tsv")[1]:
+        entries = [entry.partition(":")[::2] for entry in line.split("\t")[1].split()]
+        for (first, evidence), (second, better) in combinations(entries, 2):
+            assert first.replace("python-", "python3-") != second, line
+            by_pip = first.endswith("-pip") and evidence == "P"
+            assert not (by_pip and "A" in better and not second.endswith("-pip")), line
 
 
 def test_end_of_life_names_are_in_no_active_distribution() -> None:
