@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ros_lint.build_scripts import called
+from ros_lint.facts.build import BuildScript
 from ros_lint.facts.cmake import Call
 from ros_lint.rule import Edit
 from ros_lint.text import Span
@@ -12,8 +13,7 @@ _LIBRARY = """\
 install(TARGETS {}
   ARCHIVE DESTINATION lib
   LIBRARY DESTINATION lib
-  RUNTIME DESTINATION bin)
-"""
+  RUNTIME DESTINATION bin)"""
 
 
 def covers(call: Call, span: Span) -> bool:
@@ -22,20 +22,26 @@ def covers(call: Call, span: Span) -> bool:
     return whole.path == span.path and whole[1:3] <= span[1:3] and span[3:5] <= whole[3:5]
 
 
-def install_library(end: Span, name: str) -> Edit:
-    """Install a library, before the place ``end``: that of ament_package()."""
-    return Edit(end, _LIBRARY.format(name))
+def at_end(script: BuildScript, code: str) -> Edit:
+    """Add commands before ament_package(), set off by blank lines if that is; there is such a place, ``script.end``."""
+    assert script.end is not None
+    return Edit(script.behind, f"\n\n{code}") if script.behind else Edit(script.end, f"{code}\n")
 
 
-def install_program(end: Span, kind: str, name: str) -> Edit:
+def install_library(script: BuildScript, name: str) -> Edit:
+    """Install a library, before ament_package()."""
+    return at_end(script, _LIBRARY.format(name))
+
+
+def install_program(script: BuildScript, kind: str, name: str) -> Edit:
     """Install one of TARGETS, PROGRAMS to lib/<package>."""
-    return Edit(end, f"install({kind} {name} DESTINATION lib/${{PROJECT_NAME}})\n")
+    return at_end(script, f"install({kind} {name} DESTINATION lib/${{PROJECT_NAME}})")
 
 
-def install_file(end: Span, path: str) -> Edit:
+def install_file(script: BuildScript, path: str) -> Edit:
     """Install a file below share/<package>, at the path that it has in the package."""
     folder = path.rpartition("/")[0]
-    return Edit(end, f"install(FILES {path} DESTINATION share/${{PROJECT_NAME}}{'/' + folder if folder else ''})\n")
+    return at_end(script, f"install(FILES {path} DESTINATION share/${{PROJECT_NAME}}{'/' + folder if folder else ''})")
 
 
 def install_folder(package: Package, folder: str) -> Edit | None:
@@ -49,8 +55,9 @@ def install_folder(package: Package, folder: str) -> Edit | None:
         span = call.span(last)
         gap = " " if span.line == call.span(last - 1).line else "\n" + " " * (span.column - 1)
         return Edit(span.end(), f"{gap}{folder}")
-    end = package.script.end if package.script else None
-    return Edit(end, f"install(DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}})\n") if end else None
+    if package.script is None or package.script.end is None:
+        return None
+    return at_end(package.script, f"install(DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}})")
 
 
 def _beside(package: Package) -> Call | None:

@@ -103,12 +103,14 @@ _NEW_MODE = 0o644
 
 def _apply_to(source: Text, edits: Sequence[Edit]) -> str:
     text = source.text
+    by_return = "\r\n" in text and text.count("\r\n") == text.count("\n")
     # From the end, so that earlier offsets stay true.
     numbered = sorted(enumerate(edits), key=lambda pair: (pair[1].span[1:], pair[1].rank, pair[0]))
     for _, edit in reversed(numbered):
         start = source.offset(edit.span.line, edit.span.column)
         end = source.offset(edit.span.end_line, edit.span.end_column)
-        text = text[:start] + edit.text + text[end:]
+        put = edit.text.replace("\r\n", "\n").replace("\n", "\r\n") if by_return else edit.text
+        text = text[:start] + put + text[end:]
     return text
 
 

@@ -24,6 +24,12 @@ def test_edits_do_not_move_each_other() -> None:
     assert applied(fix((0, 3, "ONE"), (9, 14, "3")), fix((5, 5, "a "), (5, 5, "b "))) == "ONE\r\na b two\n3"
 
 
+def test_lines_end_as_those_of_the_file() -> None:
+    source = Text("f", "one\r\ntwo\r\n")
+    change = Fix("", (Edit(source.span(5, 5), "a\nb\r\n"),))
+    assert edits.apply([change], lambda path: source)["f"] == "one\r\na\r\nb\r\ntwo\r\n"
+
+
 def test_the_same_edit_twice_is_made_once() -> None:
     assert applied(fix((0, 0, "x")), fix((0, 0, "x"))) == "xone\r\ntwo\nthree"
 

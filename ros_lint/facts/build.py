@@ -160,6 +160,8 @@ class BuildScript(NamedTuple):
     """Sets that targets are exported in by install(TARGETS ... EXPORT)."""
     failed: bool = False
     """Whether it could not be evaluated by a mistake of ours, which ``opaque`` then tells."""
+    behind: Span | None = None
+    """Where the command before ``end`` ends, if nothing but blank lines stand between the two."""
 
     def hides(self, facet: Facet) -> bool:
         """Whether the script cannot be seen through as to a facet. What code computes when it runs is no matter here."""

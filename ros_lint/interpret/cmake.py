@@ -116,6 +116,7 @@ def _result(run: Run, path: str) -> BuildScript:
         tuple(problems),
         run.end,
         tuple(run.extras),
+        behind=run.behind,
         entered=tuple(run.entered),
         test_folders=tuple([folder for folder in run.entered_for_tests if folder]),
         handed_on=tuple(_handed_on(run)),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import posixpath
 import re
-from itertools import accumulate
+from itertools import accumulate, pairwise
 from typing import Final
 
 from ros_lint.facts.build import Component, Provided
@@ -226,11 +226,17 @@ def _extras(run: Run, name: str, files: list[str], conditional: bool) -> None:
 
 
 def _end(run: Run) -> None:
-    """Note the place before ament_package(): install rules belong there."""
+    """Note the place before ament_package(): install rules belong there, set off as it is itself."""
     frame = next(frame for frame in reversed(run.frames) if frame.own)
     top = join_path(run.sources.path, "CMakeLists.txt")
     if run.end is None and not run.unsure and frame.procedure is None and frame.path == top and frame.command:
         run.end = frame.command.place(frame.path).start()
+        commands = run.sources.scripts["CMakeLists.txt"].commands
+        before = next((one for one, other in pairwise(commands) if other.start == frame.command.start), None)
+        if before is not None:
+            lines = frame.command.line - before.line - len(before.breaks)
+            if lines > 1 and frame.command.start - before.end in (lines, 2 * lines):  # with either kind of line ends
+                run.behind = before.span(frame.path, before.end, before.end)
 
 
 def _unknown(run: Run, args: list[str]) -> None:

@@ -153,6 +153,7 @@ class Run(Paths):
         self.version = ""
         self.version_span: Span | None = None
         self.end: Span | None = None
+        self.behind: Span | None = None
 
     # --- variables
 

@@ -137,8 +137,8 @@ def _unregistered(package: Package, one: Registration, *, started: bool) -> Find
     library = _library_of(package, one)
     fix = None
     if library and script.end is not None and "rclcpp_components" in _found(package):
-        line = f'rclcpp_components_register_nodes({library} "{one.name}")\n'
-        fix = Fix(f"register {one.name}", (Edit(script.end, line),), safe=False)
+        line = f'rclcpp_components_register_nodes({library} "{one.name}")'
+        fix = Fix(f"register {one.name}", (cmake_edits.at_end(script, line),), safe=False)
     way = f'rclcpp_components_register_nodes({library or "..."} "{one.name}")'
     return Finding(
         f"CMake does not register the component {one.name}; add {way}",
@@ -180,7 +180,7 @@ def _libraries(package: Package) -> Iterator[Finding]:
         if target is None or name in listed or any(file.startswith(f"lib{name}.") for file in installed):
             continue
         told.add(name)
-        fix = Fix(f"install {name}", (cmake_edits.install_library(script.end, name),)) if script.end else None
+        fix = Fix(f"install {name}", (cmake_edits.install_library(script, name),)) if script.end else None
         message = f"the library {name} has components, and is not installed; install it to lib"
         yield Finding(message, call.span(0), name, (Related("it is built here", target.span),), fix)
 

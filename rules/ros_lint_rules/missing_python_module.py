@@ -33,7 +33,6 @@ from collections.abc import Iterator
 
 from ros_lint.api import (
     Confidence,
-    Edit,
     Facet,
     Finding,
     Fix,
@@ -44,9 +43,11 @@ from ros_lint.api import (
     Slot,
     Span,
     Workspace,
+    cmake_edits,
     setup_edits,
 )
 
+_FIND = "find_package(ament_cmake_python REQUIRED)"
 _APART = frozenset({"test", "tests", "testing", "launch", "doc", "docs", "example", "examples", "scripts", "resource", "build"})
 
 
@@ -136,7 +137,7 @@ def _of_cmake(package: Package, workspace: Workspace) -> Iterator[Finding]:
         script.end,
         folder,
         tuple(Related("imported here", use.span) for _, use in users[:3]),
-        Fix(f"install {folder}/", (Edit(script.end, f"find_package(ament_cmake_python REQUIRED)\n{call}\n"),), safe=False),
+        Fix(f"install {folder}/", (cmake_edits.at_end(script, f"{_FIND}\n{call}"),), safe=False),
         Confidence.HIGH if users or f"{folder}/setup.cfg" in files else Confidence.MEDIUM,
         None if users else Severity.WARNING,
     )

@@ -32,7 +32,6 @@ from collections.abc import Iterator
 
 from ros_lint.api import (
     Confidence,
-    Edit,
     Facet,
     Finding,
     Fix,
@@ -46,6 +45,7 @@ from ros_lint.api import (
     Severity,
     Workspace,
     called,
+    cmake_edits,
     hidden,
     is_apart,
     relative,
@@ -140,7 +140,7 @@ def _export(package: Package, plugin: PluginFile) -> Fix | None:
     base = bases.pop()
     if not package.declares(base) and base != package.name:
         return None
-    return Fix(f"export {plugin.path}", (Edit(script.end, f"{_EXPORT}({base} {plugin.path})\n"),), safe=False)
+    return Fix(f"export {plugin.path}", (cmake_edits.at_end(script, f"{_EXPORT}({base} {plugin.path})"),), safe=False)
 
 
 def _libraries(package: Package, plugin: PluginFile, registered: list[Registration]) -> Iterator[Finding]:

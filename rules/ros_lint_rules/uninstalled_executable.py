@@ -30,6 +30,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros_lint.api import (
+    BuildScript,
     BuildTarget,
     Confidence,
     Facet,
@@ -99,7 +100,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _left(package: Package, target: BuildTarget, says: str) -> Finding:
-    fix = _install(package.script.end if package.script else None, target.name)
+    fix = _install(package.script, target.name)
     return Finding(f"{target.name} is built{says}; install it to lib/{package.name}", target.span, target.name, fix=fix)
 
 
@@ -133,8 +134,10 @@ def _targets(texts: tuple[str, ...]) -> Iterator[str]:
         yield text
 
 
-def _install(end: Span | None, name: str) -> Fix | None:
-    return Fix(f"install {name}", (cmake_edits.install_program(end, "TARGETS", name),)) if end else None
+def _install(script: BuildScript | None, name: str) -> Fix | None:
+    if script is None or script.end is None:
+        return None
+    return Fix(f"install {name}", (cmake_edits.install_program(script, "TARGETS", name),))
 
 
 RULE = Rule(

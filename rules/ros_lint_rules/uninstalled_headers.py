@@ -34,7 +34,6 @@ from collections.abc import Iterator, Mapping
 from ros_lint.api import (
     Call,
     Confidence,
-    Edit,
     Facet,
     Finding,
     Fix,
@@ -45,6 +44,7 @@ from ros_lint.api import (
     Use,
     Workspace,
     called,
+    cmake_edits,
     evaluated_name,
     hidden,
     is_apart,
@@ -169,8 +169,8 @@ def _fix(package: Package, exports: list[Call]) -> Fix | None:
     if script.end is None:
         return None
     folder = exports[0].texts[0].strip("/") if exports else "include"
-    line = f"install(DIRECTORY include/ DESTINATION {folder})\n"
-    return Fix("install the headers", (Edit(script.end, line),), safe=bool(exports))
+    line = f"install(DIRECTORY include/ DESTINATION {folder})"
+    return Fix("install the headers", (cmake_edits.at_end(script, line),), safe=bool(exports))
 
 
 RULE = Rule(

@@ -33,7 +33,6 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 
 from ros_lint.api import (
-    Edit,
     Facet,
     Finding,
     Fix,
@@ -43,6 +42,7 @@ from ros_lint.api import (
     Severity,
     Span,
     Workspace,
+    cmake_edits,
     launchable,
     setup_edits,
 )
@@ -122,19 +122,18 @@ def _finding(package: Package, folder: str, paths: Iterable[str], whole: bool) -
 
 def _fix(package: Package, folder: str, paths: Iterable[str], whole: bool) -> Fix | None:
     script = package.script
-    end = script.end if script else None
     if script is not None and script.path.endswith("setup.py"):
         return _fix_of_setup(package, folder, paths, whole)
-    if end is None or not end.path.endswith("CMakeLists.txt"):
+    if script is None or script.end is None:
         return None
     if whole:
         line = f"install(DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}})"
-        return Fix(f"install {folder}/", (Edit(end, f"{line}\n"),))
+        return Fix(f"install {folder}/", (cmake_edits.at_end(script, line),))
     names = " ".join(paths)
     # Beside the files of that folder which are installed, if it has some.
     inner = folder.rpartition("/")[2] or "launch"
     line = f"install(FILES {names} DESTINATION share/${{PROJECT_NAME}}/{inner})"
-    return Fix(f"install {names}", (Edit(end, f"{line}\n"),))
+    return Fix(f"install {names}", (cmake_edits.at_end(script, line),))
 
 
 def _fix_of_setup(package: Package, folder: str, paths: Iterable[str], whole: bool) -> Fix | None:

@@ -84,7 +84,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             target.span,
             target.name,
             related,
-            Fix(f"install {target.name}", (cmake_edits.install_library(script.end, target.name),)) if script.end else None,
+            Fix(f"install {target.name}", (cmake_edits.install_library(script, target.name),)) if script.end else None,
             Confidence.HIGH if reason or lone else Confidence.MEDIUM if shared else Confidence.LOW,
             None if reason else Severity.WARNING,
         )

@@ -222,7 +222,7 @@ def _fix(package: Package, unit: str) -> Fix | None:
         if not name:
             edit = cmake_edits.install_folder(package, folder)
         elif script.end:
-            edit = cmake_edits.install_file(script.end, unit)
+            edit = cmake_edits.install_file(script, unit)
     elif slot := setup_edits.slot(script, "data_files"):
         paths = [unit] if name else [file for file in package.files if file.startswith(unit)]
         edit = setup_edits.add_files(slot, package.name, paths, package.files) if len(paths) <= _MOST_LISTED else None

@@ -68,7 +68,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         forgotten = file.path in nodes and file.path.rpartition("/")[0] in with_nodes
         fix = None
         if script.end is not None:
-            fix = Fix(f"install {file.path}", (cmake_edits.install_program(script.end, "PROGRAMS", file.path),))
+            fix = Fix(f"install {file.path}", (cmake_edits.install_program(script, "PROGRAMS", file.path),))
         sure = file.run is not None or (forgotten and file.executable)
         yield Finding(
             f"{file.path} is a script, and is not installed, so ros2 run does not find it",

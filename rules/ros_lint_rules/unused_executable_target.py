@@ -54,7 +54,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             continue
         fix = None
         if script.end is not None:
-            edit = cmake_edits.install_program(script.end, "TARGETS", target.name)
+            edit = cmake_edits.install_program(script, "TARGETS", target.name)
             fix = Fix(f"install {target.name}", (edit,), safe=False)
         yield Finding(f"{target.name} is built, but neither installed nor a test", target.span, target.name, fix=fix)
 
