@@ -39,7 +39,9 @@ from ros_lint.api import (
     Related,
     Rule,
     Severity,
+    Span,
     Workspace,
+    from_base,
     launchable,
     near_names,
     programs,
@@ -99,6 +101,10 @@ def _missing(owner: str, name: str, workspace: Workspace) -> _Missing | None:
             where = tuple(Related("installed here", p.span) for p in script.provides if p.path == path) if script else ()
             return _Missing(f" in lib/{owner}, but {path}, where launch does not look", "", where)
         names |= found.names
+        lying = next((file.path for file in one.script.files if file.path.endswith(f"/{name}")), "") if one.script else ""
+        if lying:
+            place = Span(from_base(one, lying), 1, 1, 1, 1)
+            return _Missing(f": {lying} is not installed", "", (Related("this file", place),))
     meant = _meant(name, tuple(sorted(names)))
     related = tuple(Related("its build script", one.script.end) for one in owners if one.script and one.script.end)
     return _Missing(_hint(name, meant, tuple(sorted(names))), meant, related[:1])
