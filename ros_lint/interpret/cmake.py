@@ -242,10 +242,13 @@ def _unnamed(run: Run, names: Iterable[str]) -> list[str]:
 
 def _missing(run: Run) -> list[Problem]:
     found = []
-    for source, span, unsure in run.missing:
+    for path, span, unsure in run.missing:
+        source = path.rstrip("/")
         # CMake takes a folder among the sources, and does nothing with it.
         if not unsure and source not in run.generated and not run.is_folder(source):
-            found.append(Problem("missing-file", f"{source} does not exist", span, subject=source))
+            empty = f"there is nothing in {path}, and git keeps no empty folder: install() stops without it"
+            message = f"{source} does not exist" if source == path else empty
+            found.append(Problem("missing-file", message, span, subject=source))
     return list(dict.fromkeys(found))
 
 

@@ -273,7 +273,7 @@ def _install_directory(run: Run, value: str, source: str, target: str, rule: _Ru
     own = run.below(source)
     if not own and source and not run.is_unseen(source):
         if not rule.optional:
-            run.missing.append((source, span, conditional))
+            run.missing.append((f"{source}/", span, conditional))
         return
     skip = len(source) + 1 if source else 0
     top = plain.rstrip("/") if plain.startswith("/") else f"/{join_path(run.directory, plain)}".rstrip("/")

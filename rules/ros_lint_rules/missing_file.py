@@ -65,7 +65,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if problem.kind in _KINDS and path not in seen and not _is_unseen(package, path):
             seen.add(path)
             hint = _hint(package, path) if problem.kind == "missing-file" else ""
-            yield Finding(f"{problem.message}{hint}", problem.span, path, confidence=_confidence(package, workspace, problem))
+            says = f"{path} does not exist" if path in _KINDS_OF_INSTALL else problem.message
+            yield Finding(f"{says}{hint}", problem.span, path, confidence=_confidence(package, workspace, problem))
     if package.builds_with == "ament_cmake":
         yield from _python_packages(package)
 
