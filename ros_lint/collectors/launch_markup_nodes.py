@@ -177,7 +177,7 @@ def _nested(reader: Reader, param: Entity, above: str) -> list[tuple[str, Launch
     names = [f"{above}{one}" for one in reader.text(param, "name").texts]
     wanted = param.get("type", "any")
     if wanted is not None and wanted not in _TYPES:
-        raise Rejected("wrong-type", f"there is no parameter type {wanted}", param.place("type"))
+        raise Rejected("wrong-type", f"there is no parameter type {wanted}; there are {', '.join(_TYPES)}", param.place("type"))
     kind: Type = _TYPES[wanted] if wanted is not None else "any"
     value = param.get("value", kind)
     inner = param.entities("param")

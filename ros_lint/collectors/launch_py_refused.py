@@ -85,7 +85,10 @@ _KNOWN = _MODULE | set(dir(builtins)) | {"copyright", "credits", "exit", "help",
 _SAY: Mapping[How, tuple[str, str]] = {
     "added": ("substitution-refused", "a {name} cannot be added to a text: put both into a list, [a, b]"),
     "joined": ("substitution-refused", "os.path.join() takes no {name}: say PathJoinSubstitution([a, b])"),
-    "formatted": ("substitution-as-text", "a {name} has no value yet that could be formatted: give a list of texts, [a, b]"),
+    "formatted": (
+        "substitution-as-text",
+        "a {name} has its value only at launch, too late to be formatted here: write a list, ['a', {name}(...)]",
+    ),
     "compared": ("substitution-as-text", "a {name} never equals a text: say EqualsSubstitution(a, b), or ask perform(context)"),
     "tested": ("substitution-as-text", "a {name} is always true: say IfCondition(a), or ask perform(context)"),
     "combined": ("substitution-as-text", "Python takes one of two conditions here: say IfCondition(AndSubstitution(a, b))"),

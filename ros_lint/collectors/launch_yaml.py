@@ -29,7 +29,7 @@ def collect(source: Text) -> LaunchFile:
             source.path,
             "yaml",
             opaque=(Opaque(Facet.USES, "the file is no YAML that can be read", span),),
-            problems=(Problem("syntax", error.message, span),),
+            problems=(Problem("syntax", f"not valid YAML: {error.message}", span),),
         )
     root = _Reader(source).root(node)
     if root is None:

@@ -109,7 +109,7 @@ def _plain(name: str) -> str:
 
 
 def _unmade(component: Component, alike: list[Registration]) -> Finding:
-    hint = f"; the sources say {alike[0].name}" if alike else ""
+    hint = f"; the sources say {alike[0].name}" if alike else f"; add RCLCPP_COMPONENTS_REGISTER_NODE({component.name}) to one"
     fix = None
     span = component.span
     if len(alike) == 1 and span.line == span.end_line:

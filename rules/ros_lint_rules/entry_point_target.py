@@ -79,7 +79,7 @@ def _entry(package: Package, entry: EntryPoint, workspace: Workspace) -> Iterato
     if not module.open and first not in module.names and not _is_submodule(package, name, first):
         path = from_base(package, module.path)
         near = difflib.get_close_matches(first, module.names, 1, 0.7)
-        hint = f"; is {near[0]} meant?" if near else ""
+        hint = f"; is {near[0]} meant?" if near else "; define it, or take the entry point out"
         yield Finding(
             f"{entry.name}: {module.path} has no {first}{hint}",
             entry.span,
@@ -105,7 +105,7 @@ def _no_module(package: Package, entry: EntryPoint, name: str, function: str, wo
         return
     tops = {module.partition(".")[0] for module in script.python_packages}
     own = name.partition(".")[0]
-    hint = ""
+    hint = "; add it, or take the entry point out"
     taken = {other.target for other in script.entry_points}  # no two programs are the same one
     modules = [module for module in script.python_packages if "." in module and f"{module}:{function}" not in taken]
     near = difflib.get_close_matches(name, modules, 1, 0.9)

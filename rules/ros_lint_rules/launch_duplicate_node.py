@@ -139,15 +139,15 @@ def _in_file(everything: Sequence[Started]) -> Iterator[Finding]:
 
 
 def _finding(name: str, started: Started, other: Started, here: Started, more: int) -> Finding:
-    what = f"{started.package[0]} {started.target[0]}" if started.package else started.target[0]
+    what = f"{started.target[0]} of {started.package[0]}" if started.package else started.target[0]
     related = [Related("the other node", other.span)] if other.span != started.span else []
     if here is started:
         return Finding(
             f"{what} is the second node called {name}: give it another name or namespace", here.span, name, tuple(related)
         )
-    others = f", and {more} more that are there twice" if more else ""
+    others = f"; {more} more {'is' if more == 1 else 'are'} there twice, too" if more else ""
     return Finding(
-        f"what this includes starts {what} as the second node called {name}{others}",
+        f"what is included here starts {what}, the second node called {name}{others}",
         here.span,
         name,
         (Related("the node", started.span), *related),

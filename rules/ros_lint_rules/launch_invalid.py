@@ -63,7 +63,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             _message(first),
             first.span,
             launch.path,
-            tuple(Related(_message(other), other.span) for other in others[:_MOST_RELATED]),
+            tuple(Related(_also(first, other), other.span) for other in others[:_MOST_RELATED]),
             confidence=max(_confidence(problem, workspace) for problem in problems),
             severity=Severity.WARNING if all(problem.kind == "substitution-as-text" for problem in problems) else None,
         )
@@ -76,6 +76,10 @@ def _newer(problems: Iterable[Problem], target: Target) -> Iterator[Problem]:
             if target.distro < problem.kind:
                 message = f"{target.distro} has no {problem.message}: it came with {problem.kind}"
                 yield problem._replace(message=message)
+
+
+def _also(first: Problem, other: Problem) -> str:
+    return "here, too" if _message(other) == _message(first) else _message(other)
 
 
 def _message(problem: Problem) -> str:

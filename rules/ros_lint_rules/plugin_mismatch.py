@@ -185,7 +185,7 @@ def _class(package: Package, plugin: PluginFile, one: PluginClass, registered: l
         return
     last = wanted.rpartition("::")[2]
     alike = [made for made in registered if made.name.rpartition("::")[2] == last]
-    hint = f"; the sources say {alike[0].name}" if alike else ""
+    hint = f"; the sources say {alike[0].name}" if alike else f"; add PLUGINLIB_EXPORT_CLASS({one.type}, {one.base}) to one"
     related = tuple(Related("made loadable here", made.span) for made in alike[:2])
     yield Finding(
         f"no source makes {one.type} loadable{hint}",
