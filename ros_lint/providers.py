@@ -161,9 +161,9 @@ def meant(world: World, name: str, *, python: bool) -> Meant | None:
     package = name.replace(".", "/").partition("/")[0]
     if package != name and world.is_package(package):  # a message, or a module: std_msgs/msg/String, rclpy.qos
         return Meant(package, "spelling")
-    by_cmake = None if python else _first(world, _libraries(names.cmake(name)), "cmake")
-    if by_cmake is not None:
-        return by_cmake
+    libraries = () if python else tuple(_libraries(names.cmake(name)))
+    if libraries:
+        return _first(world, libraries, "cmake")  # nobody who builds against it means what pip calls so
     same = _declarable(world, world.spelling.same(name))
     if same:
         return Meant(same[0], "spelling") if len(same) == 1 else None
@@ -196,7 +196,7 @@ def _other_names(world: World, name: str, *, python: bool) -> Iterator[Meant | N
 
 def _libraries(names: Iterable[str]) -> Iterator[str]:
     """Leave out what only tells CMake where a library is: whoever declares the library does not mean that."""
-    return (name for name in names if not name.endswith("_cmake_module"))
+    return (name for name in names if name != NOTHING_NEEDED and not name.endswith("_cmake_module"))
 
 
 def _first(world: World, names: Iterable[str], by: Literal["spelling", "cmake", "python"]) -> Meant | None:

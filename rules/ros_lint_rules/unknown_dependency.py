@@ -3,7 +3,7 @@
 
 A dependency in `package.xml` whose name means nothing to anybody: no package of the workspace, of an underlay or of any
 distribution has it, and no rosdep key is called so. Misspelt packages, the name that CMake, Python, apt or pip use instead
-of the rosdep key, and `ament_python`, which is a build type and no package.
+of the rosdep key, modules of Python itself, and `ament_python`, which is a build type and no package.
 
 ## Why it matters
 
@@ -56,7 +56,12 @@ def check(workspace: Workspace) -> Iterator[Finding]:
     for name, packages in declared_names(workspace).items():
         if workspace.world.standing(name) == "unknown":
             for stranger in strangers(name, packages):
-                yield _build_type(stranger) if name == _PYTHON_BUILD else _unknown(stranger, workspace)
+                if name == _PYTHON_BUILD:
+                    yield _build_type(stranger)
+                elif stranger.runs_python and workspace.world.by_import(name).none_needed:
+                    yield _of_python(stranger)
+                else:
+                    yield _unknown(stranger, workspace)
 
 
 def _build_type(stranger: Stranger) -> Finding:
@@ -71,13 +76,26 @@ def _build_type(stranger: Stranger) -> Finding:
     return Finding(message, stranger.declared.depend.span, name, fix=fix, package=package.name)
 
 
+def _of_python(stranger: Stranger) -> Finding:
+    package, name = stranger.package, stranger.name
+    edits = tuple(edit for tag in stranger.tags for edit in remove_dependency(package, tag))
+    return Finding(
+        f"{name} is a module of Python itself, so there is nothing that rosdep could install: remove the tag",
+        stranger.declared.depend.span,
+        name,
+        fix=Fix(f"remove the dependency on {name}", edits),
+        package=package.name,
+    )
+
+
 def _unknown(stranger: Stranger, workspace: Workspace) -> Finding:
     name, world, target = stranger.name, workspace.world, workspace.target
     known = f"{target.distro}, as of {world.knowledge.date}"
     what = f"{name} is neither a package nor a rosdep key ({known})"
     meant = world.meant(name, python=stranger.runs_python)
     fix = None
-    installing = world.knowledge.rosdep.installing(name)
+    of_cmake = not stranger.runs_python and bool(world.knowledge.names.cmake(name))
+    installing = () if of_cmake else world.knowledge.rosdep.installing(name)
     sure = _confidence(stranger, meant.by if meant else "system" if installing else "", workspace)
     if meant is None and installing:
         message = f"{what}, but what {_caller('system', installing[0])} calls it: write {' or '.join(installing[:_MOST_KEYS])}"
