@@ -9,7 +9,7 @@ looked up at run time, or for what public headers include and `ament_export_depe
 
 In a workspace it mostly works, for colcon puts every dependency on the path, whatever its tag. It fails elsewhere:
 `exec_depend` is not installed where binary packages are built, `build_depend` is not installed with them, and
-`test_depend` is neither when tests are off (REP 149; reference, section E1).
+`test_depend` is neither when tests are off (REP 149).
 
 ## How to fix it
 
