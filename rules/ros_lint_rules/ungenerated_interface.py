@@ -2,7 +2,8 @@
 ## What it finds
 
 Messages, services and actions in `msg/`, `srv/` and `action/` of a package that `rosidl_generate_interfaces()` is not given,
-while it is given others.
+while it is given others. And those of an `ament_python` package that says in `package.xml` that it generates interfaces:
+nothing is generated from them at all.
 
 ## Why it matters
 
@@ -12,7 +13,8 @@ No code is generated from such a file: "fatal error: robot/msg/state.hpp: No suc
 ## How to fix it
 
 Add the file to the call, or remove it. The fix adds it below another of the same folder, where these are written out. rosidl
-refuses names like `motor_state.msg`: such a file has to be called `MotorState.msg` first.
+refuses names like `motor_state.msg`: such a file has to be called `MotorState.msg` first. What an `ament_python` package
+defines has to move to one of `ament_cmake`.
 
 ## When it keeps silent
 
@@ -45,12 +47,16 @@ from ros_lint.api import (
 _GENERATE = "rosidl_generate_interfaces"
 _KINDS = {"msg": ("msg", "idl"), "srv": ("srv", "idl"), "action": ("action", "idl")}
 """Suffixes of interfaces, by folder."""
+_SAYS_SO = ("rosidl_interface_packages", "rosidl_default_generators")
+_MOST_RELATED = 4
 _NAME = re.compile(r"[A-Z][A-Za-z0-9]*")
 """What rosidl takes for the name of a message; it asks nothing of those of files in IDL."""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
+    if package.builds_with == "ament_python":
+        yield from _of_python(package)
     if script is None or package.builds_with != "ament_cmake" or package.hidden(Facet.INTERFACES):
         return
     calls = list(called(package, _GENERATE, anywhere=True))
@@ -63,6 +69,25 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             continue
         if stem.isidentifier():
             yield _finding(package, calls, file, "" if suffix == "idl" or _NAME.fullmatch(stem) else _camel(stem))
+
+
+def _of_python(package: Package) -> Iterator[Finding]:
+    """Speak of all interfaces of a package at the tag that says that it generates them."""
+    depends = package.manifest.depends if package.manifest else ()
+    tag = next((depend for depend in depends if depend.name in _SAYS_SO), None)
+    parts = [(file, *file.rpartition("/")) for file in package.files]
+    found = [file for file, folder, _, name in parts if name.rpartition(".")[2] == folder.rpartition("/")[2] in _KINDS]
+    if tag is None or not found:
+        return
+    base = f"{package.path}/" if package.path else ""
+    others = f" and {len(found) - 1} more" if len(found) > 1 else ""
+    yield Finding(
+        f"nothing is generated from {found[0]}{others}: ament_python does not do that, so put {'them' if others else 'it'} "
+        "into a package of ament_cmake",
+        tag.span,
+        found[0],
+        tuple(Related("this file", Span(f"{base}{file}", 1, 1, 1, 1)) for file in found[:_MOST_RELATED]),
+    )
 
 
 def _camel(stem: str) -> str:
