@@ -15,6 +15,7 @@ from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sight import Opaque
 from ros_lint.facts.sources import FileFacts, Mention, Use, Via
+from ros_lint.knowledge.spelling import may_be_package
 from ros_lint.liveness import HEADERS, Liveness
 from ros_lint.own_files import OwnFiles
 from ros_lint.text import Span
@@ -92,13 +93,13 @@ class Resolver:
         self._ask: Mapping[Via, Callable[[str], Answer]] = {
             "include": self._include,
             "import": lambda name: self._told(self.names.by_import(name), name.partition(".")[0], name),
-            "cmake": lambda name: self._told(self.names.by_cmake(name), name),
+            "cmake": self._found,
             "target": lambda name: self._told(self.names.by_cmake(name.partition("::")[0]), name.partition("::")[0]),
             "macro": lambda name: self._told(self.names.by_macro(name.partition("::")[0]), name.partition("::")[0]),
-            "interface": lambda name: self._interface(name.partition("/")[0]),
+            "interface": lambda name: self._package(name.partition("/")[0]),
             "package": self._package,
             "symbol": lambda name: Answer((name,)) if self.names.is_package(name) else _NOBODY,
-            "launch": self._package,
+            "launch": lambda name: Answer((name,)) if self.names.is_package(name) else self._strange(name),
             "key": lambda name: Answer((name,)),
         }
         self._said: Mapping[Via, dict[str, Answer]] = {via: {} for via in self._ask}
@@ -123,11 +124,13 @@ class Resolver:
         return Answer(tuple(sorted(found, key=lambda package: package != first)))
 
     def _package(self, name: str) -> Answer:
-        return Answer((name,)) if self.names.is_package(name) else self._strange(name)
-
-    def _interface(self, name: str) -> Answer:
-        # Definitions that tests parse are full of names that nobody has.
+        # Definitions that tests parse are full of names that nobody has, and so are look-ups in templates.
         return Answer((name,)) if self.names.is_package(name) else self._strange(name, self.names.is_declared(name))
+
+    def _found(self, name: str) -> Answer:
+        known = self.names.by_cmake(name)
+        # A library may have any name, but not by chance that of a dependency of another package.
+        return self._told(known, name) if known.known or not may_be_package(name) else self._package(name)
 
     def _told(self, providers: Providers, name: str, whole: str = "") -> Answer:
         if providers.known:
