@@ -339,7 +339,7 @@ class Liveness:
         apart = {folder for file in below if file.endswith(".py") and (folder := file.rpartition("/")[0]) not in whole}
         apart = {folder for folder in apart if f"{folder}/__init__.py" not in self._facts}
         apart -= self._imported_folders if apart else apart
-        kept = [file for file in below if not file.endswith(".py") or file.rpartition("/")[0] not in apart]
+        kept = [file for file in below if not file.endswith(".py") or _is_of_modules(file, apart)]
         return modules.intersection(self._files).union(kept) if packages else frozenset()
 
     @cached_property
@@ -356,6 +356,12 @@ def _interface(path: str) -> str:
     folder, _, name = path.rpartition("/")
     stem, _, suffix = name.rpartition(".")
     return f"{folder.rpartition('/')[2] if suffix == 'idl' else suffix}/{stem}"
+
+
+def _is_of_modules(path: str, apart: Collection[str]) -> bool:
+    """Whether a file in Python can be imported: one called ``node copy.py`` was put aside by an editor or a file manager."""
+    folder, _, name = path.rpartition("/")
+    return folder not in apart and " " not in name
 
 
 def _stem(path: str) -> str:

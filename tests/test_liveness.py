@@ -253,6 +253,19 @@ def test_a_folder_in_a_python_package_is_none_by_itself(more: dict[str, str], su
     assert placed(workspace, "nav_msgs") == (Role.EXEC, sure, False)
 
 
+@pytest.mark.parametrize(("name", "sure"), [("node.py", True), ("node copy.py", False)])
+def test_what_nobody_can_import_is_put_aside(name: str, sure: bool) -> None:
+    files = {
+        "package.xml": MANIFEST.format(depends="").replace("ament_cmake", "ament_python"),
+        "setup.py": "from setuptools import setup\nsetup(packages=['robot'])\n",
+        "robot/__init__.py": "",
+        f"robot/{name}": "import nav_msgs.msg\n",
+    }
+    tree = MemoryTree({f"robot/{path}": text for path, text in files.items()})
+    workspace = Loader(tree, ("",), Target("jazzy", "test")).load()
+    assert placed(workspace, "nav_msgs") == (Role.EXEC, sure, False)
+
+
 def test_headers_that_are_installed_for_tests_serve_tests() -> None:
     lines = "if(BUILD_TESTING)\ninstall(DIRECTORY test/ DESTINATION include/robot)\nendif()\n" + INSTALLED
     files = {"test/common.hpp": include("nav_msgs"), "include/robot/robot.hpp": include("shape_msgs")}
