@@ -27,6 +27,8 @@ from ros_lint.interpret import (
     cmake_string,
     cmake_targets,
 )
+from ros_lint.interpret.cmake_flow import HANDLERS
+from ros_lint.interpret.cmake_released import released
 from ros_lint.interpret.cmake_run import BudgetError, Run, folded
 from ros_lint.interpret.cmake_sources import Helper, Sources
 from ros_lint.interpret.cmake_state import STOP, Frame
@@ -165,13 +167,17 @@ def _first(path: str, command: Command) -> Span:
 
 def _runs(run: Run) -> tuple[str, ...] | None:
     """Return what is run as tests, None if that is not known: no command is called that does it, or one that nobody knows."""
-    strange = (call for call in run.calls if call not in cmake_ros.RUNNERS and call not in run.procedures)
-    if not run.calls & cmake_ros.RUNNERS or any(_RUNS_TESTS.search(call) for call in strange):
+    strange = (call for call in run.calls if _RUNS_TESTS.search(call) and not _is_known(run, call))
+    if run.calls.isdisjoint(cmake_ros.RUNNERS) or any(strange):
         return None
     return tuple(run.ran)
 
 
 _RUNS_TESTS: Final = re.compile(r"pytest|launch_test|ros_test|add_test\Z|nose|isolated_test\Z")
+
+
+def _is_known(run: Run, call: str) -> bool:
+    return call in HANDLERS or call in run.procedures or released(call) is not None
 
 
 def _installed_files(run: Run) -> list[Provided]:

@@ -116,6 +116,7 @@ def run_released(run: Run, macro: Released, args: list[str]) -> Exit:
     text = "".join(args)
     if macro.direct is not None and ";" not in text:
         primitive, words = macro.direct
+        run.calls.add(primitive)
         return HANDLERS[primitive](run, [*words, *args]) or NEXT
     if macro.steps is None or _NOT_PLAIN.search(text):
         return call(run, macro.procedure, args)

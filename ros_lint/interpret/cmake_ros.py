@@ -285,12 +285,8 @@ def _tests(run: Run, args: list[str]) -> None:
             run.ran[path] = None
 
 
-RUNNERS: Final = frozenset({
-    "ament_add_pytest_test", "ament_add_nose_test", "add_launch_test", "add_ros_test", "ament_add_ros_isolated_pytest_test",
-    "ament_add_test", "nav2_add_pytest_test", "add_test", "add_ros_isolated_launch_test", "add_launch_ros_test",
-    "ament_add_ros_isolated_test", "nav2_add_test",
-})  # fmt: skip
-"""Commands that run tests which are not compiled, all of them through ros_lint_runs()."""
+RUNNERS: Final = frozenset({"add_test", "ros_lint_runs"})
+"""What runs tests that are not compiled: CMake's own command, and what the commands of released packages come down to."""
 
 
 def run_handler(run: Run, name: str, args: list[str]) -> None:
