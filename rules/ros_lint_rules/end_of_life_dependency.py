@@ -11,7 +11,8 @@ The package was not ported to the end. `rosdep install` stops at the name, and s
 ## How to fix it
 
 Depend on what took its place in ROS 2, which the message names where there is one, or drop the dependency: where that is
-declared already, or where nothing is generated that would need it.
+declared already, or where nothing is generated that would need it. Where a module in Python of that name is imported, such as
+`serial`, the rosdep key of the module is meant, and the message names it.
 
 ## When it keeps silent
 
@@ -24,7 +25,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Confidence, Facet, Finding, Package, Rule, Severity, Workspace, declared_names, strangers
+from ros_lint.api import Confidence, Facet, Finding, Package, Rule, Severity, Stranger, Workspace, declared_names, strangers
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
@@ -33,10 +34,11 @@ def check(workspace: Workspace) -> Iterator[Finding]:
     for name, packages in declared_names(workspace).items():
         if world.standing(name) != "end-of-life":
             continue
-        successor = names.successor(name)
-        successor = successor if world.is_package(successor) else ""
+        ported = names.successor(name)
+        ported = ported if world.is_package(ported) else ""
         last = names.end_of_life(name)[0]
         for stranger in strangers(name, packages):
+            successor = ported or _imported(stranger, workspace)
             yield Finding(
                 f"{name} was last released for {last} (as of {world.knowledge.date}): {_way_out(stranger.package, successor)}",
                 stranger.declared.depend.name_span,
@@ -44,6 +46,14 @@ def check(workspace: Workspace) -> Iterator[Finding]:
                 confidence=Confidence.HIGH if successor else Confidence.MEDIUM,
                 package=stranger.package.name,
             )
+
+
+def _imported(stranger: Stranger, workspace: Workspace) -> str:
+    """Return the rosdep key of the module that is called as what is declared, and which the package imports, or ""."""
+    uses = [use for use in stranger.package.uses if use.name.partition(".")[0] == stranger.name and use.package != stranger.name]
+    if not stranger.runs_python or not uses or any(use.via != "import" for use in uses):
+        return ""
+    return uses[0].package if workspace.world.is_key(uses[0].package) else ""
 
 
 def _way_out(package: Package, successor: str) -> str:
