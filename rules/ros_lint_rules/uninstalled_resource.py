@@ -26,7 +26,8 @@ where `data_files` is written out and the files are not too many.
 - A folder that nothing in the package names has medium confidence: it may serve documentation, or be left over. Not so if
   other folders of the kind are installed and its files serve at run time alone: displays, maps, models, textures, parameters;
   nor if the package builds, installs and tests nothing, so that it is there for these files; nor if they are parameters of
-  nodes (`ros__parameters`), and the package has nodes.
+  nodes (`ros__parameters`), and the package has nodes. A launch file that looks a file of the name up in another package
+  names that one, and what lies here may be a copy.
 """
 
 from __future__ import annotations
@@ -64,14 +65,6 @@ _RUN_TIME = (
     ".dae", ".obj", ".pgm", ".rviz", ".sdf", ".srdf", ".stl", ".urdf", ".wbt", ".world", ".xacro", ".yaml", ".yml",
 )  # fmt: skip
 """What serves at run time, and nowhere else."""
-_MAKES_NOTHING = frozenset(
-    {
-        "add_compile_options", "ament_auto_find_build_dependencies", "ament_auto_package", "ament_package",
-        "ament_lint_auto_find_test_dependencies", "cmake_minimum_required", "find_package", "list", "message", "option",
-        "project", "set",
-    }
-)  # fmt: skip
-"""Commands of a build script that builds, installs and tests nothing but the style of what is there."""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -142,6 +135,7 @@ def _folders(package: Package, kept: set[str], told: set[str]) -> Iterator[Findi
     chosen = frozenset([provided.path.rpartition("/")[2] for provided in script.provides if not provided.source])
     shared = _shared(package) or _makes_nothing(package)
     of_nodes = _of_nodes(package)
+    elsewhere = _looked_up_elsewhere(package)
     for folder, found in uninstalled_resources(package.files, kept).items():
         files = [file for file in found if file not in launches and file not in inputs]
         if any(file.rpartition("/")[2] in chosen for file in files):
@@ -156,18 +150,27 @@ def _folders(package: Package, kept: set[str], told: set[str]) -> Iterator[Findi
             continue
         # What the files say of each other tells nothing of who reads the first of them.
         below = from_base(package, f"{folder}/")
-        looked_up = [file for file in files if file in places and not places[file].path.startswith(below)]
-        shown = [file.rpartition("/")[2] for file in looked_up + [file for file in files if file not in places]]
-        named = ", ".join(shown[:3]) + (" ..." if len(shown) > 3 else "")
+        named = [file for file in files if file in places and not places[file].path.startswith(below)]
+        looked_up = [file for file in named if (places[file].path, file.rpartition("/")[2]) not in elsewhere]
+        copies = {name for _, name in elsewhere}.intersection(file.rpartition("/")[2] for file in files if file not in looked_up)
+        shown = [file.rpartition("/")[2] for file in named + [file for file in files if file not in places]]
+        examples = ", ".join(shown[:3]) + (" ..." if len(shown) > 3 else "")
         yield Finding(
-            f"{folder}/ ({named}) is not installed, so nothing finds it at run time",
+            f"{folder}/ ({examples}) is not installed, so nothing finds it at run time",
             setup_edits.place(script),
             f"{folder}/",
             tuple(Related(f"{file.rpartition('/')[2]} is named here", places[file]) for file in looked_up[:4]),
             fix=_fix(package, f"{folder}/") if "/" not in folder else None,
-            confidence=_confidence(folder, files, looked_up, shared and f"{folder}/" not in inputs, of_nodes),
+            confidence=_confidence(folder, files, looked_up, shared and not copies and f"{folder}/" not in inputs, of_nodes),
             severity=Severity.WARNING,
         )
+
+
+def _looked_up_elsewhere(package: Package) -> frozenset[tuple[str, str]]:
+    """Return launch files with the names of files that they look up in other packages, and not in this one."""
+    files = [each for launch in package.launch for each in launch.references if each.kind in ("file", "include")]
+    own = {(each.span.path, each.name.rpartition("/")[2]) for each in files if each.package == package.name}
+    return frozenset([(each.span.path, each.name.rpartition("/")[2]) for each in files]) - own
 
 
 def _shared(package: Package) -> bool:
@@ -185,8 +188,8 @@ def _makes_nothing(package: Package) -> bool:
 
     One that is called after tests or examples may keep them where it lies.
     """
-    calls = package.script.calls if package.script else ()
-    return bool(calls) and _MAKES_NOTHING.issuperset(calls) and not is_apart(f"{package.name.replace('_', '/')}/")
+    script = package.script
+    return script is not None and script.makes_nothing() and not is_apart(f"{package.name.replace('_', '/')}/")
 
 
 def _of_nodes(package: Package) -> frozenset[str]:
