@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from ros_lint.build_scripts import called
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.cmake import Call
@@ -58,6 +60,22 @@ def install_folder(package: Package, folder: str) -> Edit | None:
     if package.script is None or package.script.end is None:
         return None
     return at_end(package.script, f"install(DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}})")
+
+
+def export_dependencies(package: Package, name: str, all_names: Sequence[str]) -> Edit | None:
+    """Export a package: in the call that does it for others, if there is one, or else in a new one, with all that lack it.
+
+    So the edit is one and the same for all of them. None when there is no place for a new call.
+    """
+    call = next((call for call in called(package, "ament_export_dependencies") if call.args and not call.blocks), None)
+    if call is not None:
+        last = len(call.args) - 1
+        span = call.span(last)
+        above = call.span(last - 1).line if last else call.line
+        return Edit(span.end(), f" {name}" if span.line == above else f"\n{' ' * (span.column - 1)}{name}")
+    if package.script is None or package.script.end is None:
+        return None
+    return at_end(package.script, f"ament_export_dependencies({' '.join(all_names)})")
 
 
 def _beside(package: Package) -> Call | None:

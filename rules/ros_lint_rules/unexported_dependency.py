@@ -11,7 +11,7 @@ compile there, unless they happen to find the other package themselves.
 ## How to fix it
 
 Add `ament_export_dependencies(other)` before `ament_package()`, with the name that `find_package()` calls it by: `gz-sim` and
-not `gz_sim_vendor`.
+not `gz_sim_vendor`. The fix does this; it needs `--unsafe-fixes`, for whoever finds this package then finds the other, too.
 
 ## When it keeps silent
 
@@ -36,6 +36,7 @@ from ros_lint.api import (
     Confidence,
     Facet,
     Finding,
+    Fix,
     Package,
     Related,
     Role,
@@ -44,6 +45,7 @@ from ros_lint.api import (
     Use,
     Workspace,
     called,
+    cmake_edits,
     found_along,
     found_names,
     given_for,
@@ -60,6 +62,15 @@ _HEADERS = (".h", ".hh", ".hpp", ".hxx")
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    every = list(_unexported(package, workspace))
+    sure = list(dict.fromkeys([written for written, finding in every if finding.confidence is Confidence.HIGH]))
+    for written, finding in every:
+        edit = cmake_edits.export_dependencies(package, written, sure) if written in sure else None
+        yield finding._replace(fix=Fix(f"export {written}", (edit,), safe=False) if edit else None)
+
+
+def _unexported(package: Package, workspace: Workspace) -> Iterator[tuple[str, Finding]]:
+    """Yield what is not exported, as find_package() calls it, and what to say of it."""
     script = package.script
     if script is None or script.problems or package.builds_with != "ament_cmake":
         return
@@ -81,13 +92,16 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         way_out = f"add ament_export_dependencies({written})"
         if not compiled:
             way_out += ", or do not install it, for it includes what others do not have"
-        yield Finding(
-            f"{name} is included by this installed header, but not exported: {way_out}",
-            first.span,
-            name,
-            tuple(Related(f"also included here: {use.what}", use.span) for use in others[:_MOST_RELATED]),
-            None,
-            _confidence(package, workspace, name, exported, compiled) if compiled else Confidence.LOW,
+        yield (
+            written,
+            Finding(
+                f"{name} is included by this installed header, but not exported: {way_out}",
+                first.span,
+                name,
+                tuple(Related(f"also included here: {use.what}", use.span) for use in others[:_MOST_RELATED]),
+                None,
+                _confidence(package, workspace, name, exported, compiled) if compiled else Confidence.LOW,
+            ),
         )
 
 
@@ -164,5 +178,6 @@ RULE = Rule(
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,
+    fixable=True,
     package=check,
 )
