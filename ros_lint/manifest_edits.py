@@ -257,10 +257,12 @@ class _Layout:
         return (self._lines_out(first, last) for first, last in runs)
 
     def _lines_out(self, first: int, last: int) -> Edit:
-        """Return the edit that removes lines, and blank ones below when there are blank ones above."""
+        """Return the edit that removes lines, and blank ones beside them that then have nothing to set apart."""
         end = last + 1
         while self._is_blank(first - 1) and self._is_blank(end):
             end += 1
+        while end == self.manifest.end.line and self._is_blank(first - 1):
+            first -= 1
         return Edit(Span(self.path, first, 1, end, 1), "")
 
     def with_heading(self, span: Span) -> Span:

@@ -301,6 +301,7 @@ def test_add_to_a_package_without_anything() -> None:
         ("  <depend>x</depend> <depend>a</depend>", "  <depend>a</depend>"),
         ("  <depend\n    >x</depend>\n  <depend>a</depend>", "  <depend>a</depend>"),
         ("  <!-- heading -->\n  <depend>x</depend>\n  <depend>a</depend>", "  <!-- heading -->\n  <depend>a</depend>"),
+        ("  <depend>a</depend>\n  <export/>\n\n  <depend>x</depend>", "  <depend>a</depend>\n  <export/>"),
     ],
 )
 def test_remove_leaves_no_trace(body: str, expected: str) -> None:
