@@ -6,6 +6,7 @@ E3.8).
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from ros_lint.knowledge.names import NOTHING_NEEDED
@@ -50,6 +51,9 @@ class Meant(NamedTuple):
 
 
 _NONE_NEEDED = Providers(none_needed=True)
+
+_RELEASED = re.compile(r"ros-[a-z]+-(?=[a-z])")
+"""How what apt calls a package of a distribution begins."""
 
 
 def by_cmake(world: World, name: str) -> Providers:
@@ -161,6 +165,10 @@ def meant(world: World, name: str, *, python: bool) -> Meant | None:
     package = name.replace(".", "/").partition("/")[0]
     if package != name and world.is_package(package):  # a message, or a module: std_msgs/msg/String, rclpy.qos
         return Meant(package, "spelling")
+    released = _RELEASED.match(name)
+    package = name[released.end() :].replace("-", "_") if released else ""
+    if package and world.is_package(package):  # ros-humble-tf2-ros
+        return Meant(package, "system")
     libraries = () if python else tuple(_libraries(names.cmake(name)))
     if libraries:
         return _first(world, libraries, "cmake")  # nobody who builds against it means what pip calls so

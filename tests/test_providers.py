@@ -162,11 +162,13 @@ def test_modules_of_the_language_need_nothing() -> None:
         ("turtlebot3_fakenode", "turtlebot3_fake_node"),
         ("python-urdf2webots", "urdf2webots-pip"),
         ("mine_msg", "mine_msgs"),
+        ("ros-humble-tf2-ros", "tf2_ros"),
         # No doubt is allowed.
         ("nonsense_pkg", ""),
         ("python3-pcl", ""),
         ("rmf_msgs", ""),
         ("ament_python", ""),
+        ("ros-humble-nonsense-pkg", ""),
     ],
 )
 def test_what_was_meant(wrong: str, right: str) -> None:
