@@ -90,6 +90,7 @@ class Resolver:
     def __init__(self, sources: Sequence[Source], names: Names) -> None:
         self.names = names
         self._headers = include_index(sources)
+        self._empty = frozenset([source.name for source in sources if source.script and source.script.makes_nothing()])
         self._ask: Mapping[Via, Callable[[str], Answer]] = {
             "include": self._include,
             "import": lambda name: self._told(self.names.by_import(name), name.partition(".")[0], name),
@@ -116,6 +117,8 @@ class Resolver:
         found = self._headers.get(header)
         first, slash, _ = header.partition("/")
         if not found:
+            if slash and first in self._empty:
+                return _NOBODY  # the headers of a library that is called like a metapackage
             return self._told(self.names.by_include(header), first if slash else "", header)
         if slash and first not in found:
             known = self.names.by_include(header)

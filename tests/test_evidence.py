@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 from ros_lint.evidence import used_names
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Use
@@ -66,6 +68,14 @@ def test_a_folder_of_its_own_in_include_has_its_own_headers() -> None:
         "humble",
     )
     assert [use.package for use in workspace.packages[0].uses if use.via == "include"] == ["nav_msgs"]
+
+
+@pytest.mark.parametrize(("lines", "found"), [("", False), ("add_subdirectory(sdk)", True), ("include(more)", True)])
+def test_a_metapackage_has_no_headers(lines: str, found: bool) -> None:
+    source = "#include <robot/can/socket.hpp>\n"
+    driver = cmake("driver", "", "add_library(driver driver.cpp)", driver_dot_cpp=source)
+    workspace = load({**driver, **cmake("robot", "", lines, sdk__CMakeLists_dot_txt="")})
+    assert bool(uses(workspace, "robot")) == found
 
 
 def test_what_a_hand_wrote_into_a_map_is_less_than_sure() -> None:
