@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import os
+import re
 import tempfile
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from itertools import groupby
 
-from ros_lint.rule import Edit, Fix
-from ros_lint.text import Text, read
+from ros_lint.rule import RANK_OF_KIND, Edit, Fix
+from ros_lint.text import Span, Text, read
 from ros_lint.tree import Tree
 
 
@@ -104,24 +106,43 @@ _NEW_MODE = 0o644
 def _apply_to(source: Text, edits: Sequence[Edit]) -> str:
     text = source.text
     by_return = "\r\n" in text and text.count("\r\n") == text.count("\n")
-    # From the end, so that earlier offsets stay true.
     numbered = sorted(enumerate(edits), key=lambda pair: (pair[1].span[1:], pair[1].rank, pair[0]))
-    for _, edit in reversed(numbered):
-        start = source.offset(edit.span.line, edit.span.column)
-        end = source.offset(edit.span.end_line, edit.span.end_column)
-        put = edit.text.replace("\r\n", "\n").replace("\n", "\r\n") if by_return else edit.text
+    # From the end, so that earlier offsets stay true.
+    for span, at_place in reversed([(span, [edit for _, edit in pairs]) for span, pairs in groupby(numbered, _place)]):
+        start = source.offset(span.line, span.column)
+        end = source.offset(span.end_line, span.end_column)
+        put = _joined(at_place)
+        put = put.replace("\r\n", "\n").replace("\n", "\r\n") if by_return else put
         text = text[:start] + put + text[end:]
     return text
 
 
+def _place(numbered: tuple[int, Edit]) -> Span:
+    return numbered[1].span
+
+
+_BLANK = re.compile(r"\r\n|\n|\r")
+
+
+def _joined(edits: Sequence[Edit]) -> str:
+    """Return what is put to one place: what belongs together is set off once, and nothing by two blank lines."""
+    whole, kind = "", ""
+    for edit in edits:
+        text, same = edit.text, bool(edit.rank) and edit.rank[:RANK_OF_KIND] == kind
+        apart = _BLANK.match(text)
+        if whole and edit.span.column == 1 and apart and (same or _ends_apart(whole)):
+            text = text[apart.end() :]
+        elif same and _ends_apart(whole):
+            whole = whole[: len(whole) - 2 if whole.endswith("\r\n") else -1]
+        whole += text
+        kind = edit.rank[:RANK_OF_KIND]
+    return whole
+
+
 def _collide(a: Edit, b: Edit) -> bool:
-    """Whether two edits want the same place: also what each sets off by a blank line, though it belongs together."""
     x, y = a.span, b.span
-    if x == y and _sets_apart(a) and _sets_apart(b):
-        return True
     return x.path == y.path and x[1:3] < y[3:5] and y[1:3] < x[3:5]
 
 
-def _sets_apart(edit: Edit) -> bool:
-    blank_before = edit.span.column == 1 and edit.text.startswith(("\n", "\r"))
-    return blank_before or edit.text.endswith(("\n\n", "\r\n\r\n", "\r\r"))
+def _ends_apart(text: str) -> bool:
+    return text.endswith(("\n\n", "\r\n\r\n", "\r\r"))

@@ -135,7 +135,7 @@ def set_build_type(manifest: Manifest, build_type: str) -> Edit:
             return layout.last(whole)
         last = max(children[-1].span for children in (manifest.elements, manifest.depends) if children)
         apart = layout.kinds_apart() if manifest.depends else layout.blank_after(last)
-        return layout.after(last, whole, apart=apart)
+        return layout.after(last, whole, apart=apart)._replace(rank=f"{len(_HABIT):02}")
     content = export.text_span
     if content.start() == content.end():
         return Edit(export.span, whole)

@@ -39,11 +39,22 @@ def test_a_fix_that_collides_waits() -> None:
     assert edits.choose([first, second, third]) == (first, third)
 
 
-def test_what_sets_itself_apart_at_one_place_waits_too() -> None:
-    apart, beside, joined = fix((5, 5, "\na\n")), fix((5, 5, "\nb\n")), fix((5, 5, "c\n"))
-    assert edits.choose([apart, beside, joined]) == (apart, joined)
-    lines = fix((3, 3, "\na")), fix((3, 3, "\nb"))
-    assert edits.choose(lines) == lines
+@pytest.mark.parametrize(
+    ("put", "expected"),
+    [
+        ([("05 a", "\na\n"), ("05 b", "\nb\n")], "\na\nb\n"),
+        ([("05 a", "a\n\n"), ("05 b", "b\n\n")], "a\nb\n\n"),
+        ([("05 a", "\r\na\r\n"), ("05 b", "\r\nb\r\n")], "\r\na\r\nb\r\n"),
+        ([("05 a", "\na\n"), ("07 b", "\nb\n")], "\na\n\nb\n"),
+        ([("05 a", "a\n\n"), ("07 b", "\nb\n")], "a\n\nb\n"),
+        ([("", "a\n"), ("", "b\n")], "b\na\n"),
+    ],
+)
+def test_what_belongs_together_is_set_off_once(put: list[tuple[str, str]], expected: str) -> None:
+    start = SOURCE.span(5, 5)
+    fixes = [Fix("", (Edit(start, text, rank),)) for rank, text in reversed(put)]
+    assert edits.choose(fixes) == tuple(fixes)
+    assert edits.apply(fixes, lambda path: SOURCE)["f"] == f"one\r\n{expected}two\nthree"
 
 
 def test_an_encoding_without_the_letter() -> None:
