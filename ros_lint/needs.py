@@ -360,8 +360,12 @@ def _is_far(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
     return world.knowledge.index.bringing(name, most) <= most
 
 
-_CHANCE = 0.02
-"""How likely it may be that one of the unknown names brings a package along, going by how many released packages do."""
+_CHANCE = 0.05
+"""How likely it may be that one of the unknown names brings a package along, going by how many released packages do.
+
+Measured on packages that declare nothing strange, each dependency taken for unknown in turn: what else they lack it brings
+in none of 180 cases below this, tools of the build aside, and in 10 of 268, mostly launch, up to twice as much.
+"""
 
 _EVERYDAY = frozenset({"ros", "ament", "cmake", "python", "lib", "dev", "msgs", "common", "utils", "tools"})
 
