@@ -296,3 +296,23 @@ def test_the_hooks_are_whole_project_hooks() -> None:
     for hook in hooks:
         assert hook["always_run"]
         assert not hook["pass_filenames"]
+
+
+def test_what_a_fix_brings_to_light_is_mended_along_with_it(tmp_path: Path) -> None:
+    package = tmp_path / "robot"
+    (package / "launch").mkdir(parents=True)
+    (package / "package.xml").write_text(
+        '<package format="3">\n  <name>robot</name>\n  <version>1.0.0</version>\n  <description>d</description>\n'
+        '  <maintainer email="a@robots.example">a</maintainer>\n  <license>Apache-2.0</license>\n'
+        "  <buildtool_depend>ament_cmake</buildtool_depend>\n"
+        "  <export><build_type>ament_cmake</build_type></export>\n</package>\n"
+    )
+    (package / "CMakeLists.txt").write_text("project(robot)\nfind_package(ament_cmake REQUIRED)\n\nament_package()\n")
+    (package / "launch" / "robot.launch.xml").write_text('<launch><node pkg="joy" exec="joy_node"/></launch>\n')
+    arguments = ("--isolated", "--distro", "jazzy", "--fix")
+    alone = run(tmp_path, *arguments, "--select", "uninstalled-launch")
+    assert "not mended, because then joy_node of joy is started here" in alone.stderr
+    assert "mended 2 findings in 2 files" in run(tmp_path, *arguments).stderr
+    assert "install(DIRECTORY launch " in (package / "CMakeLists.txt").read_text()
+    assert "<exec_depend>joy</exec_depend>" in (package / "package.xml").read_text()
+    assert "nothing to mend" in run(tmp_path, *arguments).stderr

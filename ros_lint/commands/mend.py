@@ -1,7 +1,8 @@
 """``--fix`` and ``--diff``: make the edits of fixes, each proven on the model before it is kept (docs/architecture.md, fixes).
 
 A fix is kept when the workspace with it, loaded and checked anew, no longer has its finding and has no finding that was
-not there before: so none that closes a cycle, names an unknown key or makes a manifest unusable is ever written.
+not there before, unless fixes that are made along with it take that away again: what a launch file needs is told once the
+file is installed. So none that closes a cycle, names an unknown key or makes a manifest unusable is ever written.
 """
 
 from __future__ import annotations
@@ -188,6 +189,23 @@ _MOST_TRIALS = 2
 """That are remembered beside the workspace as it is: what passed is asked for again at once, what failed is not."""
 
 
+def _worse(had: Counter[str], after: Iterable[Issue]) -> list[Issue]:
+    """Return the findings that were not there before.
+
+    What is less than certain, or asked for only, may change: a need that was undeclared can become a transitive one.
+    """
+    after = list(after)
+    has = Counter(issue.identity for issue in after)
+    serious = [issue for issue in after if issue.rule.default and issue.finding.confidence is Confidence.HIGH]
+    return [issue for issue in serious if has[issue.identity] > had[issue.identity]]
+
+
+def _idle(had: Counter[str], after: Iterable[Issue], group: Iterable[Issue]) -> list[Issue]:
+    """Return those of a group whose fixes do not help."""
+    has = Counter(issue.identity for issue in after)
+    return [issue for issue in group if has[issue.identity] >= had[issue.identity]]
+
+
 class _Proof:
     """Loads and checks a workspace with changes, and says what is wrong with them."""
 
@@ -230,17 +248,26 @@ class _Proof:
             return (_Complaint(str(error)),)
         had = Counter(issue.identity for issue in self.trial(changed).issues)
         after = self.trial(new).issues
-        has = Counter(issue.identity for issue in after)
-        # What is less than certain, or asked for only, may change: a need that was undeclared can become a transitive one.
-        serious = (issue for issue in after if issue.rule.default and issue.finding.confidence is Confidence.HIGH)
-        found = [
-            _Complaint(f"because then {issue.finding.message}", issue.package, issue.finding.subject)
-            for issue in serious
-            if has[issue.identity] > had[issue.identity]
-        ]
-        idle = (issue for issue in group if has[issue.identity] >= had[issue.identity])
+        idle = _idle(had, after, group)
+        worse = _worse(had, after)
+        if worse and not idle and self._goes_on(had, new, group, worse):
+            return ()
+        found = [_Complaint(f"because then {issue.finding.message}", issue.package, issue.finding.subject) for issue in worse]
         found += [_Complaint("because the fix does not help", issue.package, issue.finding.subject) for issue in idle]
         return tuple(found)
+
+    def _goes_on(self, had: Counter[str], changed: Mapping[str, bytes], group: Sequence[Issue], worse: Sequence[Issue]) -> bool:
+        """Whether all that the fixes of a group bring to light can be mended in the next round, and all is well then."""
+        names = {issue.identity for issue in worse}
+        wanted = [issue for issue in self.fixable(changed) if issue.identity in names]
+        fixes = [issue.finding.fix for issue in wanted if issue.finding.fix]
+        if {issue.identity for issue in wanted} != names or len(edits.choose(fixes)) < len(fixes):
+            return False
+        try:
+            after = self.trial(self.applied(changed, wanted)).issues
+        except edits.EditError:
+            return False
+        return not _worse(had, after) and not _idle(had, after, group)
 
     def as_it_is(self, changed: Mapping[str, bytes], issue: Issue) -> Issue:
         """Return an issue of a workspace with changes at its place in the files as they are."""
