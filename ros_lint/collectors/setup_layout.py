@@ -29,6 +29,8 @@ def collect(source: Text, package: str) -> tuple[Slot, ...]:
     for node in tree.body:
         if isinstance(node, ast.Assign) and len(node.targets) == 1 and isinstance(node.targets[0], ast.Name):
             variables[node.targets[0].id] = node.value
+        elif isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name) and node.value is not None:
+            variables[node.target.id] = node.value
     name = next((key for key, value in variables.items() if isinstance(value, ast.Constant) and value.value == package), "")
     calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call) and _is_setup(node.func)]
     if len(calls) != 1:
