@@ -28,13 +28,25 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Finding, Package, Rule, Severity, Workspace, found_for_nothing
+from ros_lint.api import Finding, Mention, Package, Related, Rule, Severity, Workspace, found_for_nothing
+
+_MOST_RELATED = 4
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for mention in found_for_nothing(package, workspace):
         name = mention.name
-        yield Finding(f"{name} is found, but no code uses it: remove find_package({name})", mention.span, name)
+        others = _also_named(package, mention)
+        what = f"find_package({name})" + (f", and {name} where it is linked or exported" if others else "")
+        related = tuple(Related(f"named here, too: {each.what or each.name}", each.span) for each in others[:_MOST_RELATED])
+        yield Finding(f"{name} is found, but no code uses it: remove {what}", mention.span, name, related)
+
+
+def _also_named(package: Package, found: Mention) -> list[Mention]:
+    """Return where else the build script names what is found: what is linked or exported fails when it is found no more."""
+    mentions = package.script.mentions if package.script else ()
+    places = {each.span: each for each in mentions if each.name.partition("::")[0] == found.name and each.span != found.span}
+    return [places[span] for span in sorted(places)]
 
 
 RULE = Rule(
