@@ -352,6 +352,11 @@ def test_what_a_file_does_without(body: str, wanted: dict[str, bool]) -> None:
             "return [DeclareLaunchArgument('p', default_value=p), IncludeLaunchDescription([p, f])]",
             {"include? a x.launch.py": 2, "include? b y.launch.py": 5, "package? a": 2, "package? b": 5},
         ),
+        (
+            "p = LaunchConfiguration('p')\nf = PathJoinSubstitution([\n    FindPackageShare(p), 'x.yaml'])\n"
+            "return [DeclareLaunchArgument('p', default_value='a'),\n    Node(package='c', executable='d', parameters=[f])]",
+            {"file a x.yaml": 3, "node c d": 5},
+        ),
     ],
 )
 def test_where_a_package_is_looked_up(body: str, wanted: dict[str, int]) -> None:

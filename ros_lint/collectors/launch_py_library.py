@@ -105,6 +105,9 @@ def _note(call: Call, package: Value, at: ast.expr, eager: bool) -> None:
         node, where = getattr(one.value, "node", at), getattr(one.value, "source", source)
         if isinstance(one.value, str):
             call.machine.look_up(str(one.value), node, where, eager, one.conditions)
+        elif isinstance(one.value, Made):
+            for text in call.machine.texts(one.value):
+                call.machine.named.setdefault(text, (at, source))
 
 
 _ADDS = frozenset({"add_action", "add_entity", "append"})

@@ -90,7 +90,7 @@ class Machine:
         self.lazily: set[str] = set()
         """Packages that are looked up when something is launched."""
         self.named: dict[str, tuple[ast.expr, Source]] = {}
-        """Where each package that is looked up is written first."""
+        """Where each package that is looked up is written first, by its name or, if it hangs on arguments, by its text."""
 
     # --- bounds and conditions ------------------------------------------------------------------------------------
 

@@ -35,10 +35,10 @@ class References:
     """What the actions of a launch file refer to, in the order of the file, and what is hidden."""
 
     def __init__(self, actions: Iterable[LaunchAction], places: Mapping[str, Span] = MappingProxyType({})) -> None:
-        """Read actions. ``places`` are where packages are looked up, as far as that is not where paths in them are used."""
+        """Read actions. ``places`` are where packages are looked up, by their names or the texts of these."""
         self.found: dict[LaunchReference, None] = {}
         self.opaque: dict[Opaque, None] = {}
-        self._places = places
+        self._places = {package: span for package, span in places.items() if is_settled(package)}
         actions = tuple(actions)
         self._held = held(actions)
         self._carriers = carriers_of_places(self._held.values)
@@ -46,6 +46,8 @@ class References:
         self._narrowed: Mapping[str, tuple[str, ...]] = {}
         self._optional = False
         self._named: set[str] = set()
+        asked = [(text, span) for text, span in places.items() if not is_settled(text)]
+        self._asked = {package: span for text, span in asked for package in self._fill(text)}
         for action in actions:
             self._action(action, conditional=False)
 
@@ -161,6 +163,8 @@ class References:
         """Return where a package is named that a path lies in, at best where it is looked up."""
         if package in self._places:
             return self._places[package]
+        if package in self._asked:
+            return self._asked[package]
         path, line, _, last, _ = value.span
         inside = package_span is not None and package_span.path == path and line <= package_span.line <= last
         return package_span if package_span is not None and inside else value.span
