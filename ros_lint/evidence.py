@@ -223,6 +223,9 @@ class _Uses:
         self._added = frozenset([span for facts in source.facts.values() for span in facts.added])
         script = source.script
         self._bundled = frozenset([name.lower() for name in script.bundled]) if script else frozenset()
+        self._found_always = frozenset(
+            [each.name for each in script.mentions if each.via == "cmake" and not (each.optional or each.test)] if script else ()
+        )
         self._found: dict[tuple[Span, str, Via], Use] = {}
 
     def put(self, use: Use) -> None:
@@ -254,6 +257,8 @@ class _Uses:
                 known = known and name.partition(".")[0] not in self._absent
             elif self._absent and known:
                 known = self.resolver.names.is_package(providers[0]) or self._absent.isdisjoint(_WORD.findall(name))
+            if not known and providers[0] in self._found_always and _INTERFACES.match(name):
+                known = True  # no left-over: without it nothing is built
             by: Via = "macro" if purpose == "helper" else via
             found[span, providers[0], by] = _make(
                 Use, (providers[0], providers, needed, what or usual, by, spared, span, sure and known, name)

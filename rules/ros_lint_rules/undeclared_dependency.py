@@ -24,8 +24,8 @@ needed at run time, `<exec_depend>` for what is needed at run time only, `<test_
 - It is named only in a template for other packages, by what makes the pages of the documentation, or in an editor's copy.
 - colcon rejects `package.xml`, which is to be mended first: then the confidence is medium.
 - The name belongs to no package or rosdep key that is known, or to the system. Whose messages are used is a package all the
-  same: the confidence is medium, unless another package of the workspace declares it. What that declares, and CMake finds
-  here, or something looks up, is one, too.
+  same: the confidence is medium, unless another package of the workspace declares it, or CMake does not do without it. What
+  another one declares, and CMake finds here, or something looks up, is one, too.
 - Only other distributions have the package, or had it: then the message names them, and the confidence is medium, unless
   nobody said which distribution is meant. What brings it along there counts.
 - A declared dependency is itself not known, so that the package might come with it, and nothing else needs it that could not:
