@@ -96,7 +96,7 @@ def rename(depend: Depend, name: str) -> Edit:
 
 
 def change_kind(manifest: Manifest, depend: Depend, tag: str, alike: Collection[Depend]) -> tuple[Edit, ...]:
-    """Return the edits that make another kind of dependency of one.
+    """Return the edits that make another kind of dependency of one; it is of another kind so far.
 
     It goes to those of its new kind where the file keeps kinds together. Otherwise it stays where it is: so does a row of one
     kind that changes as a whole, where there are none of the new one; ``alike`` are those that change to the same kind.

@@ -120,8 +120,9 @@ def test_change_tag_and_rename(text: str, which: int, tag: str) -> None:
     changed = apply(text, manifest_edits.change_tag(depend, tag))
     gone = Counter([(depend.tag, depend.name, depend.condition)])
     assert declared(changed) == declared(text) - gone + Counter([(tag, depend.name, depend.condition)])
-    moved = apply(text, manifest_edits.change_kind(manifest, depend, tag, depends[:2]))
-    assert declared(moved) == declared(changed)
+    if tag != depend.tag:
+        moved = apply(text, manifest_edits.change_kind(manifest, depend, tag, depends[:2]))
+        assert declared(moved) == declared(changed)
     renamed = apply(text, [manifest_edits.rename(depend, "renamed")])
     assert declared(renamed) == declared(text) - gone + Counter([(depend.tag, "renamed", depend.condition)])
 
