@@ -107,7 +107,9 @@ def _no_module(package: Package, entry: EntryPoint, name: str, function: str, wo
     own = name.partition(".")[0]
     hint = "; add it, or take the entry point out"
     taken = {other.target for other in script.entry_points}  # no two programs are the same one
-    modules = [module for module in script.python_packages if "." in module and f"{module}:{function}" not in taken]
+    files = {file[:-3].replace("/", ".") for file in package.files if file.endswith(".py") and file.partition("/")[0] in tops}
+    known = sorted(files.union(script.python_packages))  # whether they are installed is told of each folder
+    modules = [module for module in known if "." in module and f"{module}:{function}" not in taken]
     near = difflib.get_close_matches(name, modules, 1, 0.9)
     if own not in tops and own != package.name and not difflib.get_close_matches(own, [*tops, package.name], 1, 0.85):
         # The name of a package that was copied, before a module that is here.
