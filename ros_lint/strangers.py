@@ -29,7 +29,10 @@ class Stranger(NamedTuple):
         """Return whether it is needed to run Python code, for all that the tags say."""
         if self.package.builds_with == "ament_python":
             return True
-        return not self.package.declares(self.name) & (Role.BUILD | Role.EXPORT | Role.TOOL)
+        if not self.package.declares(self.name) & (Role.BUILD | Role.EXPORT | Role.TOOL):
+            return True
+        named = {use.via for use in self.package.uses if use.name.partition(".")[0] == self.name}
+        return named == {"import"}
 
 
 @per_workspace
