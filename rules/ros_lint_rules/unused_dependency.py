@@ -21,7 +21,8 @@ whenever the dependency might be needed in a way that leaves no trace: linters, 
 under a condition, packages whose build scripts cannot be followed everywhere, metapackages, vendor packages and packages
 without code, and dependencies that give CMake macros or plugins. For rosdep keys of libraries, which others' headers may
 need, for packages that nobody knows, for messages and Python packages that are mostly declared to be run, where a file
-of the workspace cannot be read, and where no module is there that an entry point names, the confidence is medium.
+of the workspace cannot be read, and where no module is there that an entry point names, or none that imports anything, the
+confidence is medium.
 
 So it is where nothing uses the dependency, but something else that is used and not declared comes along with it alone, in
 this package or in another one of the workspace. That is to be declared instead, and nothing is removed.
@@ -40,6 +41,7 @@ from ros_lint.api import (
     Finding,
     Fix,
     Package,
+    Role,
     Rule,
     Severity,
     Workspace,
@@ -122,8 +124,10 @@ def _unused(package: Package, workspace: Workspace) -> Iterator[tuple[Declared, 
 
 
 def _lacks_programs(package: Package, script: BuildScript) -> bool:
-    """Whether no module is there that an entry point names: then the code that uses what is declared is elsewhere yet."""
-    return bool(script.entry_points) and not script.modules
+    """Whether the code that uses what is declared is elsewhere yet: no module is there that an entry point names, or none."""
+    if script.entry_points:
+        return not script.modules
+    return package.builds_with == "ament_python" and not any(use.role & ~Role.TEST for use in package.uses)
 
 
 def _is_used(package: Package, name: str) -> bool:
