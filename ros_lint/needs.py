@@ -267,7 +267,8 @@ def _joined(found: Sequence[Need]) -> list[Need]:
             before = all(other.name in use.providers for use in need.uses)
             if before or all(need.name in use.providers for use in other.uses):
                 kept = other if before else need
-                result[number] = kept._replace(uses=tuple(sorted((*other.uses, *need.uses), key=_rank)))
+                brought = need.uses if before else other.uses
+                result[number] = kept._replace(uses=tuple(sorted((*kept.uses, *brought), key=_rank)))
                 break
         else:
             result.append(need)

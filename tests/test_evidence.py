@@ -174,6 +174,13 @@ def test_what_brings_the_best_is_no_answer_of_its_own() -> None:
     assert found["libopencv-dev"] == ((), True)
 
 
+def test_what_names_a_package_is_told_before_what_it_brings() -> None:
+    headers = {"a_dot_cpp": "#include <opencv2/core.hpp>\n", "b_dot_cpp": "#include <cv_bridge/cv_bridge.h>\n"}
+    workspace = load(cmake("talker", "", "add_library(talker a.cpp b.cpp)", **headers))
+    found = {need.name: [use.package for use in need.uses] for need, _ in undeclared(workspace.packages[0], workspace)}
+    assert found == {"ament_cmake": ["ament_cmake"], "cv_bridge": ["cv_bridge", "libopencv-dev"]}
+
+
 def test_each_place_of_a_need_is_answered_for_itself() -> None:
     lines = "if(BUILD_TESTING)\nfind_package(ament_cmake_gtest REQUIRED)\nament_add_gtest(t test/t.cpp)\nendif()"
     depends = "<depend>cv_bridge</depend><test_depend>gtest</test_depend>"
