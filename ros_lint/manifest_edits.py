@@ -7,7 +7,7 @@ that the manifest was read from; of a text that is not well-formed the edits are
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from itertools import groupby, pairwise
 from typing import Final, NamedTuple
 
@@ -38,43 +38,43 @@ def add(manifest: Manifest, tag: str, name: str) -> Edit:
     It goes among the tags of its kind, at its place if they are sorted; else to where the usual order wants it, set off by
     a blank line if that is the habit of the file.
     """
-    return _put(_Layout(manifest), tag, name, f"<{tag}>{_escape(name)}</{tag}>")
+    return _put(_Layout(manifest), manifest.depends, tag, name, f"<{tag}>{_escape(name)}</{tag}>")
 
 
-def _put(layout: _Layout, tag: str, name: str, element: str) -> Edit:
-    """Return the edit that puts an element for a dependency where the file has its like, and in its order beside others."""
-    order = name if _is_sorted(layout.manifest, tag) else ""
-    return _place(layout, tag, name, element)._replace(rank=f"{_HABIT.index(tag):02} {order}")
+def _put(layout: _Layout, depends: Sequence[Depend], tag: str, name: str, element: str) -> Edit:
+    """Return the edit that puts an element for a dependency where its like is among others, and in its order beside them."""
+    order = name if _is_sorted(depends, tag) else ""
+    return _place(layout, depends, tag, name, element)._replace(rank=f"{_HABIT.index(tag):02} {order}")
 
 
-def _is_sorted(manifest: Manifest, tag: str) -> bool:
+def _is_sorted(depends: Sequence[Depend], tag: str) -> bool:
     """Whether the dependencies of a kind are sorted by name; of a kind with less than two, whether those of all others are."""
     names: dict[str, list[str]] = {}
-    for depend in manifest.depends:
+    for depend in depends:
         names.setdefault(depend.tag, []).append(depend.name)
     several = {kind: found for kind, found in names.items() if len(found) > 1}
     asked = [several[tag]] if tag in several else list(several.values())
     return bool(asked) and all(found == sorted(found) for found in asked)
 
 
-def _place(layout: _Layout, tag: str, name: str, element: str) -> Edit:
+def _place(layout: _Layout, depends: Sequence[Depend], tag: str, name: str, element: str) -> Edit:
     manifest = layout.manifest
-    siblings = [depend for depend in manifest.depends if depend.tag == tag]
+    siblings = [depend for depend in depends if depend.tag == tag]
     if siblings:
         before = siblings
-        if _is_sorted(manifest, tag):
+        if _is_sorted(depends, tag):
             before = [depend for depend in siblings if depend.name < name]
         return layout.after(before[-1].span, element) if before else layout.before(siblings[0].span, element)
-    if manifest.depends:
+    if depends:
         apart = layout.kinds_apart()
         if tag in _GROUPS:
-            return layout.after(manifest.depends[-1].span, element, apart=apart)
+            return layout.after(depends[-1].span, element, apart=apart)
         rank = _HABIT.index(tag)
-        lower = [depend for depend in manifest.depends if _HABIT.index(depend.tag) < rank]
+        lower = [depend for depend in depends if _HABIT.index(depend.tag) < rank]
         if lower:
             last = max(lower, key=lambda depend: (_HABIT.index(depend.tag), depend.span))
             return layout.after(last.span, element, apart=apart)
-        return layout.before(layout.with_heading(manifest.depends[0].span), element, apart=apart)
+        return layout.before(layout.with_heading(depends[0].span), element, apart=apart)
     head = [child for child in manifest.elements if child.tag != "export"]
     if head:
         return layout.after(head[-1].span, element, apart=layout.blank_after(head[-1].span))
@@ -109,7 +109,8 @@ def change_kind(manifest: Manifest, depend: Depend, tag: str, alike: Collection[
     layout = _Layout(manifest)
     if len(runs) > len(kinds) or whole or not layout.alone(depend.span) or not _is_verbatim(depend):
         return change_tag(depend, tag)
-    return (_put(layout, tag, depend.name, _written(depend._replace(tag=tag))), layout.removal(depend.span))
+    others = [each for each in depends if each is not depend]
+    return (_put(layout, others, tag, depend.name, _written(depend._replace(tag=tag))), layout.removal(depend.span))
 
 
 def change_tag(depend: Depend, tag: str) -> tuple[Edit, ...]:

@@ -244,6 +244,18 @@ def test_set_build_type(body: str, expected: str) -> None:
             "xy",
             "  <depend>x</depend>\n  <depend>y</depend>\n  <test_depend>b</test_depend>",
         ),
+        (  # it is not put beside itself
+            "  <build_depend>a</build_depend>\n  <build_depend>b</build_depend>\n\n  <build_depend>x</build_depend>\n\n"
+            "  <export/>",
+            "x",
+            "  <depend>x</depend>\n  <build_depend>a</build_depend>\n  <build_depend>b</build_depend>\n\n  <export/>",
+        ),
+        (
+            "  <buildtool_depend>a</buildtool_depend>\n  <buildtool_depend>b</buildtool_depend>\n\n"
+            "  <buildtool_depend>x</buildtool_depend>\n\n",
+            "x",
+            "  <buildtool_depend>a</buildtool_depend>\n  <buildtool_depend>b</buildtool_depend>\n  <depend>x</depend>",
+        ),
         (  # where kinds are mixed
             "  <depend>a</depend>\n  <test_depend>x</test_depend>\n  <depend>c</depend>\n  <test_depend>d</test_depend>",
             "x",
