@@ -11,6 +11,7 @@ from typing import Any, NoReturn
 from ros_lint.options import BY_NAME, COMMANDS, OPTIONS, Option
 
 _COMMON = ("distro", "underlay", "config", "isolated", "jobs", "cache", "exclude", "progress")
+_AROUND = "workspace (default: the one that the current folder lies in)"
 _EPILOG = """\
 commands (ros-lint COMMAND --help tells more):
 {}
@@ -86,7 +87,7 @@ def _check(made: argparse.ArgumentParser) -> None:
 
 
 def _graph_like(made: argparse.ArgumentParser) -> None:
-    made.add_argument("-C", "--workspace", dest="paths", action="append", metavar="PATH", help="workspace (default: .)")
+    made.add_argument("-C", "--workspace", dest="paths", action="append", metavar="PATH", help=_AROUND)
     for name in _COMMON:
         _add(made, BY_NAME[name])
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from ros_lint.commands import explain_package, graph, order, overlay, silence, why
-from ros_lint.commands.question import Answer, ask
+from ros_lint.commands.question import Answer, around, ask
 from ros_lint.opening import Opened, no_packages
 from ros_lint.workspace import Workspace
 
@@ -35,4 +35,6 @@ def run(command: str, said: Said) -> int:
         out, err, code = _COMMANDS[command](workspace, said)
         return (out, err, code) if workspace.packages else (out, f"{err}{no_packages(opened)}\n", 2)
 
+    if command in _WITH_SOURCES and not said.get("paths"):
+        said = {**said, "paths": [around()]}
     return ask(said, answer, sources=command in _WITH_SOURCES)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ros_lint.collectors.launch_text import readable
 from ros_lint.commands import launch_formats
 from ros_lint.commands.launch_lookup import LookUp
-from ros_lint.commands.question import Answer, ask
+from ros_lint.commands.question import Answer, around, ask, enclosing_workspace
 from ros_lint.interpret.launch_expand import Expansion, expand
 from ros_lint.opening import Opened, UsageError
 
@@ -37,7 +37,7 @@ def run(said: Mapping[str, Any]) -> int:
     """Answer the question, print the answer, return the exit code."""
     try:
         asked = understood(said["words"], os.path.isfile)
-        paths = said.get("paths") or (["."] if asked.package else [enclosing_workspace(asked.file)])
+        paths = said.get("paths") or [around() if asked.package else enclosing_workspace(asked.file)]
     except UsageError as error:
         print(f"ros-lint: {error}", file=sys.stderr)
         return 2
@@ -68,36 +68,6 @@ def understood(words: Sequence[str], is_file: Any = os.path.isfile) -> Asked:
     if not is_file(places[0]):
         raise UsageError(f"{places[0]}: no such file; the launch file of a package is named by ros-lint launch PACKAGE FILE")
     return Asked("", places[0], given)
-
-
-def enclosing_workspace(file: str) -> str:
-    """Return the workspace that a file lies in.
-
-    That is the folder whose ``src`` holds the file's package, if the repository goes so far up or colcon has built there;
-    else the repository; else the current folder, if the file is below it; else the package, or the folder of the file.
-    """
-    folders = list(_above(os.path.dirname(os.path.realpath(file))))
-    repository = next((folder for folder in folders if os.path.exists(os.path.join(folder, ".git"))), "")
-    inside = folders[: folders.index(repository) + 1] if repository else folders
-    # The outermost: colcon looks into no package for further ones.
-    packages = [folder for folder in inside if os.path.isfile(os.path.join(folder, "package.xml"))]
-    start = packages[-1] if packages else folders[0]
-    for folder in folders[folders.index(start) + 1 :]:
-        above = os.path.dirname(folder)
-        built = any(os.path.isdir(os.path.join(above, name)) for name in ("build", "install", "log"))
-        if os.path.basename(folder) == "src" and (built or (repository and above in inside)):
-            return above
-    here = os.path.realpath(os.curdir)
-    return repository or (here if here in folders else start)
-
-
-def _above(folder: str) -> Iterator[str]:
-    """Yield a folder and those that it lies in, innermost first."""
-    while True:
-        yield folder
-        if os.path.dirname(folder) == folder:
-            return
-        folder = os.path.dirname(folder)
 
 
 def answer(workspace: Workspace, look_up: LookUp, asked: Asked, path: str, form: str) -> tuple[str, str, int]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from ros_lint.config import ConfigError
@@ -37,3 +37,39 @@ def ask(said: Mapping[str, Any], answer: Callable[[Opened, Workspace], Answer], 
     sys.stdout.flush()
     sys.stderr.write(err)
     return code
+
+
+def around() -> str:
+    """Return the workspace that the current folder lies in, if it is in a package; else the current folder."""
+    in_package = any(os.path.isfile(os.path.join(folder, "package.xml")) for folder in _above(os.path.realpath(os.curdir)))
+    return enclosing_workspace(os.path.join(os.curdir, "package.xml")) if in_package else os.curdir
+
+
+def enclosing_workspace(file: str) -> str:
+    """Return the workspace that a file lies in.
+
+    That is the folder whose ``src`` holds the file's package, if the repository goes so far up or colcon has built there;
+    else the repository; else the current folder, if the file is below it; else the package, or the folder of the file.
+    """
+    folders = list(_above(os.path.dirname(os.path.realpath(file))))
+    repository = next((folder for folder in folders if os.path.exists(os.path.join(folder, ".git"))), "")
+    inside = folders[: folders.index(repository) + 1] if repository else folders
+    # The outermost: colcon looks into no package for further ones.
+    packages = [folder for folder in inside if os.path.isfile(os.path.join(folder, "package.xml"))]
+    start = packages[-1] if packages else folders[0]
+    for folder in folders[folders.index(start) + 1 :]:
+        above = os.path.dirname(folder)
+        built = any(os.path.isdir(os.path.join(above, name)) for name in ("build", "install", "log"))
+        if os.path.basename(folder) == "src" and (built or (repository and above in inside)):
+            return above
+    here = os.path.realpath(os.curdir)
+    return repository or (here if here in folders else start)
+
+
+def _above(folder: str) -> Iterator[str]:
+    """Yield a folder and those that it lies in, innermost first."""
+    while True:
+        yield folder
+        if os.path.dirname(folder) == folder:
+            return
+        folder = os.path.dirname(folder)
