@@ -29,6 +29,9 @@ def parse_keywords(prefix: str, options: str, ones: str, multis: str, args: Sequ
     unparsed: list[str] = []
     state = ""
     taking = 0
+    if args and args[-1][:1] == MAYBE and kinds.get(args[-1][1:]) == _FLAG:  # nothing follows that it could cut off
+        values[f"{prefix}_{args[-1][1:]}"] = HOLE
+        args = args[:-1]
     for arg in args:
         kind = kinds.get(arg)
         if kind == _FLAG:

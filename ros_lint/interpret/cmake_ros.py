@@ -17,7 +17,7 @@ from ros_lint.interpret.cmake_released import released, run_released
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_state import Properties
 from ros_lint.interpret.cmake_targets import SOURCES, generate
-from ros_lint.interpret.cmake_values import HOLE, elements, is_known, sure
+from ros_lint.interpret.cmake_values import HOLE, MAYBE, elements, is_known, sure
 from ros_lint.tree import join as join_path
 
 _PRODUCER = re.compile(r"install|program|executable|node|script|package|component|launch|resource|share|deploy|xacro|module")
@@ -257,8 +257,9 @@ def _package_xml(run: Run, _args: list[str]) -> None:
 def _test_executable(run: Run, args: list[str]) -> None:
     """``ros_lint_test_executable(target sources...)``: a program that tests, whether or not it stands in a test scope."""
     testing, run.testing = run.testing, True
+    given = [arg for arg in args if arg[:1] != MAYBE or _TEST_WORDS.get(arg[1:]) != 0]  # whether it runs is no matter here
     try:
-        run_handler(run, "add_executable", sections(args, _TEST_WORDS)[""])
+        run_handler(run, "add_executable", sections(given, _TEST_WORDS)[""])
     finally:
         run.testing = testing
 

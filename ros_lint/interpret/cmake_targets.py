@@ -36,6 +36,9 @@ def _add(run: Run, args: list[str], kind: str, keywords: tuple[str, ...]) -> Non
     if not args or not is_known(args[0]):
         if not run.testing:
             run.hide(Facet.LIBRARIES, "the name of a target is not known")
+        elif args:  # called after an implementation of the middleware, say
+            name = "".join([letter for letter in args[0] if letter.isprintable()])
+            _build(run, name, Properties(KIND=kind), args, keywords)
         return
     name = args[0]
     if "ALIAS" in args[1:2]:
@@ -43,13 +46,19 @@ def _add(run: Run, args: list[str], kind: str, keywords: tuple[str, ...]) -> Non
         return
     if "IMPORTED" in args[1:4]:
         kind = "imported"
-    target = Properties(KIND=kind, SOURCES="", NAME=name)
+    target = Properties(KIND=kind, NAME=name)
+    run.put(run.targets, name, target)
+    _build(run, name, target, args, keywords)
+
+
+def _build(run: Run, name: str, target: Properties, args: list[str], keywords: tuple[str, ...]) -> None:
+    """Take a target for built, of the sources that the arguments name; the name is as much of it as is known."""
+    target["SOURCES"] = ""
     if run.conditional:
         target["CONDITIONAL"] = "1"
     if run.testing:
         target["TEST"] = "1"
-    run.put(run.targets, name, target)
-    run.built.append((name, target, run.where(name)))
+    run.built.append((name, target, run.where(args[0])))
     _add_sources(run, target, [arg for arg in args[1:] if arg not in keywords])
 
 
