@@ -125,6 +125,15 @@ def test_the_distribution_is_a_choice(demo: Path) -> None:
     assert " for jazzy (ros-lint.toml)" in run(demo, env={"ROS_DISTRO": "humble"}).stdout
 
 
+def test_a_package_of_a_workspace_alone(demo: Path) -> None:
+    (demo / ".git").mkdir()
+    alone = run(demo / "src" / "rover_driver")
+    assert "src/rover_driver was checked alone, without what is beside it; ros-lint " in alone.stderr
+    assert "checked alone" not in run(demo).stderr
+    shutil.move(demo / ".git", demo / "src" / "rover_driver" / ".git")
+    assert "checked alone" not in run(demo / "src" / "rover_driver").stderr
+
+
 def test_select_and_ignore(demo: Path) -> None:
     assert len(findings(demo, "--select", "ROS5")) == 2
     assert len(findings(demo, "--select", "unused-dependency,ROS103")) == 2

@@ -15,6 +15,8 @@ from ros_lint.rule import Severity
 from ros_lint.tree import DiskTree, Machine, RecordedTree, text_of
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from ros_lint import engine
     from ros_lint.config import Settings
     from ros_lint.opening import Asked, Opened
@@ -45,11 +47,24 @@ def run(said: Said) -> int:
     except RefusalError as error:
         print(f"ros-lint: {error}", file=sys.stderr)
         return 2
-    for warning in report.warnings:
+    for warning in (*report.warnings, *_alone(asked)):
         print(f"ros-lint: {warning}", file=sys.stderr)
     if asked.settings["diff"]:  # standard output holds a patch and nothing else
         return max(code, exit_code(report, asked.settings["fail-on"]))
     return max(code, _print(report, asked))
+
+
+def _alone(asked: Asked) -> Iterator[str]:
+    """Yield what to say of a single package of a workspace or repository: the others are not known then."""
+    root = os.path.join(asked.base, asked.roots[0]) if asked.roots[0] else asked.base
+    manifest, repository = (os.path.join(root, name) for name in ("package.xml", ".git"))
+    if len(asked.roots) > 1 or os.path.exists(repository) or not os.path.isfile(manifest):
+        return
+    from ros_lint.commands.question import enclosing_workspace  # noqa: PLC0415
+
+    around = enclosing_workspace(manifest)
+    if around != root:
+        yield f"{os.path.relpath(root, around)} was checked alone, without what is beside it; ros-lint {os.path.relpath(around)} checks it all"
 
 
 def _checked(asked: Asked, progress: Progress) -> Report:
