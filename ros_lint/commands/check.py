@@ -64,7 +64,8 @@ def _alone(asked: Asked) -> Iterator[str]:
 
     around = enclosing_workspace(manifest)
     if around != root:
-        yield f"{os.path.relpath(root, around)} was checked alone, without what is beside it; ros-lint {os.path.relpath(around)} checks it all"
+        what, where = os.path.relpath(root, around), os.path.relpath(around)
+        yield f"{what} was checked alone, without what is beside it; ros-lint {where} checks it all"
 
 
 def _checked(asked: Asked, progress: Progress) -> Report:
