@@ -77,7 +77,7 @@ from ros_lint.providers import Meant
 from ros_lint.report import Target
 from ros_lint.resource_files import uninstalled as uninstalled_resources
 from ros_lint.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
-from ros_lint.strangers import Stranger, declared_names, is_near_tool, strangers
+from ros_lint.strangers import Stranger, declared_names, is_near_tool, meant, strangers
 from ros_lint.suppress import Outcome
 from ros_lint.text import Span
 from ros_lint.workspace import Declared, Package, Workspace, per_workspace
@@ -196,6 +196,7 @@ __all__ = [
     "may_be_package",
     "may_bring",
     "may_run_built",
+    "meant",
     "near_names",
     "needed",
     "needs",

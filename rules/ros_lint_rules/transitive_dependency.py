@@ -25,6 +25,7 @@ Declare what is used, in the tag that the message names. The fix does this.
   code that is generated for actions needs it.
 - It is part of what launches, nothing but launch files import it, and `ros2launch` is declared for them.
 - CMake finds it, and no code uses it: `unused-find-package` says so.
+- It is declared by a name that does not exist, and must be meant by it: `unknown-dependency` says so.
 - A vendor package is declared, or a key for the whole of a library that the package uses a part of.
 - Nothing declared brings it along: that is `undeclared-dependency` or `launch-outside-closure`.
 """
@@ -45,6 +46,7 @@ from ros_lint.api import (
     advice,
     comes_with_launching,
     found_for_nothing,
+    meant,
     needs,
     tells,
     wishes,
@@ -59,8 +61,11 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     declared = tuple(dict.fromkeys(declared.name for declared in package.declared))
     idle = {mention.name for mention in found_for_nothing(package, workspace)}
+    otherwise = meant(package, workspace)
     for need in needs(package, workspace):
         if need.declared or not need.brought or need.name in idle or _is_command(need):
+            continue
+        if any(otherwise.intersection(use.providers) for use in need.uses):
             continue
         if not (_LAUNCHER in declared and comes_with_launching(package, need.uses)):
             yield _finding(package, workspace, declared, need, Confidence.HIGH if need.sure else Confidence.MEDIUM)

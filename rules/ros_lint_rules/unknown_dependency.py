@@ -3,7 +3,8 @@
 
 A dependency in `package.xml` whose name means nothing to anybody: no package of the workspace, of an underlay or of any
 distribution has it, and no rosdep key is called so. Misspelt packages, the name that CMake, Python, apt or pip use instead
-of the rosdep key, modules of Python itself, and `ament_python`, which is a build type and no package.
+of the rosdep key, modules of Python itself, programs of the package, and `ament_python`, which is a build type and no
+package.
 
 ## Why it matters
 
@@ -42,6 +43,7 @@ from ros_lint.api import (
     declared_names,
     is_near_tool,
     may_be_package,
+    programs,
     remove_dependency,
     strangers,
 )
@@ -59,7 +61,9 @@ def check(workspace: Workspace) -> Iterator[Finding]:
                 if name == _PYTHON_BUILD:
                     yield _build_type(stranger)
                 elif stranger.runs_python and workspace.world.by_import(name).none_needed:
-                    yield _of_python(stranger)
+                    yield _needless(stranger, "is a module of Python itself, so there is nothing that rosdep could install")
+                elif workspace.world.meant(name, python=stranger.runs_python) is None and _is_own_program(stranger):
+                    yield _needless(stranger, "is a program of this package and no package")
                 else:
                     yield _unknown(stranger, workspace)
 
@@ -76,16 +80,21 @@ def _build_type(stranger: Stranger) -> Finding:
     return Finding(message, stranger.declared.depend.span, name, fix=fix, package=package.name)
 
 
-def _of_python(stranger: Stranger) -> Finding:
+def _needless(stranger: Stranger, why: str) -> Finding:
     package, name = stranger.package, stranger.name
     edits = tuple(edit for tag in stranger.tags for edit in remove_dependency(package, tag))
-    return Finding(
-        f"{name} is a module of Python itself, so there is nothing that rosdep could install: remove the tag",
-        stranger.declared.depend.span,
-        name,
-        fix=Fix(f"remove the dependency on {name}", edits),
-        package=package.name,
-    )
+    fix = Fix(f"remove the dependency on {name}", edits)
+    return Finding(f"{name} {why}: remove the tag", stranger.declared.depend.span, name, fix=fix, package=package.name)
+
+
+def _is_own_program(stranger: Stranger) -> bool:
+    """Whether the name is that of a program which the package installs, and nothing finds or launches a package of the name."""
+    package, name = stranger.package, stranger.name
+    own = programs(package)
+    if own is None or name not in own.names:
+        return False
+    found = {mention.name for mention in package.script.mentions} if package.script else set()
+    return name not in found and not any(each.package == name for launch in package.launch for each in launch.references)
 
 
 def _unknown(stranger: Stranger, workspace: Workspace) -> Finding:
