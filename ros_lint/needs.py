@@ -372,8 +372,8 @@ _EVERYDAY = frozenset({"ros", "ament", "cmake", "python", "lib", "dev", "msgs", 
 
 
 def _words(name: str) -> frozenset[str]:
-    """Return the telling words of a name, without the number of a generation: mrpt2 is of the family of mrpt_libobs."""
-    return frozenset([word.rstrip("0123456789") or word for word in re.split("[-_]", name)]) - _EVERYDAY
+    """Return how the telling words of a name begin, without the number of a generation: mrpt2 is akin to mrpt_libobs."""
+    return frozenset([word.rstrip("0123456789")[:8] or word for word in re.split("[-_]", name)]) - _EVERYDAY
 
 
 _OF_TOOLS = ("ament", "cmake", "lint", "common", "tools", "test")

@@ -203,6 +203,7 @@ def test_what_hardly_anybody_brings_is_not_brought_by_a_stranger() -> None:
     assert not may_bring(("acme_arm",), "depthimage_to_laserscan", workspace)
     assert may_bring(("acme_laserscan",), "depthimage_to_laserscan", workspace)  # the same family
     assert may_bring(("depthimage2",), "depthimage_to_laserscan", workspace)  # of another generation
+    assert may_bring(("acme_depthimages",), "depthimage_to_laserscan", workspace)  # or with a longer word
     assert may_bring(("acme_arm",), "octomap_server", workspace)  # others of the workspace bring it
     assert may_bring(("acme_arm",), "rviz_common", workspace)  # many do
     assert may_bring(("acme_arm",), "protobuf", workspace)  # libraries come in many ways
