@@ -25,7 +25,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ros_lint.api import Finding, Package, Provided, Related, Rule, Severity, Span, Workspace, everything, launchable
+from ros_lint.api import Finding, Package, Provided, Related, Rule, Severity, Span, Workspace, everything, from_base, launchable
 
 _LAUNCH = re.compile(r"launch\.(?:py|xml|ya?ml)\Z|\.launch\Z")
 
@@ -34,8 +34,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
     included: frozenset[str] | None = None
     for package in workspace.packages:
         for name, places in _twice(package).items():
-            base = f"{package.path}/" if package.path else ""
-            sources = [f"{base}{place.source}" for place in places]
+            sources = [from_base(package, place.source) for place in places]
             if included is None:
                 included = _included(workspace)
             if len(set(sources)) > 1 and (workspace.unread() or included.issuperset(sources)):

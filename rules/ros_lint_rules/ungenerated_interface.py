@@ -42,6 +42,7 @@ from ros_lint.api import (
     Span,
     Workspace,
     called,
+    from_base,
 )
 
 _GENERATE = "rosidl_generate_interfaces"
@@ -79,15 +80,18 @@ def _of_python(package: Package) -> Iterator[Finding]:
     found = [file for file, folder, _, name in parts if name.rpartition(".")[2] == folder.rpartition("/")[2] in _KINDS]
     if tag is None or not found:
         return
-    base = f"{package.path}/" if package.path else ""
     others = f" and {len(found) - 1} more" if len(found) > 1 else ""
     yield Finding(
         f"nothing is generated from {found[0]}{others}: ament_python does not do that, so put {'them' if others else 'it'} "
         "into a package of ament_cmake",
         tag.span,
         found[0],
-        tuple(Related("this file", Span(f"{base}{file}", 1, 1, 1, 1)) for file in found[:_MOST_RELATED]),
+        tuple(_here(package, file) for file in found[:_MOST_RELATED]),
     )
+
+
+def _here(package: Package, file: str) -> Related:
+    return Related("this file", Span(from_base(package, file), 1, 1, 1, 1))
 
 
 def _camel(stem: str) -> str:
@@ -97,13 +101,12 @@ def _camel(stem: str) -> str:
 
 def _finding(package: Package, calls: list[Call], file: str, wanted: str) -> Finding:
     """``wanted``: what the file has to be called before anything can be generated from it, "" if it is."""
-    base = f"{package.path}/" if package.path else ""
     rename = f"; rosidl wants it to be called {wanted}" if wanted else ""
     return Finding(
         f"{file} is not given to {_GENERATE}(), so nothing is generated from it{rename}",
         calls[0].place,
         file,
-        (Related("this file", Span(f"{base}{file}", 1, 1, 1, 1)),),
+        (_here(package, file),),
         None if wanted else _fix(calls, file),
         Confidence.MEDIUM if calls[0].blocks else Confidence.HIGH,
     )

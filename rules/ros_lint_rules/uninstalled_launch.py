@@ -43,6 +43,7 @@ from ros_lint.api import (
     Span,
     Workspace,
     cmake_edits,
+    from_base,
     launchable,
     setup_edits,
 )
@@ -110,12 +111,11 @@ def _finding(package: Package, folder: str, paths: Iterable[str], whole: bool) -
     paths = sorted(paths)
     named = ", ".join(path.rpartition("/")[2] for path in paths[:3]) + (" ..." if len(paths) > 3 else "")
     what = f"{folder}/ has launch files ({named}), but is not installed" if whole else f"{named} is not installed"
-    base = f"{package.path}/" if package.path else ""
     return Finding(
         f"{what}: ros2 launch will not find {'it' if len(paths) == 1 else 'them'}",
         setup_edits.place(script),
         folder or paths[0],
-        tuple(Related("this launch file", Span(f"{base}{path}", 1, 1, 1, 1)) for path in paths[:_MOST_RELATED]),
+        tuple(Related("this launch file", Span(from_base(package, path), 1, 1, 1, 1)) for path in paths[:_MOST_RELATED]),
         _fix(package, folder, paths, whole),
     )
 
