@@ -50,6 +50,7 @@ from ros_lint.api import (
 
 _CALLED_SO_BY = {"cmake": "find_package", "python": "Python", "system": "the system's package manager"}
 _PYTHON_BUILD = "ament_python"
+_PYTHON_IN_CMAKE = "ament_cmake_python"
 _MOST_KEYS = 3
 _FINDS_DECLARED = "ament_auto_find_build_dependencies"
 
@@ -70,20 +71,19 @@ def check(workspace: Workspace) -> Iterator[Finding]:
 
 def _build_type(stranger: Stranger) -> Finding:
     package, name = stranger.package, stranger.name
-    message = f"{name} is a build type and no package, so rosdep cannot resolve it: remove the tag"
-    edits = tuple(edit for tag in stranger.tags for edit in remove_dependency(package, tag))
+    why = "is a build type and no package, so rosdep cannot resolve it"
     script = package.script
-    if package.builds_with == "ament_cmake" and script is not None and "ament_python_install_package" in script.calls:
-        message = f"{name} is a build type and no package, so rosdep cannot resolve it: write ament_cmake_python"
-        edits = _rename(stranger, "ament_cmake_python")
-    fix = Fix(message.rpartition(": ")[2].replace("the tag", f"the dependency on {name}"), edits) if edits else None
-    return Finding(message, stranger.declared.depend.span, name, fix=fix, package=package.name)
+    if package.builds_with != "ament_cmake" or script is None or "ament_python_install_package" not in script.calls:
+        return _needless(stranger, why)
+    way_out = f"write {_PYTHON_IN_CMAKE}"
+    edits = _rename(stranger, _PYTHON_IN_CMAKE)
+    fix = Fix(way_out, edits) if edits else None
+    return Finding(f"{name} {why}: {way_out}", stranger.declared.depend.span, name, fix=fix, package=package.name)
 
 
 def _needless(stranger: Stranger, why: str) -> Finding:
     package, name = stranger.package, stranger.name
-    edits = tuple(edit for tag in stranger.tags for edit in remove_dependency(package, tag))
-    fix = Fix(f"remove the dependency on {name}", edits)
+    fix = Fix(f"remove the dependency on {name}", _removal(stranger))
     return Finding(f"{name} {why}: remove the tag", stranger.declared.depend.span, name, fix=fix, package=package.name)
 
 
@@ -155,13 +155,17 @@ def _confidence(stranger: Stranger, by: str, workspace: Workspace) -> Confidence
     return Confidence.MEDIUM if elsewhere and may_be_package(stranger.name) else Confidence.HIGH
 
 
+def _removal(stranger: Stranger) -> tuple[Edit, ...]:
+    return tuple(edit for tag in stranger.tags for edit in remove_dependency(stranger.package, tag))
+
+
 def _rename(stranger: Stranger, name: str) -> tuple[Edit, ...]:
     """Return the edits that put another name into every tag. None where tags would then repeat each other."""
     package = stranger.package
     if any(declared.name == name for declared in package.declared):
         have = {declared.depend.tag for declared in package.declared if declared.name == name}
         if have <= {"depend"} or have == {tag.tag for tag in stranger.tags}:
-            return tuple(edit for tag in stranger.tags for edit in remove_dependency(package, tag))
+            return _removal(stranger)
         return ()
     return tuple(Edit(tag.name_span, name) for tag in stranger.tags)
 
