@@ -6,7 +6,7 @@ The rules about dependencies share this, so that each need is judged once and na
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from ros_lint.advice import circle
@@ -221,16 +221,9 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
             if comes_elsewhere(package, workspace, need.name) or _is_declared_as_key(package, workspace, need.name):
                 continue
             sure = sure and not (workspace.target.told and workspace.world.where_else(need.name))
-        found.append(_despite(unknown, need, workspace) if sure and unknown else (need, sure))
+        uses = despite(unknown, need.uses, workspace) if sure and unknown else need.uses
+        found.append((need._replace(uses=uses or need.uses), sure and bool(uses)))
     return tuple(found)
-
-
-def _despite(unknown: Sequence[str], need: Need, workspace: Workspace) -> tuple[Need, bool]:
-    """Return a need, and whether it is sure though names are declared of which nothing is known: first what they cannot bring."""
-    satisfied = satisfiable(unknown, need.uses, workspace)
-    if all(satisfied[use.providers] for use in need.uses if use.sure):
-        return need, False
-    return need._replace(uses=tuple(sorted(need.uses, key=lambda use: satisfied[use.providers]))), True
 
 
 def _is_declared_as_key(package: Package, workspace: Workspace, name: str) -> bool:
@@ -279,13 +272,18 @@ def _comes_with(need: Need, others: Iterable[Need], workspace: Workspace) -> boo
     return any(need.name in workspace.world.closure((other.name,)) for other in others if other is not need)
 
 
-def satisfiable(unknown: Sequence[str], uses: Iterable[Use], workspace: Workspace) -> Mapping[tuple[str, ...], bool]:
-    """Return for the providers of each use whether one of the declared names of which nothing is known could bring one along.
+def despite(unknown: Sequence[str], uses: Iterable[Use], workspace: Workspace) -> tuple[Use, ...]:
+    """Return uses of a name, first those that no declared name of which nothing is known could satisfy.
 
-    Each place has to be satisfied: a library may come with anything, which helps no script that finds the package.
+    None at all if no sure one is among these. Each place has to be satisfied: a library may come with anything, which helps no
+    script that finds the package.
     """
+    uses = tuple(uses)
     answers = dict.fromkeys([use.providers for use in uses])
-    return {names: any(may_bring(unknown, name, workspace) for name in names) for names in answers}
+    satisfied = {names: any(may_bring(unknown, name, workspace) for name in names) for names in answers}
+    if all(satisfied[use.providers] for use in uses if use.sure):
+        return ()
+    return tuple(sorted(uses, key=lambda use: satisfied[use.providers]))
 
 
 def only_launched(package: Package, uses: Sequence[Use]) -> bool:

@@ -9,7 +9,7 @@ from ros_lint.declare import builds_something, is_built_in_sight, is_library, is
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sight import Facet
 from ros_lint.facts.sources import Use
-from ros_lint.needs import all_declared, only_launched, satisfiable, tells
+from ros_lint.needs import all_declared, despite, only_launched, tells
 from ros_lint.workspace import Package, Workspace
 
 _MOST = 5
@@ -72,8 +72,7 @@ def _not_undeclared(package: Package, workspace: Workspace, name: str, uses: lis
         return "silent, for only launch files name it; see launch-outside-closure"
     if not any(use.sure for use in uses):
         return "less than certain, for no use is sure; shown with --pedantic"
-    satisfied = satisfiable(closure.unknown, own, workspace)
-    if all(satisfied[use.providers] for use in own if use.sure):
+    if not despite(closure.unknown, own, workspace):
         return f"less than certain, for nobody knows what {', '.join(closure.unknown)} may bring; shown with --pedantic"
     return "reported"
 
