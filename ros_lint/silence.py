@@ -70,7 +70,7 @@ def _not_undeclared(package: Package, workspace: Workspace, name: str, uses: lis
         return f"silent, for it comes along: {' > '.join(way or (brought[0],))}; see transitive-dependency"
     if only_launched(package, uses):
         return "silent, for only launch files name it; see launch-outside-closure"
-    if not any(use.sure for use in uses):
+    if not any(use.sure for use in own):
         return "less than certain, for no use is sure; shown with --pedantic"
     if not despite(closure.unknown, own, workspace):
         return f"less than certain, for nobody knows what {', '.join(closure.unknown)} may bring; shown with --pedantic"

@@ -25,13 +25,14 @@ find_package(ament_cmake REQUIRED)
 find_package(std_msgs REQUIRED)
 find_package(nav_msgs REQUIRED)
 find_package(map_msgs QUIET)
+find_package(visualization_msgs QUIET)
 if(map_msgs_FOUND)
 endif()
 add_executable(talker talker.cpp)
 ament_package()
 """,
     "talker/talker.cpp": "#include <rclcpp/rclcpp.hpp>\n",
-    "talker/idle.cpp": "#include <diagnostic_msgs/msg/key_value.hpp>\n",
+    "talker/idle.cpp": "#include <diagnostic_msgs/msg/key_value.hpp>\n#include <visualization_msgs/msg/marker.hpp>\n",
     "talker/notes.txt": "sensor_msgs may be needed one day\n",
 }
 
@@ -48,6 +49,7 @@ def workspace() -> Workspace:
         ("std_msgs", "silent, for it comes along: sensor_msgs > std_msgs", "silent, for it is not declared"),
         ("map_msgs", "less than certain, for every use is optional", "silent, for it is not declared"),
         ("diagnostic_msgs", "less than certain, for no use is sure", "silent, for it is not declared"),
+        ("visualization_msgs", "less than certain, for no use is sure", "silent, for it is not declared"),
         ("rclcpp", "silent, for it is declared", "silent, for it is used: talker/talker.cpp:1"),
         ("sensor_msgs", "silent, for it is declared", "silent, for its name stands here: talker/notes.txt:1"),
         ("shape_msgs", "silent, for it is declared", "silent, for it is declared under a condition"),
