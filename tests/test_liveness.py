@@ -142,6 +142,15 @@ def test_a_launch_file_of_tests_is_alive_unless_others_are_run(lines: str, sure:
     assert use(workspace, "python3-requests").sure is sure
 
 
+@pytest.mark.parametrize(("called", "sure"), [("robot.launch.py", True), ("rover.launch.py", False)])
+def test_a_launch_file_that_a_test_calls_by_its_name_is_alive(called: str, sure: bool) -> None:
+    launch = "import requests\n\ndef generate_launch_description():\n    return LaunchDescription([])\n"
+    test = f"include(os.path.join(os.getenv('LAUNCH_FILES'), '{called}'))\n"
+    files = {"test/test_a.py": test, "test/launch/robot.launch.py": launch, "test/launch/rover.launch.py": ""}
+    workspace = load("if(BUILD_TESTING)\nadd_launch_test(test/test_a.py)\nendif()", files)
+    assert use(workspace, "python3-requests").sure is sure
+
+
 def test_helpers_lie_beside_tests_that_are_run() -> None:
     files = {"test/test_a.py": "", "test/helper.py": "import requests\n", "other/test/helper.py": "import pandas\n"}
     workspace = load("ament_add_pytest_test(unit test/test_a.py)", files)

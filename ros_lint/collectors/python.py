@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 _IMPORT_LINE = re.compile(r"^[ \t]*(?:from|import)[ \t]+([A-Za-z_][\w.]*)", re.MULTILINE)
 _PROGRAM = re.compile(r"""\.py['"]""")
-_NAME = re.compile(r"[\w-]+\Z")
+_NAME = re.compile(r"[\w.-]+\Z")
 _LONGEST_NAME = 100
 
 
