@@ -8,7 +8,7 @@ import tempfile
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import groupby
 
-from ros_lint.rule import RANK_OF_KIND, Edit, Fix
+from ros_lint.rule import Edit, Fix
 from ros_lint.text import Span, Text, read
 from ros_lint.tree import Tree
 
@@ -106,7 +106,7 @@ _NEW_MODE = 0o644
 def _apply_to(source: Text, edits: Sequence[Edit]) -> str:
     text = source.text
     by_return = "\r\n" in text and text.count("\r\n") == text.count("\n")
-    numbered = sorted(enumerate(edits), key=lambda pair: (pair[1].span[1:], pair[1].rank, pair[0]))
+    numbered = sorted(enumerate(edits), key=lambda pair: (pair[1].span[1:], pair[1].kind, pair[1].order, pair[0]))
     # From the end, so that earlier offsets stay true.
     for span, at_place in reversed([(span, [edit for _, edit in pairs]) for span, pairs in groupby(numbered, _place)]):
         start = source.offset(span.line, span.column)
@@ -126,16 +126,16 @@ _BLANK = re.compile(r"\r\n|\n|\r")
 
 def _joined(edits: Sequence[Edit]) -> str:
     """Return what is put to one place: what belongs together is set off once, and nothing by two blank lines."""
-    whole, kind = "", ""
+    whole, kind = "", 0
     for edit in edits:
-        text, same = edit.text, bool(edit.rank) and edit.rank[:RANK_OF_KIND] == kind
+        text, same = edit.text, edit.kind == kind != 0
         apart = _BLANK.match(text)
         if whole and edit.span.column == 1 and apart and (same or _ends_apart(whole)):
             text = text[apart.end() :]
         elif same and _ends_apart(whole):
             whole = whole[: len(whole) - 2 if whole.endswith("\r\n") else -1]
         whole += text
-        kind = edit.rank[:RANK_OF_KIND]
+        kind = edit.kind
     return whole
 
 

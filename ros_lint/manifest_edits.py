@@ -44,7 +44,7 @@ def add(manifest: Manifest, tag: str, name: str) -> Edit:
 def _put(layout: _Layout, depends: Sequence[Depend], tag: str, name: str, element: str) -> Edit:
     """Return the edit that puts an element for a dependency where its like is among others, and in its order beside them."""
     order = name if _is_sorted(depends, tag) else ""
-    return _place(layout, depends, tag, name, element)._replace(rank=f"{_HABIT.index(tag):02} {order}")
+    return _place(layout, depends, tag, order, element)._replace(kind=_HABIT.index(tag) + 1, order=order)
 
 
 def _is_sorted(depends: Sequence[Depend], tag: str) -> bool:
@@ -57,13 +57,12 @@ def _is_sorted(depends: Sequence[Depend], tag: str) -> bool:
     return bool(asked) and all(found == sorted(found) for found in asked)
 
 
-def _place(layout: _Layout, depends: Sequence[Depend], tag: str, name: str, element: str) -> Edit:
+def _place(layout: _Layout, depends: Sequence[Depend], tag: str, order: str, element: str) -> Edit:
+    """``order``: the name, where names are sorted."""
     manifest = layout.manifest
     siblings = [depend for depend in depends if depend.tag == tag]
     if siblings:
-        before = siblings
-        if _is_sorted(depends, tag):
-            before = [depend for depend in siblings if depend.name < name]
+        before = [depend for depend in siblings if depend.name < order] if order else siblings
         return layout.after(before[-1].span, element) if before else layout.before(siblings[0].span, element)
     if depends:
         apart = layout.kinds_apart()
@@ -136,7 +135,7 @@ def set_build_type(manifest: Manifest, build_type: str) -> Edit:
             return layout.last(whole)
         last = max(children[-1].span for children in (manifest.elements, manifest.depends) if children)
         apart = layout.kinds_apart() if manifest.depends else layout.blank_after(last)
-        return layout.after(last, whole, apart=apart)._replace(rank=f"{len(_HABIT):02}")
+        return layout.after(last, whole, apart=apart)._replace(kind=len(_HABIT) + 1)
     content = export.text_span
     if content.start() == content.end():
         return Edit(export.span, whole)

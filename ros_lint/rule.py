@@ -35,20 +35,16 @@ class Confidence(IntEnum):
         return self.name.lower()
 
 
-RANK_OF_KIND = 2
-"""How many letters of the rank of an edit say what it belongs to."""
-
-
 class Edit(NamedTuple):
     """Put ``text`` where ``span`` is. An empty span inserts."""
 
     span: Span
     text: str
-    rank: str = ""
-    """Of several insertions at one place the one of the least rank comes first; those of one rank keep their order.
-
-    Those that begin with the same two letters belong together: they are set off by a blank line once.
-    """
+    kind: int = 0
+    """Of several insertions at one place the one of the least kind comes first. Those of one kind belong together: they are set
+    off by a blank line once. 0 belongs to nothing."""
+    order: str = ""
+    """Of those of one kind the one with the least comes first; those with the same one keep their order."""
 
 
 class Fix(NamedTuple):

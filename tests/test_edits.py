@@ -42,17 +42,17 @@ def test_a_fix_that_collides_waits() -> None:
 @pytest.mark.parametrize(
     ("put", "expected"),
     [
-        ([("05 a", "\na\n"), ("05 b", "\nb\n")], "\na\nb\n"),
-        ([("05 a", "a\n\n"), ("05 b", "b\n\n")], "a\nb\n\n"),
-        ([("05 a", "\r\na\r\n"), ("05 b", "\r\nb\r\n")], "\r\na\r\nb\r\n"),
-        ([("05 a", "\na\n"), ("07 b", "\nb\n")], "\na\n\nb\n"),
-        ([("05 a", "a\n\n"), ("07 b", "\nb\n")], "a\n\nb\n"),
-        ([("", "a\n"), ("", "b\n")], "b\na\n"),
+        ([(5, "a", "\na\n"), (5, "b", "\nb\n")], "\na\nb\n"),
+        ([(5, "a", "a\n\n"), (5, "b", "b\n\n")], "a\nb\n\n"),
+        ([(5, "a", "\r\na\r\n"), (5, "b", "\r\nb\r\n")], "\r\na\r\nb\r\n"),
+        ([(5, "a", "\na\n"), (7, "b", "\nb\n")], "\na\n\nb\n"),
+        ([(5, "a", "a\n\n"), (7, "b", "\nb\n")], "a\n\nb\n"),
+        ([(0, "", "a\n"), (0, "", "b\n")], "b\na\n"),
     ],
 )
-def test_what_belongs_together_is_set_off_once(put: list[tuple[str, str]], expected: str) -> None:
+def test_what_belongs_together_is_set_off_once(put: list[tuple[int, str, str]], expected: str) -> None:
     start = SOURCE.span(5, 5)
-    fixes = [Fix("", (Edit(start, text, rank),)) for rank, text in reversed(put)]
+    fixes = [Fix("", (Edit(start, text, kind, order),)) for kind, order, text in reversed(put)]
     assert edits.choose(fixes) == tuple(fixes)
     assert edits.apply(fixes, lambda path: SOURCE)["f"] == f"one\r\n{expected}two\nthree"
 
