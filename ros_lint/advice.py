@@ -96,7 +96,7 @@ def is_of_pip(workspace: Workspace, name: str) -> bool:
 def _elsewhere(workspace: Workspace, name: str) -> str:
     """Return the distributions that have a package, where the one that is assumed has none."""
     world = workspace.world
-    return "" if world.is_package(name) or world.is_key(name) else ", ".join(world.where_else(name))
+    return ", ".join(world.where_else(name)) if world.standing(name) == "elsewhere" else ""
 
 
 def _where(workspace: Workspace, name: str) -> str:
