@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 
 from ros_lint.collectors import launch_py_events, launch_py_nodes
 from ros_lint.collectors.launch_py_methods import items
@@ -69,12 +70,10 @@ def _pairs(walker: Walker, value: Value, made: Made) -> Iterator[_Passed]:
             yield str(name), place, walker.text(parts[1], node, made.source), perhaps
 
 
-def _perhaps(passed: Iterable[_Passed]) -> tuple[str, ...]:
+def _perhaps(passed: Sequence[_Passed]) -> tuple[str, ...]:
     """Return what nobody knows to be passed; what either side of a branch passes is."""
-    sides: dict[str, int] = {}
-    for name, _, _, perhaps in passed:
-        sides[name] = sides.get(name, 0) + (1 if perhaps else 2)
-    return tuple([name for name, count in sides.items() if count == 1])
+    sides = Counter([name for name, *_ in passed])
+    return tuple([name for name, _, _, perhaps in passed if perhaps and sides[name] == 1])
 
 
 def _declare(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
