@@ -47,7 +47,7 @@ class References:
         self._optional = False
         self._named: set[str] = set()
         asked = [(text, span) for text, span in places.items() if not is_settled(text)]
-        self._asked = {package: span for text, span in asked for package in self._fill(text)}
+        self._computed = {package: span for text, span in asked for package in self._fill(text)}
         for action in actions:
             self._action(action, conditional=False)
 
@@ -163,8 +163,8 @@ class References:
         """Return where a package is named that a path lies in, at best where it is looked up."""
         if package in self._places:
             return self._places[package]
-        if package in self._asked:
-            return self._asked[package]
+        if package in self._computed:
+            return self._computed[package]
         path, line, _, last, _ = value.span
         inside = package_span is not None and package_span.path == path and line <= package_span.line <= last
         return package_span if package_span is not None and inside else value.span
@@ -268,9 +268,11 @@ class References:
     def do_without(self, paths: Iterable[str]) -> None:
         """Note files of which the launch file asks first if they are there."""
         asked = {(place.package, place.share) for path in paths for text in self._fill(path) for place in installed(text)}
-        named = [one for one in self.found if one.kind in ("file", "include") and (one.package, one.name) in asked]
-        for one in named:
-            self.found[one._replace(asked=True)] = self.found.pop(one)
+        if asked:
+            self.found = {
+                one._replace(asked=True) if one.kind in ("file", "include") and (one.package, one.name) in asked else one: None
+                for one in self.found
+            }
 
     def hide(self, reason: str, span: Span) -> None:
         """Note that something hides which packages are used."""
