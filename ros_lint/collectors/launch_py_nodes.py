@@ -115,7 +115,7 @@ def _load(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchActi
 def _process(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
     command = made.get(0, "cmd")
     words = items(walker.machine, command) if command is not None else None
-    places = elements(made.written(0, "cmd"), len(words or ()))
+    places = _elements(made.written(0, "cmd"), len(words or ()))
     arguments = [("", walker.text(word, node, made.source)) for word, node in zip(words or (), places, strict=True)]
     target = arguments[0][1] if arguments else None
     process = LaunchAction(
@@ -138,7 +138,7 @@ def _given(walker: Walker, made: Made, *names: str) -> tuple[tuple[str, LaunchVa
         given = plain(made.keywords[name])
         node = made.written(-1, name)
         if isinstance(given, dict):
-            places = elements(node, len(given))
+            places = _elements(node, len(given))
             found += [
                 (f"${_key(key)}", walker.text(plain(value), place, made.source))
                 for (key, value), place in zip(given.items(), places, strict=True)
@@ -146,7 +146,7 @@ def _given(walker: Walker, made: Made, *names: str) -> tuple[tuple[str, LaunchVa
             continue
         word = "" if name in ("arguments", "ros_arguments") else name
         values = items(walker.machine, given) or [given]
-        places = elements(node, len(values))
+        places = _elements(node, len(values))
         found += [(word, walker.text(plain(value), place, made.source)) for value, place in zip(values, places, strict=True)]
     return tuple(found)
 
@@ -156,7 +156,7 @@ def _parameters(walker: Walker, made: Made) -> tuple[tuple[str, LaunchValue], ..
     if "parameters" not in made.keywords:
         return ()
     every = items(walker.machine, made.keywords["parameters"]) or [made.keywords["parameters"]]
-    for given, node in zip(every, elements(made.written(-1, "parameters"), len(every)), strict=True):
+    for given, node in zip(every, _elements(made.written(-1, "parameters"), len(every)), strict=True):
         for one in alternatives(given):
             _parameter(walker, one.value, node, made, found)
     return tuple(found)
@@ -172,11 +172,11 @@ def _parameter(walker: Walker, value: Value, node: ast.expr, made: Made, found: 
         if isinstance(one, dict):
             walker.machine.spend(len(one))
             names = [f"{name}.{key}" if name else _key(key) for key in one]
-            waiting += reversed(list(zip(names, map(plain, one.values()), elements(place, len(one)), strict=True)))
+            waiting += reversed(list(zip(names, map(plain, one.values()), _elements(place, len(one)), strict=True)))
         elif isinstance(one, (list, tuple)) and not name and not all(_names_file(plain(part)) for part in one):
             walker.machine.spend(len(one))
             waiting += [
-                ("", plain(inner), at) for inner, at in zip(reversed(one), reversed(elements(place, len(one))), strict=True)
+                ("", plain(inner), at) for inner, at in zip(reversed(one), reversed(_elements(place, len(one))), strict=True)
             ]
         elif name:
             found.append((name, walker.text(_list(one), place, made.source)))
@@ -186,7 +186,7 @@ def _parameter(walker: Walker, value: Value, node: ast.expr, made: Made, found: 
             found.append(("" if known else UNKNOWN, walker.text(one, place, made.source)))
 
 
-def elements(node: ast.expr, count: int) -> list[ast.expr]:
+def _elements(node: ast.expr, count: int) -> list[ast.expr]:
     """Return where each element of a list, or value of a dictionary, is written: where that is, if it is not written out."""
     written: list[ast.expr] = []
     if isinstance(node, (ast.List, ast.Tuple)):
