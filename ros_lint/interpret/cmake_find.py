@@ -33,7 +33,7 @@ def find_package(run: Run, args: list[str]) -> int | None:
     name, certain = sure(args[0]) if args else ("", True)
     if not is_known(name):
         run.open_world = True
-        if may_be_package(name):
+        if _may_become_package(name):
             run.hide(Facet.USES, "find_package() of a name that is not known")
         return None
     if (run.get(f"{name}_DIR") or "").startswith(f"{SOURCE}/") and not run.muted:
@@ -55,7 +55,7 @@ def find_package(run: Run, args: list[str]) -> int | None:
     return None
 
 
-def may_be_package(name: str) -> bool:
+def _may_become_package(name: str) -> bool:
     """Return whether a name that is known in part may be that of a ROS package: those are in lower case (REP 144)."""
     return not any(letter.isupper() for letter in name)
 
@@ -117,7 +117,7 @@ def _uses(run: Run, args: list[str]) -> None:
         if name == _FOUND_DECLARED and purpose == "interfaces":
             _uses(run, [*args[:2], *map(maybe, run.sources.build_depends)])  # keys are not found
         if HOLE in name:
-            if may_be_package(name):
+            if _may_become_package(name):
                 run.hide(Facet.USES, "the name of a package is not known")
         elif is_known(name) and not run.is_bundled(name):
             what = f"{args[1]} {name}" if args[1] != "-" else ""
