@@ -131,8 +131,10 @@ class Run(Paths):
         """Targets in the order of their definition."""
         self.links: dict[str, dict[str, Span]] = {}
         """What targets are linked with, and where that is said."""
-        self.missing: list[tuple[str, Span, bool]] = []  # folders with a slash at the end
-        """Files that are named and not there (unless they are generated), and whether that may not matter."""
+        self.missing: list[tuple[str, Span, bool]] = []
+        """Files that are named and not there (unless they are generated), and whether that may not matter.
+
+        Folders have a slash at the end."""
         self.undefined: list[tuple[str, Span, bool]] = []
         """Targets that are installed and that nobody defines."""
         self.extras: list[str] = []
