@@ -5,7 +5,7 @@ By target membership first, by include from what is alive second, by folder name
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 from functools import cached_property
 from itertools import accumulate
 
@@ -330,17 +330,23 @@ class Liveness:
 
     @cached_property
     def _in_python_packages(self) -> frozenset[str]:
-        packages = [name.replace(".", "/") for name in self._script.python_packages] if self._script else []
-        moved = self._script.moved if self._script else ()
+        """Files of packages that are installed with all that is in them, as far as Python can find it."""
+        if self._script is None or not self._script.python_packages:
+            return frozenset()
+        packages = [name.replace(".", "/") for name in self._script.python_packages]
+        moved = self._script.moved
         inside = (*(f"{package}/" for package in packages), *(each for each in moved if each.endswith("/")))
         modules = frozenset([*moved, *(f"{package}{suffix}" for package in packages for suffix in (".py", ".py.in"))])
-        below = [file for file in self._files if file.startswith(inside)] if packages else []
-        whole = {folder.rstrip("/") for folder in inside}
-        apart = {folder for file in below if file.endswith(".py") and (folder := file.rpartition("/")[0]) not in whole}
-        apart = {folder for folder in apart if f"{folder}/__init__.py" not in self._facts}
-        apart -= self._imported_folders if apart else apart
-        kept = [file for file in below if not file.endswith(".py") or _is_of_modules(file, apart)]
-        return modules.intersection(self._files).union(kept) if packages else frozenset()
+        below = [file for file in self._files if file.startswith(inside)]
+        unseen = self._unseen_folders([file for file in below if file.endswith(".py")], inside)
+        kept = [file for file in below if not file.endswith(".py") or _is_of_modules(file, unseen)]
+        return modules.intersection(self._files).union(kept)
+
+    def _unseen_folders(self, modules: Iterable[str], packages: Iterable[str]) -> set[str]:
+        """Return the folders of modules that are no packages, neither declared nor by a file, and that nothing imports from."""
+        folders = {module.rpartition("/")[0] for module in modules}.difference([package.rstrip("/") for package in packages])
+        found = {folder for folder in folders if f"{folder}/__init__.py" not in self._facts}
+        return found - self._imported_folders if found else found
 
     @cached_property
     def _imported_folders(self) -> frozenset[str]:
@@ -358,10 +364,10 @@ def _interface(path: str) -> str:
     return f"{folder.rpartition('/')[2] if suffix == 'idl' else suffix}/{stem}"
 
 
-def _is_of_modules(path: str, apart: Collection[str]) -> bool:
+def _is_of_modules(path: str, unseen: Collection[str]) -> bool:
     """Whether a file in Python can be imported: one called ``node copy.py`` was put aside by an editor or a file manager."""
     folder, _, name = path.rpartition("/")
-    return folder not in apart and " " not in name
+    return folder not in unseen and " " not in name
 
 
 def _stem(path: str) -> str:
