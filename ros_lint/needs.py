@@ -260,12 +260,17 @@ def _joined(found: Sequence[Need]) -> list[Need]:
             before = all(other.name in use.providers for use in need.uses)
             if before or all(need.name in use.providers for use in other.uses):
                 kept = other if before else need
-                brought = need.uses if before else other.uses
-                result[number] = kept._replace(uses=tuple(sorted((*kept.uses, *brought), key=_rank)))
+                uses = sorted((*other.uses, *need.uses), key=lambda use: (_rank(use), not _names(use, kept.name)))
+                result[number] = kept._replace(uses=tuple(uses))
                 break
         else:
             result.append(need)
     return result
+
+
+def _names(use: Use, name: str) -> bool:
+    """Whether a use names what it needs, and not what that merely brings."""
+    return name in (use.package, use.name.partition("/")[0])
 
 
 def _comes_with(need: Need, others: Iterable[Need], workspace: Workspace) -> bool:

@@ -181,6 +181,13 @@ def test_what_names_a_package_is_told_before_what_it_brings() -> None:
     assert found == {"ament_cmake": ["ament_cmake"], "cv_bridge": ["cv_bridge", "libopencv-dev"]}
 
 
+def test_what_names_a_package_by_its_folder_stays_in_its_place() -> None:
+    source = '#include "boost/program_options.hpp"\n#include "boost/tokenizer.hpp"\n'
+    workspace = load(cmake("talker", "", "add_library(talker a.cpp)", a_dot_cpp=source))
+    found = {need.name: [use.span.line for use in need.uses] for need, _ in undeclared(workspace.packages[0], workspace)}
+    assert found["boost"] == [1, 2]
+
+
 def test_each_place_of_a_need_is_answered_for_itself() -> None:
     lines = "if(BUILD_TESTING)\nfind_package(ament_cmake_gtest REQUIRED)\nament_add_gtest(t test/t.cpp)\nendif()"
     depends = "<depend>cv_bridge</depend><test_depend>gtest</test_depend>"
