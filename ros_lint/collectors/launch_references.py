@@ -52,7 +52,7 @@ class References:
             self._action(action, conditional=False)
 
     def _action(self, action: LaunchAction, conditional: bool) -> None:
-        before, narrowed = self._optional, self._narrowed
+        before, narrowed, known = self._optional, self._narrowed, self._known
         if action.conditions:
             conditional = True
             self._optional = before or asks_first(action.conditions)
@@ -69,7 +69,7 @@ class References:
                 self._paths(value, action.package_span, conditional, reads)
         for child in action.children:
             self._action(child, conditional)
-        self._optional, self._narrowed = before, narrowed
+        self._optional, self._narrowed, self._known = before, narrowed, known
 
     def _program(self, action: LaunchAction, conditional: bool) -> None:
         kind: Kind = "node" if action.kind == "node" else "component"
@@ -195,17 +195,15 @@ class References:
             name = next((name for name, _, whole in configurations(text) if whole == text), "")
             if name and equals is not None and not others and is_plain(equals):
                 left = [value for value in self._value(name) or () if value != equals]
-                self._narrowed = {**self._narrowed, name: (equals,) if wanted else tuple(left)}
+                self._narrowed, self._known = {**self._narrowed, name: (equals,) if wanted else tuple(left)}, {}
 
     def _value(self, name: str) -> tuple[str, ...] | None:
         return self._narrowed[name] or None if name in self._narrowed else self._held.values.get(name)
 
     def _fill(self, text: str) -> tuple[str, ...]:
-        if self._narrowed:
-            return fill(text, self._value, evaluate)
         found = self._known.get(text)
         if found is None:
-            found = self._known[text] = fill(text, self._held.values.get, evaluate)
+            found = self._known[text] = fill(text, self._value, evaluate)
         return found
 
     def look_up(self, package: str, value: LaunchValue, conditions: Sequence[LaunchCondition]) -> None:
