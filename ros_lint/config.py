@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 
 from ros_lint.options import BY_NAME, OPTIONS, Option
 from ros_lint.report import RefusalError
+from ros_lint.tree import upwards
 
 
 class ConfigError(RefusalError):
@@ -77,17 +78,14 @@ def find(start: str) -> str:
     folder = os.path.abspath(start)
     if not os.path.isdir(folder):
         folder = os.path.dirname(folder)
-    while True:
-        own = os.path.join(folder, "ros-lint.toml")
+    for place in upwards(folder):
+        own = os.path.join(place, "ros-lint.toml")
         if os.path.isfile(own):
             return own
-        project = os.path.join(folder, "pyproject.toml")
+        project = os.path.join(place, "pyproject.toml")
         if os.path.isfile(project) and _mentions_us(project):
             return project
-        above = os.path.dirname(folder)
-        if above == folder:
-            return ""
-        folder = above
+    return ""
 
 
 def read(path: str) -> dict[str, Any]:

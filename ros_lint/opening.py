@@ -13,7 +13,7 @@ from ros_lint.knowledge.store import user_directory
 from ros_lint.options import COMMANDS, OPTIONS
 from ros_lint.registry import BUILTIN
 from ros_lint.report import RefusalError, Target
-from ros_lint.tree import DiskTree
+from ros_lint.tree import DiskTree, upwards
 
 if TYPE_CHECKING:
     from ros_lint import underlay
@@ -190,14 +190,12 @@ def _base(paths: Sequence[str]) -> str:
     What code review shows is relative to the repository, so paths in the output are, too, wherever the tool is called.
     """
     common = os.path.commonpath(paths)
-    folder = common
-    while True:
-        if os.path.exists(os.path.join(folder, ".git")):
-            return folder
-        above = os.path.dirname(folder)
-        if above == folder:
-            return common
-        folder = above
+    return repository_of(common) or common
+
+
+def repository_of(folder: str) -> str:
+    """Return the root of the repository that a folder is in, or ""."""
+    return next((above for above in upwards(folder) if os.path.exists(os.path.join(above, ".git"))), "")
 
 
 def _target(settings: Settings, places: Sequence[str]) -> tuple[Target, tuple[str, ...]]:
@@ -211,11 +209,11 @@ def _target(settings: Settings, places: Sequence[str]) -> tuple[Target, tuple[st
         return Target(distro, "ROS_DISTRO"), (f"nothing is known of ROS_DISTRO {distro}; there are {', '.join(known)}",)
     import difflib  # noqa: PLC0415
 
-    from ros_lint.knowledge.names import END_OF_LIFE  # noqa: PLC0415
+    from ros_lint.knowledge.names import has_ended  # noqa: PLC0415
 
     close = difflib.get_close_matches(distro, known, 1)
     hint = f", did you mean {close[0]}?" if close else ""
-    if distro.capitalize() in [name.rpartition(" ")[2] for name in END_OF_LIFE.values()]:
+    if has_ended(distro):
         hint = ", which is no longer supported"
     raise UsageError(f"{settings.origin('distro')}: nothing is known of {distro}{hint} (there are {', '.join(known)})")
 

@@ -86,6 +86,16 @@ _NAME = itemgetter(0)
 _make = tuple.__new__
 
 
+def upwards(folder: str) -> Iterator[str]:
+    """Yield a folder of the machine and those that it lies in, innermost first."""
+    while True:
+        yield folder
+        above = os.path.dirname(folder)
+        if above == folder:
+            return
+        folder = above
+
+
 def _followed(entry: os.DirEntry[str]) -> Entry:
     try:
         kind: Kind = "directory" if entry.is_dir() else "file" if entry.is_file() else "other"

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from ros_lint.config import ConfigError
 from ros_lint.knowledge.store import KnowledgeError
-from ros_lint.opening import Opened, UsageError, open_workspace
+from ros_lint.opening import Opened, UsageError, open_workspace, repository_of
 from ros_lint.progress import Progress
+from ros_lint.tree import upwards
 from ros_lint.workspace import Workspace
 
 Answer = tuple[str, str, int]
@@ -41,7 +42,7 @@ def ask(said: Mapping[str, Any], answer: Callable[[Opened, Workspace], Answer], 
 
 def around() -> str:
     """Return the workspace that the current folder lies in, if it is in a package; else the current folder."""
-    in_package = any(os.path.isfile(os.path.join(folder, "package.xml")) for folder in _above(os.path.realpath(os.curdir)))
+    in_package = any(os.path.isfile(os.path.join(folder, "package.xml")) for folder in upwards(os.path.realpath(os.curdir)))
     return enclosing_workspace(os.path.join(os.curdir, "package.xml")) if in_package else os.curdir
 
 
@@ -51,8 +52,8 @@ def enclosing_workspace(file: str) -> str:
     That is the folder whose ``src`` holds the file's package, if the repository goes so far up or colcon has built there;
     else the repository; else the current folder, if the file is below it; else the package, or the folder of the file.
     """
-    folders = list(_above(os.path.dirname(os.path.realpath(file))))
-    repository = next((folder for folder in folders if os.path.exists(os.path.join(folder, ".git"))), "")
+    folders = list(upwards(os.path.dirname(os.path.realpath(file))))
+    repository = repository_of(folders[0])
     inside = folders[: folders.index(repository) + 1] if repository else folders
     # The outermost: colcon looks into no package for further ones.
     packages = [folder for folder in inside if os.path.isfile(os.path.join(folder, "package.xml"))]
@@ -64,12 +65,3 @@ def enclosing_workspace(file: str) -> str:
             return above
     here = os.path.realpath(os.curdir)
     return repository or (here if here in folders else start)
-
-
-def _above(folder: str) -> Iterator[str]:
-    """Yield a folder and those that it lies in, innermost first."""
-    while True:
-        yield folder
-        if os.path.dirname(folder) == folder:
-            return
-        folder = os.path.dirname(folder)

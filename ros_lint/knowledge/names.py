@@ -34,6 +34,12 @@ END_OF_LIFE: Mapping[str, str] = {
 }
 """Distributions at their end of life, as the letters of the data stand for them."""
 
+
+def has_ended(distro: str) -> bool:
+    """Whether a distribution is at its end of life: "foxy"."""
+    return any(name.endswith(f" {distro.capitalize()}") for name in END_OF_LIFE.values())
+
+
 # Each of these is one package's top-level module and a word that any folder of anybody may be called.
 _NO_WORDS = frozenset({"lib", "dev", "python", "python3", "pip", "all", "core", "data", "tools"})
 """Parts of the names of rosdep keys that say nothing."""
