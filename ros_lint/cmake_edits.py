@@ -53,10 +53,7 @@ def install_folder(package: Package, folder: str) -> Edit | None:
     """
     call = _beside(package)
     if call is not None:
-        last = call.texts.index("DESTINATION") - 1
-        span = call.span(last)
-        gap = " " if span.line == call.span(last - 1).line else "\n" + " " * (span.column - 1)
-        return Edit(span.end(), f"{gap}{folder}")
+        return _append(call, call.texts.index("DESTINATION") - 1, folder)
     if package.script is None or package.script.end is None:
         return None
     return at_end(package.script, f"install(DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}})")
@@ -69,13 +66,17 @@ def export_dependencies(package: Package, name: str, all_names: Sequence[str]) -
     """
     call = next((call for call in called(package, "ament_export_dependencies") if call.args and not call.blocks), None)
     if call is not None:
-        last = len(call.args) - 1
-        span = call.span(last)
-        above = call.span(last - 1).line if last else call.line
-        return Edit(span.end(), f" {name}" if span.line == above else f"\n{' ' * (span.column - 1)}{name}")
+        return _append(call, len(call.args) - 1, name)
     if package.script is None or package.script.end is None:
         return None
     return at_end(package.script, f"ament_export_dependencies({' '.join(all_names)})")
+
+
+def _append(call: Call, last: int, text: str) -> Edit:
+    """Add an argument after the one with the number ``last``: on a line of its own if that has one."""
+    span = call.span(last)
+    above = call.span(last - 1).line if last else call.line
+    return Edit(span.end(), f" {text}" if span.line == above else f"\n{' ' * (span.column - 1)}{text}")
 
 
 def _beside(package: Package) -> Call | None:
