@@ -189,18 +189,17 @@ _MOST_TRIALS = 2
 """That are remembered beside the workspace as it is: what passed is asked for again at once, what failed is not."""
 
 
-def _worse(had: Counter[str], after: Iterable[Issue]) -> list[Issue]:
+def _worse(had: Counter[str], after: Sequence[Issue]) -> list[Issue]:
     """Return the findings that were not there before.
 
     What is less than certain, or asked for only, may change: a need that was undeclared can become a transitive one.
     """
-    after = list(after)
     has = Counter(issue.identity for issue in after)
     serious = [issue for issue in after if issue.rule.default and issue.finding.confidence is Confidence.HIGH]
     return [issue for issue in serious if has[issue.identity] > had[issue.identity]]
 
 
-def _idle(had: Counter[str], after: Iterable[Issue], group: Iterable[Issue]) -> list[Issue]:
+def _idle(had: Counter[str], after: Sequence[Issue], group: Sequence[Issue]) -> list[Issue]:
     """Return those of a group whose fixes do not help."""
     has = Counter(issue.identity for issue in after)
     return [issue for issue in group if has[issue.identity] >= had[issue.identity]]
