@@ -124,7 +124,7 @@ def _add_subdirectory(run: Run, args: list[str]) -> int | None:
             run.open_world = run.wild = True
             run.hide(ANYTHING, f"add_subdirectory() of {path}, which has no CMakeLists.txt in sight")
         else:
-            run.problem("missing-file", f"add_subdirectory() of {path}, which does not exist", run.where(name), path)
+            run.problem("missing-folder", f"add_subdirectory() of {path}, which does not exist", run.where(name), path)
         return None
     run.enter_directory(path)
     run.scopes.append(Variables())

@@ -42,7 +42,7 @@ from ros_lint.api import (
     evaluated_name,
 )
 
-_KINDS = ("missing-file", "file-is-directory")
+_KINDS = ("missing-file", "missing-folder", "file-is-directory")
 _KINDS_OF_INSTALL = ("DIRECTORY", "FILES", "PROGRAMS", "TARGETS")
 _WORKS = ("COMMAND", "ARGS", "WORKING_DIRECTORY")
 _RUNS = ("execute_process", "exec_program")
@@ -64,7 +64,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         path = problem.subject
         if problem.kind in _KINDS and path not in seen and not _is_unseen(package, path):
             seen.add(path)
-            hint = _hint(package, path) if problem.kind == "missing-file" else ""
+            hint = _hint(package, path) if problem.kind != "file-is-directory" else ""
             says = f"{path} does not exist" if path in _KINDS_OF_INSTALL else problem.message
             yield Finding(f"{says}{hint}", problem.span, path, confidence=_confidence(package, workspace, problem))
     if package.builds_with == "ament_cmake":
@@ -82,7 +82,7 @@ def _confidence(package: Package, workspace: Workspace, problem: Problem) -> Con
         return Confidence.MEDIUM
     if _makes_files(package) or (_is_installed(package, problem) and _builds_in_sources(package)):
         return Confidence.MEDIUM
-    if "add_subdirectory()" in problem.message and any(path.endswith(".gitmodules") for path in workspace.source_lists):
+    if problem.kind == "missing-folder" and any(path.endswith(".gitmodules") for path in workspace.source_lists):
         return Confidence.MEDIUM
     return Confidence.HIGH
 
