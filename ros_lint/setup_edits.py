@@ -28,29 +28,27 @@ def place(script: BuildScript) -> Span:
     return script.end or (found.end if found else script.name_span) or Span(script.path, 1, 1, 1, 1)
 
 
-def add_files(to: Slot, package: str, paths: Iterable[str], others: Sequence[str]) -> Edit | None:
+def add_files(to: Slot, package: str, paths: Iterable[str], others: Sequence[str]) -> Edit:
     """Add to data_files what installs files of the package under their folders in the share directory.
 
     Those of a folder are globbed if setup.py globs: by their ending, unless another file of the folder, among ``others``, has
-    it, or all of them, where it has no folder in it, which data_files do not take. None where files lie beside setup.py itself.
+    it, or all of them, where it has no folder in it, which data_files do not take. What lies beside setup.py is listed.
     """
     by_folder: dict[str, list[str]] = {}
     for path in sorted(paths):
         by_folder.setdefault(posixpath.dirname(path), []).append(path)
-    if not all(by_folder):
-        return None
     gap = " " if to.indent is None else f"\n{to.indent}"
     return add(to, f",{gap}".join(_files(to, package, inner, others) for inner in by_folder.values()))
 
 
 def _files(to: Slot, package: str, paths: Sequence[str], others: Sequence[str]) -> str:
     folder = posixpath.dirname(paths[0])
-    target = joined(to, package, "share/", f"/{folder}")
+    target = joined(to, package, "share/", f"/{folder}" if folder else "")
     ending = _ending(paths)
     inside = [other for other in others if other.startswith(f"{folder}/")]
     files = [other for other in inside if posixpath.dirname(other) == folder]
     alike = [other for other in files if other.endswith(ending)]
-    if to.glob and (ending or inside == files) and sorted(alike) == sorted(paths):
+    if to.glob and folder and (ending or inside == files) and sorted(alike) == sorted(paths):
         return f"({target}, {to.glob}({quoted(to, f'{folder}/*{ending}')}))"
     return f"({target}, [{', '.join(quoted(to, path) for path in paths)}])"
 

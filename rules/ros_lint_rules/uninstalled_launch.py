@@ -138,8 +138,10 @@ def _fix(package: Package, folder: str, paths: Iterable[str], whole: bool) -> Fi
 
 def _fix_of_setup(package: Package, folder: str, paths: Iterable[str], whole: bool) -> Fix | None:
     slot = setup_edits.slot(package.script, "data_files") if package.script else None
-    edit = setup_edits.add_files(slot, package.name, paths, package.files) if slot else None
-    return Fix(f"install {f'{folder}/' if whole else ' '.join(sorted(paths))}", (edit,)) if edit else None
+    if slot is None or not all("/" in path for path in paths):  # one beside setup.py itself
+        return None
+    edit = setup_edits.add_files(slot, package.name, paths, package.files)
+    return Fix(f"install {f'{folder}/' if whole else ' '.join(sorted(paths))}", (edit,))
 
 
 RULE = Rule(
