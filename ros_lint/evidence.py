@@ -90,7 +90,7 @@ class Resolver:
     def __init__(self, sources: Sequence[Source], names: Names) -> None:
         self.names = names
         self._headers = include_index(sources)
-        self._empty = frozenset([source.name for source in sources if source.script and source.script.makes_nothing()])
+        self._empty = frozenset([source.name for source in sources if source.script and source.script.makes_nothing])
         self._ask: Mapping[Via, Callable[[str], Answer]] = {
             "include": self._include,
             "import": lambda name: self._told(self.names.by_import(name), name.partition(".")[0], name),

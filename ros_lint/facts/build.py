@@ -99,15 +99,6 @@ class LeftBehind(NamedTuple):
     """Whether the program leaves alone where modules are sought."""
 
 
-_MAKES_NOTHING = frozenset(
-    {
-        "add_compile_options", "ament_auto_find_build_dependencies", "ament_auto_package", "ament_package",
-        "ament_lint_auto_find_test_dependencies", "cmake_minimum_required", "find_package", "list", "message", "option",
-        "project", "set",
-    }
-)  # fmt: skip
-
-
 class BuildScript(NamedTuple):
     """What the build of a package does: evaluated from CMakeLists.txt and what it includes, or from setup.py and setup.cfg."""
 
@@ -171,11 +162,9 @@ class BuildScript(NamedTuple):
     """Whether it could not be evaluated by a mistake of ours, which ``opaque`` then tells."""
     behind: Span | None = None
     """Where the command before ``end`` ends, if nothing but blank lines stand between the two."""
+    makes_nothing: bool = False
+    """Whether it is a CMake script that builds, installs and tests nothing but the style of what is there."""
 
     def hides(self, facet: Facet) -> bool:
         """Whether the script cannot be seen through as to a facet. What code computes when it runs is no matter here."""
         return any(opaque.hides & facet for opaque in self.opaque)
-
-    def makes_nothing(self) -> bool:
-        """Whether a CMake script builds, installs and tests nothing but the style of what is there."""
-        return bool(self.calls) and _MAKES_NOTHING.issuperset(self.calls)

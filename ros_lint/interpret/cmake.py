@@ -67,7 +67,8 @@ def evaluate(sources: Sources, distro: str = "", helpers: Mapping[str, Helper] =
     Conditions that cannot be decided are followed both ways; what such a branch provides is ``conditional`` and what it
     mentions ``optional``. Options have their default, and what the other branch would do is reported as conditional. What
     cannot be seen through is in ``opaque`` with the facet that it hides. Problems have the kinds "cmake-syntax",
-    "missing-file", "undefined-target", "file-is-directory" and "directory-is-file". Never raises for what the files hold.
+    "missing-file", "missing-folder" (of add_subdirectory), "undefined-target", "file-is-directory" and "directory-is-file".
+    Never raises for what the files hold.
     """
     run = Run(sources, distro, helpers, cmake_ros.foreign)
     path = join(sources.path, _TOP)
@@ -100,6 +101,7 @@ def _result(run: Run, path: str) -> BuildScript:
             problems += parsed.problems
             facets = ANYTHING if file == _TOP else ANYTHING & ~Facet.INTERFACES
             opaques += [Opaque(facets, "the file cannot be read to its end", problem.span) for problem in parsed.problems]
+    calls = tuple(sorted([call for call in run.calls if not call.startswith("ros_lint_")]))
     return BuildScript(
         path,
         run.name,
@@ -113,12 +115,13 @@ def _result(run: Run, path: str) -> BuildScript:
         (),
         tuple(sorted(run.python_packages)),
         tuple(sorted(run.interfaces)),
-        tuple(sorted([call for call in run.calls if not call.startswith("ros_lint_")])),
+        calls,
         tuple(opaques),
         tuple(problems),
         run.end,
         tuple(run.extras),
         behind=run.behind,
+        makes_nothing=bool(calls) and _MAKES_NOTHING.issuperset(calls),
         entered=tuple(run.entered),
         test_folders=tuple([folder for folder in run.entered_for_tests if folder]),
         handed_on=tuple(_handed_on(run)),
@@ -127,6 +130,15 @@ def _result(run: Run, path: str) -> BuildScript:
         runs=_runs(run),
         export_sets=tuple(dict.fromkeys([made.exported_in for made in run.installed_targets if is_known(made.exported_in)])),
     )
+
+
+_MAKES_NOTHING: Final = frozenset(
+    {
+        "add_compile_options", "ament_auto_find_build_dependencies", "ament_auto_package", "ament_package",
+        "ament_lint_auto_find_test_dependencies", "cmake_minimum_required", "find_package", "list", "message", "option",
+        "project", "set",
+    }
+)  # fmt: skip
 
 
 def _handed_on(run: Run) -> Iterator[tuple[Mention, bool]]:

@@ -189,7 +189,7 @@ def _makes_nothing(package: Package) -> bool:
     One that is called after tests or examples may keep them where it lies.
     """
     script = package.script
-    return script is not None and script.makes_nothing() and not is_apart(f"{package.name.replace('_', '/')}/")
+    return script is not None and script.makes_nothing and not is_apart(f"{package.name.replace('_', '/')}/")
 
 
 def _of_nodes(package: Package) -> frozenset[str]:
