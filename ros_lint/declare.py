@@ -57,7 +57,7 @@ def add_dependency(package: Package, tag: str, name: str) -> tuple[Edit, ...]:
     return tuple(manifest_edits.add(manifest, each, name) for each in tags)
 
 
-def change_dependency(package: Package, depends: Sequence[Depend], tag: str, alike: Collection[Depend] = ()) -> tuple[Edit, ...]:
+def change_dependency(package: Package, depends: Sequence[Depend], tag: str, alike: Collection[Depend]) -> tuple[Edit, ...]:
     """Return the edits that make one tag of all those that a name is declared in. The package has a manifest.
 
     ``alike`` are all that change to this tag.

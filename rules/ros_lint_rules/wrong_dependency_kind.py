@@ -13,7 +13,7 @@ In a workspace it mostly works, for colcon puts every dependency on the path, wh
 
 ## How to fix it
 
-Use the tag that the message names. The fix does this.
+Use the tag that the message names. The fix does this, and puts it among its like where the file keeps kinds together.
 
 ## When it keeps silent
 
