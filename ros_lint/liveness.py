@@ -24,8 +24,6 @@ HEADERS = (".h", ".hh", ".hpp", ".hxx", ".inl", ".ipp", ".tpp", ".cuh")
 _SOURCES = (".c", ".cc", ".cpp", ".cxx", ".cu")
 _INTERFACES = (".msg", ".srv", ".action", ".idl")
 _RESOURCES = (".urdf", ".xacro", ".sdf", ".world", ".rviz", ".yaml", ".yml", ".xml")
-_RUNNERS = ("pytest", "launch_test", "ros_test", "add_test", "isolated_test", "nose")
-"""Parts of the names of CMake commands that run tests in Python."""
 
 _RECIPES = frozenset({"conanfile.py", "noxfile.py"})
 """Files of tools that have no part in a build by colcon."""
@@ -208,7 +206,7 @@ class Liveness:
         """Whether anything runs tests written in Python: always in a Python package, and in others where CMake says so."""
         if self._script is None or not self._script.path.endswith("CMakeLists.txt"):
             return True
-        return any(word in call for call in self._script.calls for word in _RUNNERS)
+        return self._script.runs_tests
 
     @cached_property
     def _folders_with_tests(self) -> frozenset[str]:

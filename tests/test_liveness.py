@@ -117,6 +117,7 @@ def test_beside_what_is_compiled_by_name_lies_what_is_not() -> None:
         ("ament_add_ros_isolated_test(b COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test/test_b.py)", False),
         ("nav2_add_test(b COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test/test_b.py)", False),
         ("acme_add_pytest_test(unit test/test_b.py)", True),  # nobody knows what that runs
+        ("ament_add_test_label(a slow)", False),
         ("add_launch_test(${UNHEARD_OF})\nfind_package(acme)\nadd_launch_test(${acme_TESTS})", True),
         ("", False),
     ],

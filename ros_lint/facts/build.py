@@ -162,6 +162,8 @@ class BuildScript(NamedTuple):
     """Whether it could not be evaluated by a mistake of ours, which ``opaque`` then tells."""
     behind: Span | None = None
     """Where the command before ``end`` ends, if nothing but blank lines stand between the two."""
+    runs_tests: bool = False
+    """Whether it is a CMake script that calls what runs tests by an interpreter, going by the names of commands."""
     makes_nothing: bool = False
     """Whether it is a CMake script that builds, installs and tests nothing but the style of what is there."""
 

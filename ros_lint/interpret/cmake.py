@@ -128,6 +128,7 @@ def _result(run: Run, path: str) -> BuildScript:
         untaken=tuple(_untaken(run, taken)),
         bundled=tuple(run.bundled),
         runs=_runs(run),
+        runs_tests=any(map(_RUNS_TESTS.search, calls)),
         export_sets=tuple(dict.fromkeys([made.exported_in for made in run.installed_targets if is_known(made.exported_in)])),
     )
 
