@@ -116,6 +116,11 @@ class World:
             return "elsewhere"
         return "end-of-life" if self.knowledge.names.end_of_life(name) else "unknown"
 
+    def successor(self, name: str) -> str:
+        """Return what does here what a package did in ROS 1, or ""."""
+        successor = self.knowledge.names.successor(name)
+        return successor if self.is_package(successor) else ""
+
     def is_declared(self, name: str) -> bool:
         """Return whether a package of the workspace declares a name, in whatever tag."""
         return name in self._declared

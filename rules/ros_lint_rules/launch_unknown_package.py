@@ -36,7 +36,6 @@ elsewhere, check with the workspace that holds it as `--underlay`.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
@@ -56,13 +55,12 @@ from ros_lint.api import (
     Workspace,
     declared_closure,
     launchable,
+    may_be_package,
     may_bring,
     tag_for,
 )
 
 _MOST_RELATED = 4
-_MAY_BE_A_PACKAGE = re.compile(r"[a-z][a-z0-9_]*")
-"""REP 144; as sure as ``unknown-dependency`` is of what ``package.xml`` declares."""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -172,14 +170,15 @@ def _verdict(name: str, package: Package, workspace: Workspace) -> _Verdict | No
         return _Verdict(f": {family} is meant", Confidence.HIGH, family)
     ended = world.knowledge.names.end_of_life(name)
     if ended:
-        successor = world.knowledge.names.successor(name)
-        use = f": use {successor}" if world.is_package(successor) else ""
+        successor = world.successor(name)
+        use = f": use {successor}" if successor else ""
         hint = f" in {distro}, it was last released for {ended[0]} (data of {date}){use}"
         return _Verdict(hint, Confidence.MEDIUM, resembles=False, known=bool(use))
     near = [other for other in world.suggest(name) if world.is_package(other)]
     hint = f"; did you mean {' or '.join(near)}?" if near else ""
     nowhere = f" in the workspace, the underlays or {distro} (data of {date})"
-    strange = package.declares(name) and not _MAY_BE_A_PACKAGE.fullmatch(name)
+    # As sure as unknown-dependency is of what package.xml declares.
+    strange = package.declares(name) and not may_be_package(name)
     return _Verdict(f"{nowhere}{hint}", Confidence.HIGH if strange else Confidence.MEDIUM, resembles=bool(near))
 
 
