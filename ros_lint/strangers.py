@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from ros_lint.facts.manifest import Depend, Role
+from ros_lint.facts.sources import Use
 from ros_lint.workspace import Declared, Package, Workspace, per_package, per_workspace
 
 _BUILD_TYPES = frozenset({"ros.ament_cmake", "ros.ament_python", "ros.cmake"})
@@ -31,8 +32,12 @@ class Stranger(NamedTuple):
             return True
         if not self.package.declares(self.name) & (Role.BUILD | Role.EXPORT | Role.TOOL):
             return True
-        named = {use.via for use in self.package.uses if use.name.partition(".")[0] == self.name}
-        return named == {"import"}
+        return {use.via for use in self.called_so} == {"import"}
+
+    @property
+    def called_so(self) -> list[Use]:
+        """Return where something is used that is called so, or that is in what is called so."""
+        return [use for use in self.package.uses if use.name.partition(".")[0] == self.name]
 
 
 @per_workspace

@@ -30,13 +30,11 @@ from ros_lint.api import Confidence, Facet, Finding, Package, Rule, Severity, St
 
 def check(workspace: Workspace) -> Iterator[Finding]:
     world = workspace.world
-    names = world.knowledge.names
     for name, packages in declared_names(workspace).items():
         if world.standing(name) != "end-of-life":
             continue
-        ported = names.successor(name)
-        ported = ported if world.is_package(ported) else ""
-        last = names.end_of_life(name)[0]
+        ported = world.successor(name)
+        last = world.knowledge.names.end_of_life(name)[0]
         for stranger in strangers(name, packages):
             successor = ported or _imported(stranger, workspace)
             yield Finding(
@@ -50,7 +48,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
 
 def _imported(stranger: Stranger, workspace: Workspace) -> str:
     """Return the rosdep key of the module that is called as what is declared, and which the package imports, or ""."""
-    uses = [use for use in stranger.package.uses if use.name.partition(".")[0] == stranger.name and use.package != stranger.name]
+    uses = [use for use in stranger.called_so if use.package != stranger.name]
     if not stranger.runs_python or not uses or any(use.via != "import" for use in uses):
         return ""
     return uses[0].package if workspace.world.is_key(uses[0].package) else ""
