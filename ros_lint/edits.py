@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import groupby
 
 from ros_lint.rule import Edit, Fix
-from ros_lint.text import Span, Text, read
+from ros_lint.text import Text, read
 from ros_lint.tree import Tree
 
 
@@ -106,19 +106,15 @@ _NEW_MODE = 0o644
 def _apply_to(source: Text, edits: Sequence[Edit]) -> str:
     text = source.text
     by_return = "\r\n" in text and text.count("\r\n") == text.count("\n")
-    numbered = sorted(enumerate(edits), key=lambda pair: (pair[1].span[1:], pair[1].kind, pair[1].order, pair[0]))
+    in_order = sorted(edits, key=lambda edit: (edit.span[1:], edit.kind, edit.order))
     # From the end, so that earlier offsets stay true.
-    for span, at_place in reversed([(span, [edit for _, edit in pairs]) for span, pairs in groupby(numbered, _place)]):
+    for span, at_place in reversed([(span, list(group)) for span, group in groupby(in_order, lambda edit: edit.span)]):
         start = source.offset(span.line, span.column)
         end = source.offset(span.end_line, span.end_column)
         put = _joined(at_place)
         put = put.replace("\r\n", "\n").replace("\n", "\r\n") if by_return else put
         text = text[:start] + put + text[end:]
     return text
-
-
-def _place(numbered: tuple[int, Edit]) -> Span:
-    return numbered[1].span
 
 
 _BLANK = re.compile(r"\r\n|\n|\r")
