@@ -31,7 +31,7 @@ def find(tree: Tree, roots: Sequence[str], files: Iterable[str]) -> tuple[str, .
     return tuple(sorted(found))
 
 
-_SUBMODULE = re.compile(r"^[ \t]*path[ \t]*=[ \t]*(.+?)[ \t]*$", re.MULTILINE)
+_SUBMODULE = re.compile(r"^[ \t]*path[ \t]*=[ \t]*(.+?)[ \t\r]*$", re.MULTILINE)
 
 
 def submodules(tree: Tree, lists: Iterable[str]) -> tuple[str, ...]:

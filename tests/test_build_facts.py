@@ -210,3 +210,5 @@ def test_submodules_that_are_not_cloned() -> None:
     tree = MemoryTree({"src/.gitmodules": listed, "src/sdk/a/CMakeLists.txt": ""})
     assert submodules(tree, ("src/.gitmodules", "x.repos")) == ("src/sdk/b",)
     assert submodules(tree, ("gone/.gitmodules",)) == ()
+    windows = MemoryTree({".gitmodules": listed.replace("\n", "\r\n")})
+    assert submodules(windows, (".gitmodules",)) == ("sdk/a", "sdk/b")
