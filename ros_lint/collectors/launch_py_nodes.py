@@ -138,16 +138,12 @@ def _given(walker: Walker, made: Made, *names: str) -> tuple[tuple[str, LaunchVa
         given = plain(made.keywords[name])
         node = made.written(-1, name)
         if isinstance(given, dict):
-            places = _elements(node, len(given))
-            found += [
-                (f"${_key(key)}", walker.text(plain(value), place, made.source))
-                for (key, value), place in zip(given.items(), places, strict=True)
-            ]
-            continue
-        word = "" if name in ("arguments", "ros_arguments") else name
-        values = items(walker.machine, given) or [given]
-        places = _elements(node, len(values))
-        found += [(word, walker.text(plain(value), place, made.source)) for value, place in zip(values, places, strict=True)]
+            pairs = [(f"${_key(key)}", value) for key, value in given.items()]
+        else:
+            word = "" if name in ("arguments", "ros_arguments") else name
+            pairs = [(word, value) for value in items(walker.machine, given) or [given]]
+        places = _elements(node, len(pairs))
+        found += [(word, walker.text(plain(value), at, made.source)) for (word, value), at in zip(pairs, places, strict=True)]
     return tuple(found)
 
 
@@ -175,9 +171,7 @@ def _parameter(walker: Walker, value: Value, node: ast.expr, made: Made, found: 
             waiting += reversed(list(zip(names, map(plain, one.values()), _elements(place, len(one)), strict=True)))
         elif isinstance(one, (list, tuple)) and not name and not all(_names_file(plain(part)) for part in one):
             walker.machine.spend(len(one))
-            waiting += [
-                ("", plain(inner), at) for inner, at in zip(reversed(one), reversed(_elements(place, len(one))), strict=True)
-            ]
+            waiting += reversed([("", plain(inner), at) for inner, at in zip(one, _elements(place, len(one)), strict=True)])
         elif name:
             found.append((name, walker.text(_list(one), place, made.source)))
         else:
