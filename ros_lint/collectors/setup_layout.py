@@ -65,6 +65,10 @@ def _lists(call: ast.Call, variables: dict[str, ast.expr]) -> Iterator[tuple[str
                     yield "console_scripts", entries
 
 
+_COMMA = re.compile(r"(?:\s|#[^\n]*\n)*,")
+_REMARK = re.compile(r"[ \t]*#[^\n]*")
+
+
 def _slot(source: Text, option: str, found: ast.List, variable: str) -> Slot:
     whole = span_of(source, found)
     close = source.offset(whole.end_line, whole.end_column) - 1
@@ -73,11 +77,11 @@ def _slot(source: Text, option: str, found: ast.List, variable: str) -> Slot:
         return Slot(option, source.span(at, at), True, None, 0, variable)
     last = span_of(source, found.elts[-1])
     at = source.offset(last.end_line, last.end_column)
-    comma = re.compile(r"(?:\s|#[^\n]*\n)*,").match(source.text, at, close)
+    comma = _COMMA.match(source.text, at, close)
     line = source.line(last.line)
     before = line[: last.column - 1]
     end = comma.end() if comma else at
-    if comma and (remark := re.compile(r"[ \t]*#[^\n]*").match(source.text, end)):
+    if comma and (remark := _REMARK.match(source.text, end)):
         end = remark.end()
     written = source.text[start_of(source, found) : close]
     return Slot(
