@@ -15,7 +15,7 @@ that are called `a.launch.py` as well as `a_launch.py`; the fix writes this wher
 ## When it keeps silent
 
 Where the pattern cannot be evaluated, where several globs are added up, and where git ignores what the pattern names: such
-files are made or fetched.
+files are made or fetched. That there is nothing yet in the folder, but for a `.gitkeep`, is said with little certainty.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for problem in script.problems:
         if problem.kind == "empty-glob" and not workspace.is_made(package, problem.subject):
             folder = _folder(problem.subject)
-            inside = any(file.startswith(f"{folder}/") for file in package.files) if folder else True
-            # A folder that is not there yet is a template for the future; files that are passed over are a mistake.
+            inside = any(_is_in(file, folder) for file in package.files) if folder else True
+            # A folder with nothing in it yet is a template for the future; files that are passed over are a mistake.
             yield Finding(
                 problem.message,
                 problem.span,
@@ -43,6 +43,11 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 severity=None if inside else Severity.INFO,
                 fix=_fix(package, problem.subject),
             )
+
+
+def _is_in(file: str, folder: str) -> bool:
+    """Whether a file lies below a folder, and not only to have git keep the folder."""
+    return file.startswith(f"{folder}/") and not file.rpartition("/")[2].startswith(".")
 
 
 _LAUNCH = re.compile(r"launch\.(?:[pxy][yma]\w*)\Z")
