@@ -42,6 +42,9 @@ _PROJECTS = frozenset({"CMakeLists.txt", "setup.py", "pyproject.toml", "package.
 
 _PROGRAMS = ("lib/", "bin/")
 
+_OFFERS = frozenset({"ament_export_include_directories", "ament_export_interfaces", "ament_export_targets", "export"})
+"""Commands that tell other packages of headers, which are then meant to be installed."""
+
 PRODUCTION = Role.BUILD | Role.EXEC
 PUBLIC = Role.BUILD | Role.EXPORT | Role.EXEC
 
@@ -55,12 +58,14 @@ class Liveness:
         self._script = script = own.script
         self._facts = own.facts
         self._launched = launched
-        hidden = Facet(0)
+        hidden = around = Facet(0)
         for opaque in script.opaque if script else ():
             hidden |= opaque.hides
+            around |= opaque.hides if not opaque.inside else Facet(0)
         self._sees_targets = script is not None and not hidden & (Facet.LIBRARIES | Facet.EXECUTABLES)
         self._sees_share = script is not None and not hidden & Facet.SHARE
-        self._sees_python = script is not None and not hidden & (Facet.PYTHON | Facet.EXECUTABLES)
+        # What is built in a folder that is not there, such as a submodule, installs no modules from around it.
+        self._sees_python = script is not None and not around & (Facet.PYTHON | Facet.EXECUTABLES)
 
     def place(self, path: str) -> tuple[Role, bool]:
         """Return what a file is needed for, and whether it is sure to be alive."""
@@ -93,7 +98,8 @@ class Liveness:
         if path in self._public:
             if path in self._installed_for_tests and path not in self._production:
                 return Role.TEST, True
-            return PUBLIC, path in self._production or not (path in self._left_over or self._is_of_ros_1(path))
+            left = path in self._left_over or path in self._kept or self._is_of_ros_1(path)
+            return PUBLIC, path in self._production or not left
         if path in self._production:
             return PRODUCTION, True
         if path in self._tests:
@@ -216,9 +222,12 @@ class Liveness:
     @cached_property
     def _offered(self) -> frozenset[str]:
         """Headers that are installed, or lie where installed ones do."""
-        installed = {p.source for p in self._script.provides if p.path.startswith("include/")} if self._script else set()
         headers = (file for file in self._files if file.endswith(HEADERS))
-        return frozenset([file for file in headers if file in installed or file.startswith("include/")])
+        return frozenset([file for file in headers if file in self._installed_headers or file.startswith("include/")])
+
+    @cached_property
+    def _installed_headers(self) -> frozenset[str]:
+        return frozenset([p.source for p in self._script.provides if p.path.startswith("include/")] if self._script else ())
 
     @cached_property
     def _public(self) -> frozenset[str]:
@@ -235,6 +244,16 @@ class Liveness:
         dead = {file for file in self._files if file.endswith(_SOURCES) and idle.isdisjoint(file.split("/"))} - compiled
         left = self._own.reached(dead) - compiled if dead and self._production else frozenset()
         return left - self._own.reached(self._offered - left) if left else left
+
+    @cached_property
+    def _kept(self) -> frozenset[str]:
+        """Headers that neither what is compiled nor another package includes: it builds programs only, and exports nothing."""
+        script = self._script
+        if script is None or not self._sees_targets or not self._sees_sources or not self._production:
+            return frozenset()
+        if any(target.kind != "executable" for target in script.targets if not target.test) or _OFFERS.intersection(script.calls):
+            return frozenset()
+        return self._public - self._own.reached(self._installed_headers) - self._production - self._tests - self._optional
 
     @cached_property
     def _installed_for_tests(self) -> frozenset[str]:

@@ -88,6 +88,12 @@ def test_where_it_is_not_seen_what_is_installed_modules_are_and_scripts_may_be()
     assert use(workspace, "python3-scipy").sure
 
 
+def test_a_build_of_its_own_that_is_not_there_installs_no_modules_from_around_it() -> None:
+    files = {"sdk/README.md": "", "types/__init__.py": "", "types/a.py": "import pandas\n"}
+    assert not use(load("add_subdirectory(sdk)", files), "python3-pandas").sure
+    assert use(load("add_subdirectory(sdk)\n" + HIDDEN, files), "python3-pandas").sure
+
+
 def test_beside_the_script_of_cmake_lies_what_works_on_the_sources() -> None:
     files = {"release.py": "import scipy\n", "tool.py": "import pandas\n", "robot/__init__.py": "import requests\n"}
     workspace = load(HIDDEN + "install(PROGRAMS tool.py DESTINATION lib/robot)", files)
@@ -198,6 +204,30 @@ def test_the_header_of_a_source_that_nothing_compiles_is_left_over(lines: str, s
     assert placed(workspace, "nav_msgs") == (PUBLIC, True, False)
     assert placed(workspace, "shape_msgs") == (PUBLIC, sure, False)
     assert placed(workspace, "sensor_msgs") == (PUBLIC, True, False)
+
+
+@pytest.mark.parametrize(
+    ("lines", "sure"),
+    [
+        ("add_executable(robot src/robot.cpp)", False),
+        ("add_executable(robot src/robot.cpp)\n" + INSTALLED, True),
+        ("add_executable(robot src/robot.cpp)\nament_export_include_directories(include)", True),  # and forgot to install
+        ("add_library(robot src/robot.cpp)", True),
+        ("add_executable(robot src/robot.cpp)\nif(BUILD_TESTING)\nadd_executable(t src/t.cpp)\nendif()", True),
+        (HIDDEN + "add_executable(robot src/robot.cpp)", True),
+        ("file(READ list.txt MORE)\nadd_executable(robot src/robot.cpp ${MORE})", True),
+    ],
+)
+def test_a_header_beside_programs_is_for_these_alone(lines: str, sure: bool) -> None:
+    files = {
+        "src/robot.cpp": "#include <robot/robot.hpp>\n",
+        "include/robot/robot.hpp": include("nav_msgs"),
+        "include/robot/alone.hpp": include("sensor_msgs"),
+        **({"src/t.cpp": "#include <robot/alone.hpp>\n"} if "src/t.cpp" in lines else {}),
+    }
+    workspace = load(lines, files)
+    assert placed(workspace, "nav_msgs") == (PUBLIC, True, False)
+    assert placed(workspace, "sensor_msgs") == (PUBLIC, sure, False)
 
 
 @pytest.mark.parametrize(

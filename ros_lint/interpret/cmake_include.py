@@ -122,7 +122,7 @@ def _add_subdirectory(run: Run, args: list[str]) -> int | None:
     if script not in run.sources.scripts:
         if run.is_folder(path):
             run.open_world = run.wild = True
-            run.hide(ANYTHING, f"add_subdirectory() of {path}, which has no CMakeLists.txt in sight")
+            run.hide(ANYTHING, f"add_subdirectory() of {path}, which has no CMakeLists.txt in sight", inside=path)
         else:
             run.problem("missing-folder", f"add_subdirectory() of {path}, which does not exist", run.where(name), path)
         return None

@@ -351,15 +351,15 @@ class Run(Paths):
                 return True
         return False
 
-    def hide(self, facet: Facet, reason: str, span: Span | None = None, below: str = "") -> None:
-        """Note that something cannot be seen through, and where in the prefix it can only be.
+    def hide(self, facet: Facet, reason: str, span: Span | None = None, below: str = "", inside: str = "") -> None:
+        """Note that something cannot be seen through, where in the prefix it can only be, and in which folder its build is.
 
         Where the script does not come to unless it is asked to, it hides only what a package may be needed for.
         """
         if self.unusual:
             facet &= Facet.USES
         if facet and not self.muted:
-            self.opaques[Opaque(facet, reason, span or self.here(), below=below)] = None
+            self.opaques[Opaque(facet, reason, span or self.here(), below=below, inside=inside)] = None
 
     def problem(self, kind: str, message: str, span: Span, path: str = "") -> None:
         """Note that a command is wrong, if it runs for sure."""
