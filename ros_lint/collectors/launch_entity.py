@@ -226,7 +226,7 @@ class Entity:
         for child in self.children:
             if known is not None and child.tag not in known:
                 name = "children" if child.tag == CHILDREN else child.tag
-                raise Rejected("unexpected-child", f"<{self.tag}> has no <{name}> in it", child.span)
+                raise Rejected("unexpected-child", f"<{self.tag}> takes no <{name}>", child.span)
         if len(self.read) != len(self.attributes):
             for name in self.attributes:
                 if name not in self.read:
