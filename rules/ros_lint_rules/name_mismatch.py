@@ -13,7 +13,8 @@ the marker in `share/ament_index/resource_index/packages/`, the folder `share/<p
 ## How to fix it
 
 Use the name of `package.xml` everywhere. Where a name is written out, the fix does this; in `setup.py` it
-is an unsafe one, for folders and files may be named after the same variable.
+is an unsafe one, for folders and files may be named after the same variable. There is none where another package has the
+name, too (see `duplicate-package`): then it may be `package.xml` that was copied.
 
 ## When it keeps silent
 
@@ -51,6 +52,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     manifest, script = package.manifest, package.script
     if manifest is None or manifest.problems or script is None:
         return
+    shared = len(workspace.by_name[manifest.name]) > 1
+    for finding in _mismatches(package, manifest, script):
+        yield finding._replace(fix=None) if shared else finding
+
+
+def _mismatches(package: Package, manifest: Manifest, script: BuildScript) -> Iterator[Finding]:
     if package.type == "ros.ament_cmake":
         if script.name_span and "ament_package" in script.calls and not _is_called(package, manifest.name):
             message = f"project() is called {script.name}, but the package {manifest.name}; ament_package() wants one name"
