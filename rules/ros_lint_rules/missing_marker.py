@@ -52,7 +52,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         where = f"installed to {astray.path.rpartition('/')[0]}" if astray else "not installed"
         way_out = f"install it to {_MARKERS}" if astray else f"add {marker} to data_files"
         yield Finding(
-            f"the marker of the package is {where}, so ROS does not find it; {way_out}",
+            f"the marker of the package is {where}, so ROS finds it only where colcon adds one; {way_out}",
             astray.span if astray else place,
             marker,
             fix=fix,
