@@ -61,10 +61,10 @@ class Liveness:
         hidden = around = Facet(0)
         for opaque in script.opaque if script else ():
             hidden |= opaque.hides
-            around |= opaque.hides if not opaque.inside else Facet(0)
+            around |= opaque.hides if not (opaque.inside or opaque.undefined) else Facet(0)
         self._sees_targets = script is not None and not hidden & (Facet.LIBRARIES | Facet.EXECUTABLES)
         self._sees_share = script is not None and not hidden & Facet.SHARE
-        # What is built in a folder that is not there, such as a submodule, installs no modules from around it.
+        # What is built in a folder that is not there, such as a submodule, installs no modules from around it; a target, none.
         self._sees_python = script is not None and not around & (Facet.PYTHON | Facet.EXECUTABLES)
 
     def place(self, path: str) -> tuple[Role, bool]:

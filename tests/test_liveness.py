@@ -90,7 +90,9 @@ def test_where_it_is_not_seen_what_is_installed_modules_are_and_scripts_may_be()
 
 def test_a_build_of_its_own_that_is_not_there_installs_no_modules_from_around_it() -> None:
     files = {"sdk/README.md": "", "types/__init__.py": "", "types/a.py": "import pandas\n"}
+    lines = "add_subdirectory(sdk)\ninstall(TARGETS sdk DESTINATION lib)"
     assert not use(load("add_subdirectory(sdk)", files), "python3-pandas").sure
+    assert not use(load(lines, files), "python3-pandas").sure
     assert use(load("add_subdirectory(sdk)\n" + HIDDEN, files), "python3-pandas").sure
 
 
