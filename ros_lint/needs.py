@@ -302,7 +302,7 @@ def only_launched(package: Package, uses: Sequence[Use]) -> bool:
     return not all(use.span.path in helpers for use in uses)
 
 
-_LAUNCH = frozenset({"launch", "launch_ros", "ament_index_python"})
+_LAUNCH = frozenset({"launch", "launch_ros", "launch_xml", "launch_yaml", "ament_index_python"})
 """What ``ros2 launch`` brings along."""
 
 
