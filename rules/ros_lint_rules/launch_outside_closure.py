@@ -27,8 +27,7 @@ Add `<exec_depend>` to `package.xml`. The fix does this.
   runs the launch file as a test: then the confidence is medium.
 - The other package needs this one itself, in whatever tag, so that declaring it would close a cycle that colcon refuses: then
   the confidence is medium, too; the launch file may be at home there. So it is where neither declares what it needs of the
-  other, for only one of them can. And so it is of what comes along with that other package, where no other launch
-  files need it.
+  other, for only one of them can.
 """
 
 from __future__ import annotations
@@ -79,25 +78,21 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     unknown = declared_closure(package, workspace, _AT_RUN_TIME).unknown
     sighted = not workspace.unread(package)  # a file that cannot be read may be the script that runs these as tests
-    advised = [(name, references, advice(package, workspace, name, Role.EXEC)) for name, references in lacking]
-    homes = {
-        name: _files(references) for name, references, way_out in advised if way_out.circular or _needs(workspace, name, package)
-    }
-    for name, references, way_out in advised:
+    for name, references in lacking:
         best, *others = sorted(references, key=lambda r: (r.package_by_default, r.conditional, _ORDER.index(r.kind), r.span))
         what = best.name if best.name in ("", name) else f"{best.name} of {name}"
         says = _SAYS[best.kind].format(what=what or name, name=best.name)
         only = ", if only under a condition" if best.conditional else ""
         only = ", by the default of an argument" if best.package_by_default else only
-        stays = name not in homes and not _comes_to(homes, name, references, workspace)
-        certain = sighted and stays and way_out.certain and not may_bring(unknown, name, workspace)
+        way_out = advice(package, workspace, name, Role.EXEC)
+        certain = sighted and way_out.certain and not may_bring(unknown, name, workspace)
         yield Finding(
             f"{says}{only}, but {package.name} does not depend on it{way_out.ending}",
             best.package_span,
             name,
             tuple(Related("also needed here", span) for span in islice(_elsewhere(best.package_span, others), _MOST_RELATED)),
             way_out.fix,
-            Confidence.HIGH if certain else Confidence.MEDIUM,
+            Confidence.HIGH if certain and not _needs(workspace, name, package) else Confidence.MEDIUM,
         )
 
 
@@ -126,21 +121,6 @@ def _in_wrong_tags(package: Package, workspace: Workspace) -> frozenset[str]:
         if need.declared and uses and not comes_with_launching(package, uses):
             found.update(need.declared)
     return frozenset(found)
-
-
-def _files(references: Sequence[LaunchReference]) -> frozenset[str]:
-    return frozenset([reference.package_span.path for reference in references])
-
-
-def _comes_to(
-    homes: Mapping[str, frozenset[str]], name: str, references: Sequence[LaunchReference], workspace: Workspace
-) -> bool:
-    """Whether only launch files that may be at home elsewhere need something, which comes along there.
-
-    ``homes`` are packages that cannot be declared, each with the launch files that need it.
-    """
-    files = _files(references)
-    return any(files <= theirs and name in workspace.world.closure((home,)) for home, theirs in homes.items())
 
 
 def _needs(workspace: Workspace, name: str, package: Package) -> bool:
