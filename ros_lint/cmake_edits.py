@@ -8,7 +8,6 @@ from ros_lint.build_scripts import called
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.cmake import Call
 from ros_lint.rule import Edit
-from ros_lint.text import Span
 from ros_lint.workspace import Package
 
 _LIBRARY = """\
@@ -16,12 +15,6 @@ install(TARGETS {}
   ARCHIVE DESTINATION lib
   LIBRARY DESTINATION lib
   RUNTIME DESTINATION bin)"""
-
-
-def covers(call: Call, span: Span) -> bool:
-    """Return whether a place is within a call."""
-    whole = call.whole
-    return whole.path == span.path and whole[1:3] <= span[1:3] and span[3:5] <= whole[3:5]
 
 
 def at_end(script: BuildScript, code: str) -> Edit:

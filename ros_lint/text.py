@@ -34,6 +34,10 @@ class Span(NamedTuple):
         """Return the empty span at the end."""
         return Span(self.path, self.end_line, self.end_column, self.end_line, self.end_column)
 
+    def covers(self, other: Span) -> bool:
+        """Return whether another place is within this one; it is within itself."""
+        return self.path == other.path and self[1:3] <= other[1:3] and other[3:5] <= self[3:5]
+
 
 _make = tuple.__new__
 

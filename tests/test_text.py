@@ -2,7 +2,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ros_lint.text import Text, decode, read, span_in
+from ros_lint.text import Span, Text, decode, read, span_in
 
 TEXTS = st.text(st.sampled_from("ab \t\r\n\f\u2028é漢\U0001f916"), max_size=40)
 
@@ -30,6 +30,23 @@ def test_many_spans_are_as_one_by_one(text: str, places: list[int]) -> None:
         (place, place) for place in sorted(places) if place <= len(text) and not (place and text[place - 1 : place + 1] == "\r\n")
     ]
     assert list(source.spans(ranges)) == [source.span(*each) for each in ranges]
+
+
+@given(TEXTS, st.lists(st.integers(0, 40), min_size=4, max_size=4))
+def test_a_place_covers_another_as_its_offsets_do(text: str, offsets: list[int]) -> None:
+    source = Text("f", text)
+    a, b, c, d = (min(offset, len(text)) for offset in offsets)
+    one, other = (min(a, b), max(a, b)), (min(c, d), max(c, d))
+    assert source.span(*one).covers(source.span(*other)) is (one[0] <= other[0] and other[1] <= one[1])
+    assert not source.span(*one).covers(source.span(*one)._replace(path="g"))
+
+
+def test_a_call_covers_itself_and_its_arguments_only() -> None:
+    call = Span("CMakeLists.txt", 3, 1, 4, 20)
+    assert call.covers(call)
+    assert call.covers(Span("CMakeLists.txt", 4, 3, 4, 19))
+    assert not call.covers(Span("CMakeLists.txt", 4, 3, 4, 21))
+    assert not call.covers(Span("CMakeLists.txt", 2, 30, 4, 3))
 
 
 BEGINNINGS = (b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff", b"<\0", b"\0<", b"# coding: utf-16\n", b'<?xml encoding="utf-8"?>')

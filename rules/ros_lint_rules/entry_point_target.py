@@ -50,7 +50,7 @@ def _entry(package: Package, entry: EntryPoint, workspace: Workspace) -> Iterato
     runs = entry.group in ("console_scripts", "gui_scripts")
     if _GLUED.search(entry.target):
         message = f"two entries are glued to one: {entry.name} = {entry.target}; is a comma missing between them?"
-        gaps = [text.span for text in script.texts if text.kind == "gap" and _covers(entry.span, text.span)]
+        gaps = [text.span for text in script.texts if text.kind == "gap" and entry.span.covers(text.span)]
         fix = Fix("write a comma between them", tuple(Edit(gap, ",") for gap in gaps)) if gaps else None
         yield Finding(message, entry.span, entry.name, fix=fix)
         return
@@ -86,11 +86,6 @@ def _entry(package: Package, entry: EntryPoint, workspace: Workspace) -> Iterato
             entry.name,
             (Related("this module", Span(path, 1, 1, 1, 1)),),
         )
-
-
-def _covers(whole: Span, part: Span) -> bool:
-    """Return whether a place lies within another one of the same file."""
-    return whole.path == part.path and whole[1:3] <= part[1:3] and part[3:5] <= whole[3:5]
 
 
 def _is_submodule(package: Package, module: str, name: str) -> bool:

@@ -107,9 +107,7 @@ def _only_tells(call: Call) -> bool:
 
 def _is_installed(package: Package, problem: Problem) -> bool:
     """Whether it is missed when everything is built, and not when CMake configures."""
-    start = problem.span[1:3]
-    calls = called(package, "install", anywhere=True)
-    return any(call.path == problem.span.path and call.whole[1:3] <= start < call.whole[3:5] for call in calls)
+    return any(call.whole.covers(problem.span) for call in called(package, "install", anywhere=True))
 
 
 def _builds_in_sources(package: Package) -> bool:

@@ -99,7 +99,7 @@ def _no_bit(package: Package, span: Span, provided: list[Provided], files: dict[
     names = sorted(dict.fromkeys(one.path.rpartition("/")[2] for one in provided))
     named = ", ".join(names[:3]) + (" ..." if len(names) > 3 else "")
     installs = (call for call in called(package, "install", anywhere=True) if call.args)
-    call = next((call for call in installs if cmake_edits.covers(call, span)), None)
+    call = next((call for call in installs if call.whole.covers(span)), None)
     way, fix = "install(PROGRAMS)", None
     if call is not None and call.texts[0] == "DIRECTORY":
         way = "USE_SOURCE_PERMISSIONS, or install(PROGRAMS)"

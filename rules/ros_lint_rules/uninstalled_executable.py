@@ -107,7 +107,7 @@ def _left(package: Package, target: BuildTarget, says: str) -> Finding:
 def _is_in_bin(package: Package, opaque: Opaque) -> bool:
     """Whether what cannot be seen lands in bin/, so that it installs nothing to lib/<package>."""
     for call in called(package, "install", anywhere=True):
-        if cmake_edits.covers(call, opaque.span) and "DESTINATION" in call.texts[:-1]:
+        if call.whole.covers(opaque.span) and "DESTINATION" in call.texts[:-1]:
             return call.texts[call.texts.index("DESTINATION") + 1] in _BIN and call.texts[0] != "TARGETS"
     return False
 
@@ -116,7 +116,7 @@ def _move(package: Package, span: Span, targets: tuple[BuildTarget, ...]) -> Fix
     """Correct the destination of the executables, where the rule says it by itself and installs no other program."""
     kinds = {target.name: target.kind for target in targets}
     for call in called(package, "install"):
-        if call.texts[:1] != ("TARGETS",) or not cmake_edits.covers(call, span):
+        if call.texts[:1] != ("TARGETS",) or not call.whole.covers(span):
             continue
         texts = call.texts
         at = texts.index("RUNTIME") + 2 if "RUNTIME" in texts[:-2] else 0
