@@ -2,7 +2,7 @@
 ## What it finds
 
 A launch file that starts an executable which its package does not install into `lib/<package>`: it has another name,
-or it is not built.
+is not built, or is a script that is there and is not installed.
 
 ## Why it matters
 
@@ -11,8 +11,9 @@ The launch file stops there: `executable 'x' not found on the libexec directory`
 ## How to fix it
 
 Correct the name. The usual slips are the suffix (a console script is called `talker`, a script installed by CMake
-`talker.py`) and a target that was renamed. If it lands in `bin/`, install it to `lib/${PROJECT_NAME}`, or say
-`install_scripts=$base/lib/<package>` in `setup.cfg`. The fix corrects the name where one executable must be meant.
+`talker.py`) and a target that was renamed. Install a script that only lies there; if it lands in `bin/`, install it to
+`lib/${PROJECT_NAME}`, or say `install_scripts=$base/lib/<package>` in `setup.cfg`. The fix corrects the name where one
+executable must be meant.
 
 ## When it keeps silent
 
@@ -101,13 +102,27 @@ def _missing(owner: str, name: str, workspace: Workspace) -> _Missing | None:
             where = tuple(Related("installed here", p.span) for p in script.provides if p.path == path) if script else ()
             return _Missing(f" in lib/{owner}, but {path}, where launch does not look", "", where)
         names |= found.names
-        lying = next((file.path for file in one.script.files if file.path.endswith(f"/{name}")), "") if one.script else ""
-        if lying:
-            place = Span(from_base(one, lying), 1, 1, 1, 1)
-            return _Missing(f": {lying} is not installed", "", (Related("this file", place),))
+        if lying := _lying(one, name):
+            return lying
     meant = _meant(name, tuple(sorted(names)))
     related = tuple(Related("its build script", one.script.end) for one in owners if one.script and one.script.end)
     return _Missing(_hint(name, meant, tuple(sorted(names))), meant, related[:1])
+
+
+def _lying(package: Package, name: str) -> _Missing | None:
+    """Return what to say of a script of the name that is not among the programs of a package, under another name either."""
+    script = package.script
+    if script is None:
+        return None
+    own = f"lib/{package.name}/"
+    programs_of = {provided.source for provided in script.provides if provided.path.startswith(own)}
+    files = (file.path for file in script.files if file.path.rpartition("/")[2] == name)
+    lying = next((path for path in files if path not in programs_of), "")
+    if not lying:
+        return None
+    elsewhere = any(provided.source == lying for provided in script.provides)
+    there = Related("this file", Span(from_base(package, lying), 1, 1, 1, 1))
+    return _Missing(f": {lying} is not installed{f' to {own[:-1]}' if elsewhere else ''}", "", (there,))
 
 
 def _hint(name: str, meant: str, names: tuple[str, ...]) -> str:
