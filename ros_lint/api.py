@@ -80,6 +80,7 @@ from ros_lint.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severit
 from ros_lint.strangers import Stranger, declared_names, is_near_tool, meant, strangers
 from ros_lint.suppress import Outcome
 from ros_lint.text import Span
+from ros_lint.tree import folders_of
 from ros_lint.workspace import Declared, Package, Workspace, per_workspace
 
 if TYPE_CHECKING:  # made only where it is asked for
@@ -166,6 +167,7 @@ __all__ = [
     "evaluated_name",
     "everything",
     "filled",
+    "folders_of",
     "forgotten_nodes",
     "found_along",
     "found_for_nothing",

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from ros_lint.tree import Tree, join, parent, text_of
+from ros_lint.tree import Tree, folders_of, join, parent, text_of
 
 _NAME = ".gitignore"
 
@@ -27,10 +27,7 @@ def find(tree: Tree, packages: Iterable[tuple[str, Iterable[str]]]) -> tuple[Pat
     paths = {_NAME}
     for folder, files in packages:
         paths.update([join(folder, file) for file in files if file.rpartition("/")[2] == _NAME])
-        above = parent(folder)
-        while above and join(above, _NAME) not in paths:
-            paths.add(join(above, _NAME))
-            above = parent(above)
+        paths.update([join(above, _NAME) for above in folders_of(folder)])
     found: list[Pattern] = []
     for path in sorted(paths, key=lambda one: (one.count("/"), one)):
         text = text_of(tree, path)

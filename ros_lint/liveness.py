@@ -13,6 +13,7 @@ from ros_lint import apart
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sight import Facet
 from ros_lint.own_files import OwnFiles
+from ros_lint.tree import folders_of
 
 _TEST_FOLDERS = apart.TEST_FOLDERS | {"gtest"}
 """Folders whose files serve tests when nothing else says what they serve."""
@@ -195,10 +196,7 @@ class Liveness:
         """Whether a file lies in a project of its own that is no sure part of the build, and nothing takes it out of there."""
         if path in self._production or path in self._tests or path in self._always_installed:
             return False
-        while path := path.rpartition("/")[0]:
-            if path in self._idle:
-                return True
-        return False
+        return any(folder in self._idle for folder in folders_of(path))
 
     @cached_property
     def _idle(self) -> frozenset[str]:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 
 from ros_lint.apart import is_apart
+from ros_lint.tree import folders_of, parent
 
 _FOLDERS = frozenset(
     {
@@ -26,8 +27,8 @@ def uninstalled(files: Iterable[str], sources: Iterable[str]) -> dict[str, list[
     ``files`` are those of the package, ``sources`` those that it installs; both relative to it.
     """
     # Few folders have many files: each is looked at once.
-    used = {source.rpartition("/")[0] for source in sources}
-    occupied = used.union(*[_above(folder) for folder in used])
+    used = {parent(source) for source in sources}
+    occupied = used.union(*[folders_of(folder) for folder in used])
     found: dict[str, list[str]] = {}
     for file in files:
         top, _, rest = file.partition("/")
@@ -36,18 +37,10 @@ def uninstalled(files: Iterable[str], sources: Iterable[str]) -> dict[str, list[
             continue
         if not (_FILES.search(file) or file.endswith(".launch")) or file.endswith("/CMakeLists.txt") or is_apart(file):
             continue
-        free = [folder for folder in _above(file) if folder not in occupied]
+        free = [folder for folder in folders_of(file) if folder not in occupied]
         if free:
             found.setdefault(free[-1], []).append(file)
     return found
-
-
-def _above(path: str) -> Iterator[str]:
-    """Yield the folders that a file is in, the innermost first."""
-    folder = path.rpartition("/")[0]
-    while folder:
-        yield folder
-        folder = folder.rpartition("/")[0]
 
 
 _MAY_NAME = (

@@ -18,7 +18,7 @@ from ros_lint.facts.build import BuildScript, ScriptFile
 from ros_lint.facts.setup_py import PythonModule
 from ros_lint.facts.sight import ANYTHING, Facet, Opaque
 from ros_lint.text import Span, Text, span_in
-from ros_lint.tree import Tree, contents, join, text_of
+from ros_lint.tree import Tree, contents, folders_of, join, text_of
 
 if TYPE_CHECKING:
     from ros_lint.interpret.cmake_sources import Helper, Sources
@@ -296,20 +296,13 @@ def _run(tree: Tree, found: Found, programs: Sequence[str], endings: tuple[str, 
     names = {**{name.removesuffix(".py"): program for name, program in names.items()}, **names}
     words = b"|".join([re.escape(name.encode()) for name in names])
     command = re.compile(rb"\bros2 run +%s +(%s)(?![\w-]|\.\w)" % (re.escape(found.name.encode()), words))
-    above = [join(folder, "README.md") for folder in _above(found.path)]
+    above = [join(folder, "README.md") for folder in (*folders_of(found.path), "")] if found.path else []
     told = [file for file in found.files if file.endswith(endings) and not file.startswith("CHANGELOG")]
     places: dict[str, Span] = {}
     for path, data in (*contents(tree, found.path, told), *contents(tree, "", above)):
         for hit in command.finditer(data) if b"ros2 run" in data else ():
             places.setdefault(names[hit[1].decode()], span_in(path, data, *hit.span(1)))
     return places
-
-
-def _above(path: str) -> Iterator[str]:
-    """Yield the folders above a path, the nearest first."""
-    while path:
-        path = path.rpartition("/")[0]
-        yield path
 
 
 def _is_remark(file: str, data: bytes, start: int) -> bool:

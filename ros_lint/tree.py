@@ -82,6 +82,12 @@ def parent(path: str) -> str:
     return path.rpartition("/")[0]
 
 
+def folders_of(path: str) -> Iterator[str]:
+    """Yield the directories that a path lies in, innermost first; not the base, in which everything lies."""
+    while path := parent(path):
+        yield path
+
+
 _NAME = itemgetter(0)
 _make = tuple.__new__
 

@@ -47,6 +47,7 @@ from ros_lint.api import (
     add_dependency,
     called,
     come_along,
+    folders_of,
     given_for,
     manifest_edits,
     relative,
@@ -69,7 +70,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if place is None or not script.interfaces or not _is_installed(package):
         return
     sure = Confidence.MEDIUM if place.optional or place.test else Confidence.HIGH
-    if not _has_own_manifest(package, relative(package, place.span.path)):
+    inside = folders_of(relative(package, place.span.path))
+    if not any(f"{folder}/package.xml" in package.files for folder in inside):  # else CMake reads that one
         if _GROUP not in package.groups and not _skips_check(package, place.span):
             yield Finding(
                 f"{_GENERATE}() stops here unless package.xml says <member_of_group>{_GROUP}</member_of_group>",
@@ -82,12 +84,6 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         yield from _runtime(package, workspace, place.span, sure)
     if not package.hidden(Facet.USES):
         yield from _fields(package, workspace, place.span, sure)
-
-
-def _has_own_manifest(package: Package, path: str) -> bool:
-    """Whether a folder within the package that a file lies in has a manifest."""
-    folders = path.split("/")[:-1]
-    return any("/".join((*folders[:depth], "package.xml")) in package.files for depth in range(1, len(folders) + 1))
 
 
 def _skips_check(package: Package, place: Span) -> bool:

@@ -43,6 +43,7 @@ from ros_lint.api import (
     Span,
     Workspace,
     cmake_edits,
+    folders_of,
     from_base,
     launchable,
     setup_edits,
@@ -65,7 +66,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for launch in launchable(package):
         folder, _, name = launch.path.rpartition("/")
         if launch.installed:
-            kept.update(_above(folder))
+            kept.update(folders_of(launch.path))
         elif name not in names:
             missing.setdefault(folder, []).append(launch.path)
     for folder, paths in _together(missing, kept).items():
@@ -89,18 +90,11 @@ def _is_left_out(package: Package, path: str) -> bool:
     )
 
 
-def _above(folder: str) -> Iterator[str]:
-    """Yield a folder and those that it lies in, but for the package's own."""
-    while folder:
-        yield folder
-        folder = folder.rpartition("/")[0]
-
-
 def _together(missing: Mapping[str, list[str]], kept: set[str]) -> dict[str, list[str]]:
     """Count the files of a folder to an outer one that lacks files too, if nothing of that one is installed."""
     found: dict[str, list[str]] = {}
     for folder in sorted(missing):
-        outer = next((above for above in _above(folder) if above in found and above not in kept), folder)
+        outer = next((above for above in folders_of(f"{folder}/") if above in found and above not in kept), folder)
         found.setdefault(outer, []).extend(missing[folder])
     return found
 
