@@ -54,7 +54,7 @@ from ros_lint.facts.sight import ANYTHING, Facet, Opaque, Problem
 from ros_lint.facts.sources import Mention, Registration, Use
 from ros_lint.graph import Edge, Graph, Reason
 from ros_lint.graph_cut import Knot, knots
-from ros_lint.knowledge.spelling import may_be_package, near_names
+from ros_lint.knowledge.spelling import may_be_package, near_names, similar
 from ros_lint.launch_files import Launchable, Programs, launchable, programs, referred
 from ros_lint.launch_links import Links, defaults_of, everything, filled
 from ros_lint.launch_names import Families, needed
@@ -81,6 +81,7 @@ from ros_lint.strangers import Stranger, declared_names, is_near_tool, meant, st
 from ros_lint.suppress import Outcome
 from ros_lint.text import Span
 from ros_lint.tree import folders_of
+from ros_lint.wording import did_you_mean, few, several
 from ros_lint.workspace import Declared, Package, Workspace, per_workspace
 
 if TYPE_CHECKING:  # made only where it is asked for
@@ -164,8 +165,10 @@ __all__ = [
     "declared_closure",
     "declared_names",
     "defaults_of",
+    "did_you_mean",
     "evaluated_name",
     "everything",
+    "few",
     "filled",
     "folders_of",
     "forgotten_nodes",
@@ -213,6 +216,8 @@ __all__ = [
     "renames",
     "satisfying",
     "setup_edits",
+    "several",
+    "similar",
     "stranded",
     "strangers",
     "tag_for",

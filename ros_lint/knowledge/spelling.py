@@ -98,25 +98,28 @@ class Spelling:
         return sorted("\n".join(self._names)[::-1].split("\n"))
 
 
+def similar(name: str, names: Iterable[str], most: int, least: float) -> list[str]:
+    """Return which of some names look like another one, nearest first; ``least`` is how alike they are, from 0 to 1."""
+    from difflib import get_close_matches  # noqa: PLC0415  (only unknown names need it)
+
+    return get_close_matches(name, list(names), most, least)
+
+
 def near_names(name: str, names: Iterable[str], most: int, least: float) -> list[str]:
-    """Return which of some names may be meant by another, nearest first; ``least`` is how alike they are, from 0 to 1.
+    """Return which of the names that look like another one, as :func:`similar` says, may be meant by it.
 
     Where both have words that the other one lacks, these must resemble each other: front_camera is not meant to be
     rear_camera, however much of it is the same. What several complete alike, as left_arm and right_arm do arm, is neither.
     """
-    from difflib import get_close_matches  # noqa: PLC0415  (only unknown names need it)
-
     words = _words(name)
-    found = [other for other in get_close_matches(name, list(names), most, least) if _may_be_meant(words, _words(other))]
+    found = [other for other in similar(name, names, most, least) if _may_be_meant(words, _words(other))]
     longer = [other for other in found if words < _words(other)]
     return [other for other in found if other not in longer] if len(longer) > 1 else found
 
 
 def _may_be_meant(words: frozenset[str], others: frozenset[str]) -> bool:
-    from difflib import get_close_matches  # noqa: PLC0415
-
     lacking, more = words - others, others - words
-    return not (lacking and more) or all(get_close_matches(word, more, 1, 0.6) for word in lacking)
+    return not (lacking and more) or all(similar(word, more, 1, 0.6) for word in lacking)
 
 
 def may_be_package(name: str) -> bool:

@@ -26,7 +26,6 @@ file of the workspace loads the component.
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterator
 
 from ros_lint.api import (
@@ -50,9 +49,10 @@ from ros_lint.api import (
     is_apart,
     listed_to_install,
     relative,
+    several,
+    similar,
 )
 
-_MOST_RELATED = 4
 _REGISTER = ("rclcpp_components_register_node", "rclcpp_components_register_nodes")
 
 
@@ -88,7 +88,7 @@ def _lost(script: BuildScript) -> Iterator[Finding]:
             "the component; register it in CMakeLists.txt of the package itself",
             first.span,
             first.name,
-            tuple(Related("also this one", other.span) for other in others[:_MOST_RELATED]),
+            several(Related("also this one", other.span) for other in others),
             confidence=Confidence.MEDIUM if first.conditional else Confidence.HIGH,
         )
 
@@ -100,7 +100,7 @@ def _alike(component: Component, left: list[Registration]) -> list[Registration]
     if alike:
         return alike
     plain = {_plain(one.name.rpartition("::")[2]): one for one in left}
-    near = difflib.get_close_matches(_plain(last), plain, 1, 0.8)
+    near = similar(_plain(last), plain, 1, 0.8)
     return [plain[near[0]]] if near else []
 
 
@@ -117,7 +117,7 @@ def _unmade(component: Component, alike: list[Registration]) -> Finding:
         if span.end_column - span.column == len(component.name) + 2 * quotes:
             inner = span._replace(column=span.column + quotes, end_column=span.end_column - quotes)
             fix = Fix(f"write {alike[0].name}", (Edit(inner, alike[0].name),))
-    related = tuple(Related("made loadable here", one.span) for one in alike[:2])
+    related = several(Related("made loadable here", one.span) for one in alike)
     subject = alike[0].name if alike else component.name
     return Finding(f"no source makes the component {component.name} loadable{hint}", span, subject, related, fix)
 

@@ -29,7 +29,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Call, Edit, Finding, Fix, Package, Related, Rule, Severity, Workspace, called
+from ros_lint.api import Call, Edit, Finding, Fix, Package, Related, Rule, Severity, Workspace, called, several
 
 _ALWAYS = {
     "rosidl_target_interfaces": (
@@ -39,7 +39,6 @@ _ALWAYS = {
     "ament_export_interfaces": ("ament_export_targets", "use ament_export_targets()"),
 }
 _SINCE_KILTED = {"ament_target_dependencies": ("target_link_libraries", "use target_link_libraries() with p::p, or ${p_TARGETS}")}
-_MOST_RELATED = 4
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -57,7 +56,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             fix = None
             if name == "ament_export_interfaces":
                 fix = Fix("call ament_export_targets()", tuple(Edit(call.place, "ament_export_targets") for call in calls))
-            related = tuple(Related("also here", call.place) for call in others[:_MOST_RELATED])
+            related = several(Related("also here", call.place) for call in others)
             yield Finding(f"{name}() is deprecated; {instead}", first.place, name, related, fix)
     for problem in script.problems:
         if problem.kind == "dashed-key":

@@ -43,9 +43,11 @@ from ros_lint.api import (
     Severity,
     Span,
     Workspace,
+    few,
     from_base,
     relative,
     setup_edits,
+    several,
 )
 
 
@@ -72,13 +74,13 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     config = from_base(package, "setup.cfg")
     there = "setup.cfg" in package.files
     names = [entry.name for entry in nodes]
-    named = ", ".join(names[:3]) + (" ..." if len(names) > 3 else "")
+    named = few(names)
     yield Finding(
         f"{named} {'land' if len(names) > 1 else 'lands'} in bin/, where ros2 run does not look; "
         f"{'say' if there else 'add a setup.cfg with'} install_scripts=$base/lib/{package.name}",
         Span(config, 1, 1, 1, 1) if there else nodes[0].span,
         "setup.cfg",
-        tuple(Related("this entry point", entry.span) for entry in nodes[0 if there else 1 :][:4]),
+        several(Related("this entry point", entry.span) for entry in nodes[0 if there else 1 :]),
         _extended(script, package.name) if there else _fix(config, package.name),
         Confidence.HIGH if sure else Confidence.MEDIUM,
     )

@@ -23,11 +23,24 @@ message says so. The fix takes away the `()`, and writes the missing comma.
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections.abc import Iterator
 
-from ros_lint.api import Edit, EntryPoint, Facet, Finding, Fix, Package, Related, Rule, Severity, Span, Workspace, from_base
+from ros_lint.api import (
+    Edit,
+    EntryPoint,
+    Facet,
+    Finding,
+    Fix,
+    Package,
+    Related,
+    Rule,
+    Severity,
+    Span,
+    Workspace,
+    from_base,
+    similar,
+)
 
 _GLUED = re.compile(r"[:=].*=")
 _TARGET = re.compile(r"\s*([\w.]+)\s*(?::\s*([\w.]+)\s*)?(?:\[.*\])?\s*\Z")
@@ -78,7 +91,7 @@ def _entry(package: Package, entry: EntryPoint, workspace: Workspace) -> Iterato
     first = attribute.partition(".")[0]
     if not module.open and first not in module.names and not _is_submodule(package, name, first):
         path = from_base(package, module.path)
-        near = difflib.get_close_matches(first, module.names, 1, 0.7)
+        near = similar(first, module.names, 1, 0.7)
         hint = f"; is {near[0]} meant?" if near else "; define it, or take the entry point out"
         yield Finding(
             f"{entry.name}: {module.path} has no {first}{hint}",
@@ -105,8 +118,8 @@ def _no_module(package: Package, entry: EntryPoint, name: str, function: str, wo
     files = {file[:-3].replace("/", ".") for file in package.files if file.endswith(".py") and file.partition("/")[0] in tops}
     known = sorted(files.union(script.python_packages))  # whether they are installed is told of each folder
     modules = [module for module in known if "." in module and f"{module}:{function}" not in taken]
-    near = difflib.get_close_matches(name, modules, 1, 0.9)
-    if own not in tops and own != package.name and not difflib.get_close_matches(own, [*tops, package.name], 1, 0.85):
+    near = similar(name, modules, 1, 0.9)
+    if own not in tops and own != package.name and not similar(own, [*tops, package.name], 1, 0.85):
         # The name of a package that was copied, before a module that is here.
         near = [module for module in modules if module.partition(".")[2] == name.partition(".")[2]]
         if not near or workspace.world.by_import(own).known:

@@ -45,7 +45,6 @@ if it resembles an argument that is not given.
 
 from __future__ import annotations
 
-import difflib
 import sys
 from collections.abc import Collection, Iterator
 
@@ -63,10 +62,12 @@ from ros_lint.api import (
     Span,
     Workspace,
     broken_expressions,
+    did_you_mean,
     everything,
     is_plain,
     launchable,
     needed,
+    similar,
 )
 
 _MOST_MISSING = 2
@@ -155,9 +156,9 @@ def _known_inside(file: LaunchFile, links: Links) -> frozenset[str]:
 
 
 def _undeclared(name: str, span: Span, declared: list[str], *, sure: bool) -> Finding:
-    near = difflib.get_close_matches(name, declared, 1, 0.85)
+    near = similar(name, declared, 1, 0.85)
     return Finding(
-        f"no launch argument {name} is declared, and nothing sets it{f'; did you mean {near[0]}?' if near else ''}",
+        f"no launch argument {name} is declared, and nothing sets it{did_you_mean(near)}",
         span,
         name,
         confidence=Confidence.HIGH if near and sure else Confidence.MEDIUM,
@@ -228,9 +229,9 @@ def _of_include(
 
 def _useless(file: str, name: str, place: Span, left: frozenset[str], *, sure: bool) -> Finding:
     """Return the finding for an argument that nobody takes. One that resembles an argument not given was renamed."""
-    near = difflib.get_close_matches(name, left, 1, 0.85)
+    near = similar(name, left, 1, 0.85)
     return Finding(
-        f"{file} takes no argument {name}: it does nothing there{f'; did you mean {near[0]}?' if near else ''}",
+        f"{file} takes no argument {name}: it does nothing there{did_you_mean(near)}",
         place,
         f"{file}:{name}",
         confidence=Confidence.HIGH if sure else Confidence.MEDIUM,

@@ -47,9 +47,9 @@ from ros_lint.api import (
     Target,
     Workspace,
     launchable,
+    several,
 )
 
-_MOST_RELATED = 4
 _MAY_BE_NEWER = frozenset({"unknown-tag", "unexpected-attribute", "unexpected-child", "unexpected-keyword"})
 
 
@@ -63,7 +63,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             _message(first),
             first.span,
             launch.path,
-            tuple(Related(_also(first, other), other.span) for other in others[:_MOST_RELATED]),
+            several(Related(_also(first, other), other.span) for other in others),
             confidence=max(_confidence(problem, workspace) for problem in problems),
             severity=Severity.WARNING if all(problem.kind == "substitution-as-text" for problem in problems) else None,
         )

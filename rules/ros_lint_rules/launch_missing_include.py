@@ -31,7 +31,6 @@ Where the name hangs on the default of an argument, which others can replace, th
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable, Iterator
 
 from ros_lint.api import (
@@ -46,13 +45,15 @@ from ros_lint.api import (
     Severity,
     Span,
     Workspace,
+    did_you_mean,
     launchable,
     near_names,
     passed_files,
     referred,
+    several,
+    similar,
 )
 
-_MOST_RELATED = 4
 _WRITTEN = (".yaml", ".yml", ".rviz", ".urdf", ".xacro", ".srdf", ".sdf", ".world", ".wbt", ".lua", ".launch", ".py", ".xml")
 """Kinds of files that people write and keep with the package."""
 
@@ -84,7 +85,7 @@ def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"{owner} has no {path}{_hint(path, others_there)}",
             best.span,
             path,
-            tuple(Related("also named here", other.span) for other in others[:_MOST_RELATED]),
+            several(Related("also named here", other.span) for other in others),
             confidence=Confidence.HIGH
             if sure and not best.by_default and not _is_made(owner, path, workspace)
             else Confidence.MEDIUM,
@@ -162,7 +163,7 @@ def _twin(path: str, names: tuple[str, ...]) -> str:
     """Return a file of nearly the same name, and of the same kind, that is installed beside one, "" if there is none."""
     folder, _, base = path.rpartition("/")
     beside = [name.rpartition("/")[2] for name in names if _kind(name) == _kind(path)]
-    near = difflib.get_close_matches(base, beside, 1, 0.8)
+    near = similar(base, beside, 1, 0.8)
     return f"{folder}/{near[0]}".lstrip("/") if near else ""
 
 
@@ -213,8 +214,7 @@ def _files_without(owner: str, path: str, kind: str, workspace: Workspace) -> tu
 def _hint(path: str, names: tuple[str, ...]) -> str:
     base = path.rpartition("/")[2]
     same = [name for name in names if name.rpartition("/")[2] == base]
-    near = same or near_names(path, names, 1, 0.8)
-    return f"; did you mean {near[0]}?" if near else ""
+    return did_you_mean(same[:1] or near_names(path, names, 1, 0.8))
 
 
 RULE = Rule(

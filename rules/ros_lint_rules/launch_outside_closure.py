@@ -33,7 +33,6 @@ Add `<exec_depend>` to `package.xml`. The fix does this.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import islice
 
 from ros_lint.api import (
     Confidence,
@@ -56,10 +55,10 @@ from ros_lint.api import (
     launchable,
     may_bring,
     needs,
+    several,
     undeclared,
 )
 
-_MOST_RELATED = 4
 _AT_RUN_TIME = Role.EXEC | Role.EXPORT
 _ORDER = ("node", "component", "include", "command", "file", "package")
 _SAYS = {
@@ -90,7 +89,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"{says}{only}, but {package.name} does not depend on it{way_out.ending}",
             best.package_span,
             name,
-            tuple(Related("also needed here", span) for span in islice(_elsewhere(best.package_span, others), _MOST_RELATED)),
+            several(Related("also needed here", span) for span in _elsewhere(best.package_span, others)),
             way_out.fix,
             Confidence.HIGH if certain and not _needs(workspace, name, package) else Confidence.MEDIUM,
         )

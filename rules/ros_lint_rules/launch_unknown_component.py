@@ -22,7 +22,6 @@ or `rclcpp_components_register_nodes(library "ns::Class")`. The fix corrects the
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterator
 
 from ros_lint.api import (
@@ -37,10 +36,11 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
+    did_you_mean,
     referred,
+    several,
+    similar,
 )
-
-_MOST_RELATED = 4
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -50,14 +50,14 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             continue
         best, *others = sorted(references, key=lambda reference: (reference.by_default, reference.span))
         meant = [other for other in names if other.lower() == name.lower()]
-        near = meant or difflib.get_close_matches(name, names, 2, 0.75)
-        hint = f"; did you mean {' or '.join(near)}?" if near else "" if names else ", and no other either"
+        near = meant or similar(name, names, 2, 0.75)
+        hint = did_you_mean(near) if names else ", and no other either"
         sure = bool(workspace.by_name.get(owner)) or workspace.target.told
         yield Finding(
             f"{owner} registers no component {name}{hint}",
             best.span,
             f"{owner}/{name}",
-            tuple(Related("also loaded here", other.span) for other in others[:_MOST_RELATED]),
+            several(Related("also loaded here", other.span) for other in others),
             _fix(meant, references),
             Confidence.HIGH if sure and not best.by_default else Confidence.MEDIUM,
         )

@@ -42,15 +42,15 @@ from ros_lint.api import (
     Severity,
     Span,
     Workspace,
+    did_you_mean,
     from_base,
     launchable,
     near_names,
     programs,
     referred,
+    several,
     stranded,
 )
-
-_MOST_RELATED = 4
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -66,10 +66,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"{owner} installs no executable {name}{missing.hint}",
             best.span,
             name,
-            (
-                *missing.related,
-                *(Related("also started here", reference.span) for reference in others[:_MOST_RELATED]),
-            ),
+            (*missing.related, *several(Related("also started here", reference.span) for reference in others)),
             _fix(missing.meant, references),
             Confidence.MEDIUM if best.by_default or best.span.path in idle else missing.confidence,
         )
@@ -130,7 +127,7 @@ def _hint(name: str, meant: str, names: tuple[str, ...]) -> str:
         return f": {meant} is meant"
     near = near_names(name, names, 3, 0.6)
     if near:
-        return f"; did you mean {' or '.join(near)}?"
+        return did_you_mean(near)
     started = [other for other in names if not other.endswith(_LIBRARY)]
     if not started:
         return ", and no other either"

@@ -54,13 +54,13 @@ from ros_lint.api import (
     Span,
     Workspace,
     declared_closure,
+    did_you_mean,
     launchable,
     may_be_package,
     may_bring,
+    several,
     tag_for,
 )
-
-_MOST_RELATED = 4
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -84,7 +84,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"there is no package {name}{verdict.hint}{told}",
             best.reference.package_span,
             name,
-            tuple(Related("also named here", other.reference.package_span) for other in others[:_MOST_RELATED]),
+            several(Related("also named here", other.reference.package_span) for other in others),
             _fix(name, verdict.meant, [place.reference for place in places]),
             Confidence.HIGH if left_out else verdict.confidence if wanted else Confidence.MEDIUM,
             severity=Severity.WARNING if left_out else None,
@@ -175,11 +175,10 @@ def _verdict(name: str, package: Package, workspace: Workspace) -> _Verdict | No
         hint = f" in {distro}, it was last released for {ended[0]} (data of {date}){use}"
         return _Verdict(hint, Confidence.MEDIUM, resembles=False, known=bool(use))
     near = [other for other in world.suggest(name) if world.is_package(other)]
-    hint = f"; did you mean {' or '.join(near)}?" if near else ""
     nowhere = f" in the workspace, the underlays or {distro} (data of {date})"
     # As sure as unknown-dependency is of what package.xml declares.
     strange = package.declares(name) and not may_be_package(name)
-    return _Verdict(f"{nowhere}{hint}", Confidence.HIGH if strange else Confidence.MEDIUM, resembles=bool(near))
+    return _Verdict(f"{nowhere}{did_you_mean(near)}", Confidence.HIGH if strange else Confidence.MEDIUM, resembles=bool(near))
 
 
 RULE = Rule(

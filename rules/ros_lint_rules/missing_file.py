@@ -26,7 +26,6 @@ Correct the path, add the file to the repository, or remove the line. A folder t
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterator
 
 from ros_lint.api import (
@@ -40,6 +39,7 @@ from ros_lint.api import (
     Workspace,
     called,
     evaluated_name,
+    similar,
 )
 
 _KINDS = ("missing-file", "missing-folder", "file-is-directory")
@@ -131,7 +131,7 @@ def _hint(package: Package, path: str) -> str:
     if len(same) == 1:
         return f"; is {same[0]} meant?"
     beside = [file.rpartition("/")[2] for file in package.files if file.rpartition("/")[0] == folder]
-    near = difflib.get_close_matches(name, beside, 1, 0.8)
+    near = similar(name, beside, 1, 0.8)
     return f"; is {folder + '/' if folder else ''}{near[0]} meant?" if near else ""
 
 

@@ -26,9 +26,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Confidence, Facet, Finding, Package, Related, Rule, Severity, Workspace, come_along, found_names
+from ros_lint.api import (
+    Confidence,
+    Facet,
+    Finding,
+    Package,
+    Related,
+    Rule,
+    Severity,
+    Workspace,
+    come_along,
+    found_names,
+    several,
+)
 
-_MOST_RELATED = 4
 _NOT_SOUGHT = ("export", "plugins", "helper")
 """What names packages without asking whether they have been found here."""
 
@@ -61,7 +72,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"{what} needs {name}, {where}: add find_package({name} REQUIRED) before",
             first.span,
             name,
-            tuple(place for _, place in others[:_MOST_RELATED]),
+            several(place for _, place in others),
             confidence=Confidence.HIGH if sure else Confidence.MEDIUM,
             severity=None if sure else Severity.INFO,
         )

@@ -45,6 +45,7 @@ from ros_lint.api import (
     Workspace,
     cmake_edits,
     setup_edits,
+    several,
 )
 
 _FIND = "find_package(ament_cmake_python REQUIRED)"
@@ -136,7 +137,7 @@ def _of_cmake(package: Package, workspace: Workspace) -> Iterator[Finding]:
         f"the Python package {folder}/ is not installed{why}; add {call}",
         script.end,
         folder,
-        tuple(Related("imported here", use.span) for _, use in users[:3]),
+        several(Related("imported here", use.span) for _, use in users),
         Fix(f"install {folder}/", (cmake_edits.at_end(script, f"{_FIND}\n{call}"),), safe=False),
         Confidence.HIGH if users or f"{folder}/setup.cfg" in files else Confidence.MEDIUM,
         None if users else Severity.WARNING,

@@ -42,12 +42,12 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
+    few,
     is_plain,
     launchable,
     renames,
+    several,
 )
-
-_MOST_NAMES = 3
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
@@ -87,19 +87,17 @@ def _flat(together: list[Given]) -> Iterator[Finding]:
 
 def _of_others(together: list[Given]) -> Finding:
     first = together[0]
-    names = list(dict.fromkeys(name for name, _ in first.file.nodes))
-    listed = ", ".join(names[:_MOST_NAMES]) + (" ..." if len(names) > _MOST_NAMES else "")
+    names = few(dict.fromkeys(name for name, _ in first.file.nodes))
     return Finding(
-        f"{_name(first)} has parameters of {listed}, and none of {_full_name(first)}, which gets it here",
+        f"{_name(first)} has parameters of {names}, and none of {_full_name(first)}, which gets it here",
         first.value.span,
         first.file.path,
         (Related("the file", first.file.nodes[0][1]), *_more(together)),
     )
 
 
-def _more(together: list[Given]) -> Iterator[Related]:
-    for given in together[1 : 1 + _MOST_NAMES]:
-        yield Related("given again here", given.value.span)
+def _more(together: list[Given]) -> tuple[Related, ...]:
+    return several(Related("given again here", given.value.span) for given in together[1:])
 
 
 def _name(given: Given) -> str:

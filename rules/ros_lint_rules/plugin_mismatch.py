@@ -27,7 +27,6 @@ confidence is medium.
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterator
 
 from ros_lint.api import (
@@ -49,6 +48,8 @@ from ros_lint.api import (
     hidden,
     is_apart,
     relative,
+    several,
+    similar,
 )
 
 _EXPORT = "pluginlib_export_plugin_description_file"
@@ -124,7 +125,7 @@ def _unexported(package: Package, registered: list[Registration]) -> Iterator[Fi
         f"{first.name} is made loadable, but no plugin description is exported, so nobody finds it; add {way}",
         first.span,
         plugin.path if plugin else "pluginlib",
-        tuple(Related("also this class", made.span) for made in others[:4])
+        several(Related("also this class", made.span) for made in others)
         + ((Related("it is described here", plugin.span),) if plugin else ()),
         _export(package, plugin) if plugin else None,
         # Sources that nothing compiles may be left over; where there is no library at all, it is yet to be added.
@@ -167,7 +168,7 @@ def _library(package: Package, plugin: PluginFile, library: PluginLibrary) -> It
         by_words = any({"SHARED", "MODULE"}.intersection(call.texts) and not call.blocks for call in listed)
         sure = Confidence.HIGH if by_words else Confidence.MEDIUM  # it may be static, or its file may have another name
     else:
-        near = difflib.get_close_matches(name, sorted(installed | built), 1, 0.8)
+        near = similar(name, sorted(installed | built), 1, 0.8)
         message = f"the package builds no library {name}" + (f"; is {near[0]} meant?" if near else "")
         sure = Confidence.HIGH
     yield Finding(message, library.span, f"{plugin.path}#{library.path.rpartition('/')[2]}", confidence=sure)
@@ -186,7 +187,7 @@ def _class(package: Package, plugin: PluginFile, one: PluginClass, registered: l
     last = wanted.rpartition("::")[2]
     alike = [made for made in registered if made.name.rpartition("::")[2] == last]
     hint = f"; the sources say {alike[0].name}" if alike else f"; add PLUGINLIB_EXPORT_CLASS({one.type}, {one.base}) to one"
-    related = tuple(Related("made loadable here", made.span) for made in alike[:2])
+    related = several(Related("made loadable here", made.span) for made in alike)
     yield Finding(
         f"no source makes {one.type} loadable{hint}",
         one.span,

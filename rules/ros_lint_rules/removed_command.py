@@ -24,11 +24,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Confidence, Finding, Package, Related, Rule, Severity, Workspace, called
+from ros_lint.api import Confidence, Finding, Package, Related, Rule, Severity, Workspace, called, several
 
 _GONE = {"ament_target_dependencies": ("ament_cmake_target_dependencies", frozenset({"lyrical", "rolling"}))}
 _MODULE = "ament_python"
-_MOST_RELATED = 4
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -47,7 +46,7 @@ def _modules(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"{_MODULE} is gone since Bouncy, so setup.py stops here; write data_files out, and install_scripts into setup.cfg",
             first.span,
             _MODULE,
-            tuple(Related("also here", mention.span) for mention in others[:_MOST_RELATED]),
+            several(Related("also here", mention.span) for mention in others),
         )
 
 
@@ -61,7 +60,7 @@ def _commands(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if not calls or workspace.target.distro not in distros or provider in found:
             continue
         first, *others = calls
-        related = tuple(Related("also here", call.place) for call in others[:_MOST_RELATED])
+        related = several(Related("also here", call.place) for call in others)
         yield Finding(
             f"{name}() is gone in {workspace.target.distro}; use target_link_libraries() with p::p, or ${{p_TARGETS}}",
             first.place,

@@ -46,8 +46,10 @@ from ros_lint.api import (
     Workspace,
     called,
     cmake_edits,
+    few,
     from_base,
     relative,
+    several,
 )
 
 _ENDINGS = (".py", ".sh", ".bash", ".rb", ".pl")
@@ -97,7 +99,7 @@ def _line(package: Package, file: ScriptFile, name: str, started: bool) -> Itera
 
 def _no_bit(package: Package, span: Span, provided: list[Provided], files: dict[str, ScriptFile]) -> Finding:
     names = sorted(dict.fromkeys(one.path.rpartition("/")[2] for one in provided))
-    named = ", ".join(names[:3]) + (" ..." if len(names) > 3 else "")
+    named = few(names)
     installs = (call for call in called(package, "install", anywhere=True) if call.args)
     call = next((call for call in installs if call.whole.covers(span)), None)
     way, fix = "install(PROGRAMS)", None
@@ -115,7 +117,7 @@ def _no_bit(package: Package, span: Span, provided: list[Provided], files: dict[
         f"use {way}",
         span,
         relative(package, provided[0].source),
-        tuple(Related("this script", _source(package, one)) for one in provided[:4]),
+        several(Related("this script", _source(package, one)) for one in provided),
         fix,
         _confidence(package, call),
     )

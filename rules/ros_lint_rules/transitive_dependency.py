@@ -48,11 +48,11 @@ from ros_lint.api import (
     found_for_nothing,
     meant,
     needs,
+    several,
     tells,
     wishes,
 )
 
-_MOST_RELATED = 4
 _LAUNCHER = "ros2launch"
 
 
@@ -89,7 +89,7 @@ def _finding(package: Package, workspace: Workspace, declared: Sequence[str], ne
         f"{name} is used here, but comes along only by way of {' > '.join(way[:-1])}{way_out.ending}",
         best.span,
         name,
-        tuple(Related(f"also used here: {use.what}", use.span) for use in others[:_MOST_RELATED]),
+        several(Related(f"also used here: {use.what}", use.span) for use in others),
         way_out.fix,
         confidence if way_out.certain else min(confidence, Confidence.MEDIUM),
     )

@@ -55,12 +55,11 @@ from ros_lint.api import (
     advice,
     comes_with_launching,
     is_somewhere,
+    several,
     tells,
     undeclared,
     wishes,
 )
-
-_MOST_RELATED = 4
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -99,7 +98,7 @@ def _finding(package: Package, workspace: Workspace, need: Need, says: str, conf
         message,
         best.span,
         name,
-        tuple(Related(f"also used here: {use.what}", use.span) for use in others[:_MOST_RELATED]),
+        several(Related(f"also used here: {use.what}", use.span) for use in others),
         None if where else way_out.fix,
         confidence if way_out.certain else min(confidence, Confidence.MEDIUM),
     )

@@ -23,7 +23,6 @@ that may be the system's; where a package is found that nobody knows, which may 
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Collection, Iterator
 
 from ros_lint.api import (
@@ -40,6 +39,7 @@ from ros_lint.api import (
     called,
     evaluated_name,
     hidden,
+    similar,
 )
 
 _USERS = (
@@ -79,7 +79,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             name = evaluated_name(package, call.texts[index])
             if name is None or call.blocks or name in defined or "::" in name or name in reported:
                 continue
-            if call.name != "install" and finds_strangers and not difflib.get_close_matches(name, names, 1, 0.8):
+            if call.name != "install" and finds_strangers and not similar(name, names, 1, 0.8):
                 continue
             reported.add(name)
             yield _finding(f"{call.name}() of {name}, which is no target", name, names, call.span(index))
@@ -118,7 +118,7 @@ def _no_libraries(package: Package, defined: Collection[str]) -> Iterator[Findin
             name = evaluated_name(package, text)
             if name is None or call.blocks or name in defined:
                 continue
-            if name == evaluated_name(package, "${PROJECT_NAME}") or difflib.get_close_matches(name, libraries, 1, 0.9):
+            if name == evaluated_name(package, "${PROJECT_NAME}") or similar(name, libraries, 1, 0.9):
                 says = f"ament_export_libraries() of {name}, which is no library of this package"
                 yield _finding(says, name, libraries, call.span(index))._replace(severity=Severity.WARNING)
 
@@ -135,7 +135,7 @@ def _targets(call: Call) -> Iterator[int]:
 
 
 def _finding(message: str, name: str, names: list[str], span: Span) -> Finding:
-    near = difflib.get_close_matches(name, names, 1, 0.8)
+    near = similar(name, names, 1, 0.8)
     fix = None
     if near:
         message += f"; is {near[0]} meant?"

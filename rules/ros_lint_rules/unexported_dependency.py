@@ -51,9 +51,9 @@ from ros_lint.api import (
     given_for,
     may_bring,
     relative,
+    several,
 )
 
-_MOST_RELATED = 4
 _EXPORTS = frozenset({"ament_export_include_directories", "ament_export_targets", "ament_export_interfaces"})
 _EXPORTS_ALL = frozenset({"ament_auto_package", "autoware_ament_auto_package"})
 _OF_TOOLS = "ament_cmake_"
@@ -98,7 +98,7 @@ def _unexported(package: Package, workspace: Workspace) -> Iterator[tuple[str, F
                 f"{name} is included by this installed header, but not exported: {way_out}",
                 first.span,
                 name,
-                tuple(Related(f"also included here: {use.what}", use.span) for use in others[:_MOST_RELATED]),
+                several(Related(f"also included here: {use.what}", use.span) for use in others),
                 None,
                 _confidence(package, workspace, name, exported, compiled) if compiled else Confidence.LOW,
             ),

@@ -43,13 +43,13 @@ from ros_lint.api import (
     Workspace,
     called,
     from_base,
+    several,
 )
 
 _GENERATE = "rosidl_generate_interfaces"
 _KINDS = {"msg": ("msg", "idl"), "srv": ("srv", "idl"), "action": ("action", "idl")}
 """Suffixes of interfaces, by folder."""
 _SAYS_SO = ("rosidl_interface_packages", "rosidl_default_generators")
-_MOST_RELATED = 4
 _NAME = re.compile(r"[A-Z][A-Za-z0-9]*")
 """What rosidl takes for the name of a message; it asks nothing of those of files in IDL."""
 
@@ -86,7 +86,7 @@ def _of_python(package: Package) -> Iterator[Finding]:
         "into a package of ament_cmake",
         tag.span,
         found[0],
-        tuple(_here(package, file) for file in found[:_MOST_RELATED]),
+        several(_here(package, file) for file in found),
     )
 
 

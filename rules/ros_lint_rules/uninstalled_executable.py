@@ -50,6 +50,7 @@ from ros_lint.api import (
     left_out_nodes,
     node_targets,
     programs_built,
+    several,
     with_client,
 )
 
@@ -77,7 +78,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if any(folder.partition("/")[0] != "bin" for folder, _, _ in found):
             continue
         launched = started.get(found[0][1] if found else target.name, ())
-        related = tuple(Related("a launch file starts it here", reference.span) for reference in launched[:3])
+        related = several(Related("a launch file starts it here", reference.span) for reference in launched)
         sure = bool(launched or target.name in nodes)
         if found and (sure or any(file.startswith("include/") for file in with_client(package))):
             span = found[0][2]

@@ -50,6 +50,7 @@ from ros_lint.api import (
     is_apart,
     per_workspace,
     relative,
+    several,
 )
 
 _LOADED = (
@@ -127,7 +128,7 @@ def _is_read(package: Package, call: Call) -> bool:
 
 
 def _included_here(wanted: list[tuple[Package, Use]]) -> tuple[Related, ...]:
-    return tuple(Related(f"included in {other.name}", use.span) for other, use in wanted[:3])
+    return several(Related(f"included in {other.name}", use.span) for other, use in wanted)
 
 
 def _takes(package: Package, name: str) -> bool:

@@ -43,13 +43,14 @@ from ros_lint.api import (
     Span,
     Workspace,
     cmake_edits,
+    few,
     folders_of,
     from_base,
     launchable,
     setup_edits,
+    several,
 )
 
-_MOST_RELATED = 4
 _SUFFIX = re.compile(r"(?:[._-]?launch\.(?:py|xml|ya?ml)|\.launch)$")
 _TEST_PACKAGE = re.compile(r"(?:^|_)(?:tests?|testing)(?:_|$)")
 
@@ -103,13 +104,13 @@ def _finding(package: Package, folder: str, paths: Iterable[str], whole: bool) -
     script = package.script
     assert script is not None
     paths = sorted(paths)
-    named = ", ".join(path.rpartition("/")[2] for path in paths[:3]) + (" ..." if len(paths) > 3 else "")
+    named = few(path.rpartition("/")[2] for path in paths)
     what = f"{folder}/ has launch files ({named}), but is not installed" if whole else f"{named} is not installed"
     return Finding(
         f"{what}: ros2 launch will not find {'it' if len(paths) == 1 else 'them'}",
         setup_edits.place(script),
         folder or paths[0],
-        tuple(Related("this launch file", Span(from_base(package, path), 1, 1, 1, 1)) for path in paths[:_MOST_RELATED]),
+        several(Related("this launch file", Span(from_base(package, path), 1, 1, 1, 1)) for path in paths),
         _fix(package, folder, paths, whole),
     )
 

@@ -50,6 +50,7 @@ from ros_lint.api import (
     installs_built,
     is_on_request,
     relative,
+    several,
 )
 
 
@@ -75,7 +76,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         lone = _is_lone(package, target, loaded=loaded)
         users = [(name, span) for name, span in _linked_by(script, target.name) if name in installed] if shared else []
         exported = _exported(package, target.name)
-        related = tuple(Related(f"{name} links it here", span) for name, span in users[:3])
+        related = several(Related(f"{name} links it here", span) for name, span in users)
         if exported is not None:
             related += (Related("it is exported here", exported),)
         reason = f", and {users[0][0]} needs it at run time" if users else ", and is exported" if exported else ""

@@ -46,11 +46,13 @@ from ros_lint.api import (
     Span,
     Workspace,
     cmake_edits,
+    few,
     from_base,
     is_apart,
     launchable,
     relative,
     setup_edits,
+    several,
     uninstalled_resources,
 )
 
@@ -113,13 +115,13 @@ def _named(package: Package, unit: str, found: list[tuple[str, Span]]) -> Findin
     script = package.script
     assert script is not None
     paths = sorted({path for path, _ in found} - {unit.rstrip("/")})
-    named = ", ".join(path.rpartition("/")[2] for path in paths[:3]) + (" ..." if len(paths) > 3 else "")
+    named = few(path.rpartition("/")[2] for path in paths)
     inside = f"{named} is looked up in it" if unit.endswith("/") and paths else "is looked up at run time"
     return Finding(
         f"{unit} is not installed, and {inside}",
         setup_edits.place(script),
         unit,
-        tuple(Related("looked up here", span) for _, span in found[:4]),
+        several(Related("looked up here", span) for _, span in found),
         _fix(package, unit),
     )
 
@@ -154,12 +156,12 @@ def _folders(package: Package, kept: set[str], told: set[str]) -> Iterator[Findi
         looked_up = [file for file in named if (places[file].path, file.rpartition("/")[2]) not in elsewhere]
         copies = {name for _, name in elsewhere}.intersection(file.rpartition("/")[2] for file in files if file not in looked_up)
         shown = [file.rpartition("/")[2] for file in named + [file for file in files if file not in places]]
-        examples = ", ".join(shown[:3]) + (" ..." if len(shown) > 3 else "")
+        examples = few(shown)
         yield Finding(
             f"{folder}/ ({examples}) is not installed, so nothing finds it at run time",
             setup_edits.place(script),
             f"{folder}/",
-            tuple(Related(f"{file.rpartition('/')[2]} is named here", places[file]) for file in looked_up[:4]),
+            several(Related(f"{file.rpartition('/')[2]} is named here", places[file]) for file in looked_up),
             fix=_fix(package, f"{folder}/") if "/" not in folder else None,
             confidence=_confidence(folder, files, looked_up, shared and not copies and f"{folder}/" not in inputs, of_nodes),
             severity=Severity.WARNING,

@@ -28,9 +28,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Finding, Mention, Package, Related, Rule, Severity, Workspace, found_for_nothing
-
-_MOST_RELATED = 4
+from ros_lint.api import Finding, Mention, Package, Related, Rule, Severity, Workspace, found_for_nothing, several
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -38,7 +36,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         name = mention.name
         others = _also_named(package, mention)
         what = f"find_package({name})" + (f", and {name} where it is linked or exported" if others else "")
-        related = tuple(Related(f"named here, too: {each.what or each.name}", each.span) for each in others[:_MOST_RELATED])
+        related = several(Related(f"named here, too: {each.what or each.name}", each.span) for each in others)
         yield Finding(f"{name} is found, but no code uses it: remove {what}", mention.span, name, related)
 
 

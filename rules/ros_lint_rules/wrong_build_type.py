@@ -38,6 +38,7 @@ from ros_lint.api import (
     Severity,
     Workspace,
     conditions,
+    similar,
 )
 
 _TYPES = ("ament_cmake", "ament_python", "cmake", "catkin", "ament_cargo", "ament_gradle")
@@ -85,10 +86,8 @@ def _of_package(package: Package, manifest: Manifest, workspace: Workspace) -> I
 
 
 def _unknown(export: Element) -> Finding:
-    from difflib import get_close_matches  # noqa: PLC0415  (needed for a slip only)
-
     name = export.text
-    close = [_MISTAKES[name]] if name in _MISTAKES else get_close_matches(name, _TYPES, 1, 0.8)
+    close = [_MISTAKES[name]] if name in _MISTAKES else similar(name, _TYPES, 1, 0.8)
     if not close:
         message = f"colcon has no build type {name} of its own; write {', '.join(_TYPES[:3])} or another that it has"
         return Finding(message, export.text_span, name, confidence=Confidence.MEDIUM)

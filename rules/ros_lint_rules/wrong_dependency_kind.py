@@ -61,11 +61,11 @@ from ros_lint.api import (
     is_unseen_by_name,
     needs,
     relative,
+    several,
     tag_for,
     unguarded_tests,
 )
 
-_MOST_RELATED = 4
 _OF_TESTS = frozenset({
     "ament_cmake_gmock", "ament_cmake_google_benchmark", "ament_cmake_gtest", "benchmark", "gmock_vendor", "google-mock",
     "google_benchmark_vendor", "gtest", "gtest_vendor", "libgmock-dev", "libgtest-dev",
@@ -103,7 +103,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"{name} is declared as {written} only, {wrong.why}: make it <{tag}>{name}</{tag}>",
             wrong.depends[0].span,
             name,
-            tuple(Related(f"used here: {use.what}", use.span) for use in wrong.uses[:_MOST_RELATED]),
+            several(Related(f"used here: {use.what}", use.span) for use in wrong.uses),
             Fix(f"declare {name} as <{tag}>", change_dependency(package, wrong.depends, tag, alike)),
             wrong.confidence,
         )

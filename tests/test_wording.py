@@ -1,0 +1,20 @@
+from ros_lint.rule import Related
+from ros_lint.text import Span
+from ros_lint.wording import did_you_mean, few, several
+
+
+def test_a_list_says_when_it_is_cut_short() -> None:
+    assert few(["a"]) == "a"
+    assert few(iter("abc")) == "a, b, c"
+    assert few("abcd") == "a, b, c ..."
+
+
+def test_of_many_places_the_first_are_shown() -> None:
+    places = [Related("here, too", Span("a.cpp", line, 1, line, 2)) for line in range(1, 7)]
+    assert several(iter(places)) == tuple(places[:4])
+    assert several(places[:1]) == tuple(places[:1])
+
+
+def test_what_may_be_meant() -> None:
+    assert did_you_mean([]) == ""
+    assert did_you_mean(["a", "b"]) == "; did you mean a or b?"
