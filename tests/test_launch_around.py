@@ -82,6 +82,34 @@ def generate_launch_description():
     assert [action.target and action.target.texts for action in after.actions] == [("camera",)]
 
 
+def test_the_launch_libraries_are_known_where_their_sources_are_in_the_workspace_too() -> None:
+    library = {
+        "launch/__init__.py": "from .launch_description import LaunchDescription\n",
+        "launch/launch_description.py": "class LaunchDescription:\n    def __init__(self, entities=None):\n        pass\n",
+        "launch_testing/__init__.py": "",
+        "launch_testing/actions.py": "class ReadyToTest:\n    pass\n",
+    }
+    files = {
+        "app/helpers.py": HELPER,
+        "app/__init__.py": "",
+        "launch/a.launch.py": """
+from launch import LaunchDescription
+from launch_testing.actions import ReadyToTest
+from app.helpers import start
+
+def generate_launch_description():
+    return LaunchDescription([start("camera"), ReadyToTest()])
+""",
+    }
+    package = _package("app", files, {"share/app/launch/a.launch.py": "launch/a.launch.py"}, ("app", "app.helpers"))
+    sources = _package("launch", library, {}, ("launch", "launch_testing"))
+    alone = _completed((package, files))
+    found = _completed((package, files), (sources, library))["app/launch/a.launch.py"]
+    assert found == alone["app/launch/a.launch.py"]
+    assert _named(found) == {("driver", "camera")}
+    assert not found.opaque
+
+
 def test_sibling_by_changed_path() -> None:
     files = {
         "launch/common.py": HELPER,

@@ -54,7 +54,24 @@ STEPS = 150_000
 _STEPS_A_CALL = 60_000
 _DEEPEST_CALL = 40
 
-_NEVER_WANTED = sys.stdlib_module_names | {"launch", "launch_ros", "ament_index_python", "yaml", "xacro"}
+_KNOWN = sys.stdlib_module_names | frozenset(
+    [
+        "ament_index_python",
+        "launch",
+        "launch_param_builder",
+        "launch_pytest",
+        "launch_ros",
+        "launch_testing",
+        "launch_testing_ros",
+        "launch_xml",
+        "launch_yaml",
+        "moveit_configs_utils",
+        "xacro",
+        "yaml",
+    ]
+)
+"""Libraries of which it is known what their classes and functions do. In a workspace that builds ROS itself their sources
+lie around, and say less."""
 
 Modules = Callable[[str, Text], "Text | None"]
 """Finds the text of a module by its dotted name (dots in front for a relative one), for a module that imports it."""
@@ -160,15 +177,16 @@ class Machine:
         return frame
 
     def module(self, name: str, importer: Source) -> Source | None:
-        """Return a module of the workspace, followed once; None for one of a library."""
+        """Return a module of the workspace, followed once; None for one of a library, wherever its sources are."""
+        if name.partition(".")[0] in _KNOWN:
+            return None
         key = f"{importer.text.path}:{name}" if name.startswith(".") else name
         if key in self._sources:
             return self._sources[key]
         self._sources[key] = None  # while it is followed: modules may import each other
         text = self._modules(name, importer.text)
         if text is None:
-            if name.partition(".")[0] not in _NEVER_WANTED:
-                self.wanted.add(name)
+            self.wanted.add(name)
             return None
         found = Source(text)
         try:
