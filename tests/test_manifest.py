@@ -216,6 +216,23 @@ def test_problems_name_place_and_way_out(text: str | bytes, where: str, message:
     assert (f"{span.line}:{span.column}-{span.end_line}:{span.end_column}", problem.message) == (where, message)
 
 
+@pytest.mark.parametrize(
+    ("lines", "form", "newer"),
+    [
+        ("<exec_depend>a</exec_depend>", "1", "2"),
+        ("<depend>a</depend>", "1", "2"),
+        ("<group_depend>g</group_depend>", "1", "3"),
+        ("<member_of_group>g</member_of_group>", "2", "3"),
+        ("<depend condition='$A == 1'>a</depend>", "2", "3"),
+        ("<run_depend>a</run_depend>", "3", ""),
+        ("<depend foo='1'>a</depend>", "2", ""),
+    ],
+)
+def test_problems_name_the_format_that_has_what_is_used(lines: str, form: str, newer: str) -> None:
+    (problem,) = of(with_(lines, form=form)).problems
+    assert problem.subject == newer
+
+
 def test_a_declared_encoding_that_the_tools_ignore() -> None:
     declared = '<?xml version="1.0" encoding="iso-8859-1"?>\n'
     assert kinds((declared + GOOD.replace(">m<", ">Ü<")).encode("latin-1")) == ["encoding"]

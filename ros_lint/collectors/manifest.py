@@ -204,7 +204,7 @@ def _no_package(text: Text, document: Document) -> Manifest:
 
 
 def _problems(text: Text, faults: Iterable[Fault]) -> tuple[Problem, ...]:
-    found = [Problem(fault.kind, fault.message, text.span(fault.start, fault.end)) for fault in faults]
+    found = [Problem(kind, message, text.span(start, end), subject=subject) for kind, message, start, end, subject in faults]
     return tuple(sorted(found, key=lambda problem: problem.span))
 
 

@@ -162,29 +162,31 @@ def _content(document: Document, node: Node, form: int) -> Iterator[Fault]:
 
 def _unknown_tag(node: Node, form: int) -> Fault:
     tag = node.tag
+    newer = next((str(other) for other, tags in ALLOWED.items() if other > form and tag in tags), "")
     if tag == "run_depend":
         way_out = "write <exec_depend>"
     elif tag == "exec_depend":
         way_out = 'write <run_depend>, or raise the format to "2" or "3"'
     elif tag in _OF_EXPORT:
         way_out = "move it into <export>"
-    elif form < 3 and tag in ALLOWED[3]:
-        way_out = f'raise the format to "{2 if tag in ALLOWED[2] else 3}"'
+    elif newer:
+        way_out = f'raise the format to "{newer}"'
     else:
         from difflib import get_close_matches  # noqa: PLC0415  (slow to import, and needed for a slip only)
 
         close = get_close_matches(tag, ALLOWED[form], 1, 0.75)
         way_out = f"did you mean <{close[0]}>?" if close else "remove it, or move it into <export>"
-    return Fault("unknown-tag", f"there is no <{tag}> in format {form} of package.xml; {way_out}", node.start, node.end)
+    return Fault("unknown-tag", f"there is no <{tag}> in format {form} of package.xml; {way_out}", node.start, node.end, newer)
 
 
 def _unknown_attribute(text: str, node: Node, name: str, form: int) -> Fault:
     start, _, end = attribute(text, node, name)
-    if form < 3 and name in ALLOWED[3].get(node.tag, ()):
-        message = f'the attribute {name} of <{node.tag}> needs format 3; write <package format="3">'
+    newer = next((str(other) for other, tags in ALLOWED.items() if other > form and name in tags.get(node.tag, ())), "")
+    if newer:
+        message = f'the attribute {name} of <{node.tag}> needs format {newer}; write <package format="{newer}">'
     else:
         message = f"<{node.tag}> has no attribute {name}; remove it"
-    return Fault("unknown-attribute", message, start, min(end + 1, node.inner))
+    return Fault("unknown-attribute", message, start, min(end + 1, node.inner), newer)
 
 
 def _presence(document: Document, root: Node, elements: _Elements) -> Iterator[Fault]:

@@ -34,12 +34,13 @@ _ENTITIES = {"lt": "<", "gt": ">", "amp": "&", "apos": "'", "quot": '"'}
 
 
 class Fault(NamedTuple):
-    """Something wrong with the file as XML: kind, message, and the offsets of the place."""
+    """Something wrong with the file: kind, message, the offsets of the place, and what it is about."""
 
     kind: str
     message: str
     start: int
     end: int
+    subject: str = ""
 
 
 Start = tuple[str, dict[str, str], int]

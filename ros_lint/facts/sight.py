@@ -59,4 +59,5 @@ class Problem(NamedTuple):
     instead: str = ""
     """What has taken the place of something that was right in ROS 1."""
     subject: str = ""
-    """What it is about, where a rule asks for it: a path relative to the package, the pattern of a glob, a key."""
+    """What it is about, where a rule asks for it: a path relative to the package, the pattern of a glob, a key, the format of
+    manifests that has the tag or attribute which the one that is used lacks."""

@@ -72,9 +72,9 @@ def _fix(manifest: Manifest, problem: Problem, depend: Depend | None) -> Fix | N
     if problem.kind in ("duplicate-dependency", "self-dependency") and depend:
         return Fix(f"remove <{depend.tag}>{depend.name}</{depend.tag}>", (manifest_edits.remove(manifest, depend),))
     if problem.kind == "unknown-tag":
-        return _other_tag(manifest, depend) if depend else None
-    if problem.kind == "unknown-attribute" and "needs format 3" in problem.message:
-        return _raised(manifest, 3)
+        return _other_tag(manifest, problem, depend) if depend else None
+    if problem.kind == "unknown-attribute":
+        return _raised(manifest, problem)
     if problem.kind == "invalid-version":
         return _whole_version(manifest, problem)
     if problem.kind == "bare-ampersand":
@@ -82,7 +82,7 @@ def _fix(manifest: Manifest, problem: Problem, depend: Depend | None) -> Fix | N
     return None
 
 
-def _other_tag(manifest: Manifest, depend: Depend) -> Fix | None:
+def _other_tag(manifest: Manifest, problem: Problem, depend: Depend) -> Fix | None:
     """Return the fix for a dependency tag that another format has."""
     if depend.tag == "run_depend":
         if any(_equal(depend, other) for other in manifest.depends if other.tag in ("depend", "exec_depend")):
@@ -90,18 +90,19 @@ def _other_tag(manifest: Manifest, depend: Depend) -> Fix | None:
         return Fix("write <exec_depend>", manifest_edits.change_tag(depend, "exec_depend"))
     if depend.tag == "exec_depend" and all(other.tag in _OF_FORMAT_1 for other in manifest.depends):
         return Fix("write <run_depend>", manifest_edits.change_tag(depend, "run_depend"))
-    return _raised(manifest, 3 if depend.tag in ("group_depend", "member_of_group") else 2)
+    return _raised(manifest, problem)
 
 
 def _equal(one: Depend, other: Depend) -> bool:
     return (one.name, one.condition, one.versions) == (other.name, other.condition, other.versions)
 
 
-def _raised(manifest: Manifest, form: int) -> Fix | None:
-    """Return the fix that gives the manifest a newer format, unless it has a tag that only the oldest has."""
-    if manifest.format == 1 and any(depend.tag == "run_depend" for depend in manifest.depends):
+def _raised(manifest: Manifest, problem: Problem) -> Fix | None:
+    """Return the fix that gives the manifest the format that it needs, unless it has a tag that only the oldest has."""
+    form = problem.subject
+    if not form or (manifest.format == 1 and any(depend.tag == "run_depend" for depend in manifest.depends)):
         return None
-    return Fix(f"raise the format to {form}", (manifest_edits.raise_format(manifest, form),), safe=False)
+    return Fix(f"raise the format to {form}", (manifest_edits.raise_format(manifest, int(form)),), safe=False)
 
 
 def _whole_version(manifest: Manifest, problem: Problem) -> Fix | None:
