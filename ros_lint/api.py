@@ -19,6 +19,7 @@ from ros_lint.build_scripts import (
     listed_to_install,
     may_run_built,
     node_targets,
+    place_of,
     programs_built,
     relative,
     stranded,
@@ -79,7 +80,7 @@ from ros_lint.resource_files import uninstalled as uninstalled_resources
 from ros_lint.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
 from ros_lint.strangers import Stranger, declared_names, is_near_tool, meant, strangers
 from ros_lint.suppress import Outcome
-from ros_lint.text import Span
+from ros_lint.text import Span, beginning
 from ros_lint.tree import folders_of
 from ros_lint.wording import did_you_mean, few, several
 from ros_lint.workspace import Declared, Package, Workspace, per_workspace
@@ -152,6 +153,7 @@ __all__ = [
     "advice",
     "agree",
     "astray",
+    "beginning",
     "broken_expressions",
     "called",
     "carriers",
@@ -208,6 +210,7 @@ __all__ = [
     "node_targets",
     "passed_files",
     "per_workspace",
+    "place_of",
     "programs",
     "programs_built",
     "referred",

@@ -10,6 +10,7 @@ from ros_lint.facts.build import BuildScript, Provided
 from ros_lint.facts.cmake import Call, Target
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sight import Facet, Opaque
+from ros_lint.text import Span, beginning
 from ros_lint.tree import join
 from ros_lint.workspace import Package
 
@@ -48,6 +49,11 @@ def relative(package: Package, path: str) -> str:
 def from_base(package: Package, path: str) -> str:
     """Return a path of the package relative to the base, as places have it: the reverse of :func:`relative`."""
     return join(package.path, path)
+
+
+def place_of(package: Package, path: str) -> Span:
+    """Return where to point when a file of the package as a whole is meant."""
+    return beginning(from_base(package, path))
 
 
 _PROJECT_NAME = re.compile(r"\$\{(?:PROJECT_NAME|CMAKE_PROJECT_NAME)\}")

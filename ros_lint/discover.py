@@ -22,7 +22,7 @@ from ros_lint.identify import (
     product,
 )
 from ros_lint.report import NotChecked
-from ros_lint.text import Span, read
+from ros_lint.text import beginning, read
 from ros_lint.tree import join, parent
 
 if TYPE_CHECKING:
@@ -113,7 +113,7 @@ class _Walk:
             tuple(sorted(self._packages, key=lambda found: found.path)),
             tuple(sorted(self._rejected, key=lambda manifest: manifest.path)),
             tuple(sorted(self._skipped)),
-            tuple(sorted(self._not_checked, key=lambda item: (item.span or Span("", 1, 1, 1, 1), item.what))),
+            tuple(sorted(self._not_checked, key=lambda item: (item.span or beginning(""), item.what))),
         )
 
     def _crawl(self, root: str, visited: set[str]) -> None:
@@ -302,4 +302,4 @@ def _is_below(path: str, folder: str) -> bool:
 
 
 def _unread(path: str, error: OSError) -> NotChecked:
-    return NotChecked(path or ".", error.strerror or str(error), Span(path, 1, 1, 1, 1))
+    return NotChecked(path or ".", error.strerror or str(error), beginning(path))

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from ros_lint import conditions
 from ros_lint.facts.manifest import ColconSettings
 from ros_lint.report import NotChecked
-from ros_lint.text import Span, Text, read
+from ros_lint.text import Span, Text, beginning, read
 from ros_lint.tree import join
 
 if TYPE_CHECKING:
@@ -133,7 +133,7 @@ class Folder:
 
     def cannot(self, path: str, reason: str, span: Span | None = None) -> None:
         """Note a file that could not be looked at."""
-        self.not_checked.append(NotChecked(path, reason, span or Span(path, 1, 1, 1, 1)))
+        self.not_checked.append(NotChecked(path, reason, span or beginning(path)))
 
 
 def build_type(manifest: Manifest, context: Mapping[str, str]) -> str:

@@ -33,7 +33,7 @@ from ros_lint.knowledge.index import TAG_KINDS
 from ros_lint.providers import offered
 from ros_lint.report import NotChecked, Target
 from ros_lint.suppress import Suppression
-from ros_lint.text import Span, Text
+from ros_lint.text import Text, beginning
 from ros_lint.tree import OverlayTree, Tree, join, text_of
 from ros_lint.underlay import Underlay
 from ros_lint.workspace import Declared, Package, Workspace
@@ -288,7 +288,7 @@ def _kinds(declared: Sequence[Declared]) -> dict[str, tuple[str, ...]]:
 def _unreadable(collected: Mapping[str, Collected]) -> Iterator[NotChecked]:
     for path, c in sorted(collected.items()):
         if c.unreadable:
-            yield NotChecked(path, c.unreadable, Span(path, 1, 1, 1, 1))
+            yield NotChecked(path, c.unreadable, beginning(path))
 
 
 def _failed(reads: Sequence[_Read]) -> Iterator[NotChecked]:

@@ -17,7 +17,7 @@ from ros_lint.discover import Found
 from ros_lint.facts.build import BuildScript, ScriptFile
 from ros_lint.facts.setup_py import PythonModule
 from ros_lint.facts.sight import ANYTHING, Facet, Opaque
-from ros_lint.text import Span, Text, span_in
+from ros_lint.text import Span, Text, beginning, span_in
 from ros_lint.tree import Tree, contents, folders_of, join, text_of
 
 if TYPE_CHECKING:
@@ -76,7 +76,7 @@ def _cmake(tree: Tree, parts: Parts, distro: str, helpers: dict[str, Helper]) ->
 
 def _failed(parts: Parts, reason: str) -> BuildScript:
     path = join(parts.found.path, "CMakeLists.txt" if "CMakeLists.txt" in parts.commands else "setup.py")
-    return BuildScript(path, opaque=(Opaque(ANYTHING, reason, Span(path, 1, 1, 1, 1)),), failed=True)
+    return BuildScript(path, opaque=(Opaque(ANYTHING, reason, beginning(path)),), failed=True)
 
 
 def _sources(tree: Tree, parts: Parts) -> Sources:
@@ -157,7 +157,7 @@ def _python(tree: Tree, found: Found) -> BuildScript | None:
     slots = setup_layout.collect(setup, found.name) if setup else ()
     texts = setup_texts.collect(setup) if setup else ()
     unread = [join(found.path, file) for file, text in zip(_PYTHON, texts_read, strict=True) if not text and file in found.files]
-    opaque = [Opaque(ANYTHING, "it cannot be read", Span(path, 1, 1, 1, 1)) for path in unread]
+    opaque = [Opaque(ANYTHING, "it cannot be read", beginning(path)) for path in unread]
     return script._replace(
         slots=slots,
         texts=(*script.texts, *texts),

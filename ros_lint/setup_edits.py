@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.setup_py import Slot
 from ros_lint.rule import Edit
-from ros_lint.text import Span
+from ros_lint.text import Span, beginning
 
 
 def slot(script: BuildScript, option: str) -> Slot | None:
@@ -25,7 +25,7 @@ def add(to: Slot, element: str) -> Edit:
 def place(script: BuildScript) -> Span:
     """Return where a build script says what is installed: where a rule can be added, or else where it names the package."""
     found = slot(script, "data_files")
-    return script.end or (found.end if found else script.name_span) or Span(script.path, 1, 1, 1, 1)
+    return script.end or (found.end if found else script.name_span) or beginning(script.path)
 
 
 def add_files(to: Slot, package: str, paths: Iterable[str], others: Sequence[str]) -> Edit:

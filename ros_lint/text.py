@@ -39,6 +39,11 @@ class Span(NamedTuple):
         return self.path == other.path and self[1:3] <= other[1:3] and other[3:5] <= self[3:5]
 
 
+def beginning(path: str) -> Span:
+    """Return the empty place at the beginning of a file: where to point when the file as a whole is meant."""
+    return Span(path, 1, 1, 1, 1)
+
+
 _make = tuple.__new__
 
 # Not str.splitlines: it also splits at form feeds and U+2028, which no parser here counts as a line.

@@ -13,7 +13,7 @@ from ros_lint.facts.manifest import ColconDepend, Depend, Manifest, Role
 from ros_lint.facts.sight import Facet, Opaque
 from ros_lint.facts.sources import LookUp, ParameterFile, Registration, Use
 from ros_lint.report import NotChecked, Target
-from ros_lint.text import Span
+from ros_lint.text import Span, beginning
 from ros_lint.tree import join
 
 if TYPE_CHECKING:
@@ -83,9 +83,9 @@ class Package(NamedTuple):
         if self.manifest is not None:
             return self.manifest.name_span
         if self.script is not None:
-            return Span(self.script.path, 1, 1, 1, 1)
+            return beginning(self.script.path)
         first = next((file for file in self.files if file in ("CMakeLists.txt", "setup.py", "setup.cfg")), self.files[0])
-        return Span(f"{self.path}/{first}" if self.path else first, 1, 1, 1, 1)
+        return beginning(join(self.path, first))
 
     @property
     def builds_with(self) -> str:

@@ -25,7 +25,7 @@ from ros_lint.collectors.launch_py_texts import Within, conditions_of, texts
 from ros_lint.collectors.launch_text import UNKNOWN, installed
 from ros_lint.facts.launch import LaunchAction, LaunchValue
 from ros_lint.facts.sight import Problem
-from ros_lint.text import Span
+from ros_lint.text import Span, beginning
 
 if TYPE_CHECKING:
     from ros_lint.collectors.launch_py_objects import Source
@@ -119,7 +119,7 @@ class Walker:
         if isinstance(value, (list, tuple)):
             return [action for one in value for action in self.actions(one, conditions, at)]
         if isinstance(value, Unknown) and value.reason:
-            self.blind.append((value.reason, at or Span(self._source.text.path, 1, 1, 1, 1)))
+            self.blind.append((value.reason, at or beginning(self._source.text.path)))
         return []
 
     def _made(self, made: Made, conditions: Conditions) -> list[LaunchAction]:
@@ -171,7 +171,7 @@ class Walker:
         """Note once that not everything is followed."""
         if not self._stopped:
             self._stopped = True
-            self.blind.append((reason, at or Span(self._source.text.path, 1, 1, 1, 1)))
+            self.blind.append((reason, at or beginning(self._source.text.path)))
 
     def value(self, made: Made, position: int, *names: str) -> LaunchValue | None:
         """Return an argument as a text, None when it is not there."""

@@ -34,7 +34,7 @@ from ros_lint.interpret.cmake_sources import Helper, Sources
 from ros_lint.interpret.cmake_state import STOP, Frame
 from ros_lint.interpret.cmake_values import SOURCE, is_known
 from ros_lint.knowledge.cmake_commands import macros
-from ros_lint.text import Span
+from ros_lint.text import Span, beginning
 from ros_lint.tree import join
 
 for _module in (
@@ -74,7 +74,7 @@ def evaluate(sources: Sources, distro: str = "", helpers: Mapping[str, Helper] =
     path = join(sources.path, _TOP)
     parsed = sources.scripts.get(_TOP)
     if parsed is None:
-        return BuildScript(path, opaque=(Opaque(ANYTHING, "there is no CMakeLists.txt to read", Span(path, 1, 1, 1, 1)),))
+        return BuildScript(path, opaque=(Opaque(ANYTHING, "there is no CMakeLists.txt to read", beginning(path)),))
     run.enter_directory("")
     frame = Frame(True, path, f"{SOURCE}/{_TOP}")
     try:

@@ -24,7 +24,7 @@ from ros_lint.interpret.setup_py_files import Files
 from ros_lint.interpret.setup_py_options import completed
 from ros_lint.interpret.setup_py_run import Program, Setup
 from ros_lint.interpret.setup_py_values import Value
-from ros_lint.text import Span
+from ros_lint.text import Span, beginning
 from ros_lint.tree import join
 
 if TYPE_CHECKING:
@@ -52,7 +52,7 @@ def evaluate(
     ``absolute-destination``, ``entry-point-form``, and those of :mod:`ros_lint.collectors.setup_cfg`.
     """
     first = setup_py or setup_cfg or pyproject
-    start = Span(first.path if first else join(path_prefix, "setup.py"), 1, 1, 1, 1)
+    start = beginning(first.path if first else join(path_prefix, "setup.py"))
     cfg = setup_cfg_collector.collect(setup_cfg) if setup_cfg else None
     program = Program(name, Files(files))
     if setup_py is None:

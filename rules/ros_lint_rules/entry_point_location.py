@@ -44,7 +44,7 @@ from ros_lint.api import (
     Span,
     Workspace,
     few,
-    from_base,
+    place_of,
     relative,
     setup_edits,
     several,
@@ -71,14 +71,14 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     defining = {module.name for module in script.modules if _NODES.intersection(module.names)}
     sure = any(entry.name in started or entry.module in defining for entry in nodes)
-    config = from_base(package, "setup.cfg")
+    config = place_of(package, "setup.cfg")
     there = "setup.cfg" in package.files
     names = [entry.name for entry in nodes]
     named = few(names)
     yield Finding(
         f"{named} {'land' if len(names) > 1 else 'lands'} in bin/, where ros2 run does not look; "
         f"{'say' if there else 'add a setup.cfg with'} install_scripts=$base/lib/{package.name}",
-        Span(config, 1, 1, 1, 1) if there else nodes[0].span,
+        config if there else nodes[0].span,
         "setup.cfg",
         several(Related("this entry point", entry.span) for entry in nodes[0 if there else 1 :]),
         _extended(script, package.name) if there else _fix(config, package.name),
@@ -90,9 +90,9 @@ _NODES = frozenset({"Node", "LifecycleNode"})
 """Classes that a module with a node imports by name."""
 
 
-def _fix(config: str, name: str) -> Fix:
+def _fix(config: Span, name: str) -> Fix:
     text = f"[develop]\nscript_dir=$base/lib/{name}\n[install]\ninstall_scripts=$base/lib/{name}\n"
-    return Fix("add setup.cfg", (Edit(Span(config, 1, 1, 1, 1), text),))
+    return Fix("add setup.cfg", (Edit(config, text),))
 
 
 def _extended(script: BuildScript, name: str) -> Fix | None:

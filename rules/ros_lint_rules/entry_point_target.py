@@ -38,7 +38,7 @@ from ros_lint.api import (
     Severity,
     Span,
     Workspace,
-    from_base,
+    place_of,
     similar,
 )
 
@@ -90,14 +90,13 @@ def _entry(package: Package, entry: EntryPoint, workspace: Workspace) -> Iterato
         return
     first = attribute.partition(".")[0]
     if not module.open and first not in module.names and not _is_submodule(package, name, first):
-        path = from_base(package, module.path)
         near = similar(first, module.names, 1, 0.7)
         hint = f"; is {near[0]} meant?" if near else "; define it, or take the entry point out"
         yield Finding(
             f"{entry.name}: {module.path} has no {first}{hint}",
             entry.span,
             entry.name,
-            (Related("this module", Span(path, 1, 1, 1, 1)),),
+            (Related("this module", place_of(package, module.path)),),
         )
 
 

@@ -25,7 +25,19 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ros_lint.api import Finding, Package, Provided, Related, Rule, Severity, Span, Workspace, everything, from_base, launchable
+from ros_lint.api import (
+    Finding,
+    Package,
+    Provided,
+    Related,
+    Rule,
+    Severity,
+    Workspace,
+    beginning,
+    everything,
+    from_base,
+    launchable,
+)
 
 _LAUNCH = re.compile(r"launch\.(?:py|xml|ya?ml)\Z|\.launch\Z")
 
@@ -42,12 +54,12 @@ def check(workspace: Workspace) -> Iterator[Finding]:
             paths = ", ".join(place.path.partition(f"share/{package.name}/")[2] for place in places)
             yield Finding(
                 f"{package.name} installs {name} more than once ({paths}), so ros2 launch {package.name} {name} refuses",
-                Span(sources[0], 1, 1, 1, 1),
+                beginning(sources[0]),
                 name,
                 tuple(
                     Related("installed by this", place.span)
                     if source == sources[0]
-                    else Related("the other file", Span(source, 1, 1, 1, 1))
+                    else Related("the other file", beginning(source))
                     for place, source in zip(places[1:], sources[1:], strict=True)
                 ),
                 package=package.name,

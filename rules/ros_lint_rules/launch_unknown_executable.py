@@ -40,12 +40,11 @@ from ros_lint.api import (
     Related,
     Rule,
     Severity,
-    Span,
     Workspace,
     did_you_mean,
-    from_base,
     launchable,
     near_names,
+    place_of,
     programs,
     referred,
     several,
@@ -118,7 +117,7 @@ def _lying(package: Package, name: str) -> _Missing | None:
     if not lying:
         return None
     elsewhere = any(provided.source == lying for provided in script.provides)
-    there = Related("this file", Span(from_base(package, lying), 1, 1, 1, 1))
+    there = Related("this file", place_of(package, lying))
     return _Missing(f": {lying} is not installed{f' to {own[:-1]}' if elsewhere else ''}", "", (there,))
 
 

@@ -21,7 +21,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import ANYTHING, Edit, Finding, Fix, Package, Rule, Severity, Span, Workspace, called, top_file
+from ros_lint.api import ANYTHING, Edit, Finding, Fix, Package, Rule, Severity, Workspace, beginning, called, top_file
 
 _ENDS = ("ament_package", "ament_auto_package")
 
@@ -36,7 +36,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         return
     yield Finding(
         "ament_package() is never called, so the package will not be found once it is installed; call it last",
-        next((call.place for call in called(package, "project")), Span(script.path, 1, 1, 1, 1)),
+        next((call.place for call in called(package, "project")), beginning(script.path)),
         "ament_package()",
         fix=_fix(package),
     )

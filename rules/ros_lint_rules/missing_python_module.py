@@ -41,8 +41,8 @@ from ros_lint.api import (
     Rule,
     Severity,
     Slot,
-    Span,
     Workspace,
+    beginning,
     cmake_edits,
     setup_edits,
     several,
@@ -60,7 +60,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     installed = set(script.python_packages)
     slot = setup_edits.slot(script, "packages")
-    place = slot.end if slot else (script.name_span or Span(script.path, 1, 1, 1, 1))
+    place = slot.end if slot else (script.name_span or beginning(script.path))
     beside = {provided.source.rpartition("/")[0] for provided in script.provides if provided.source.endswith(".py")}
     told: set[str] = set()
     for name, folder in _packages(package):

@@ -47,7 +47,7 @@ from ros_lint.api import (
     called,
     cmake_edits,
     few,
-    from_base,
+    place_of,
     relative,
     several,
 )
@@ -80,8 +80,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _line(package: Package, file: ScriptFile, name: str, started: bool) -> Iterator[Finding]:
     """Yield what is wrong with the interpreter line, or else with the permissions of the source."""
-    path = from_base(package, file.path)
-    place = Span(path, 1, 1, 1, 1)
+    place = place_of(package, file.path)
     if file.carriage_return:
         message = f"the first line of {file.path} ends with a carriage return, so no interpreter is found; save it with LF"
         yield Finding(message, place, file.path)
@@ -117,7 +116,7 @@ def _no_bit(package: Package, span: Span, provided: list[Provided], files: dict[
         f"use {way}",
         span,
         relative(package, provided[0].source),
-        several(Related("this script", _source(package, one)) for one in provided),
+        several(Related("this script", place_of(package, one.source)) for one in provided),
         fix,
         _confidence(package, call),
     )
@@ -128,11 +127,6 @@ def _confidence(package: Package, call: Call | None) -> Confidence:
     script = package.script
     generator = script is not None and script.extras and call is not None and call.texts[0] == "FILES"
     return Confidence.MEDIUM if generator else Confidence.HIGH
-
-
-def _source(package: Package, provided: Provided) -> Span:
-    path = from_base(package, provided.source)
-    return Span(path, 1, 1, 1, 1)
 
 
 RULE = Rule(

@@ -39,10 +39,9 @@ from ros_lint.api import (
     Related,
     Rule,
     Severity,
-    Span,
     Workspace,
     called,
-    from_base,
+    place_of,
     several,
 )
 
@@ -91,7 +90,7 @@ def _of_python(package: Package) -> Iterator[Finding]:
 
 
 def _here(package: Package, file: str) -> Related:
-    return Related("this file", Span(from_base(package, file), 1, 1, 1, 1))
+    return Related("this file", place_of(package, file))
 
 
 def _camel(stem: str) -> str:

@@ -40,13 +40,12 @@ from ros_lint.api import (
     Related,
     Rule,
     Severity,
-    Span,
     Workspace,
     cmake_edits,
     few,
     folders_of,
-    from_base,
     launchable,
+    place_of,
     setup_edits,
     several,
 )
@@ -110,7 +109,7 @@ def _finding(package: Package, folder: str, paths: Iterable[str], whole: bool) -
         f"{what}: ros2 launch will not find {'it' if len(paths) == 1 else 'them'}",
         setup_edits.place(script),
         folder or paths[0],
-        several(Related("this launch file", Span(from_base(package, path), 1, 1, 1, 1)) for path in paths),
+        several(Related("this launch file", place_of(package, path)) for path in paths),
         _fix(package, folder, paths, whole),
     )
 

@@ -37,12 +37,11 @@ from ros_lint.api import (
     Related,
     Rule,
     Severity,
-    Span,
     Workspace,
     cmake_edits,
-    from_base,
     hidden,
     is_apart,
+    place_of,
     relative,
 )
 
@@ -64,7 +63,6 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for file in script.files:
         if file.path in left or not (file.shebang and file.main) or is_apart(file.path):
             continue
-        path = from_base(package, file.path)
         forgotten = file.path in nodes and file.path.rpartition("/")[0] in with_nodes
         fix = None
         if script.end is not None:
@@ -72,7 +70,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         sure = file.run is not None or (forgotten and file.executable)
         yield Finding(
             f"{file.path} is a script, and is not installed, so ros2 run does not find it",
-            Span(path, 1, 1, 1, 1),
+            place_of(package, file.path),
             file.path,
             (Related("it is started here", file.run),) if file.run else (),
             fix,
@@ -86,7 +84,7 @@ def _of_setup(package: Package) -> Iterator[Finding]:
         if file.run is not None and file.main:
             yield Finding(
                 f"{file.path} is a program, and setup.py does not install it, so ros2 run does not find it; add an entry point",
-                Span(from_base(package, file.path), 1, 1, 1, 1),
+                place_of(package, file.path),
                 file.path,
                 (Related("it is started here", file.run),),
             )
