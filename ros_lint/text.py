@@ -34,6 +34,13 @@ class Span(NamedTuple):
         """Return the empty span at the end."""
         return Span(self.path, self.end_line, self.end_column, self.end_line, self.end_column)
 
+    def inner(self, text: str) -> Span | None:
+        """Return the place of a text that stands here, without its quotes. None where it is written in another way."""
+        quotes, odd = divmod(self.end_column - self.column - len(text), 2)
+        if self.line != self.end_line or odd or quotes not in (0, 1):
+            return None
+        return self._replace(column=self.column + quotes, end_column=self.end_column - quotes)
+
     def covers(self, other: Span) -> bool:
         """Return whether another place is within this one; it is within itself."""
         return self.path == other.path and self[1:3] <= other[1:3] and other[3:5] <= self[3:5]

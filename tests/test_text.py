@@ -86,3 +86,12 @@ def test_a_place_in_bytes_is_the_one_in_the_text() -> None:
     for word in ("ä ö", "word", "ß", "last"):
         at, start = data.index(word.encode()), text.text.index(word)
         assert span_in("a.cpp", data, at, at + len(word.encode())) == text.span(start, start + len(word))
+
+
+@pytest.mark.parametrize(
+    ("written", "found"), [('"robot"', "robot"), ("robot", "robot"), ("[[robot]]", None), ("'robots'", None), ("rob\not", None)]
+)
+def test_the_place_of_a_text_is_within_its_quotes(written: str, found: str | None) -> None:
+    text = Text("setup.py", f"name={written}")
+    place = text.span(5, 5 + len(written)).inner("robot")
+    assert (text.slice(place) if place else None) == found

@@ -110,16 +110,11 @@ def _plain(name: str) -> str:
 
 def _unmade(component: Component, alike: list[Registration]) -> Finding:
     hint = f"; the sources say {alike[0].name}" if alike else f"; add RCLCPP_COMPONENTS_REGISTER_NODE({component.name}) to one"
-    fix = None
-    span = component.span
-    if len(alike) == 1 and span.line == span.end_line:
-        quotes = (span.end_column - span.column - len(component.name)) // 2
-        if span.end_column - span.column == len(component.name) + 2 * quotes:
-            inner = span._replace(column=span.column + quotes, end_column=span.end_column - quotes)
-            fix = Fix(f"write {alike[0].name}", (Edit(inner, alike[0].name),))
+    place = component.span.inner(component.name) if len(alike) == 1 else None
+    fix = Fix(f"write {alike[0].name}", (Edit(place, alike[0].name),)) if place else None
     related = several(Related("made loadable here", one.span) for one in alike)
     subject = alike[0].name if alike else component.name
-    return Finding(f"no source makes the component {component.name} loadable{hint}", span, subject, related, fix)
+    return Finding(f"no source makes the component {component.name} loadable{hint}", component.span, subject, related, fix)
 
 
 def _library_of(package: Package, one: Registration) -> str:

@@ -120,13 +120,9 @@ def _installed_for(provided: Provided) -> tuple[str, str]:
 
 def _finding(message: str, manifest: Manifest, script: BuildScript, span: Span) -> Finding:
     fix = None
-    if span == script.name_span and span.line == span.end_line:
-        quotes = (span.end_column - span.column - len(script.name)) // 2
-        if span.end_column - span.column == len(script.name) + 2 * quotes and quotes < 2:
-            inner = span._replace(column=span.column + quotes, end_column=span.end_column - quotes)
-            # In setup.py the same variable may name folders and files that would have to be renamed, too.
-            safe = not script.path.endswith(".py")
-            fix = Fix(f"write {manifest.name}", (Edit(inner, manifest.name),), safe)
+    if span == script.name_span and (place := span.inner(script.name)):
+        # In setup.py the same variable may name folders and files that would have to be renamed, too.
+        fix = Fix(f"write {manifest.name}", (Edit(place, manifest.name),), safe=not script.path.endswith(".py"))
     if span in setup_edits.program_folders(script).values():
         fix = Fix(f"write $base/lib/{manifest.name}", setup_edits.programs_to(script, manifest.name))
     return Finding(message, span, manifest.name, fix=fix)

@@ -28,15 +28,14 @@ from collections.abc import Collection, Iterator
 from ros_lint.api import (
     ANYTHING,
     Call,
-    Edit,
     Finding,
     Fix,
     Package,
     Rule,
     Severity,
-    Span,
     Workspace,
     called,
+    cmake_edits,
     evaluated_name,
     hidden,
     similar,
@@ -82,7 +81,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             if call.name != "install" and finds_strangers and not similar(name, names, 1, 0.8):
                 continue
             reported.add(name)
-            yield _finding(f"{call.name}() of {name}, which is no target", name, names, call.span(index))
+            yield _finding(f"{call.name}() of {name}, which is no target", name, names, call, index)
     yield from _unfilled(package)
     yield from _no_libraries(package, defined)
 
@@ -101,7 +100,7 @@ def _unfilled(package: Package) -> Iterator[Finding]:
             if text == "HAS_LIBRARY_TARGET" or name is None or call.blocks or "__rosidl" in name or name in filled:
                 continue
             says = f"{call.name}() of {name}, and no install(TARGETS ... EXPORT {name}) puts a target there"
-            yield _finding(says, name, sorted(each for each in filled if each), call.span(index))
+            yield _finding(says, name, sorted(each for each in filled if each), call, index)
 
 
 def _export_set(package: Package, call: Call) -> str | None:
@@ -120,7 +119,7 @@ def _no_libraries(package: Package, defined: Collection[str]) -> Iterator[Findin
                 continue
             if name == evaluated_name(package, "${PROJECT_NAME}") or similar(name, libraries, 1, 0.9):
                 says = f"ament_export_libraries() of {name}, which is no library of this package"
-                yield _finding(says, name, libraries, call.span(index))._replace(severity=Severity.WARNING)
+                yield _finding(says, name, libraries, call, index)._replace(severity=Severity.WARNING)
 
 
 def _targets(call: Call) -> Iterator[int]:
@@ -134,14 +133,14 @@ def _targets(call: Call) -> Iterator[int]:
             yield index
 
 
-def _finding(message: str, name: str, names: list[str], span: Span) -> Finding:
+def _finding(message: str, name: str, names: list[str], call: Call, index: int) -> Finding:
     near = similar(name, names, 1, 0.8)
     fix = None
     if near:
         message += f"; is {near[0]} meant?"
-        if span.line == span.end_line and span.end_column - span.column == len(name):
-            fix = Fix(f"write {near[0]}", (Edit(span, near[0]),), safe=False)
-    return Finding(message, span, name, fix=fix)
+        if call.texts[index] == name:
+            fix = Fix(f"write {near[0]}", (cmake_edits.write(call, index, near[0]),), safe=False)
+    return Finding(message, call.span(index), name, fix=fix)
 
 
 RULE = Rule(

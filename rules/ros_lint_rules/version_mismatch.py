@@ -53,10 +53,9 @@ def _short(version: str) -> str:
 def _fix(manifest: Manifest, version: str, span: Span, place: Span) -> Fix | None:
     if manifest.version == _TEMPLATE and re.fullmatch(r"\d+\.\d+\.\d+", version):
         return Fix(f"write {version} into package.xml", (Edit(place, version),), safe=False)
-    quotes = 1 if span.path.endswith(".py") else 0
-    if span.line != span.end_line or span.end_column - span.column != len(version) + 2 * quotes:
+    inner = span.inner(version)
+    if inner is None:
         return None
-    inner = span._replace(column=span.column + quotes, end_column=span.end_column - quotes)
     return Fix(f"write {manifest.version} into {span.path.rpartition('/')[2]}", (Edit(inner, manifest.version),), safe=False)
 
 
