@@ -10,6 +10,7 @@ from ros_lint.facts.build import BuildScript, Provided
 from ros_lint.facts.cmake import Call, Target
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sight import Facet, Opaque
+from ros_lint.knowledge.cmake_commands import INSTALL_ARTIFACTS, INSTALL_TARGETS_WORDS
 from ros_lint.text import Span, beginning
 from ros_lint.tree import join
 from ros_lint.workspace import Package
@@ -30,6 +31,15 @@ def called(package: Package, *names: str, anywhere: bool = False) -> Iterator[Ca
     else:
         top = top_file(package)
         yield from (call for call in found if call.path == top)
+
+
+def installed_targets(call: Call) -> range:
+    """Return the indexes of the arguments that are names of targets, in a call of install(TARGETS) and in no other."""
+    texts = call.texts
+    if texts[:1] != ("TARGETS",):
+        return range(0)
+    words = (at for at, text in enumerate(texts) if text in INSTALL_ARTIFACTS or text in INSTALL_TARGETS_WORDS)
+    return range(1, next(words, len(texts)))
 
 
 _OWN_TARGET = re.compile(r"[^:\s]+")

@@ -14,7 +14,7 @@ from ros_lint.interpret.cmake_glob import glob_regex
 from ros_lint.interpret.cmake_run import Handler, InstalledTarget, Run
 from ros_lint.interpret.cmake_targets import output_name, real_target
 from ros_lint.interpret.cmake_values import HOLE, is_fixed, is_known, sure
-from ros_lint.knowledge.cmake_commands import VARIABLES
+from ros_lint.knowledge.cmake_commands import INSTALL_ARTIFACTS, INSTALL_TARGETS_WORDS, VARIABLES
 from ros_lint.text import Span
 from ros_lint.tree import join as join_path
 
@@ -24,16 +24,7 @@ _TYPES: Final = {
     "LOCALSTATE": "var", "RUNSTATE": "var/run", "DATA": "share", "INFO": "share/info", "LOCALE": "share/locale",
     "MAN": "share/man", "DOC": "share/doc",
 }  # fmt: skip
-_ARTIFACTS: Final = (
-    "ARCHIVE", "LIBRARY", "RUNTIME", "OBJECTS", "FRAMEWORK", "BUNDLE", "PRIVATE_HEADER", "PUBLIC_HEADER", "RESOURCE",
-    "INCLUDES", "CXX_MODULES_BMI",
-)  # fmt: skip
 _OF_TARGETS: Final = frozenset({"ARCHIVE", "LIBRARY", "RUNTIME"})
-_TARGET_WORDS: Final = {
-    "EXPORT": 1, "DESTINATION": 1, "PERMISSIONS": -1, "CONFIGURATIONS": -1, "COMPONENT": 1, "NAMELINK_COMPONENT": 1,
-    "OPTIONAL": 0, "EXCLUDE_FROM_ALL": 0, "NAMELINK_ONLY": 0, "NAMELINK_SKIP": 0, "RUNTIME_DEPENDENCIES": -1,
-    "RUNTIME_DEPENDENCY_SET": 1, "FILE_SET": 1,
-}  # fmt: skip
 _FILE_WORDS: Final = {
     "TYPE": 1, "DESTINATION": 1, "PERMISSIONS": -1, "CONFIGURATIONS": -1, "COMPONENT": 1, "RENAME": 1, "OPTIONAL": 0,
     "EXCLUDE_FROM_ALL": 0,
@@ -72,7 +63,7 @@ def _hide(run: Run, destination: str | None, reason: str) -> None:
 
 def _install(run: Run, args: list[str]) -> None:
     mode = args[0] if args else ""
-    if args[1:2] and (args[1] == "DESTINATION" or (mode == "TARGETS" and args[1] in _ARTIFACTS)):
+    if args[1:2] and (args[1] == "DESTINATION" or (mode == "TARGETS" and args[1] in INSTALL_ARTIFACTS)):
         return  # the list was empty, which CMake allows
     if mode in ("FILES", "PROGRAMS", "DIRECTORY") and (strange := next((arg for arg in args if arg in _OF_TARGETS), "")):
         run.problem("cmake-syntax", f"install({mode}) knows no {strange}, that belongs to install(TARGETS)", run.where(strange))
@@ -102,10 +93,10 @@ def _install_targets(run: Run, args: list[str]) -> None:
     room = -1
     keyword = ""
     for arg in args:
-        if arg in _ARTIFACTS:
+        if arg in INSTALL_ARTIFACTS:
             artifact, keyword = arg, arg
-        elif arg in _TARGET_WORDS:
-            keyword, room = arg, _TARGET_WORDS[arg]
+        elif arg in INSTALL_TARGETS_WORDS:
+            keyword, room = arg, INSTALL_TARGETS_WORDS[arg]
         elif not keyword:
             names.append(arg)
         elif keyword == "DESTINATION" and room:

@@ -14,6 +14,19 @@ from typing import Final, NamedTuple
 
 from ros_lint.knowledge.store import SHIPPED
 
+INSTALL_ARTIFACTS: Final = (
+    "ARCHIVE", "LIBRARY", "RUNTIME", "OBJECTS", "FRAMEWORK", "BUNDLE", "PRIVATE_HEADER", "PUBLIC_HEADER", "RESOURCE",
+    "INCLUDES", "CXX_MODULES_BMI",
+)  # fmt: skip
+"""Kinds of files of which install(TARGETS) can say for themselves where they go."""
+
+INSTALL_TARGETS_WORDS: Final[Mapping[str, int]] = {
+    "EXPORT": 1, "DESTINATION": 1, "PERMISSIONS": -1, "CONFIGURATIONS": -1, "COMPONENT": 1, "NAMELINK_COMPONENT": 1,
+    "OPTIONAL": 0, "EXCLUDE_FROM_ALL": 0, "NAMELINK_ONLY": 0, "NAMELINK_SKIP": 0, "RUNTIME_DEPENDENCIES": -1,
+    "RUNTIME_DEPENDENCY_SET": 1, "FILE_SET": 1,
+}  # fmt: skip
+"""The other words of install(TARGETS), with how many arguments each takes, -1 for any number."""
+
 VARIABLES: Final[Mapping[str, str]] = {
     "CMAKE_SOURCE_DIR": "/\1source",
     "CMAKE_CURRENT_SOURCE_DIR": "/\1source",

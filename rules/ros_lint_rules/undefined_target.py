@@ -38,6 +38,7 @@ from ros_lint.api import (
     cmake_edits,
     evaluated_name,
     hidden,
+    installed_targets,
     similar,
 )
 
@@ -50,11 +51,6 @@ _USERS = (
     "target_link_libraries",
     "target_sources",
 )
-_INSTALL_WORDS = frozenset(
-    {"EXPORT", "DESTINATION", "ARCHIVE", "LIBRARY", "RUNTIME", "INCLUDES", "OBJECTS", "COMPONENT", "PERMISSIONS", "OPTIONAL",
-     "PUBLIC_HEADER", "PRIVATE_HEADER", "RESOURCE", "CONFIGURATIONS", "FRAMEWORK", "BUNDLE", "NAMELINK_SKIP", "FILE_SET",
-     "EXCLUDE_FROM_ALL"}
-)  # fmt: skip
 _MAKERS = ("add_custom_target", "rosidl_generate_interfaces", "ament_vendor", "add_executable", "add_library")
 
 
@@ -74,7 +70,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         not workspace.world.by_cmake(call.texts[0]).known for call in called(package, "find_package", anywhere=True) if call.args
     )
     for call in called(package, *_USERS, "install"):
-        for index in _targets(call):
+        for index in installed_targets(call) if call.name == "install" else range(len(call.args[:1])):
             name = evaluated_name(package, call.texts[index])
             if name is None or call.blocks or name in defined or "::" in name or name in reported:
                 continue
@@ -120,17 +116,6 @@ def _no_libraries(package: Package, defined: Collection[str]) -> Iterator[Findin
             if name == evaluated_name(package, "${PROJECT_NAME}") or similar(name, libraries, 1, 0.9):
                 says = f"ament_export_libraries() of {name}, which is no library of this package"
                 yield _finding(says, name, libraries, call, index)._replace(severity=Severity.WARNING)
-
-
-def _targets(call: Call) -> Iterator[int]:
-    """Yield the indexes of the arguments that are names of targets."""
-    if call.name != "install":
-        yield from range(len(call.args[:1]))
-    elif call.texts[:1] == ("TARGETS",):
-        for index, text in enumerate(call.texts[1:], 1):
-            if text in _INSTALL_WORDS:
-                return
-            yield index
 
 
 def _finding(message: str, name: str, names: list[str], call: Call, index: int) -> Finding:

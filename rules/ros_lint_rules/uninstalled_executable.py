@@ -47,6 +47,7 @@ from ros_lint.api import (
     cmake_edits,
     forgotten_nodes,
     hidden,
+    installed_targets,
     left_out_nodes,
     node_targets,
     programs_built,
@@ -121,18 +122,12 @@ def _move(package: Package, span: Span, targets: tuple[BuildTarget, ...]) -> Fix
             continue
         texts = call.texts
         at = texts.index("RUNTIME") + 2 if "RUNTIME" in texts[:-2] else 0
-        if not at and all(kinds.get(text) == "executable" for text in _targets(texts)) and "DESTINATION" in texts[:-1]:
+        of_programs = all(kinds.get(texts[index]) == "executable" for index in installed_targets(call))
+        if not at and of_programs and "DESTINATION" in texts[:-1]:
             at = texts.index("DESTINATION") + 1
         if at and texts[at - 1] == "DESTINATION" and texts[at] in _BIN:
             return Fix("install it to lib/${PROJECT_NAME}", (cmake_edits.write(call, at, "lib/${PROJECT_NAME}"),), safe=False)
     return None
-
-
-def _targets(texts: tuple[str, ...]) -> Iterator[str]:
-    for text in texts[1:]:
-        if text.isupper():
-            return
-        yield text
 
 
 def _install(script: BuildScript | None, name: str) -> Fix | None:
