@@ -16,7 +16,7 @@ from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.sight import ANYTHING, Facet, Opaque
 from ros_lint.facts.sources import FileFacts
 from ros_lint.suppress import Suppression
-from ros_lint.text import Span, Text, read
+from ros_lint.text import Text, beginning, read
 from ros_lint.tree import DiskTree, RecordedTree, Tree
 
 Kind = Literal[
@@ -178,7 +178,7 @@ def _read_and_collect(tree: Tree, path: str, kind: Kind) -> Collected:
 
 def _unreadable(path: str, kind: Kind, reason: str) -> Collected:
     hides = _HIDES.get(kind, Facet.USES)
-    facts = FileFacts(path, opaque=(Opaque(hides, f"it is not read: {reason}", Span(path, 1, 1, 1, 1)),)) if hides else None
+    facts = FileFacts(opaque=(Opaque(hides, f"it is not read: {reason}", beginning(path)),)) if hides else None
     return Collected(facts, unreadable=reason)
 
 

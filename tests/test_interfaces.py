@@ -38,12 +38,8 @@ def test_fields_of_messages_services_and_actions() -> None:
 
 
 @pytest.mark.parametrize("name", ["std_msgs/msg/Header", "std_msgs/msg/sub/Header"])
-def test_too_many_slashes_are_a_problem(name: str) -> None:
-    facts = interfaces.collect(Text("a/msg/X.msg", f"{name} header\n"))
-    assert [mention.name for mention in facts.mentions] == ["std_msgs/Header"]
-    assert [(problem.kind, problem.message) for problem in facts.problems] == [
-        ("interface-type", f"{name} is no type that the generators accept; write std_msgs/Header")
-    ]
+def test_too_many_slashes_hide_no_package(name: str) -> None:
+    assert collected("a/msg/X.msg", f"{name} header\n") == [("std_msgs/Header", "a/msg/X.msg:1:1")]
 
 
 def test_idl() -> None:

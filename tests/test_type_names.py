@@ -28,7 +28,7 @@ def test_what_is_introduced() -> None:
 
 def source(name: str, files: dict[str, bytes], mentions: tuple[str, ...] = ()) -> Source:
     found = tuple(Mention(each, "include", Span("f", 1, 1, 1, 2)) for each in mentions)
-    facts = {file: FileFacts(file, found) for file in files}
+    facts = {file: FileFacts(found) for file in files}
     return Source(name, name, tuple(files), None, facts, (), "ament_cmake")
 
 

@@ -35,7 +35,7 @@ def collect(source: Text) -> FileFacts:
         included += packages
         included.sort(key=_place)
     opaque = _opaque(source, found.computed) if found.computed else ()
-    return FileFacts(source.path, tuple(included), opaque, (), registrations(source, code), files)
+    return FileFacts(tuple(included), opaque, registrations(source, code), files)
 
 
 def _opaque(source: Text, computed: list[Include]) -> tuple[Opaque, ...]:

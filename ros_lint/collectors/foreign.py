@@ -71,7 +71,7 @@ def cargo(source: Text) -> FileFacts:
     Crates of the workspace have the version ``*`` or a path, for which colcon-ros-cargo puts the installed package;
     those with another version may come from elsewhere and are optional.
     """
-    return FileFacts(source.path, tuple(_crates(source)))
+    return FileFacts(tuple(_crates(source)))
 
 
 def _crates(source: Text) -> Iterator[Mention]:
@@ -123,7 +123,6 @@ def _facts(source: Text, found: list[tuple[tuple[int, int], str]], *, optional: 
     for place, package in sorted(found):
         first.setdefault(package, place)
     return FileFacts(
-        source.path,
         tuple(
             Mention(package, "symbol", source.span(*place), source.text[place[0] : place[1]], optional)
             for package, place in first.items()

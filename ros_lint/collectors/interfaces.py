@@ -6,7 +6,6 @@ import re
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.cpp_includes import blanked
-from ros_lint.facts.sight import Problem
 from ros_lint.facts.sources import FileFacts, Mention
 
 if TYPE_CHECKING:
@@ -24,22 +23,17 @@ _IDL_STRING = re.compile(r'"(?:[^"\\\n]|\\.)*"')
 def collect(source: Text) -> FileFacts:
     """Return the foreign types that an interface file uses, as ``package/Type``; reference, section C4.5.
 
-    A .msg field names them ``package/Type``; more slashes are a problem, since the generator rejects them. An .idl
+    A .msg field names them ``package/Type``, and with more slashes, which the generator rejects, means the same. An .idl
     file includes ``package/msg/Type.idl`` and names ``package::msg::Type``, those of its own package among them.
     """
     if source.path.endswith(".idl"):
-        return FileFacts(source.path, tuple(_idl(source)))
+        return FileFacts(tuple(_idl(source)))
     matches = list(_FIELD.finditer(source.text))
     mentions: list[Mention] = []
-    problems: list[Problem] = []
     for match, span in zip(matches, source.spans([match.span(1) for match in matches]), strict=True):
         parts = match[1].split("/")
-        name = f"{parts[0]}/{parts[-1]}"
-        mentions.append(Mention(name, "interface", span, match[1]))
-        if len(parts) > 2:
-            message = f"{match[1]} is no type that the generators accept; write {name}"
-            problems.append(Problem("interface-type", message, span))
-    return FileFacts(source.path, tuple(mentions), (), tuple(problems))
+        mentions.append(Mention(f"{parts[0]}/{parts[-1]}", "interface", span, match[1]))
+    return FileFacts(tuple(mentions))
 
 
 def _idl(source: Text) -> Iterable[Mention]:

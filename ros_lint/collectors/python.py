@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from ros_lint.collectors.python_import_tree import Import, walk
 from ros_lint.collectors.python_imports import added_folders, scan
 from ros_lint.collectors.python_look_ups import Found, in_excerpt, literals, look_ups
-from ros_lint.collectors.python_syntax import NotPythonError, parse, syntax_problem
+from ros_lint.collectors.python_syntax import NotPythonError, parse
 from ros_lint.facts.sight import Facet, Opaque
 from ros_lint.facts.sources import FileFacts, Mention
 
@@ -32,8 +32,7 @@ def collect(source: Text, *, launch: bool = False) -> FileFacts:
     in the share folder of a package of which the source makes a path are ``look_ups``. With ``launch``, only imports
     are of interest: the rest is better known to who reads launch files.
 
-    A file that the interpreter cannot parse is a problem unless it is a template, Python 2 or newer Python; what its
-    lines seem to import counts as optional.
+    Of a file that the interpreter cannot parse, what its lines seem to import counts as optional.
     """
     found = scan(source.text)
     looked_up = Found() if launch else literals(source)
@@ -65,7 +64,6 @@ def collect(source: Text, *, launch: bool = False) -> FileFacts:
     if looked_up.mentions:
         mentions = sorted([*mentions, *looked_up.mentions], key=lambda mention: mention.span)
     return FileFacts(
-        source.path,
         tuple(mentions),
         (*opaque, *looked_up.opaque),
         look_ups=looked_up.files,
@@ -95,15 +93,12 @@ def _remark(item: Import, added: bool) -> str:
 
 
 def _unreadable(source: Text, error: NotPythonError) -> FileFacts:
-    problem = syntax_problem(source, error)
     spans = source.spans([match.span(1) for match in _IMPORT_LINE.finditer(source.text)])
     return FileFacts(
-        source.path,
         tuple(
             Mention(module, "import", span, f"import of {module}", optional=True)
             for span in spans
             for module in [source.slice(span)]
         ),
         (Opaque(Facet.USES, f"no Python that can be read: {error.message}", source.span(0, 0)),),
-        (problem,) if problem else (),
     )

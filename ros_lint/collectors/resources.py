@@ -67,12 +67,11 @@ def _packages(source: Text) -> FileFacts:
     for pattern in _HABITS:
         _search(pattern, text, found)
     if not found:
-        return FileFacts(source.path)
+        return FileFacts()
     looked_up = tuple(_files(source)) if sure else ()
     names = sorted(found, key=lambda name: found[name])
     spans = source.spans(found[name] for name in names)
     return FileFacts(
-        source.path,
         tuple(Mention(name, "package", span, optional=name not in sure) for name, span in zip(names, spans, strict=True)),
         look_ups=looked_up,
     )

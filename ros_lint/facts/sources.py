@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Literal, NamedTuple
 
 from ros_lint.facts.manifest import Role
-from ros_lint.facts.sight import Opaque, Problem
+from ros_lint.facts.sight import Opaque
 from ros_lint.text import Span
 
 Via = Literal["package", "cmake", "macro", "target", "include", "import", "interface", "symbol", "launch", "key"]
@@ -89,10 +89,8 @@ class Registration(NamedTuple):
 class FileFacts(NamedTuple):
     """What one source file says about other packages."""
 
-    path: str
     mentions: tuple[Mention, ...] = ()
     opaque: tuple[Opaque, ...] = ()
-    problems: tuple[Problem, ...] = ()
     registrations: tuple[Registration, ...] = ()
     look_ups: tuple[LookUp, ...] = ()
     parameters: ParameterFile | None = None
