@@ -2,11 +2,21 @@
 
 from __future__ import annotations
 
+import re
+
 TEST_FOLDERS = frozenset(
     {"test", "tests", "testing", "integration_tests", "benchmark", "benchmarks", "unit_tests", "test_data", "testdata",
      "test_resources"}
 )  # fmt: skip
 _APART = frozenset({"example", "examples", "template", "templates", "doc", "docs"})
+
+
+_OF_TESTS = re.compile(r"(?:^|_)(?:tests?|testing)(?:_|$)")
+
+
+def is_for_tests(package: str) -> bool:
+    """Return whether a package is called so that all of it serves tests."""
+    return _OF_TESTS.search(package) is not None
 
 
 def is_apart(path: str) -> bool:

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 from ros_lint import cmake_edits, conditions, manifest_edits, setup_edits
 from ros_lint.advice import Advice, advice, lacks_rule
-from ros_lint.apart import is_apart
+from ros_lint.apart import is_apart, is_for_tests
 from ros_lint.build_scripts import (
     astray,
     called,
@@ -186,6 +186,7 @@ __all__ = [
     "installs_built",
     "is_apart",
     "is_built_in_sight",
+    "is_for_tests",
     "is_library",
     "is_mostly_run",
     "is_near_tool",

@@ -44,6 +44,7 @@ from ros_lint.api import (
     cmake_edits,
     few,
     folders_of,
+    is_for_tests,
     launchable,
     place_of,
     setup_edits,
@@ -51,14 +52,13 @@ from ros_lint.api import (
 )
 
 _SUFFIX = re.compile(r"(?:[._-]?launch\.(?:py|xml|ya?ml)|\.launch)$")
-_TEST_PACKAGE = re.compile(r"(?:^|_)(?:tests?|testing)(?:_|$)")
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with not in ("ament_cmake", "ament_python"):
         return
-    if package.hidden(Facet.SHARE) or workspace.unread(package) or _TEST_PACKAGE.search(package.name):
+    if package.hidden(Facet.SHARE) or workspace.unread(package) or is_for_tests(package.name):
         return
     missing: dict[str, list[str]] = {}
     kept: set[str] = set()

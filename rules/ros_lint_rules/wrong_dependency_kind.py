@@ -35,7 +35,6 @@ Use the tag that the message names. The fix does this, and puts it among its lik
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
@@ -58,6 +57,7 @@ from ros_lint.api import (
     change_dependency,
     comes_with_launching,
     covered,
+    is_for_tests,
     is_unseen_by_name,
     needs,
     relative,
@@ -71,7 +71,6 @@ _OF_TESTS = frozenset({
     "google_benchmark_vendor", "gtest", "gtest_vendor", "libgmock-dev", "libgtest-dev",
 })  # fmt: skip
 """Who gives the libraries that tests in C++ are made of."""
-_TESTS = re.compile(r"(^|_)(tests?|testing)(_|$)")
 _BUILT = ("include", "cmake", "interface", "symbol", "macro", "target")
 _RUN = ("import", "package")
 _EXPORTED = ("include", "interface", "target")
@@ -113,7 +112,7 @@ def _wrong(package: Package, workspace: Workspace) -> Iterator[_Wrong]:
     manifest = package.manifest
     if manifest is None or manifest.problems or manifest.format == 1:
         return
-    if _TESTS.search(package.name):
+    if is_for_tests(package.name):
         return
     unguarded = unguarded_tests(package)
     said: set[str] = set()
