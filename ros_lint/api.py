@@ -6,6 +6,9 @@ from ros_lint import cmake_edits, conditions, manifest_edits, setup_edits
 from ros_lint.advice import Advice, advice, lacks_rule
 from ros_lint.apart import is_apart, is_for_tests
 from ros_lint.build_scripts import (
+    ENDS,
+    EXPORTING_PLUGINS,
+    REGISTERING,
     astray,
     called,
     evaluated_name,
@@ -91,7 +94,10 @@ if TYPE_CHECKING:  # made only where it is asked for
 
 __all__ = [
     "ANYTHING",
+    "ENDS",
+    "EXPORTING_PLUGINS",
     "PYTHON_LIKE",
+    "REGISTERING",
     "ROLES",
     "Advice",
     "Broken",

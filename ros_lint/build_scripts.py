@@ -42,6 +42,15 @@ def installed_targets(call: Call) -> range:
     return range(1, next(words, len(texts)))
 
 
+ENDS = ("ament_package", "ament_auto_package")
+"""Commands that end a package: they write down what it exports."""
+
+REGISTERING = ("rclcpp_components_register_node", "rclcpp_components_register_nodes")
+"""Commands that register components; the first argument is the library that has them."""
+
+EXPORTING_PLUGINS = "pluginlib_export_plugin_description_file"
+
+
 _OWN_TARGET = re.compile(r"[^:\s]+")
 """The name of a target that is none of another package."""
 

@@ -23,7 +23,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Finding, Package, Rule, Severity, Workspace, called
+from ros_lint.api import EXPORTING_PLUGINS, Finding, Package, Rule, Severity, Workspace, called
 
 _EXPORTS = {
     "nodelet": "nodelets are components in ROS 2",
@@ -44,7 +44,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             yield Finding(message, call.span(0), "catkin")
     for element in package.manifest.exports:
         if element.tag in _EXPORTS and not element.get("condition"):
-            done = package.script is not None and "pluginlib_export_plugin_description_file" in package.script.calls
+            done = package.script is not None and EXPORTING_PLUGINS in package.script.calls
             way = "remove it" if done else _EXPORTS[element.tag]
             yield Finding(
                 f"<{element.tag}> in the exports does nothing in ROS 2; {way}",

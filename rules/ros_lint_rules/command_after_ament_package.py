@@ -24,9 +24,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Call, Finding, Package, Related, Rule, Severity, Workspace, called
+from ros_lint.api import ENDS, EXPORTING_PLUGINS, REGISTERING, Call, Finding, Package, Related, Rule, Severity, Workspace, called
 
-_ENDS = ("ament_package", "ament_auto_package")
 _STOP = (
     "ament_environment_hooks",
     "ament_export_definitions",
@@ -39,11 +38,7 @@ _STOP = (
     "ament_vendor",
     "rosidl_generate_interfaces",
 )
-_LOST = (
-    "pluginlib_export_plugin_description_file",
-    "rclcpp_components_register_node",
-    "rclcpp_components_register_nodes",
-)
+_LOST = (EXPORTING_PLUGINS, *REGISTERING)
 
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
@@ -52,14 +47,14 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     end: Call | None = None
     # Elsewhere a macro may have found ament_lint_auto before, and a second search does nothing.
     plain = any(call.texts[:1] in (("ament_cmake",), ("ament_cmake_auto",)) for call in called(package, "find_package"))
-    ends = [call for call in called(package, *_ENDS) if not call.blocks]
-    for call in called(package, *_ENDS, *_STOP, *_LOST, "find_package"):
+    ends = [call for call in called(package, *ENDS) if not call.blocks]
+    for call in called(package, *ENDS, *_STOP, *_LOST, "find_package"):
         if call.blocks and (set(call.blocks) != {"if"} or not call.test):
             continue
         if call.name == "find_package" and (end is None or not plain):
             plain = plain and call.texts[:1] != ("ament_lint_auto",)
             continue
-        if call.name in _ENDS:
+        if call.name in ENDS:
             if ends[-1:] == [call]:  # of those before, duplicate-ament-package speaks
                 end = call
         elif end is not None and (effect := _effect(call)):

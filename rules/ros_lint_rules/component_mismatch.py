@@ -29,6 +29,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros_lint.api import (
+    REGISTERING,
     BuildScript,
     Component,
     Confidence,
@@ -52,8 +53,6 @@ from ros_lint.api import (
     several,
     similar,
 )
-
-_REGISTER = ("rclcpp_components_register_node", "rclcpp_components_register_nodes")
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -158,7 +157,7 @@ def _libraries(package: Package) -> Iterator[Finding]:
     listed = listed_to_install(package)
     elsewhere = astray(package, (".so",))
     told: set[str] = set()
-    for call in called(package, *_REGISTER):
+    for call in called(package, *REGISTERING):
         name = evaluated_name(package, call.texts[0]) if call.args else None
         if name and name not in told and not call.blocks and (place := elsewhere.get(name)):
             told.add(name)

@@ -21,16 +21,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import ANYTHING, Edit, Finding, Fix, Package, Rule, Severity, Workspace, beginning, called, top_file
-
-_ENDS = ("ament_package", "ament_auto_package")
+from ros_lint.api import ANYTHING, ENDS, Edit, Finding, Fix, Package, Rule, Severity, Workspace, beginning, called, top_file
 
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
     script = package.script
     if package.builds_with != "ament_cmake" or script is None or script.problems or "project" not in script.calls:
         return
-    if any(name in script.calls for name in _ENDS) or any(call.name in _ENDS for call in script.written):
+    if any(name in script.calls for name in ENDS) or any(call.name in ENDS for call in script.written):
         return
     if any(opaque.span.path.endswith((".txt", ".cmake")) for opaque in package.hidden(ANYTHING)):
         return

@@ -26,7 +26,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Finding, Fix, Package, Rule, Severity, Workspace, conditions, manifest_edits
+from ros_lint.api import ENDS, Finding, Fix, Package, Rule, Severity, Workspace, conditions, manifest_edits
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -53,7 +53,7 @@ def _meant(package: Package) -> str:
     """Return the build type that the scripts of a package need, or "" if that is not clear."""
     if "CMakeLists.txt" in package.files:
         calls = package.script.calls if package.script else ()
-        return "ament_cmake" if "ament_package" in calls or "ament_auto_package" in calls else ""
+        return "ament_cmake" if not set(ENDS).isdisjoint(calls) else ""
     return "ament_python" if "setup.py" in package.files else ""
 
 

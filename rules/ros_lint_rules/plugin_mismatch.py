@@ -30,6 +30,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros_lint.api import (
+    EXPORTING_PLUGINS,
     Confidence,
     Facet,
     Finding,
@@ -52,7 +53,6 @@ from ros_lint.api import (
     similar,
 )
 
-_EXPORT = "pluginlib_export_plugin_description_file"
 _SEEN = Facet.LIBRARIES | Facet.SHARE | Facet.COMPONENTS
 
 
@@ -64,8 +64,8 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     registered = [made for made in everything if not is_apart(relative(package, made.span.path))]
     names = {made.name for made in registered}
     installed = {provided.source for provided in script.provides}
-    exported = list(called(package, _EXPORT, anywhere=True))
-    if _EXPORT not in script.calls and not exported:
+    exported = list(called(package, EXPORTING_PLUGINS, anywhere=True))
+    if EXPORTING_PLUGINS not in script.calls and not exported:
         yield from _unexported(package, registered)
         # What descriptions say that nobody is told of does no harm, and many are left over from ROS 1.
         for plugin in script.plugins:
@@ -89,7 +89,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             continue  # only under a condition
         elif exported and any(one.type in names - found for library in plugin.libraries for one in library.classes):
             yield Finding(
-                f"{plugin.path} is not exported, so its plugins are not found; add {_EXPORT}(... {plugin.path})",
+                f"{plugin.path} is not exported, so its plugins are not found; add {EXPORTING_PLUGINS}(... {plugin.path})",
                 plugin.span,
                 plugin.path,
                 fix=_export(package, plugin),
@@ -120,7 +120,7 @@ def _unexported(package: Package, registered: list[Registration]) -> Iterator[Fi
     # rqt finds the plugins that the manifest exports.
     if package.manifest and any(element.get("plugin") for element in package.manifest.exports):
         return
-    way = f"{_EXPORT}(... {plugin.path})" if plugin else f"a plugin description and {_EXPORT}()"
+    way = f"{EXPORTING_PLUGINS}(... {plugin.path})" if plugin else f"a plugin description and {EXPORTING_PLUGINS}()"
     yield Finding(
         f"{first.name} is made loadable, but no plugin description is exported, so nobody finds it; add {way}",
         first.span,
@@ -141,7 +141,7 @@ def _export(package: Package, plugin: PluginFile) -> Fix | None:
     base = bases.pop()
     if not package.declares(base) and base != package.name:
         return None
-    return Fix(f"export {plugin.path}", (cmake_edits.at_end(script, f"{_EXPORT}({base} {plugin.path})"),), safe=False)
+    return Fix(f"export {plugin.path}", (cmake_edits.at_end(script, f"{EXPORTING_PLUGINS}({base} {plugin.path})"),), safe=False)
 
 
 def _libraries(package: Package, plugin: PluginFile, registered: list[Registration]) -> Iterator[Finding]:

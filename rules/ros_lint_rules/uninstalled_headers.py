@@ -32,6 +32,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from ros_lint.api import (
+    EXPORTING_PLUGINS,
+    REGISTERING,
     Call,
     Confidence,
     Facet,
@@ -53,9 +55,6 @@ from ros_lint.api import (
     several,
 )
 
-_LOADED = (
-    "pluginlib_export_plugin_description_file", "rclcpp_components_register_node", "rclcpp_components_register_nodes",
-)  # fmt: skip
 _LINKED = ("ament_export_interfaces", "ament_export_libraries", "ament_export_targets")
 _HEADERS = (".h", ".hh", ".hpp", ".hxx", ".inl", ".ipp", ".tpp")
 _FOLDERS = ("include_directories", "target_include_directories")
@@ -84,7 +83,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     exports = _exports(package)
     library = any(path.startswith("lib/lib") for path in places)
-    loaded = any(True for _ in called(package, *_LOADED, anywhere=True))
+    loaded = any(True for _ in called(package, EXPORTING_PLUGINS, *REGISTERING, anywhere=True))
     linked = library and not loaded and any(not call.blocks for call in called(package, *_LINKED))
     sure = Confidence.HIGH if exports or linked or wanted else Confidence.MEDIUM if library else Confidence.LOW
     why = ", but exported" if exports else f", and {wanted[0][0].name} includes them" if wanted else ""

@@ -28,6 +28,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros_lint.api import (
+    REGISTERING,
     BuildScript,
     BuildTarget,
     Call,
@@ -60,11 +61,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         return
     installed = {provided.target for provided in script.provides}
     listed = {text for call in called(package, "install", anywhere=True) for text in _names(package, call.texts)}
-    components = {
-        name
-        for call in called(package, "rclcpp_components_register_node", "rclcpp_components_register_nodes", anywhere=True)
-        for name in _names(package, call.texts[:1])
-    }
+    components = {name for call in called(package, *REGISTERING, anywhere=True) for name in _names(package, call.texts[:1])}
     yield from _astray(package)
     for target in script.targets:
         if target.kind != "library" or target.test or not target.sources or target.name in installed | listed | components:
