@@ -1,7 +1,6 @@
 """Whose name is it: from a header, a Python module, a CMake package or a wrong name to what can be declared.
 
-The order is always workspace, underlay, index of the distribution, maps, end of life (reference, sections C2, D6,
-E3.8).
+The order is always workspace, underlay, index of the distribution, maps (reference, sections C2, D6, E3.8).
 """
 
 from __future__ import annotations
@@ -29,8 +28,6 @@ class Providers(NamedTuple):
     keys: tuple[str, ...] = ()
     none_needed: bool = False
     """It comes with the language or the build tool."""
-    end_of_life: tuple[str, ...] = ()
-    """Distributions at their end of life that had a package of the name, when nothing else is known."""
     sure: bool = True
     """False where the packages of the distributions that use it mostly declare none of the names, or too few use it."""
 
@@ -65,9 +62,9 @@ def by_cmake(world: World, name: str) -> Providers:
     if mapped == (NOTHING_NEEDED,) and not owners:
         return _NONE_NEEDED
     found = _of(world, (*owners, name, *mapped), keys=mapped)
-    if not found.known:
-        return _gone(world, name)
-    return found if owners or found.names[0] == name else found._replace(sure=world.knowledge.names.cmake_sure(name))
+    if not found.known or owners or found.names[0] == name:
+        return found
+    return found._replace(sure=world.knowledge.names.cmake_sure(name))
 
 
 def by_macro(world: World, package: str) -> Providers:
@@ -95,14 +92,14 @@ def by_include(world: World, header: str) -> Providers:
     by_folder = second if shared else first if slash else ""
     found = _of(world, (*owners, *((by_folder,) if world.is_package(by_folder) else ()), *mapped), keys=mapped)
     if not found.known:
-        return _gone(world, first) if slash else found
+        return found
     by_map = found.names[0] in found.keys or (found.names[0] != by_folder and not owners)
     return found._replace(sure=names.header_sure(header)) if by_map else found
 
 
 def by_folder(world: World, folder: str) -> Providers:
     """Return who provides the headers below a folder that tells its package by its name."""
-    return _of(world, (folder,)) if world.is_package(folder) else _gone(world, folder)
+    return _of(world, (folder,))
 
 
 def by_import(world: World, module: str) -> Providers:
@@ -118,8 +115,7 @@ def by_import(world: World, module: str) -> Providers:
     owners = _in_underlay(world, [underlay.modules(top) for underlay in world.underlays])
     differing = names.module_packages(module, world.knowledge.distro)
     named = () if any(world.is_package(name) for name in differing) or not _has_module(world, top) else (top,)
-    found = _of(world, (*owners, *differing, *named, *keys), keys=keys)
-    return found if found.known else _gone(world, top)
+    return _of(world, (*owners, *differing, *named, *keys), keys=keys)
 
 
 def _with_released(world: World, module: str, offering: tuple[str, ...]) -> tuple[str, ...]:
@@ -196,10 +192,10 @@ def _other_names(world: World, name: str, *, python: bool) -> Iterator[Meant | N
     if python or bare != name:
         yield _first(world, [f"python3-{bare}", f"python3-{bare}-pip"], "spelling")
         yield _first(world, (*names.module_packages(bare, world.knowledge.distro), *names.module(bare)), "python")
-        yield _only(world, rosdep.installing(bare), "system")
+        yield _only(world, rosdep.installing(bare))
     else:
         yield _first(world, _libraries(names.cmake_any_case(name)), "cmake")
-    yield _only(world, rosdep.installing(name), "system")
+    yield _only(world, rosdep.installing(name))
 
 
 def _libraries(names: Iterable[str]) -> Iterator[str]:
@@ -212,9 +208,9 @@ def _first(world: World, names: Iterable[str], by: Literal["spelling", "cmake", 
     return Meant(found[0], by) if found else None
 
 
-def _only(world: World, names: Iterable[str], by: Literal["system"]) -> Meant | None:
-    found = _declarable(world, names)
-    return Meant(found[0], by) if len(found) == 1 else None
+def _only(world: World, keys: Iterable[str]) -> Meant | None:
+    found = _declarable(world, keys)
+    return Meant(found[0], "system") if len(found) == 1 else None
 
 
 def _declarable(world: World, names: Iterable[str]) -> tuple[str, ...]:
@@ -252,7 +248,3 @@ def _of(world: World, names: Iterable[str], keys: Iterable[str] = ()) -> Provide
     if as_keys and len(found) > 1:
         found.sort(key=lambda name: name in as_keys and world.knowledge.resolves(name) is False)
     return Providers(tuple(found), packages, as_keys)
-
-
-def _gone(world: World, name: str) -> Providers:
-    return Providers(end_of_life=world.knowledge.names.end_of_life(name))

@@ -80,17 +80,6 @@ class World:
             return "underlay"
         return "index" if name in self.knowledge.index else None
 
-    def layers(self, name: str) -> tuple[Layer, ...]:
-        """Return every layer that has a package, topmost first."""
-        found: list[Layer] = []
-        if name in self._members:
-            found.append("workspace")
-        if name in self._installed:
-            found.append("underlay")
-        if name in self.knowledge.index:
-            found.append("index")
-        return tuple(found)
-
     def is_package(self, name: str) -> bool:
         """Return whether any layer has a package."""
         return self._look_up(name)[0]
@@ -215,10 +204,6 @@ class World:
         """Return the plugins, as base=class."""
         return self._known(name, "plugins")
 
-    def interfaces(self, name: str) -> Known:
-        """Return the interfaces, as msg/Name."""
-        return self._known(name, "interfaces")
-
     def programs(self, name: str) -> Known:
         """Return the names in bin."""
         return self._known(name, "programs")
@@ -230,12 +215,6 @@ class World:
         if released is not None and released.interfaces and name not in known.names:
             return known._replace(names=(*known.names, name))
         return known
-
-    def share_files(self, name: str) -> Known:
-        """Return the files below share/<package>, relative to it: all for an underlay, else launch files only."""
-        if self.layer(name) == "underlay":
-            return self._installed[name].share_files
-        return self._known(name, "launch")
 
     # --- names that are none of packages --------------------------------------------------------------------------
 
