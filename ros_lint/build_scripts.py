@@ -10,6 +10,7 @@ from ros_lint.facts.build import BuildScript, Provided
 from ros_lint.facts.cmake import Call, Target
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sight import Facet, Opaque
+from ros_lint.facts.sources import Registration
 from ros_lint.knowledge.cmake_commands import INSTALL_ARTIFACTS, INSTALL_TARGETS_WORDS
 from ros_lint.text import Span, beginning
 from ros_lint.tree import join
@@ -165,6 +166,15 @@ def has_header(target: Target, files: Iterable[str]) -> bool:
 
 def _stem(path: str) -> str:
     return path.rpartition("/")[2].partition(".")[0]
+
+
+def library_of(package: Package, made: Registration) -> str:
+    """Return the library, tests aside, of which a source makes a class loadable; "" if there is none."""
+    path = relative(package, made.span.path)
+    for target in package.script.targets if package.script else ():
+        if target.kind == "library" and not target.test and path in target.sources:
+            return target.name
+    return ""
 
 
 def installs_built(script: BuildScript) -> bool:

@@ -48,6 +48,7 @@ from ros_lint.api import (
     cmake_edits,
     evaluated_name,
     is_apart,
+    library_of,
     listed_to_install,
     relative,
     several,
@@ -116,19 +117,10 @@ def _unmade(component: Component, alike: list[Registration]) -> Finding:
     return Finding(f"no source makes the component {component.name} loadable{hint}", component.span, subject, related, fix)
 
 
-def _library_of(package: Package, one: Registration) -> str:
-    script = package.script
-    path = relative(package, one.span.path)
-    for target in script.targets if script else ():
-        if path in target.sources and target.kind == "library" and not target.test:
-            return target.name
-    return ""
-
-
 def _unregistered(package: Package, one: Registration, *, started: bool) -> Finding:
     script = package.script
     assert script is not None
-    library = _library_of(package, one)
+    library = library_of(package, one)
     fix = None
     if library and script.end is not None and "rclcpp_components" in _found(package):
         line = f'rclcpp_components_register_nodes({library} "{one.name}")'

@@ -48,6 +48,7 @@ from ros_lint.api import (
     cmake_edits,
     hidden,
     is_apart,
+    library_of,
     relative,
     several,
     similar,
@@ -96,15 +97,6 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             )
 
 
-def _is_built(package: Package, made: Registration) -> bool:
-    """Whether a registration is in a source of a library that is no test."""
-    script = package.script
-    path = relative(package, made.span.path)
-    return script is not None and any(
-        target.kind == "library" and not target.test and path in target.sources for target in script.targets
-    )
-
-
 def _builds_libraries(package: Package) -> bool:
     return package.script is not None and any(target.kind == "library" and target.sources for target in package.script.targets)
 
@@ -129,7 +121,7 @@ def _unexported(package: Package, registered: list[Registration]) -> Iterator[Fi
         + ((Related("it is described here", plugin.span),) if plugin else ()),
         _export(package, plugin) if plugin else None,
         # Sources that nothing compiles may be left over; where there is no library at all, it is yet to be added.
-        confidence=Confidence.HIGH if _is_built(package, first) or not _builds_libraries(package) else Confidence.MEDIUM,
+        confidence=Confidence.HIGH if library_of(package, first) or not _builds_libraries(package) else Confidence.MEDIUM,
     )
 
 
