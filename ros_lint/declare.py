@@ -106,14 +106,26 @@ def works_unseen(package: Package, workspace: Workspace, name: str) -> bool:
 
 
 def _only_brings(world: World, name: str) -> bool:
-    """Whether a released package is a metapackage: it says so, or has nothing but what it brings to be run."""
+    """Whether a released package is a metapackage: it says so, or has nothing but what it brings to be run.
+
+    Or it has the name of its repository and brings mostly others from there: some declare these by ``<depend>``.
+    """
     released = world.released(name)
     if released is None or "m" in released.flags[1:]:
         return released is not None
-    if released.build_type != "ament_cmake" or released.interfaces or not released.on("x") or released.on("beu"):
+    brought = released.on("x")
+    if released.build_type != "ament_cmake" or released.interfaces or not brought:
+        return False
+    if released.on("beu") and not (released.repository == name and _are_of(world, name, brought)):
         return False
     known = (world.executables, world.launch_files, world.components, world.plugins, world.python_modules, world.programs)
     return not any(provides(name).names or provides(name).maybe for provides in known)
+
+
+def _are_of(world: World, repository: str, names: Sequence[str]) -> bool:
+    """Whether most of some names are released packages of a repository."""
+    found = [world.released(name) for name in names]
+    return 2 * sum(each.repository == repository for each in found if each) > len(names)
 
 
 def is_mostly_run(workspace: Workspace, name: str) -> bool:
