@@ -78,15 +78,17 @@ def _entry(package: Package, entry: EntryPoint, workspace: Workspace) -> Iterato
     name, attribute = match[1], match[2]
     module = next((module for module in script.modules if module.name == name), None)
     if attribute is None:
-        if runs:
+        missing = list(_no_module(package, entry, name, "main", workspace)) if runs and module is None else []
+        if missing:
+            yield missing[0]._replace(fix=None)  # a module that exists is not all that the entry lacks
+        elif runs:
             way_out = f"write {name}:main"
             if module is not None and not module.open and "main" not in module.names:
                 way_out = f"{module.path} has no main, so define one there and {way_out}"
             yield Finding(f"{entry.name} names a module and no function; {way_out}", entry.span, entry.name)
         return
     if module is None:
-        if not workspace.unread(package):
-            yield from _no_module(package, entry, name, attribute, workspace)
+        yield from _no_module(package, entry, name, attribute, workspace)
         return
     first = attribute.partition(".")[0]
     if not module.open and first not in module.names and not _is_submodule(package, name, first):
@@ -108,7 +110,7 @@ def _is_submodule(package: Package, module: str, name: str) -> bool:
 def _no_module(package: Package, entry: EntryPoint, name: str, function: str, workspace: Workspace) -> Iterator[Finding]:
     """Speak of a module that is not in the sources, if it must be one of the package's own."""
     script = package.script
-    if script is None or name in script.python_packages or package.hidden(Facet.PYTHON):
+    if script is None or name in script.python_packages or package.hidden(Facet.PYTHON) or workspace.unread(package):
         return
     tops = {module.partition(".")[0] for module in script.python_packages}
     own = name.partition(".")[0]
@@ -116,7 +118,7 @@ def _no_module(package: Package, entry: EntryPoint, name: str, function: str, wo
     taken = {other.target for other in script.entry_points}  # no two programs are the same one
     files = {file[:-3].replace("/", ".") for file in package.files if file.endswith(".py") and file.partition("/")[0] in tops}
     known = sorted(files.union(script.python_packages))  # whether they are installed is told of each folder
-    modules = [module for module in known if "." in module and f"{module}:{function}" not in taken]
+    modules = [module for module in known if "." in module and taken.isdisjoint((module, f"{module}:{function}"))]
     near = similar(name, modules, 1, 0.9)
     if own not in tops and own != package.name and not similar(own, [*tops, package.name], 1, 0.85):
         # The name of a package that was copied, before a module that is here.
