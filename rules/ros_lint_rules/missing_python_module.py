@@ -16,8 +16,9 @@ ModuleNotFoundError.
 ## How to fix it
 
 `packages=find_packages(exclude=['test'])`, or name the sub-package: `packages=[package_name, package_name + '.sub']`. The
-fix adds it to the list. For a program, make the module part of a Python package (`ament_python_install_package()`), or
-install it beside the program. In `CMakeLists.txt`: `ament_python_install_package(${PROJECT_NAME})`, which the fix adds.
+fix adds it to the list. A folder without `__init__.py` needs one, too. For a program, make the module part of a Python package
+(`ament_python_install_package()`), or install it beside the program. In `CMakeLists.txt`:
+`ament_python_install_package(${PROJECT_NAME})`, which the fix adds.
 
 ## When it keeps silent
 
@@ -82,7 +83,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         entry = next(entry for entry in script.entry_points if entry.module == module.name)
         folder = module.path.rpartition("/")[0]
         whole = f"{folder}/__init__.py" in package.files
-        way = "" if whole else f"; add {folder}/__init__.py"
+        listed = f", and {inside} to packages" if slot else ""  # find_packages() finds it by itself then
+        way = "" if whole else f"; add {folder}/__init__.py{listed}"
         yield Finding(
             f"{entry.name} needs {module.path}, and {inside} is not among the packages that are installed{way}",
             entry.span,
