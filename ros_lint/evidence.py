@@ -82,6 +82,8 @@ _INTERFACES = re.compile(r"[a-z][a-z0-9_]*[./](?:msg|srv|action)(?:[./]|\Z)")
 """Headers and modules of messages: only packages of ROS have them, whoever has the package."""
 _OF_TESTS = ("gtest/", "gmock/")
 """Headers that a header without a source of its own can include for nobody but tests."""
+_ELSEWHERE: Mapping[str, str] = {"gtest": "googletest", "gmock": "googletest"}
+"""The repository that folders of headers come from, where that has another name: whoever brings it along calls it so."""
 
 
 class Resolver:
@@ -256,13 +258,19 @@ class _Uses:
                 spared = spared or self._is_spared(name, span, providers[0])
                 known = known and name.partition(".")[0] not in self._absent
             elif self._absent and known:
-                known = self.resolver.names.is_package(providers[0]) or self._absent.isdisjoint(_WORD.findall(name))
+                known = self._is_here(name, providers[0])
             if not known and providers[0] in self._found_always and _INTERFACES.match(name):
                 known = True  # no left-over: without it nothing is built
             by: Via = "macro" if purpose == "helper" else via
             found[span, providers[0], by] = _make(
                 Use, (providers[0], providers, needed, what or usual, by, spared, span, sure and known, name)
             )
+
+    def _is_here(self, name: str, best: str) -> bool:
+        """Whether no submodule that is not cloned may bring a header or a library."""
+        if _ELSEWHERE.get(name.partition("/")[0]) in self._absent:
+            return False
+        return self.resolver.names.is_package(best) or self._absent.isdisjoint(_WORD.findall(name))
 
     def _is_spared(self, name: str, span: Span, best: str) -> bool:
         """Whether a module can be missing, or be what nobody knows: elsewhere in the package its absence is allowed for."""
@@ -275,7 +283,8 @@ class _Uses:
         if not self._bundled:
             return False
         path = header.lower()
-        return path.partition("/")[0] in self._bundled or path.rpartition(".")[0] in self._bundled
+        folder = path.partition("/")[0]
+        return not self._bundled.isdisjoint((folder, _ELSEWHERE.get(folder, folder), path.rpartition(".")[0]))
 
     def _is_own_module(self, name: str, path: str) -> bool:
         top = name.partition(".")[0]

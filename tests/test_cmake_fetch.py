@@ -71,3 +71,13 @@ def test_nobody_knows_where_a_project_lies_that_is_fetched() -> None:
     assert script is not None
     assert script.problems == ()
     assert "add_subdirectory() of a folder that is not in sight" in {opaque.reason for opaque in script.opaque}
+
+
+def test_what_is_built_while_cmake_configures_is_no_need() -> None:
+    build = "execute_process(COMMAND ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_SOURCE_DIR}/part_msgs -B b)\n"
+    lines = "find_package(part_msgs REQUIRED)\ntarget_link_libraries(r part_msgs::part_msgs)"
+    files = {"package.xml": MANIFEST, "r.cpp": "#include <part_msgs/msg/part.hpp>\n", "part_msgs/CMakeLists.txt": ""}
+    for before, needs in ((build, set()), ("", {"part_msgs"})):
+        script = f"project(robot)\nfind_package(ament_cmake REQUIRED)\nadd_library(r r.cpp)\n{before}{lines}\nament_package()\n"
+        tree = MemoryTree({f"robot/{path}": text for path, text in {**files, "CMakeLists.txt": script}.items()})
+        assert uses(Loader(tree, ("",), Target("jazzy", "test")).load().packages[0]) == needs

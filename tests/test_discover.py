@@ -149,6 +149,7 @@ def test_files_are_those_below_without_nested_packages_and_skipped_folders() -> 
     ("scripts", "part"),
     [
         ({"p/CMakeLists.txt": "add_subdirectory(lib/inner)"}, True),
+        ({"p/CMakeLists.txt": "add_rosidl_subdirectory(lib/inner)"}, True),
         ({"p/CMakeLists.txt": 'ADD_SUBDIRECTORY( "${CMAKE_CURRENT_SOURCE_DIR}/./lib/inner/" EXCLUDE_FROM_ALL)'}, True),
         ({"p/CMakeLists.txt": "add_subdirectory(lib)", "p/lib/CMakeLists.txt": "add_subdirectory(inner)"}, True),
         ({"p/CMakeLists.txt": "# add_subdirectory(lib/inner)"}, False),

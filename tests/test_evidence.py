@@ -319,6 +319,10 @@ def test_what_comes_from_folders_that_are_not_there_is_not_sure() -> None:
     workspace = load({**files, ".gitmodules": '[submodule "x"]\n\tpath = talker/deps/json\n'})
     assert [use.sure for use in uses(workspace, "nlohmann-json-dev")] == [False, False]
     assert [use.sure for use in uses(workspace, "yaml-cpp")] == [True]
+    files = cmake("talker", "", "add_library(r r.cpp)", r_dot_cpp="#include <gtest/gtest_prod.h>\n")
+    workspace = load({**files, ".gitmodules": '[submodule "x"]\n\tpath = talker/deps/googletest\n'})
+    assert [use.sure for use in uses(workspace, "ament_cmake_gtest")] == [False]
+    assert [use.sure for use in uses(load(files), "ament_cmake_gtest")] == [True]
 
 
 def test_what_is_installed_to_be_started_is_no_test_whatever_its_name() -> None:

@@ -27,7 +27,7 @@ _PKG_CONFIG = re.compile(
     re.IGNORECASE,
 )
 _SUBDIRECTORY = re.compile(
-    r"""\badd_subdirectory\s*\(\s*"?(?:\$\{(?:CMAKE_CURRENT|PROJECT|CMAKE)_(?:SOURCE|LIST)_DIR\}/)?(?:\./)*([^\s"$)]+?)/*["\s)]""",
+    r"""\badd_(?:\w+_)?subdirectory\s*\(\s*"?(?:\$\{(?:CMAKE_CURRENT|PROJECT|CMAKE)_(?:SOURCE|LIST)_DIR\}/)?(?:\./)*([^\s"$)]+?)/*["\s)]""",
     re.IGNORECASE,
 )
 _WORD = re.compile(r"\S+")
@@ -66,7 +66,10 @@ def depends(text: Text) -> tuple[ColconDepend, ...]:
 
 
 def subdirectories(text: Text) -> frozenset[str]:
-    """Return the folders that a ``CMakeLists.txt`` takes into its build, as literally written, relative to it."""
+    """Return the folders that a ``CMakeLists.txt`` takes into its build, as literally written, relative to it.
+
+    Functions that wrap add_subdirectory() are called like it, with a word put in.
+    """
     return frozenset(match[1] for match in _SUBDIRECTORY.finditer(_Bare(text).content))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import posixpath
 import re
 from functools import lru_cache
 from typing import Final
@@ -242,6 +243,10 @@ def _set_last_unknown(run: Run, args: list[str]) -> None:
 
 
 def _execute_process(run: Run, args: list[str]) -> None:
+    """``execute_process(COMMAND cmake -S folder ...)`` and others: a project among the sources is built along then."""
+    folder = run.source(args[args.index("-S") + 1]) if "-S" in args[:-1] else None
+    if folder and run.is_folder(folder) and not run.muted:
+        run.bundled[posixpath.basename(folder)] = None
     for keyword in ("RESULT_VARIABLE", "OUTPUT_VARIABLE", "ERROR_VARIABLE", "RESULTS_VARIABLE"):
         for index in range(len(args) - 1):
             if args[index] == keyword:

@@ -18,7 +18,8 @@ empty `COLCON_IGNORE` beside its manifest.
 ## When it keeps silent
 
 - The folder, or one between the two, has `COLCON_IGNORE`, `AMENT_IGNORE` or `CATKIN_IGNORE`.
-- A `CMakeLists.txt` of the outer package takes the folder in with `add_subdirectory()`: it is a part of that package then.
+- A `CMakeLists.txt` of the outer package takes the folder in with `add_subdirectory()`, or with a function of its own that is
+  called like it (`add_rosidl_subdirectory()`): it is a part of that package then.
 - The nested manifest would be rejected anyway, or has no build script beside it.
 - In folders of tests, templates, examples or vendored code the confidence is medium: such manifests are mostly data. So it is
   where a file of the outer package cannot be read.
