@@ -92,6 +92,11 @@ def program_folders(script: BuildScript) -> dict[str, Span]:
     return {text.text: text.span for text in script.texts if text.kind == "option" and text.text in wanted}
 
 
+def config(place: Span, package: str) -> Edit:
+    """Write a setup.cfg where there is none, so that programs go to ``lib/<package>``."""
+    return Edit(place, "".join(f"[{section}]\n{option}=$base/lib/{package}\n" for section, option in _FOLDERS))
+
+
 def programs_to(script: BuildScript, package: str) -> tuple[Edit, ...]:
     """Add to a setup.cfg what it lacks so that programs go to ``lib/<package>``, and change what it says else.
 

@@ -31,9 +31,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros_lint.api import (
-    BuildScript,
     Confidence,
-    Edit,
     Facet,
     Finding,
     Fix,
@@ -41,7 +39,6 @@ from ros_lint.api import (
     Related,
     Rule,
     Severity,
-    Span,
     Workspace,
     few,
     place_of,
@@ -73,6 +70,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     sure = any(entry.name in started or entry.module in defining for entry in nodes)
     config = place_of(package, "setup.cfg")
     there = "setup.cfg" in package.files
+    edits = setup_edits.programs_to(script, package.name) if there else (setup_edits.config(config, package.name),)
     names = [entry.name for entry in nodes]
     named = few(names)
     yield Finding(
@@ -81,23 +79,13 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         config if there else nodes[0].span,
         "setup.cfg",
         several(Related("this entry point", entry.span) for entry in nodes[0 if there else 1 :]),
-        _extended(script, package.name) if there else _fix(config, package.name),
+        Fix(f"{'complete' if there else 'add'} setup.cfg", edits) if edits else None,
         Confidence.HIGH if sure else Confidence.MEDIUM,
     )
 
 
 _NODES = frozenset({"Node", "LifecycleNode"})
 """Classes that a module with a node imports by name."""
-
-
-def _fix(config: Span, name: str) -> Fix:
-    text = f"[develop]\nscript_dir=$base/lib/{name}\n[install]\ninstall_scripts=$base/lib/{name}\n"
-    return Fix("add setup.cfg", (Edit(config, text),))
-
-
-def _extended(script: BuildScript, name: str) -> Fix | None:
-    edits = setup_edits.programs_to(script, name)
-    return Fix("complete setup.cfg", edits) if edits else None
 
 
 RULE = Rule(
