@@ -19,10 +19,8 @@ class Launchable(NamedTuple):
     path: str
     """Relative to the package."""
     installed: bool
-    apart: bool = False
-    """Whether it is a test, an example or a template."""
     run: bool = True
-    """Whether somebody runs it: people, unless it is apart; the tests of the package."""
+    """Whether somebody runs it: people, unless it is a test, an example or a template; the tests of the package."""
 
 
 def launchable(package: Package, *, apart: bool = False) -> Iterator[Launchable]:
@@ -41,7 +39,7 @@ def launchable(package: Package, *, apart: bool = False) -> Iterator[Launchable]
         # What is merely called a test, and always installed, is for people to start.
         aside = file.test or (lies_apart(path) if is_installed and not installed.get(path) else is_apart(path))
         if apart or not aside:
-            yield Launchable(file, path, is_installed, aside, not aside or path in tests)
+            yield Launchable(file, path, is_installed, not aside or path in tests)
 
 
 def referred(package: Package, kinds: Container[str], *, apart: bool = False) -> dict[tuple[str, str], list[LaunchReference]]:

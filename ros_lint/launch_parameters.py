@@ -10,7 +10,7 @@ from ros_lint.launch_links import defaults_of, everything, filled, installed_bel
 if TYPE_CHECKING:
     from ros_lint.facts.launch import LaunchAction, LaunchFile, LaunchValue
     from ros_lint.facts.sources import ParameterFile
-    from ros_lint.workspace import Package, Workspace
+    from ros_lint.workspace import Workspace
 
 
 class Given(NamedTuple):
@@ -20,8 +20,6 @@ class Given(NamedTuple):
     value: LaunchValue
     """What names the file."""
     file: ParameterFile
-    owner: Package
-    """The package that installs it."""
     names: tuple[str, ...]
     """What the node can be called; () when the launch file does not say."""
     namespaces: tuple[str, ...]
@@ -33,12 +31,12 @@ class ParameterFiles:
 
     def __init__(self, workspace: Workspace) -> None:
         self._links = workspace.links
-        self._by_path: dict[tuple[str, str], tuple[ParameterFile, Package] | None] = {}
+        self._by_path: dict[tuple[str, str], ParameterFile | None] = {}
         for package in workspace.packages:
             for file, path in installed_below_share(package, package.parameter_files):
                 key = (package.name, path)
                 # Where one of two is installed, nobody knows which.
-                self._by_path[key] = None if key in self._by_path else (file, package)
+                self._by_path[key] = None if key in self._by_path else file
 
     def given(self, file: LaunchFile) -> Iterator[Given]:
         """Yield the parameter files that a launch file gives to nodes, as far as it is clear which these are."""
@@ -54,4 +52,4 @@ class ParameterFiles:
                 found = self._by_path.get(place) if place is not None else None
                 if found is not None:
                     names, namespaces = filled(action.name, defaults), filled(action.namespace, defaults)
-                    yield Given(action, value, *found, names, namespaces or ("",))
+                    yield Given(action, value, found, names, namespaces or ("",))

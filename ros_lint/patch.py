@@ -6,13 +6,13 @@ import difflib
 import re
 
 
-def unified(path: str, before: str | None, after: str, context: int = 1) -> str:
-    """Return the difference of two texts of a file, with lines of context around each change. Line ends are kept.
+def unified(path: str, before: str | None, after: str) -> str:
+    """Return the difference of two texts of a file, with a line of context around each change. Line ends are kept.
 
     ``before`` is None for a file that comes into being.
     """
     old = "/dev/null" if before is None else f"a/{path}"
-    lines = difflib.unified_diff(_lines(before or ""), _lines(after), old, f"b/{path}", n=context)
+    lines = difflib.unified_diff(_lines(before or ""), _lines(after), old, f"b/{path}", n=1)
     return "".join(line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n" for line in lines)
 
 

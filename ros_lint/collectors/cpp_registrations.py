@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from ros_lint.collectors.cpp_includes import blanked, in_doubt
 from ros_lint.facts.sources import Registration
@@ -28,9 +28,9 @@ def registrations(source: Text, code: Sequence[int] = ()) -> tuple[Registration,
     found = []
     for match, span in zip(matches, spans, strict=True):
         name, _, base = (part.strip() for part in match[2].partition(","))
-        kind = "component" if match[1].startswith("RCLCPP") else "plugin"
+        kind: Literal["component", "plugin"] = "component" if match[1].startswith("RCLCPP") else "plugin"
         if name and (base or kind == "component"):
-            found.append(Registration("component" if kind == "component" else "plugin", _plain(name), _plain(base), span))
+            found.append(Registration(kind, _plain(name), span))
     return tuple(found)
 
 

@@ -42,7 +42,7 @@ from ros_lint.collectors.launch_py_objects import (
     plain,
     union,
 )
-from ros_lint.collectors.launch_py_operations import negated, text_of
+from ros_lint.collectors.launch_py_operations import text_of
 from ros_lint.collectors.launch_py_statements import LEAVE, execute
 from ros_lint.collectors.launch_py_texts import Within, texts
 from ros_lint.collectors.launch_text import UNKNOWN, fill, is_settled, joined
@@ -394,9 +394,6 @@ class Machine:
 
     def texts(self, value: Value) -> tuple[str, ...]:
         return texts(value, Within(self.spend))
-
-    def negated(self, value: Value) -> Value:
-        return negated(self, value)
 
 
 def _says(node: ast.expr, text: str) -> bool:

@@ -38,7 +38,6 @@ class Option(NamedTuple):
 class SetupCfg(NamedTuple):
     """A ``setup.cfg``, as far as it can be read."""
 
-    path: str
     options: tuple[Option, ...]
     problems: tuple[Problem, ...]
     texts: tuple[WrittenText, ...] = ()
@@ -106,4 +105,4 @@ def collect(source: Text) -> SetupCfg:
     close()
     texts += [WrittenText("option", f"{option.section}.{option.key}", option.lines[0].span) for option in options if option.lines]
     texts.append(WrittenText("section", "", last))
-    return SetupCfg(source.path, tuple(options), tuple(problems), tuple(texts))
+    return SetupCfg(tuple(options), tuple(problems), tuple(texts))

@@ -18,7 +18,7 @@ from ros_lint.interpret.launch_expand import Expansion, expand
 from ros_lint.opening import Opened, UsageError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from ros_lint.facts.launch import LaunchFile
     from ros_lint.workspace import Workspace
@@ -49,7 +49,7 @@ def run(said: Mapping[str, Any]) -> int:
     return ask({**said, "paths": paths}, answered)
 
 
-def understood(words: Sequence[str], is_file: Any = os.path.isfile) -> Asked:
+def understood(words: Sequence[str], is_file: Callable[[str], bool]) -> Asked:
     """Return what the words mean: FILE or PACKAGE FILE, and arguments, as ``ros2 launch`` takes them. Raises UsageError."""
     places = [word for word in words if ":=" not in word]
     given: dict[str, str] = {}

@@ -59,11 +59,6 @@ class Call(NamedTuple):
     def whole(self) -> Span:
         return Span(self.path, self.line, self.column, *self._position(self.end))
 
-    @property
-    def close(self) -> Span:
-        """The empty span before the closing parenthesis."""
-        return Span(self.path, *self._position(self.end - 1), *self._position(self.end - 1))
-
     def span(self, index: int) -> Span:
         """Return the place of an argument, quotes included."""
         _, _, start, end = self.args[index]

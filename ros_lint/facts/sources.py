@@ -81,8 +81,6 @@ class Registration(NamedTuple):
     kind: Literal["component", "plugin"]
     name: str
     """The class as written, without a leading ``::``."""
-    base: str
-    """The base class of a plugin, "" for a component."""
     span: Span
 
 

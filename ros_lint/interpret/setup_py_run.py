@@ -175,8 +175,8 @@ class Program(Expressions):
             case ast.FunctionDef(name=name) | ast.AsyncFunctionDef(name=name):
                 decorated = Unknown(f"the decorator of {name}() is not followed", statement)
                 self.assign(name, decorated if statement.decorator_list else self.function(statement))
-            case ast.ClassDef(name=name, bases=bases):
-                self.assign(name, Class(name, tuple(at(base) for base in bases)))
+            case ast.ClassDef(name=name):
+                self.assign(name, Class(name))
             case ast.Import() | ast.ImportFrom():
                 self._import(statement)
             case ast.Return(value=value):

@@ -93,7 +93,6 @@ class Class(NamedTuple):
     """A class of setup.py, or one that it imports: known by name only."""
 
     name: str
-    bases: tuple[str, ...]
 
 
 def certain(value: Value) -> bool:
