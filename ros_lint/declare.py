@@ -13,6 +13,7 @@ from ros_lint.rule import Edit
 from ros_lint.workspace import Package, Workspace
 
 if TYPE_CHECKING:
+    from ros_lint.knowledge.index import Released
     from ros_lint.world import World
 
 
@@ -102,30 +103,36 @@ def works_unseen(package: Package, workspace: Workspace, name: str) -> bool:
     mine = workspace.by_name.get(name, ())
     if mine:
         return any(_gives_macros(each) or not makes_something(each) for each in mine)
-    return _only_brings(world, name)
+    return _only_brings(world, name) or _stands_for_others(package, world, name)
 
 
 def _only_brings(world: World, name: str) -> bool:
-    """Whether a released package is a metapackage: it says so, or has nothing but what it brings to be run.
-
-    Or it has the name of its repository and brings mostly others from there: some declare these by ``<depend>``.
-    """
+    """Whether a released package is a metapackage: it says so, or has nothing but what it brings to be run."""
     released = world.released(name)
     if released is None or "m" in released.flags[1:]:
         return released is not None
-    brought = released.on("x")
-    if released.build_type != "ament_cmake" or released.interfaces or not brought:
+    return bool(released.on("x")) and not released.on("beu") and _offers_nothing(world, released)
+
+
+def _stands_for_others(package: Package, world: World, name: str) -> bool:
+    """Whether a released metapackage that declares its members by ``<depend>`` brings one that the package uses.
+
+    It has the name of its repository, and what it brings is mostly from there.
+    """
+    released = world.released(name)
+    if released is None or released.repository != name or not _offers_nothing(world, released):
         return False
-    if released.on("beu") and not (released.repository == name and _are_of(world, name, brought)):
+    brought = released.on("x")
+    members = {each for each in brought if (found := world.released(each)) and found.repository == name}
+    return 2 * len(members) > len(brought) and any(use.package in members for use in package.uses)
+
+
+def _offers_nothing(world: World, released: Released) -> bool:
+    """Whether nothing is known that a package of ament_cmake installs."""
+    if released.build_type != "ament_cmake" or released.interfaces:
         return False
     known = (world.executables, world.launch_files, world.components, world.plugins, world.python_modules, world.programs)
-    return not any(provides(name).names or provides(name).maybe for provides in known)
-
-
-def _are_of(world: World, repository: str, names: Sequence[str]) -> bool:
-    """Whether most of some names are released packages of a repository."""
-    found = [world.released(name) for name in names]
-    return 2 * sum(each.repository == repository for each in found if each) > len(names)
+    return not any(provides(released.name).names or provides(released.name).maybe for provides in known)
 
 
 def is_mostly_run(workspace: Workspace, name: str) -> bool:
