@@ -51,6 +51,8 @@ class Skipped(NamedTuple):
 
     path: str
     reason: str
+    link: bool = False
+    """Whether it is a link that is not followed, for what is behind it is met elsewhere or does not belong here."""
 
 
 class Found(NamedTuple):
@@ -132,7 +134,7 @@ class _Walk:
                     target = self._tree.identity(child) if link else join(identity, name)
                     if link and target != self._base and _is_below(self._base, target):
                         # colcon would go through everything around the workspace, and be it the whole disk.
-                        self._skipped.append(Skipped(child, "a link to a folder that the workspace lies in"))
+                        self._skipped.append(Skipped(child, "a link to a folder that the workspace lies in", link=True))
                     else:
                         todo.append((child, target))
 
@@ -232,16 +234,14 @@ class _Files:
             for name, kind, link in entries:
                 if kind == "file":
                     self.found.append(prefix + name)
-                elif kind == "directory" and name not in _NEVER:
-                    child, child_crossed = prefix + name, crossed
-                    child_identity = self._tree.identity(join(self._package, child)) if link else f"{identity}/{name}"
-                    if link:
-                        if reason := self._not_followed(child_identity, identity, crossed):
-                            self.unseen.append(Skipped(child, reason))
-                            continue
-                        child_crossed = (*crossed, identity)
-                    if below := self._enter(child):
-                        todo.append((child, below, child_identity, child_crossed))
+                if kind != "directory" or name in _NEVER:
+                    continue
+                child, child_crossed = prefix + name, (*crossed, identity) if link else crossed
+                child_identity = self._tree.identity(join(self._package, child)) if link else f"{identity}/{name}"
+                if link and (reason := self._not_followed(child_identity, child_crossed)):
+                    self.unseen.append(Skipped(child, reason, link=True))
+                elif below := self._enter(child):
+                    todo.append((child, below, child_identity, child_crossed))
 
     def _enter(self, child: str) -> list[Entry] | None:
         path = join(self._package, child)
@@ -286,12 +286,13 @@ class _Files:
         except OSError as error:
             self.not_checked.append(_unread(path, error))
 
-    def _not_followed(self, target: str, here: str, crossed: tuple[str, ...]) -> str:
-        if any(_is_below(place, target) for place in (here, *crossed)):
+    def _not_followed(self, target: str, crossed: tuple[str, ...]) -> str:
+        """Return why a link is not followed, or "". ``crossed`` are the folders with it and the links on the way."""
+        if any(_is_below(place, target) for place in crossed):
             return "a link to a folder that it lies in"
         if not any(_is_below(target, place) for place in self._inside):
             return "a link that leads out of the workspace"
-        if crossed and target in self._linked:
+        if len(crossed) > 1 and target in self._linked:
             return "a link to a folder that was reached by another link"
         self._linked.add(target)
         return ""

@@ -134,7 +134,7 @@ def _look(tree: Tree, found: Found, folder: str) -> list[str]:
     """Return the files below a folder that was not looked into, nothing when it cannot be read or has too many."""
     files: list[str] = []
     todo = [folder]
-    if any(skipped.path == folder and "link" in skipped.reason for skipped in found.unseen):
+    if any(skipped.path == folder and skipped.link for skipped in found.unseen):
         return files
     while todo and len(files) < _MOST_UNSEEN:
         place = todo.pop()
