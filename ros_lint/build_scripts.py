@@ -168,6 +168,19 @@ def _stem(path: str) -> str:
     return path.rpartition("/")[2].partition(".")[0]
 
 
+def library_calls(package: Package, name: str) -> Iterator[Call]:
+    """Yield the commands that make a library of some name, in order."""
+    for call in called(package, "add_library", "ament_auto_add_library", anywhere=True):
+        if call.args and evaluated_name(package, call.texts[0]) == name:
+            yield call
+
+
+def is_shared_by_words(package: Package, name: str) -> bool:
+    """Return whether every build makes a library a shared one, by the words of the command."""
+    calls = library_calls(package, name)
+    return any(not call.blocks and not {"SHARED", "MODULE"}.isdisjoint(call.texts) for call in calls)
+
+
 def library_of(package: Package, made: Registration) -> str:
     """Return the library, tests aside, of which a source makes a class loadable; "" if there is none."""
     path = relative(package, made.span.path)

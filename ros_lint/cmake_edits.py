@@ -8,6 +8,7 @@ from ros_lint.build_scripts import called
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.cmake import Call
 from ros_lint.rule import Edit
+from ros_lint.tree import join
 from ros_lint.workspace import Package
 
 _LIBRARY = """\
@@ -17,26 +18,26 @@ install(TARGETS {}
   RUNTIME DESTINATION bin)"""
 
 
-def at_end(script: BuildScript, code: str) -> Edit:
-    """Add commands before ament_package(), set off by blank lines if that is; there is such a place, ``script.end``."""
-    assert script.end is not None
+def at_end(script: BuildScript, code: str) -> Edit | None:
+    """Add commands before ament_package(), set off by blank lines if that is. None where there is no such place."""
+    if script.end is None:
+        return None
     return Edit(script.behind, f"\n\n{code}") if script.behind else Edit(script.end, f"{code}\n")
 
 
-def install_library(script: BuildScript, name: str) -> Edit:
+def install_library(script: BuildScript, name: str) -> Edit | None:
     """Install a library, before ament_package()."""
     return at_end(script, _LIBRARY.format(name))
 
 
-def install_program(script: BuildScript, kind: str, name: str) -> Edit:
+def install_program(script: BuildScript, kind: str, name: str) -> Edit | None:
     """Install one of TARGETS, PROGRAMS to lib/<package>."""
     return at_end(script, f"install({kind} {name} DESTINATION lib/${{PROJECT_NAME}})")
 
 
-def install_file(script: BuildScript, path: str) -> Edit:
-    """Install a file below share/<package>, at the path that it has in the package."""
-    folder = path.rpartition("/")[0]
-    return at_end(script, f"install(FILES {path} DESTINATION share/${{PROJECT_NAME}}{'/' + folder if folder else ''})")
+def install_files(script: BuildScript, paths: Sequence[str], folder: str) -> Edit | None:
+    """Install files to a folder below share/<package>, "" for that itself."""
+    return at_end(script, f"install(FILES {' '.join(paths)} DESTINATION {join('share/${PROJECT_NAME}', folder)})")
 
 
 def install_folder(package: Package, folder: str) -> Edit | None:
@@ -47,9 +48,8 @@ def install_folder(package: Package, folder: str) -> Edit | None:
     call = _beside(package)
     if call is not None:
         return _append(call, call.texts.index("DESTINATION") - 1, folder)
-    if package.script is None or package.script.end is None:
-        return None
-    return at_end(package.script, f"install(DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}})")
+    script = package.script
+    return at_end(script, f"install(DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}})") if script else None
 
 
 def export_dependencies(package: Package, name: str, all_names: Sequence[str]) -> Edit | None:
@@ -60,9 +60,7 @@ def export_dependencies(package: Package, name: str, all_names: Sequence[str]) -
     call = next((call for call in called(package, "ament_export_dependencies") if call.args and not call.blocks), None)
     if call is not None:
         return _append(call, len(call.args) - 1, name)
-    if package.script is None or package.script.end is None:
-        return None
-    return at_end(package.script, f"ament_export_dependencies({' '.join(all_names)})")
+    return at_end(package.script, f"ament_export_dependencies({' '.join(all_names)})") if package.script else None
 
 
 def _append(call: Call, last: int, text: str) -> Edit:

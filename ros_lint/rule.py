@@ -57,6 +57,12 @@ class Fix(NamedTuple):
     edits: tuple[Edit, ...]
     safe: bool = True
 
+    @classmethod
+    def of(cls, title: str, *edits: Edit | None, safe: bool = True) -> Fix | None:
+        """Return the fix that some edits are, None where there are none, or where one of them cannot be made."""
+        made = tuple([edit for edit in edits if edit is not None])
+        return cls(title, made, safe) if made and len(made) == len(edits) else None
+
 
 class Related(NamedTuple):
     """Another place that matters to a finding."""

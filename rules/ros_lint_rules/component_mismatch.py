@@ -47,6 +47,7 @@ from ros_lint.api import (
     called,
     cmake_edits,
     evaluated_name,
+    found_names,
     is_apart,
     library_of,
     listed_to_install,
@@ -121,11 +122,9 @@ def _unregistered(package: Package, one: Registration, *, started: bool) -> Find
     script = package.script
     assert script is not None
     library = library_of(package, one)
-    fix = None
-    if library and script.end is not None and "rclcpp_components" in _found(package):
-        line = f'rclcpp_components_register_nodes({library} "{one.name}")'
-        fix = Fix(f"register {one.name}", (cmake_edits.at_end(script, line),), safe=False)
     way = f'rclcpp_components_register_nodes({library or "..."} "{one.name}")'
+    usable = library and "rclcpp_components" in found_names(package, script)
+    fix = Fix.of(f"register {one.name}", cmake_edits.at_end(script, way), safe=False) if usable else None
     return Finding(
         f"CMake does not register the component {one.name}; add {way}",
         one.span,
@@ -134,11 +133,6 @@ def _unregistered(package: Package, one: Registration, *, started: bool) -> Find
         confidence=Confidence.HIGH if library and (script.components or started) else Confidence.MEDIUM,
         severity=Severity.WARNING,
     )
-
-
-def _found(package: Package) -> frozenset[str]:
-    script = package.script
-    return frozenset(mention.name for mention in script.mentions if mention.via == "cmake") if script else frozenset()
 
 
 def _libraries(package: Package) -> Iterator[Finding]:
@@ -166,7 +160,7 @@ def _libraries(package: Package) -> Iterator[Finding]:
         if target is None or name in listed or any(file.startswith(f"lib{name}.") for file in installed):
             continue
         told.add(name)
-        fix = Fix(f"install {name}", (cmake_edits.install_library(script, name),)) if script.end else None
+        fix = Fix.of(f"install {name}", cmake_edits.install_library(script, name))
         message = f"the library {name} has components, and is not installed; install it to lib"
         yield Finding(message, call.span(0), name, (Related("it is built here", target.span),), fix)
 

@@ -140,7 +140,7 @@ def _of_cmake(package: Package, workspace: Workspace) -> Iterator[Finding]:
         script.end,
         folder,
         several(Related("imported here", use.span) for _, use in users),
-        Fix(f"install {folder}/", (cmake_edits.at_end(script, f"{_FIND}\n{call}"),), safe=False),
+        Fix.of(f"install {folder}/", cmake_edits.at_end(script, f"{_FIND}\n{call}"), safe=False),
         Confidence.HIGH if users or f"{folder}/setup.cfg" in files else Confidence.MEDIUM,
         None if users else Severity.WARNING,
     )

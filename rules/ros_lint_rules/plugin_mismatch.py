@@ -48,6 +48,7 @@ from ros_lint.api import (
     cmake_edits,
     hidden,
     is_apart,
+    is_shared_by_words,
     library_of,
     relative,
     several,
@@ -128,12 +129,12 @@ def _unexported(package: Package, registered: list[Registration]) -> Iterator[Fi
 def _export(package: Package, plugin: PluginFile) -> Fix | None:
     script = package.script
     bases = {one.base.partition("::")[0] for library in plugin.libraries for one in library.classes}
-    if script is None or script.end is None or len(bases) != 1 or "" in bases:
+    if script is None or len(bases) != 1 or "" in bases:
         return None
     base = bases.pop()
     if not package.declares(base) and base != package.name:
         return None
-    return Fix(f"export {plugin.path}", (cmake_edits.at_end(script, f"{EXPORTING_PLUGINS}({base} {plugin.path})"),), safe=False)
+    return Fix.of(f"export {plugin.path}", cmake_edits.at_end(script, f"{EXPORTING_PLUGINS}({base} {plugin.path})"), safe=False)
 
 
 def _libraries(package: Package, plugin: PluginFile, registered: list[Registration]) -> Iterator[Finding]:
@@ -156,9 +157,8 @@ def _library(package: Package, plugin: PluginFile, library: PluginLibrary) -> It
         return
     if name in built:
         message = f"the library {name} is built, but not installed to lib/"
-        listed = [call for call in called(package, "add_library", anywhere=True) if name in call.texts[:1]]
-        by_words = any({"SHARED", "MODULE"}.intersection(call.texts) and not call.blocks for call in listed)
-        sure = Confidence.HIGH if by_words else Confidence.MEDIUM  # it may be static, or its file may have another name
+        # It may be static, or its file may have another name.
+        sure = Confidence.HIGH if is_shared_by_words(package, name) else Confidence.MEDIUM
     else:
         near = similar(name, sorted(installed | built), 1, 0.8)
         message = f"the package builds no library {name}" + (f"; is {near[0]} meant?" if near else "")

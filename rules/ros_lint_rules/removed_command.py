@@ -24,7 +24,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Confidence, Finding, Package, Related, Rule, Severity, Workspace, called, several
+from ros_lint.api import Confidence, Finding, Package, Related, Rule, Severity, Workspace, called, found_names, several
 
 _GONE = {"ament_target_dependencies": ("ament_cmake_target_dependencies", frozenset({"lyrical", "rolling"}))}
 _MODULE = "ament_python"
@@ -54,7 +54,7 @@ def _commands(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None:
         return
-    found = {mention.name for mention in script.mentions if mention.via == "cmake"}
+    found = found_names(package, script)
     for name, (provider, distros) in _GONE.items():
         calls = [call for call in called(package, name, anywhere=True) if not call.blocks or call.test]
         if not calls or workspace.target.distro not in distros or provider in found:

@@ -66,7 +66,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     sure = list(dict.fromkeys([written for written, finding in every if finding.confidence is Confidence.HIGH]))
     for written, finding in every:
         edit = cmake_edits.export_dependencies(package, written, sure) if written in sure else None
-        yield finding._replace(fix=Fix(f"export {written}", (edit,), safe=False) if edit else None)
+        yield finding._replace(fix=Fix.of(f"export {written}", edit, safe=False))
 
 
 def _unexported(package: Package, workspace: Workspace) -> Iterator[tuple[str, Finding]]:

@@ -93,16 +93,16 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 Confidence.HIGH if sure and all(_is_in_bin(package, opaque) for opaque in unseen) else Confidence.MEDIUM,
             )
         elif not found and launched and not unseen:
-            yield _left(package, target, ", but not installed, so launch does not find it")._replace(related=related)
+            yield _left(package, script, target, ", but not installed, so launch does not find it")._replace(related=related)
         elif target.name in forgotten:
-            yield _left(package, target, ", but nothing that the package builds is installed")
+            yield _left(package, script, target, ", but nothing that the package builds is installed")
         elif target.name in left_out:
             says = " and, unlike other nodes of the package, not installed"
-            yield _left(package, target, says)._replace(severity=Severity.WARNING)
+            yield _left(package, script, target, says)._replace(severity=Severity.WARNING)
 
 
-def _left(package: Package, target: BuildTarget, says: str) -> Finding:
-    fix = _install(package.script, target.name)
+def _left(package: Package, script: BuildScript, target: BuildTarget, says: str) -> Finding:
+    fix = Fix.of(f"install {target.name}", cmake_edits.install_program(script, "TARGETS", target.name))
     return Finding(f"{target.name} is built{says}; install it to lib/{package.name}", target.span, target.name, fix=fix)
 
 
@@ -128,12 +128,6 @@ def _move(package: Package, span: Span, targets: tuple[BuildTarget, ...]) -> Fix
         if at and texts[at - 1] == "DESTINATION" and texts[at] in _BIN:
             return Fix("install it to lib/${PROJECT_NAME}", (cmake_edits.write(call, at, "lib/${PROJECT_NAME}"),), safe=False)
     return None
-
-
-def _install(script: BuildScript | None, name: str) -> Fix | None:
-    if script is None or script.end is None:
-        return None
-    return Fix(f"install {name}", (cmake_edits.install_program(script, "TARGETS", name),))
 
 
 RULE = Rule(

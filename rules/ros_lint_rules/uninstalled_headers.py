@@ -48,6 +48,7 @@ from ros_lint.api import (
     called,
     cmake_edits,
     evaluated_name,
+    found_names,
     hidden,
     is_apart,
     per_workspace,
@@ -100,7 +101,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _unexported(package: Package, wanted: list[tuple[Package, Use]]) -> Iterator[Finding]:
     """Speak of a package that tells nobody of its headers, if another one looks for them in what it exports."""
-    takers = [(other, use) for other, use in wanted if _takes(other, package.name)]
+    takers = [(other, use) for other, use in wanted if other.script and package.name in found_names(other, other.script)]
     if takers and package.script and package.script.end:
         yield Finding(
             f"{package.name} exports nothing, and {takers[0][0].name} includes its headers; add "
@@ -128,11 +129,6 @@ def _is_read(package: Package, call: Call) -> bool:
 
 def _included_here(wanted: list[tuple[Package, Use]]) -> tuple[Related, ...]:
     return several(Related(f"included in {other.name}", use.span) for other, use in wanted)
-
-
-def _takes(package: Package, name: str) -> bool:
-    mentions = package.script.mentions if package.script else ()
-    return any(mention.name == name and mention.via == "cmake" for mention in mentions)
 
 
 @per_workspace
@@ -166,11 +162,9 @@ def _exports(package: Package) -> list[Call]:
 def _fix(package: Package, exports: list[Call]) -> Fix | None:
     script = package.script
     assert script is not None
-    if script.end is None:
-        return None
     folder = exports[0].texts[0].strip("/") if exports else "include"
     line = f"install(DIRECTORY include/ DESTINATION {folder})"
-    return Fix("install the headers", (cmake_edits.at_end(script, line),), safe=bool(exports))
+    return Fix.of("install the headers", cmake_edits.at_end(script, line), safe=bool(exports))
 
 
 RULE = Rule(

@@ -11,8 +11,8 @@ sourced workspace of yesterday they may still find an old copy, and the change o
 
 ## How to fix it
 
-In `CMakeLists.txt` add `install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})` before `ament_package()`; the fix
-does this. In `setup.py` add to `data_files`:
+In `CMakeLists.txt` add `install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})` before `ament_package()`, or the folder
+to a rule that installs others so; the fix does this. In `setup.py` add to `data_files`:
 `(os.path.join('share', package_name, 'launch'), glob('launch/*.launch.py'))`; the fix does this, too, where `data_files` is
 written out.
 
@@ -30,7 +30,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from ros_lint.api import (
     Facet,
@@ -114,20 +114,17 @@ def _finding(package: Package, folder: str, paths: Iterable[str], whole: bool) -
     )
 
 
-def _fix(package: Package, folder: str, paths: Iterable[str], whole: bool) -> Fix | None:
+def _fix(package: Package, folder: str, paths: Sequence[str], whole: bool) -> Fix | None:
     script = package.script
     if script is not None and script.path.endswith("setup.py"):
         return _fix_of_setup(package, folder, paths, whole)
-    if script is None or script.end is None:
+    if script is None:
         return None
     if whole:
-        line = f"install(DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}})"
-        return Fix(f"install {folder}/", (cmake_edits.at_end(script, line),))
-    names = " ".join(paths)
+        return Fix.of(f"install {folder}/", cmake_edits.install_folder(package, folder))
     # Beside the files of that folder which are installed, if it has some.
     inner = folder.rpartition("/")[2] or "launch"
-    line = f"install(FILES {names} DESTINATION share/${{PROJECT_NAME}}/{inner})"
-    return Fix(f"install {names}", (cmake_edits.at_end(script, line),))
+    return Fix.of(f"install {' '.join(paths)}", cmake_edits.install_files(script, paths, inner))
 
 
 def _fix_of_setup(package: Package, folder: str, paths: Iterable[str], whole: bool) -> Fix | None:

@@ -31,7 +31,6 @@ from ros_lint.api import (
     REGISTERING,
     BuildScript,
     BuildTarget,
-    Call,
     Confidence,
     Facet,
     Finding,
@@ -46,10 +45,13 @@ from ros_lint.api import (
     called,
     cmake_edits,
     evaluated_name,
+    found_names,
     has_header,
     hidden,
     installs_built,
     is_on_request,
+    is_shared_by_words,
+    library_calls,
     relative,
     several,
 )
@@ -66,7 +68,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     for target in script.targets:
         if target.kind != "library" or target.test or not target.sources or target.name in installed | listed | components:
             continue
-        if any("OBJECT" in call.texts[1:2] for call in _made(package, target.name)):
+        if any("OBJECT" in call.texts[1:2] for call in library_calls(package, target.name)):
             continue
         shared = _is_shared(package, target.name)
         loaded = any(relative(package, made.span.path) in target.sources for made in package.registrations)
@@ -82,7 +84,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             target.span,
             target.name,
             related,
-            Fix(f"install {target.name}", (cmake_edits.install_library(script, target.name),)) if script.end else None,
+            Fix.of(f"install {target.name}", cmake_edits.install_library(script, target.name)),
             Confidence.HIGH if reason or lone else Confidence.MEDIUM if shared else Confidence.LOW,
             None if reason else Severity.WARNING,
         )
@@ -108,8 +110,8 @@ def _names(package: Package, texts: tuple[str, ...]) -> Iterator[str]:
 
 def _is_shared(package: Package, name: str) -> bool:
     """Whether the library is a shared one for sure."""
-    found = {mention.name for mention in package.script.mentions if mention.via == "cmake"} if package.script else set()
-    for call in _made(package, name):
+    found = found_names(package, package.script) if package.script else ()
+    for call in library_calls(package, name):
         kinds = {"STATIC", "OBJECT", "INTERFACE"}.intersection(call.texts)
         return "SHARED" in call.texts or (not kinds and "ament_cmake_ros" in found)
     return False
@@ -123,8 +125,7 @@ def _is_lone(package: Package, library: BuildTarget, *, loaded: bool) -> bool:
     """
     script = package.script
     assert script is not None
-    calls = [call for call in _made(package, library.name) if not call.blocks]
-    if is_on_request(package, library) or not any({"SHARED", "MODULE"}.intersection(call.texts) for call in calls):
+    if is_on_request(package, library) or not is_shared_by_words(package, library.name):
         return False
     installed = {provided.target for provided in script.provides if provided.target}
     left = {target.name for target in script.targets if target.kind == "executable" and target.name not in installed}
@@ -135,12 +136,6 @@ def _is_lone(package: Package, library: BuildTarget, *, loaded: bool) -> bool:
     return loaded or not any(
         linked == library.name for target in script.targets if target.name in left for linked, _ in target.links
     )
-
-
-def _made(package: Package, name: str) -> Iterator[Call]:
-    for call in called(package, "add_library", "ament_auto_add_library", anywhere=True):
-        if name in _names(package, call.texts[:1]):
-            yield call
 
 
 def _linked_by(script: BuildScript, library: str) -> Iterator[tuple[str, Span]]:

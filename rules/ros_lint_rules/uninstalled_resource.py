@@ -224,14 +224,11 @@ def _fix(package: Package, unit: str) -> Fix | None:
     folder, _, name = unit.rpartition("/")
     edit = None
     if script.path.endswith("CMakeLists.txt"):
-        if not name:
-            edit = cmake_edits.install_folder(package, folder)
-        elif script.end:
-            edit = cmake_edits.install_file(script, unit)
+        edit = cmake_edits.install_files(script, [unit], folder) if name else cmake_edits.install_folder(package, folder)
     elif slot := setup_edits.slot(script, "data_files"):
         paths = [unit] if name else [file for file in package.files if file.startswith(unit)]
         edit = setup_edits.add_files(slot, package.name, paths, package.files) if len(paths) <= _MOST_LISTED else None
-    return Fix(f"install {unit}", (edit,)) if edit else None
+    return Fix.of(f"install {unit}", edit)
 
 
 RULE = Rule(

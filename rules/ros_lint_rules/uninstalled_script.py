@@ -64,16 +64,13 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if file.path in left or not (file.shebang and file.main) or is_apart(file.path):
             continue
         forgotten = file.path in nodes and file.path.rpartition("/")[0] in with_nodes
-        fix = None
-        if script.end is not None:
-            fix = Fix(f"install {file.path}", (cmake_edits.install_program(script, "PROGRAMS", file.path),))
         sure = file.run is not None or (forgotten and file.executable)
         yield Finding(
             f"{file.path} is a script, and is not installed, so ros2 run does not find it",
             place_of(package, file.path),
             file.path,
             (Related("it is started here", file.run),) if file.run else (),
-            fix,
+            Fix.of(f"install {file.path}", cmake_edits.install_program(script, "PROGRAMS", file.path)),
             Confidence.HIGH if sure else Confidence.MEDIUM if forgotten or file.executable else Confidence.LOW,
         )
 

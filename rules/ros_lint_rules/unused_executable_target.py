@@ -52,10 +52,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             continue
         if is_on_request(package, target):
             continue
-        fix = None
-        if script.end is not None:
-            edit = cmake_edits.install_program(script, "TARGETS", target.name)
-            fix = Fix(f"install {target.name}", (edit,), safe=False)
+        fix = Fix.of(f"install {target.name}", cmake_edits.install_program(script, "TARGETS", target.name), safe=False)
         yield Finding(f"{target.name} is built, but neither installed nor a test", target.span, target.name, fix=fix)
 
 
