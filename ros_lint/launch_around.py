@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import posixpath
 from collections.abc import Collection, Iterator, Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, installed_place
 from ros_lint.facts.build import BuildScript
@@ -16,6 +16,9 @@ from ros_lint.facts.launch import LaunchFile
 from ros_lint.launch_links import everything
 from ros_lint.text import Text, read
 from ros_lint.tree import Tree, join, parent
+
+if TYPE_CHECKING:
+    from ros_lint.collectors.launch_py_objects import Module
 
 _MOST_BYTES = 1 << 18
 
@@ -48,6 +51,7 @@ class _Places:
         self._by_path = {package.path: package for package in packages}
         self._modules: dict[str, list[Around]] = {}
         self._provides: dict[str, dict[str, str]] = {}
+        self._trees: dict[str, Module | None] = {}
         for package in packages:
             self._by_name.setdefault(package.name, []).append(package)
             script = package.script
@@ -61,9 +65,9 @@ class _Places:
             return file
         from ros_lint.collectors import launch_py  # noqa: PLC0415  (few launch files want anything)
 
-        def modules(name: str, importer: Text) -> Text | None:
+        def modules(name: str, importer: Text) -> Module | None:
             path = self._module(name, importer)
-            return self._text(path) if path else None
+            return self._parsed(path) if path else None
 
         def files(path: str) -> str | None:
             source = self._file(path, file, package)
@@ -83,6 +87,13 @@ class _Places:
         except OSError:
             return None
         return read(path, data) if len(data) <= _MOST_BYTES else None
+
+    def _parsed(self, path: str) -> Module | None:
+        """Return a module, None for what is no Python. Many launch files import the same ones."""
+        if path not in self._trees:
+            text = self._text(path)
+            self._trees[path] = _module_of(text) if text else None
+        return self._trees[path]
 
     # --- modules --------------------------------------------------------------------------------------------------
 
@@ -155,6 +166,16 @@ def _is_open(file: LaunchFile) -> bool:
         return True
     values = [value for action in everything(file.actions) for value in (action.package, action.target) if value is not None]
     return any(UNKNOWN in text for value in values for text in value.texts)
+
+
+def _module_of(text: Text) -> Module | None:
+    from ros_lint.collectors.launch_py_objects import Module  # noqa: PLC0415  (few launch files want anything)
+    from ros_lint.collectors.python_syntax import NotPythonError, parse  # noqa: PLC0415
+
+    try:
+        return Module(text, parse(text))
+    except NotPythonError:
+        return None
 
 
 def _sources(module: str) -> Iterator[str]:

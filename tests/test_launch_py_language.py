@@ -1,11 +1,13 @@
 """The language of Python launch files, as far as people write it, and what ends the following of them."""
 
+import ast
 import time
 from pathlib import Path
 
 import pytest
 
 from ros_lint.collectors import launch_py, launch_text
+from ros_lint.collectors.launch_py_objects import Module
 from ros_lint.facts.sight import Facet
 from ros_lint.interpret.launch_expand import expand
 from ros_lint.text import Text
@@ -227,12 +229,12 @@ def node(e):
     from launch_ros.actions import Node
     return Node(package=P, executable=e)
 """
-    texts = {
-        "tools.launch": Text("src/tools/tools/launch.py", helper),
-        ".names": Text("src/tools/tools/names.py", "P = 'a'\n"),
+    modules = {
+        "tools.launch": Module(Text("src/tools/tools/launch.py", helper), ast.parse(helper)),
+        ".names": Module(Text("src/tools/tools/names.py", "P = 'a'\n"), ast.parse("P = 'a'\n")),
     }
     source = Text("a.launch.py", "from tools.launch import node\n" + body("return [node('b')]"))
-    found = launch_py.collect(source, lambda name, importer: texts.get(name))
+    found = launch_py.collect(source, lambda name, importer: modules.get(name))
     assert [(one.package, one.name, one.package_span.path) for one in found.references] == [
         ("a", "b", "src/tools/tools/names.py")
     ]

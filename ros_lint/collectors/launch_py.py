@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING
 from ros_lint.collectors.launch import entries
 from ros_lint.collectors.launch_py_actions import LAUNCHED, walker
 from ros_lint.collectors.launch_py_names import strays
-from ros_lint.collectors.launch_py_objects import PERHAPS, Frame, Function, OutOfBudget, Raised, Source
+from ros_lint.collectors.launch_py_objects import PERHAPS, Frame, Function, Modules, OutOfBudget, Raised, Source
 from ros_lint.collectors.launch_py_refused import misplaced, misused, no_texts, undefined
-from ros_lint.collectors.launch_py_run import Machine, Modules
+from ros_lint.collectors.launch_py_run import Machine
 from ros_lint.collectors.launch_py_texts import Within, texts
 from ros_lint.collectors.launch_py_walk import span_of
 from ros_lint.collectors.launch_references import References, asks_first

@@ -7,8 +7,8 @@ libraries, functions and classes of the file, one of several values, and what is
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable, Iterator
-from typing import Any, Final
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any, Final, NamedTuple
 
 from ros_lint.collectors.launch_text import MOST, UNKNOWN, agree, conditional, conditions_of, configuration
 from ros_lint.facts.launch import LaunchCondition
@@ -21,6 +21,17 @@ Conditions = tuple[LaunchCondition, ...]
 
 PERHAPS: Final = LaunchCondition((UNKNOWN,), None)
 """A condition of which nothing is known."""
+
+
+class Module(NamedTuple):
+    """A module of the workspace."""
+
+    text: Text
+    tree: ast.Module
+
+
+Modules = Callable[[str, Text], "Module | None"]
+"""Finds a module by its dotted name (dots in front for a relative one), for a module that imports it."""
 
 
 class Source:
@@ -143,7 +154,7 @@ class Made:
 class Function:
     """A function of the program. ``frame`` is where it was defined."""
 
-    __slots__ = ("defaults", "frame", "keyword_defaults", "node", "owner", "yields")
+    __slots__ = ("defaults", "frame", "keyword_defaults", "node", "owner")
 
     def __init__(self, node: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda, frame: Frame) -> None:
         self.node = node
@@ -151,7 +162,6 @@ class Function:
         self.defaults: list[Value] = []
         self.keyword_defaults: dict[str, Value] = {}
         self.owner: Class | None = None
-        self.yields = False
 
 
 class Bound:

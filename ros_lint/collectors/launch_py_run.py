@@ -32,6 +32,7 @@ from ros_lint.collectors.launch_py_objects import (
     Instance,
     Made,
     Method,
+    Modules,
     OutOfBudget,
     Raised,
     Source,
@@ -46,9 +47,7 @@ from ros_lint.collectors.launch_py_operations import text_of
 from ros_lint.collectors.launch_py_statements import LEAVE, execute
 from ros_lint.collectors.launch_py_texts import Within, texts
 from ros_lint.collectors.launch_text import UNKNOWN, fill, is_settled, joined
-from ros_lint.collectors.python_syntax import NotPythonError, parse
 from ros_lint.facts.launch import LaunchCondition
-from ros_lint.text import Text
 
 STEPS = 150_000
 _STEPS_A_CALL = 60_000
@@ -72,9 +71,6 @@ _KNOWN = sys.stdlib_module_names | frozenset(
 )
 """Libraries of which it is known what their classes and functions do. In a workspace that builds ROS itself their sources
 lie around, and say less."""
-
-Modules = Callable[[str, Text], "Text | None"]
-"""Finds the text of a module by its dotted name (dots in front for a relative one), for a module that imports it."""
 
 
 class Machine:
@@ -184,17 +180,12 @@ class Machine:
         if key in self._sources:
             return self._sources[key]
         self._sources[key] = None  # while it is followed: modules may import each other
-        text = self._modules(name, importer.text)
-        if text is None:
+        module = self._modules(name, importer.text)
+        if module is None:
             self.wanted.add(name)
             return None
-        found = Source(text)
-        try:
-            tree = parse(text)
-        except NotPythonError:
-            return None
-        self._sources[key] = found
-        self.run(tree, found)
+        found = self._sources[key] = Source(module.text)
+        self.run(module.tree, found)
         return found
 
     # --- statements -----------------------------------------------------------------------------------------------
@@ -213,8 +204,6 @@ class Machine:
         for argument, default in zip(node.args.kwonlyargs, node.args.kw_defaults, strict=True):
             if default is not None:
                 found.keyword_defaults[argument.arg] = self.evaluate(default, frame)
-        if frame.source.yields and not isinstance(node, ast.Lambda):
-            found.yields = _yields(node)
         return found
 
     # --- calls ----------------------------------------------------------------------------------------------------
@@ -304,7 +293,7 @@ class Machine:
             self._depth -= 1
             self._left = left - (allowed - self._left)
             self.conditions = before
-        if function.yields:
+        if frame.source.yields and _yields(node):
             return frame.yielded
         if signal != LEAVE and frame.returned:
             frame.returned.append(Guarded(None, (PERHAPS,)))
