@@ -29,6 +29,7 @@ from ros_lint.build_scripts import (
     place_of,
     programs_built,
     relative,
+    stem,
     stranded,
     top_file,
     unguarded_tests,
@@ -68,6 +69,7 @@ from ros_lint.launch_links import Links, defaults_of, everything, filled
 from ros_lint.launch_names import Families, needed
 from ros_lint.launch_parameters import Given, ParameterFiles
 from ros_lint.launch_runs import Broken, PassedFile, broken_expressions, launched, passed_files
+from ros_lint.liveness import HEADERS
 from ros_lint.needs import (
     Need,
     comes_elsewhere,
@@ -99,6 +101,7 @@ __all__ = [
     "ANYTHING",
     "ENDS",
     "EXPORTING_PLUGINS",
+    "HEADERS",
     "PYTHON_LIKE",
     "REGISTERING",
     "ROLES",
@@ -236,6 +239,7 @@ __all__ = [
     "setup_edits",
     "several",
     "similar",
+    "stem",
     "stranded",
     "strangers",
     "tag_for",

@@ -12,6 +12,7 @@ from ros_lint.facts.manifest import Role
 from ros_lint.facts.sight import Facet, Opaque
 from ros_lint.facts.sources import Registration
 from ros_lint.knowledge.cmake_commands import INSTALL_ARTIFACTS, INSTALL_TARGETS_WORDS
+from ros_lint.liveness import HEADERS
 from ros_lint.text import Span, beginning
 from ros_lint.tree import join
 from ros_lint.workspace import Package
@@ -135,7 +136,6 @@ def stranded(package: Package, name: str) -> bool:
 
 _CLIENTS = frozenset({"rclcpp", "rclcpp_lifecycle", "rclcpp_action", "rclcpp_components"})
 _RUNS = frozenset({"add_custom_command", "add_custom_target"})
-_HEADERS = (".h", ".hh", ".hpp", ".hxx")
 
 
 def may_run_built(script: BuildScript) -> bool:
@@ -160,11 +160,12 @@ def node_targets(package: Package) -> frozenset[str]:
 
 def has_header(target: Target, files: Iterable[str]) -> bool:
     """Whether one of some files is a header that is called as a source of a target is."""
-    stems = {_stem(source) for source in target.sources}
-    return any(file.endswith(_HEADERS) and _stem(file) in stems for file in files)
+    stems = {stem(source) for source in target.sources}
+    return any(file.endswith(HEADERS) and stem(file) in stems for file in files)
 
 
-def _stem(path: str) -> str:
+def stem(path: str) -> str:
+    """Return the name of a file without its folder and all that follows the first dot."""
     return path.rpartition("/")[2].partition(".")[0]
 
 

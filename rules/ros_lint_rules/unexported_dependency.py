@@ -32,6 +32,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros_lint.api import (
+    HEADERS,
     BuildScript,
     Confidence,
     Facet,
@@ -52,13 +53,13 @@ from ros_lint.api import (
     may_bring,
     relative,
     several,
+    stem,
 )
 
 _EXPORTS = frozenset({"ament_export_include_directories", "ament_export_targets", "ament_export_interfaces"})
 _EXPORTS_ALL = frozenset({"ament_auto_package", "autoware_ament_auto_package"})
 _OF_TOOLS = "ament_cmake_"
 _VENDOR = "_vendor"
-_HEADERS = (".h", ".hh", ".hpp", ".hxx")
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -111,7 +112,7 @@ def _confidence(package: Package, workspace: Workspace, name: str, exported: set
     along = found_along(workspace, exported)
     if name in along or (not along.complete and may_bring(along.unknown, name, workspace)):
         return Confidence.MEDIUM
-    if _of_programs(script).issuperset([_stem(use.span.path) for use in uses]):
+    if _of_programs(script).issuperset([stem(use.span.path) for use in uses]):
         return Confidence.MEDIUM
     sure = _EXPORTS.intersection(script.calls) and not _is_written_out(package, name)
     return Confidence.HIGH if sure else Confidence.MEDIUM
@@ -125,12 +126,8 @@ def _of_programs(script: BuildScript) -> frozenset[str]:
     built = [target for target in script.targets if not target.test]
     if any(target.kind in ("library", "interface") for target in built) or not all(target.whole for target in built):
         return frozenset()
-    parts = [[source for source in target.sources if not source.endswith(_HEADERS)] for target in built]
-    return frozenset([_stem(source) for sources in parts if len(sources) > 1 for source in sources])
-
-
-def _stem(path: str) -> str:
-    return path.rpartition("/")[2].partition(".")[0]
+    parts = [[source for source in target.sources if not source.endswith(HEADERS)] for target in built]
+    return frozenset([stem(source) for sources in parts if len(sources) > 1 for source in sources])
 
 
 def _is_written_out(package: Package, name: str) -> bool:

@@ -33,6 +33,7 @@ from collections.abc import Iterator, Mapping
 
 from ros_lint.api import (
     EXPORTING_PLUGINS,
+    HEADERS,
     REGISTERING,
     Call,
     Confidence,
@@ -57,7 +58,6 @@ from ros_lint.api import (
 )
 
 _LINKED = ("ament_export_interfaces", "ament_export_libraries", "ament_export_targets")
-_HEADERS = (".h", ".hh", ".hpp", ".hxx", ".inl", ".ipp", ".tpp")
 _FOLDERS = ("include_directories", "target_include_directories")
 _EXPORTS = (
     "ament_auto_package", "ament_export_", "configure_package_config_file", "export", "install_basic_package_files", "rosidl_",
@@ -70,11 +70,11 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_cmake" or hidden(package, Facet.LIBRARIES):
         return
-    headers = [file for file in package.files if file.startswith("include/") and file.endswith(_HEADERS)]
+    headers = [file for file in package.files if file.startswith("include/") and file.endswith(HEADERS)]
     places = [provided.path for provided in script.provides]
     if not headers or script.end is None:
         return
-    installed = any(path.endswith(_HEADERS) for path in places)
+    installed = any(path.endswith(HEADERS) for path in places)
     if installed and _tells(package):
         return
     takers = _wanted(workspace).get(package.name, ())
