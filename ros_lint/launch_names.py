@@ -62,11 +62,9 @@ class Families:
         self._includers: dict[str, set[str]] = {}
         self._included: dict[str, set[str]] = {}
         for file in files:
-            for action in everything(file.actions):
-                target = links.target(action.target, file) if action.kind == "include" else None
-                if target is not None:
-                    self._includers.setdefault(target.file.path, set()).add(file.path)
-                    self._included.setdefault(file.path, set()).add(target.file.path)
+            for inner in links.includes(file):
+                self._includers.setdefault(inner.path, set()).add(file.path)
+                self._included.setdefault(file.path, set()).add(inner.path)
 
     def names(self, file: LaunchFile) -> Names:
         """Return what a file itself does."""
