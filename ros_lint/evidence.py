@@ -19,6 +19,7 @@ from ros_lint.knowledge.spelling import may_be_package
 from ros_lint.liveness import HEADERS, Liveness
 from ros_lint.own_files import OwnFiles
 from ros_lint.text import Span
+from ros_lint.tree import within
 
 if TYPE_CHECKING:
     from ros_lint.providers import Providers
@@ -172,8 +173,8 @@ _WHAT: Mapping[Via, str] = {
 
 def resolve(source: Source, resolver: Resolver) -> tuple[Use, ...]:
     """Return every use of another package, sorted by place."""
-    launched = frozenset(_relative(source, launch.path) for launch in source.launch)
-    tests = frozenset(_relative(source, launch.path) for launch in source.launch if launch.test)
+    launched = frozenset(within(source.path, launch.path) for launch in source.launch)
+    tests = frozenset(within(source.path, launch.path) for launch in source.launch if launch.test)
     own = OwnFiles(source.name, source.files, source.script, source.facts)
     alive = Liveness(own, launched)
     uses = _Uses(source, own, alive, resolver)
@@ -188,9 +189,9 @@ def resolve(source: Source, resolver: Resolver) -> tuple[Use, ...]:
             ours = by_role.setdefault((mention.span.path, role), [])
             ours.append(mention._replace(optional=True) if only_named else mention)
         for (path, role), mentions in by_role.items():
-            uses.add(_relative(source, path), mentions, role, role, sure=True)
+            uses.add(within(source.path, path), mentions, role, role, sure=True)
         for mention, always in source.script.handed_on:
-            uses.add(_relative(source, mention.span.path), [mention], Role.EXPORT, Role.EXPORT, always)
+            uses.add(within(source.path, mention.span.path), [mention], Role.EXPORT, Role.EXPORT, always)
         _unspoken(source, uses)
     for path, facts in source.facts.items():
         if not facts.mentions or alive.is_foreign(path):
@@ -204,7 +205,7 @@ def resolve(source: Source, resolver: Resolver) -> tuple[Use, ...]:
             mentions = [mention for mention in mentions if mention.via != "package"]
         uses.add(path, mentions, role, _TEST if role is _TEST else _LOOKED_UP, sure)
     for launch in source.launch:
-        path = _relative(source, launch.path)
+        path = within(source.path, launch.path)
         if alive.is_foreign(path):
             continue
         role, sure = alive.place(path)
@@ -319,10 +320,6 @@ def _script_role(source: Source, mention: Mention) -> Role:
     if source.builds_with == "ament_python" or mention.via == "macro":
         return Role.TOOL
     return Role.EXPORT if mention.purpose == "export" else Role.BUILD
-
-
-def _relative(source: Source, path: str) -> str:
-    return path.removeprefix(f"{source.path}/") if source.path else path
 
 
 def _launch_uses(launch: LaunchFile, role: Role, uses: _Uses, sure: bool) -> None:

@@ -9,6 +9,7 @@ from ros_lint.apart import is_apart, lies_apart
 from ros_lint.facts.launch import LaunchFile, LaunchReference
 from ros_lint.facts.sight import Facet
 from ros_lint.facts.sources import LookUp
+from ros_lint.tree import within
 from ros_lint.workspace import Package
 
 
@@ -32,7 +33,7 @@ def launchable(package: Package, *, apart: bool = False) -> Iterator[Launchable]
     tests = frozenset(script.runs or ()) if script else frozenset()
     modules = tuple(f"{module.replace('.', '/')}/" for module in script.python_packages) if script else ()
     for file in package.launch:
-        path = file.path[len(package.path) + 1 :] if package.path else file.path
+        path = within(package.path, file.path)
         if file.helper:
             continue
         is_installed = path in installed or path.startswith(modules)
@@ -97,8 +98,7 @@ def looked_up(packages: Iterable[Package]) -> dict[str, list[LookUp]]:
                 if reference.kind in ("file", "include") and not reference.optional:
                     one = LookUp(reference.package, reference.name, reference.span)
                     found.setdefault(one.package, []).append(one)
-        skip = len(package.path) + 1 if package.path else 0
         for look_up in package.look_ups:
-            if not is_apart(look_up.span.path[skip:]):
+            if not is_apart(within(package.path, look_up.span.path)):
                 found.setdefault(look_up.package, []).append(look_up)
     return found

@@ -10,6 +10,7 @@ from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, fill, installed
 from ros_lint.facts.launch import LaunchAction, LaunchFile, LaunchValue
 from ros_lint.facts.sources import ParameterFile
 from ros_lint.text import Span
+from ros_lint.tree import within
 from ros_lint.workspace import Package
 
 File = TypeVar("File", LaunchFile, ParameterFile)
@@ -46,8 +47,7 @@ class _Own(NamedTuple):
 
 def installed_below_share(package: Package, files: Iterable[File]) -> Iterator[tuple[File, str]]:
     """Yield those files of a package that it installs below share/<package>, each with its path there."""
-    skip = len(package.path) + 1 if package.path else 0
-    by_source = {file.path[skip:]: file for file in files}
+    by_source = {within(package.path, file.path): file for file in files}
     share = f"share/{package.name}/"
     for provided in package.script.provides if package.script and by_source else ():
         file = by_source.get(provided.source)

@@ -34,7 +34,7 @@ from ros_lint.providers import offered
 from ros_lint.report import NotChecked, Target
 from ros_lint.suppress import Suppression
 from ros_lint.text import Text, beginning
-from ros_lint.tree import OverlayTree, Tree, join, text_of
+from ros_lint.tree import OverlayTree, Tree, join, text_of, within
 from ros_lint.underlay import Underlay
 from ros_lint.workspace import Declared, Package, Workspace
 from ros_lint.world import Member, World
@@ -266,8 +266,7 @@ def _without_submodules(founds: Sequence[Found], folders: Sequence[str]) -> list
     result = []
     for found in founds:
         inside = [folder for folder in folders if folder.startswith(f"{found.path}/" if found.path else "")]
-        skip = len(found.path) + 1 if found.path else 0
-        more = tuple(Skipped(folder[skip:], "the submodule is not cloned") for folder in inside)
+        more = tuple(Skipped(within(found.path, folder), "the submodule is not cloned") for folder in inside)
         result.append(found._replace(unseen=(*found.unseen, *more)) if more else found)
     return result
 

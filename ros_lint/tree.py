@@ -60,6 +60,11 @@ def join(directory: str, name: str) -> str:
     return f"{directory}/{name}" if directory else name
 
 
+def within(directory: str, path: str) -> str:
+    """Return a path as it is in a directory that it lies in: the reverse of :func:`join`. Others stay as they are."""
+    return path.removeprefix(f"{directory}/") if directory else path
+
+
 def text_of(tree: Tree, path: str) -> Text | None:
     """Return the text of a file, None if it cannot be read."""
     try:
