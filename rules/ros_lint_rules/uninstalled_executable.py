@@ -36,7 +36,6 @@ from ros_lint.api import (
     Facet,
     Finding,
     Fix,
-    Opaque,
     Package,
     Related,
     Rule,
@@ -62,7 +61,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_cmake":
         return
-    unseen = hidden(package, Facet.EXECUTABLES)
+    unseen, own = hidden(package, Facet.EXECUTABLES), f"lib/{package.name}"
     if any("INSTALL_TO_PATH" in call.texts for call in called(package, "ament_auto_package", anywhere=True)):
         return
     places: dict[str, list[tuple[str, str, Span]]] = {}
@@ -85,12 +84,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             span = found[0][2]
             where = f"{found[0][0]}/, where ros2 run and launch do not look"
             yield Finding(
-                f"{target.name} is installed to {where}; install it to lib/{package.name}",
+                f"{target.name} is installed to {where}; install it to {own}",
                 span,
                 target.name,
                 (*related, Related("it is built here", target.span)),
                 _move(package, span, script.targets),
-                Confidence.HIGH if sure and all(_is_in_bin(package, opaque) for opaque in unseen) else Confidence.MEDIUM,
+                Confidence.MEDIUM if not sure or any(opaque.reaches(own) for opaque in unseen) else Confidence.HIGH,
             )
         elif not found and launched and not unseen:
             yield _left(package, script, target, ", but not installed, so launch does not find it")._replace(related=related)
@@ -104,14 +103,6 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 def _left(package: Package, script: BuildScript, target: BuildTarget, says: str) -> Finding:
     fix = Fix.of(f"install {target.name}", cmake_edits.install_program(script, "TARGETS", target.name))
     return Finding(f"{target.name} is built{says}; install it to lib/{package.name}", target.span, target.name, fix=fix)
-
-
-def _is_in_bin(package: Package, opaque: Opaque) -> bool:
-    """Whether what cannot be seen lands in bin/, so that it installs nothing to lib/<package>."""
-    for call in called(package, "install", anywhere=True):
-        if call.whole.covers(opaque.span) and "DESTINATION" in call.texts[:-1]:
-            return call.texts[call.texts.index("DESTINATION") + 1] in _BIN and call.texts[0] != "TARGETS"
-    return False
 
 
 def _move(package: Package, span: Span, targets: tuple[BuildTarget, ...]) -> Fix | None:
