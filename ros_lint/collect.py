@@ -10,12 +10,12 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Literal, NamedTuple
 
+from ros_lint import suppress
 from ros_lint.cache import Cache
 from ros_lint.collectors.cmake_syntax import Parsed
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.sight import ANYTHING, Facet, Opaque
 from ros_lint.facts.sources import FileFacts
-from ros_lint.suppress import Suppression
 from ros_lint.text import Text, beginning, read
 from ros_lint.tree import DiskTree, RecordedTree, Tree
 
@@ -56,7 +56,7 @@ class Collected(NamedTuple):
     facts: FileFacts | None = None
     launch: LaunchFile | None = None
     commands: Parsed | None = None
-    suppressions: tuple[Suppression, ...] = ()
+    suppressions: tuple[suppress.Suppression, ...] = ()
     unreadable: str = ""
     """Why the file was not read, or ""."""
 
@@ -114,7 +114,7 @@ def collect(text: Text, kind: Kind) -> Collected:
         from ros_lint.collectors import resources  # noqa: PLC0415
 
         facts = resources.collect(text)
-    return Collected(facts, launch, commands, _suppressions(text))
+    return Collected(facts, launch, commands, suppress.collect(text))
 
 
 def collect_all(tree: Tree, paths: Sequence[str], jobs: int, cache: Cache, tick: Callable[[int], None]) -> dict[str, Collected]:
@@ -180,11 +180,3 @@ def _unreadable(path: str, kind: Kind, reason: str) -> Collected:
     hides = _HIDES.get(kind, Facet.USES)
     facts = FileFacts(opaque=(Opaque(hides, f"it is not read: {reason}", beginning(path)),)) if hides else None
     return Collected(facts, unreadable=reason)
-
-
-def _suppressions(text: Text) -> tuple[Suppression, ...]:
-    if "ros-lint:" not in text.text:
-        return ()
-    from ros_lint import suppress  # noqa: PLC0415
-
-    return suppress.collect(text)
