@@ -8,6 +8,7 @@ from functools import cached_property
 
 from ros_lint.facts.build import BuildScript, LeftBehind, Provided
 from ros_lint.facts.sources import FileFacts
+from ros_lint.text import Span
 
 _SHADOWED = frozenset({"launch"})
 """Folders of packages that are called like a module everybody imports: without __init__.py they do not hide it (PEP 420)."""
@@ -141,27 +142,42 @@ def left_behind(files: Sequence[str], script: BuildScript | None, facts: Mapping
     """Yield the imports of programs in Python that work among the sources, and not where the program is installed.
 
     Python looks for modules beside the program that it starts, beside what a link to it points to (reference, section D4.4).
+    That of an entry point is made by pip, so what lies beside its module is only found as a part of the Python package.
     """
     provides = script.provides if script else ()
-    programs = [p for p in provides if p.source.endswith(".py") and p.source in facts and _is_program(p)]
-    if not programs:
+    programs = [(p.path, p.source) for p in provides if p.source.endswith(".py") and p.source in facts and _is_program(p)]
+    modules = [(each.name, each.path) for each in script.modules if each.path in facts and "." in each.name] if script else []
+    if not (programs or modules):
         return
     known = frozenset(files)
     folders = {file.rpartition("/")[0] for file in files if file.endswith(".py")}
     installed = {p.path for p in provides}
     installed.update([path[: path.rfind("/") + 1] for path in installed])
-    for program in programs:
-        here = program.source[: program.source.rfind("/") + 1]
-        there = program.path[: program.path.rfind("/") + 1]
-        facts_here = facts[program.source]
-        for name, via, span, _, optional, _, _ in facts_here.mentions:
-            module = name.partition(".")[0]
-            if via != "import" or optional or not module or module in facts_here.caught:
-                continue
-            beside = f"{here}{module}.py" if f"{here}{module}.py" in known else f"{here}{module}/"
-            is_there = beside in known or beside[:-1] in folders
-            if is_there and f"{there}{module}.py" not in installed and f"{there}{module}/" not in installed:
-                yield LeftBehind(program.path, module, beside, span, not facts_here.sets_path)
+    for program, source in programs:
+        for module, beside, span in _beside(source, facts[source], known, folders):
+            there = f"{program[: program.rfind('/') + 1]}{module}"
+            if f"{there}.py" not in installed and f"{there}/" not in installed:
+                yield LeftBehind(program, module, beside, span, not facts[source].sets_path)
+    names = {path.rpartition("/")[2] for path in installed}
+    for name, source in modules:
+        top = source.removesuffix(f"{name.replace('.', '/')}.py") + name.partition(".")[0]
+        if any(each.sets_path for path, each in facts.items() if path.startswith(f"{top}/")):
+            continue  # mostly to find these
+        for module, beside, span in _beside(source, facts[source], known, folders):
+            if f"{module}.py" not in names:
+                yield LeftBehind(name, module, beside, span, sure=True)
+
+
+def _beside(source: str, facts: FileFacts, files: Container[str], folders: Container[str]) -> Iterator[tuple[str, str, Span]]:
+    """Yield the modules that a file imports and that lie beside it: their name, the file or folder, the place."""
+    here = source[: source.rfind("/") + 1]
+    for name, via, span, _, optional, _, _ in facts.mentions:
+        module = name.partition(".")[0]
+        if via != "import" or optional or not module or module in facts.caught:
+            continue
+        beside = f"{here}{module}.py" if f"{here}{module}.py" in files else f"{here}{module}/"
+        if beside in files or beside[:-1] in folders:
+            yield module, beside, span
 
 
 def _is_program(provided: Provided) -> bool:

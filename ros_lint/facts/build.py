@@ -90,7 +90,7 @@ class LeftBehind(NamedTuple):
     """An import in an installed program of what lies beside it in the sources, and not where it is installed."""
 
     program: str
-    """Where it is installed, such as ``lib/<package>/talker.py``."""
+    """Where it is installed, such as ``lib/<package>/talker.py``, or the module of an entry point, dotted."""
     module: str
     source: str
     """A file, or a folder with a slash at the end, relative to the package."""

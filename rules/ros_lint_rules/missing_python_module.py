@@ -4,28 +4,30 @@
 Python packages in the sources of an `ament_python` package that are not installed: a sub-package that a written list
 `packages=[package_name]` leaves out, and the folder of an entry point that is not listed, or that `find_packages()` passes
 over because it has no `__init__.py`. And programs of any package that import a module which lies beside them in the
-sources, and not where they are installed. And the Python package of an `ament_cmake` package, called as it is, of which nothing
+sources, and not where they are installed; the module of an entry point is installed in its Python package, and so must name
+this when it imports its neighbours. And the Python package of an `ament_cmake` package, called as it is, of which nothing
 is installed: the confidence is high if it has a `setup.cfg` for `ament_python_install_package()`, or another package of the
 workspace imports it, else medium.
 
 ## Why it matters
 
 The import works in the source folder and with `colcon build --symlink-install`, and fails everywhere else with
-ModuleNotFoundError.
+ModuleNotFoundError. That of an entry point's neighbour works where its file is started by hand, and nowhere else.
 
 ## How to fix it
 
 `packages=find_packages(exclude=['test'])`, or name the sub-package: `packages=[package_name, package_name + '.sub']`. The
 fix adds it to the list. A folder without `__init__.py` needs one, too. For a program, make the module part of a Python package
-(`ament_python_install_package()`), or install it beside the program. In `CMakeLists.txt`:
-`ament_python_install_package(${PROJECT_NAME})`, which the fix adds.
+(`ament_python_install_package()`), or install it beside the program. For a neighbour, `from package_name.module import name`.
+In `CMakeLists.txt`: `ament_python_install_package(${PROJECT_NAME})`, which the fix adds.
 
 ## When it keeps silent
 
 For tests, for folders without modules, for those whose modules `data_files` puts elsewhere, and where `packages` cannot be
 evaluated. About what a program imports, where anybody else offers a module of that name; the confidence is medium where
-the program changes `sys.path`. About the Python package of an `ament_cmake` package that has a single module, and where the
-package makes interfaces, or builds what is imported by this name.
+the program changes `sys.path`. About the neighbours of an entry point's module, where any module of the Python package changes
+`sys.path`. About the Python package of an `ament_cmake` package that has a single module, and where the package makes
+interfaces, or builds what is imported by this name.
 """
 
 from __future__ import annotations
@@ -104,9 +106,12 @@ def _beside_programs(package: Package, workspace: Workspace) -> Iterator[Finding
         if module in own or workspace.world.by_import(module).known or left.source in told:
             continue
         told.add(left.source)
-        place = left.program.rpartition("/")[0]
+        place, slash, _ = left.program.rpartition("/")
+        there = f"is not installed to {place}, where Python looks for it"
+        if not slash:
+            there = f"is installed as {left.program.rpartition('.')[0]}.{module}; import it by that name"
         yield Finding(
-            f"{left.program} imports {module}, and {left.source} is not installed to {place}, where Python looks for it",
+            f"{left.program} imports {module}, and {left.source} {there}",
             left.span,
             left.source,
             confidence=Confidence.HIGH if left.sure else Confidence.MEDIUM,
