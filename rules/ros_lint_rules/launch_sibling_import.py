@@ -17,14 +17,14 @@ and import it from there; or include a launch file instead.
 
 - The launch file changes `sys.path`.
 - The import is guarded, or inside a function.
-- A package of the workspace offers a module of that name, or Python itself does.
+- Somebody offers a module of that name: a package of the workspace, one that is installed or released, a library, or Python
+  itself.
 - A part of the package's build script that cannot be followed may install Python modules.
 - Launch files of tests and examples.
 """
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator
 
 from ros_lint.api import Facet, Finding, Package, Rule, Severity, Workspace, launchable
@@ -43,7 +43,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                     span,
                     name,
                 )
-            elif _is_sibling(name, folder, files) and not _is_elsewhere(name, package, workspace):
+            elif _is_sibling(name, folder, files) and not workspace.world.by_import(name).known:
                 yield Finding(
                     f"{name} is imported from the folder of the launch file, where ros2 launch does not look",
                     span,
@@ -55,18 +55,6 @@ def _is_sibling(name: str, folder: str, files: frozenset[str]) -> bool:
     path = f"{folder}/" if folder else ""
     path += name.replace(".", "/")
     return f"{path}.py" in files or f"{path}/__init__.py" in files
-
-
-def _is_elsewhere(name: str, package: Package, workspace: Workspace) -> bool:
-    top = name.partition(".")[0]
-    own = package.script.python_packages if package.script else ()
-    return (
-        top in sys.stdlib_module_names
-        or top == "launch"
-        or any(module.partition(".")[0] == top for module in own)
-        or bool(workspace.world.offering(top))
-        or bool(workspace.world.by_import(name).names)
-    )
 
 
 RULE = Rule(
