@@ -209,6 +209,8 @@ def test_any_text_is_read(text: str) -> None:
         ("if x:\n    import a\n", [("a", False)]),
         ("x = importlib.import_module('a.b')\n", [("a.b", True)]),
         ("import pytest\nx = pytest.importorskip(\n    'a')\n", [("pytest", False), ("a", True)]),
+        ("pytest.importorskip('a')\nfrom a.b import c\nimport ab\n", [("a", True), ("a.b", True), ("ab", False)]),
+        ("import a\npytest.importorskip('a')\n", [("a", False), ("a", True)]),
         ("# x = import_module('a')\nprint('import_module(\"a\")')\nx = __import__('b')\n", [("b", True)]),
         ("class A:\n    match x:\n        case 1:\n            import a\n", [("a", False)]),
     ],

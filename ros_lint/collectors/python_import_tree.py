@@ -25,9 +25,12 @@ class Import(NamedTuple):
     """Whether the program does without: for type checkers only, never as it is written, or with the error caught."""
     caught: bool = False
     """Whether it is optional because just that error is caught."""
+    skips: bool = False
+    """Whether it is a call that skips the test without the module."""
 
 
-_DYNAMIC = frozenset({"import_module", "importorskip", "__import__"})
+_SKIPS = "importorskip"
+_DYNAMIC = frozenset({"import_module", _SKIPS, "__import__"})
 GUARD = re.compile(r"TYPE_CHECKING|version_info|platform|DISTRO|distro|suppress")
 """What a test, or a with statement, has that may decide about the imports in it."""
 _MISSING = frozenset({"ImportError", "ModuleNotFoundError"})
@@ -42,6 +45,7 @@ def walk(source: Text, tree: ast.Module) -> list[Import]:
     a test of the platform, unless every branch imports from the same package (reference, section D6). A try statement
     inside of others that raises another error instead, which says what is missing, makes them optional, too. Calls of
     ``importlib.import_module()`` and the like are imports, too; whoever calls one is taken to be able to go without.
+    A test that is skipped without a module goes without whatever it imports of it afterwards.
     """
     walker = _Walker(_off(tree))
     found = [
@@ -51,7 +55,8 @@ def walk(source: Text, tree: ast.Module) -> list[Import]:
     ]
     if any(name in source.text for name in _DYNAMIC):
         found += _calls(source, tree)
-    return sorted(found)
+    found.sort()
+    return _after_skips(found) if _SKIPS in source.text else found
 
 
 def _off(tree: ast.Module) -> frozenset[str]:
@@ -81,13 +86,25 @@ def _calls(source: Text, tree: ast.Module) -> Iterator[Import]:
     for node in ast.walk(tree):
         if isinstance(node, ast.Call) and node.args:
             given = node.args[0]
-            if callee(node) not in _DYNAMIC:
+            name = callee(node)
+            if name not in _DYNAMIC:
                 continue
             if not isinstance(given, ast.Constant) or not isinstance(given.value, str):
                 yield Import(start_of(source, given), "", True)
             elif not given.value.startswith("."):
                 start = source.text.find(given.value, start_of(source, given))
-                yield Import(max(start, 0), given.value, True)
+                yield Import(max(start, 0), given.value, True, skips=name == _SKIPS)
+
+
+def _after_skips(imports: Iterable[Import]) -> list[Import]:
+    """Return imports with those optional that come after a test would have been skipped without the module."""
+    found: list[Import] = []
+    skips: tuple[str, ...] = ()
+    for item in imports:
+        if item.skips:
+            skips += (f"{item.module}.",)
+        found.append(item._replace(optional=item.optional or f"{item.module}.".startswith(skips)))
+    return found
 
 
 _Found = tuple["ast.Import | ast.ImportFrom", int]

@@ -95,8 +95,8 @@ def _run(program: Program, source: Text, start: Span) -> BuildScript:
     spans = source.spans([(item.start, item.start + len(item.module)) for item in imports])
     script = script._replace(
         mentions=tuple(
-            Mention(module, "import", span, f"import of {module}", optional)
-            for (_, module, optional, _), span in zip(imports, spans, strict=True)
+            Mention(item.module, "import", span, f"import of {item.module}", item.optional)
+            for item, span in zip(imports, spans, strict=True)
         )
     )
     if program.end or not program.setups:
