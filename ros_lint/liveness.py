@@ -59,14 +59,17 @@ class Liveness:
         self._script = script = own.script
         self._facts = own.facts
         self._launched = launched
-        hidden = around = Facet(0)
+        hidden = around = beside = Facet(0)
         for opaque in script.opaque if script else ():
             hidden |= opaque.hides
-            around |= opaque.hides if not (opaque.inside or opaque.undefined) else Facet(0)
+            around |= opaque.hides if not opaque.inside else Facet(0)
+            beside |= opaque.hides if not (opaque.inside or opaque.undefined) else Facet(0)
         self._sees_targets = script is not None and not hidden & (Facet.LIBRARIES | Facet.EXECUTABLES)
         self._sees_share = script is not None and not hidden & Facet.SHARE
-        # What is built in a folder that is not there, such as a submodule, installs no modules from around it; a target, none.
-        self._sees_python = script is not None and not around & (Facet.PYTHON | Facet.EXECUTABLES)
+        # What is built in a folder that is not there, such as a submodule, takes no sources and installs no modules from around
+        # it; a target, no modules.
+        self._sees_compiled = script is not None and not around & (Facet.LIBRARIES | Facet.EXECUTABLES)
+        self._sees_python = script is not None and not beside & (Facet.PYTHON | Facet.EXECUTABLES)
 
     def place(self, path: str) -> tuple[Role, bool]:
         """Return what a file is needed for, and whether it is sure to be alive."""
@@ -113,7 +116,7 @@ class Liveness:
         if _TEST_FOLDERS & folders or self._is_of_tests(path) or (python and _is_test(name) and path not in self._started):
             # pytest takes what is called test, and beside it lie its helpers; elsewhere lies anything.
             taken = self._runs_python_tests and (self._is_run(path) or path in self._started_by_tests)
-            alive = not (self._sees_targets or resource or self._is_left_out(path))
+            alive = not (self._sees_compiled or resource or self._is_left_out(path))
             return Role.TEST, (taken or self._may_be_launched(path)) if python else alive
         if path in self._launched and (path in self._installed or path in self._installed_python):
             return Role.EXEC, True
@@ -127,11 +130,11 @@ class Liveness:
         if python:
             alive = path in self._installed_python or (path in self._installed and path in self._beside_launch_files)
             return Role.EXEC, alive or (not self._sees_python and self._is_of_python_package(path, idle=idle))
-        return PRODUCTION, not (self._sees_targets or idle or self._is_left_out(path))
+        return PRODUCTION, not (self._sees_compiled or idle or self._is_left_out(path))
 
     def _may_be_launched(self, path: str) -> bool:
         """Whether a file among the tests is a launch file, and not one that is left out of what is known to be run."""
-        sees_all = self._script is not None and self._script.runs is not None
+        sees_all = self._script is not None and (self._script.runs is not None or self._tests_nothing)
         return path in self._launched and (not sees_all or path in self._installed)
 
     def _is_of_ros_1(self, path: str) -> bool:
@@ -211,6 +214,12 @@ class Liveness:
         if self._script is None or not self._script.path.endswith("CMakeLists.txt"):
             return True
         return self._script.runs_tests
+
+    @cached_property
+    def _tests_nothing(self) -> bool:
+        """Whether CMake builds no tests, and runs none: what lies among them is started by nobody else either."""
+        targets = self._script.targets if self._script else ()
+        return not self._runs_python_tests and not any(target.test for target in targets)
 
     @cached_property
     def _folders_with_tests(self) -> frozenset[str]:

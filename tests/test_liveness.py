@@ -113,6 +113,17 @@ def test_beside_what_is_compiled_by_name_lies_what_is_not() -> None:
 
 
 @pytest.mark.parametrize(
+    ("lines", "sure"),
+    [("add_subdirectory(sdk)", False), ("target_link_libraries(a sdk)", False), (HIDDEN, True)],
+)
+def test_a_build_of_its_own_that_is_not_there_compiles_no_sources_from_around_it(lines: str, sure: bool) -> None:
+    files = {"src/a.cpp": include("nav_msgs"), "src/old/b.cpp": include("shape_msgs")}
+    workspace = load(f"add_executable(a src/a.cpp)\n{lines}", files)
+    assert use(workspace, "nav_msgs").sure
+    assert use(workspace, "shape_msgs").sure is sure
+
+
+@pytest.mark.parametrize(
     ("line", "sure"),
     [
         ("ament_add_pytest_test(unit test/test_a.py)", True),
@@ -142,6 +153,7 @@ def test_a_test_is_alive_where_it_is_run(line: str, sure: bool) -> None:
         ("ament_add_test(b COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test/test_b.launch.py)", False),
         ("ament_add_test(b COMMAND test/test_b.launch.py)\ninstall(DIRECTORY test DESTINATION share/robot)", True),
         ("ament_add_gtest(a test/a.cpp)", True),  # people start it, or the program does
+        ("ament_lint_auto_find_test_dependencies()", False),
     ],
 )
 def test_a_launch_file_of_tests_is_alive_unless_others_are_run(lines: str, sure: bool) -> None:
