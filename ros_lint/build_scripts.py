@@ -197,8 +197,9 @@ def installs_built(script: BuildScript) -> bool:
 
 
 def listed_to_install(package: Package) -> frozenset[str]:
-    """Return every argument of install(), as it is written: what stands there may be installed, whether or not it is seen."""
-    return frozenset([text for call in called(package, "install", anywhere=True) for text in call.texts])
+    """Return every name among the arguments of install(): what stands there may be installed, whether or not it is seen."""
+    texts = {text for call in called(package, "install", anywhere=True) for text in call.texts}
+    return frozenset([name for text in texts if (name := evaluated_name(package, text))])
 
 
 def astray(package: Package, endings: tuple[str, ...]) -> dict[str, Provided]:

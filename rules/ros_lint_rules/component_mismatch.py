@@ -139,13 +139,16 @@ def _libraries(package: Package) -> Iterator[Finding]:
     """Speak of libraries with components that are not installed."""
     script = package.script
     assert script is not None
-    installed = {p.path.rpartition("/")[2] for p in script.provides}
+    files = {provided.path.rpartition("/")[2] for provided in script.provides}
     listed = listed_to_install(package)
     elsewhere = astray(package, (".so",))
+    targets = {target.name: target for target in reversed(script.targets)}
     told: set[str] = set()
     for call in called(package, *REGISTERING):
         name = evaluated_name(package, call.texts[0]) if call.args else None
-        if name and name not in told and not call.blocks and (place := elsewhere.get(name)):
+        if name not in targets or name in told or call.blocks:
+            continue
+        if place := elsewhere.get(name):
             told.add(name)
             yield Finding(
                 f"the library {name} has components, and is installed to {place.path.rpartition('/')[0]}; "
@@ -154,15 +157,11 @@ def _libraries(package: Package) -> Iterator[Finding]:
                 name,
                 (Related("its components are registered here", call.span(0)),),
             )
-        if name is None or call.blocks or name in told or f"lib{name}.so" in installed or call.texts[0] in listed:
-            continue
-        target = next((target for target in script.targets if target.name == name), None)
-        if target is None or name in listed or any(file.startswith(f"lib{name}.") for file in installed):
-            continue
-        told.add(name)
-        fix = Fix.of(f"install {name}", cmake_edits.install_library(script, name))
-        message = f"the library {name} has components, and is not installed; install it to lib"
-        yield Finding(message, call.span(0), name, (Related("it is built here", target.span),), fix)
+        elif name not in listed and not any(file.startswith(f"lib{name}.") for file in files):
+            told.add(name)
+            fix = Fix.of(f"install {name}", cmake_edits.install_library(script, name))
+            message = f"the library {name} has components, and is not installed; install it to lib"
+            yield Finding(message, call.span(0), name, (Related("it is built here", targets[name].span),), fix)
 
 
 RULE = Rule(

@@ -52,6 +52,7 @@ from ros_lint.api import (
     is_on_request,
     is_shared_by_words,
     library_calls,
+    listed_to_install,
     relative,
     several,
 )
@@ -62,7 +63,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     if script is None or package.builds_with != "ament_cmake" or hidden(package, Facet.LIBRARIES):
         return
     installed = {provided.target for provided in script.provides}
-    listed = {text for call in called(package, "install", anywhere=True) for text in _names(package, call.texts)}
+    listed = listed_to_install(package)
     components = {name for call in called(package, *REGISTERING, anywhere=True) for name in _names(package, call.texts[:1])}
     yield from _astray(package)
     for target in script.targets:
