@@ -22,25 +22,32 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Finding, Package, Provided, Related, Rule, Severity, Workspace
+from ros_lint.api import Finding, Package, Provided, Related, Rule, Severity, Workspace, few, several
 
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with not in ("ament_cmake", "ament_python"):
         return
-    first: dict[str, Provided] = {}
+    by_path: dict[str, dict[str, Provided]] = {}
     for provided in script.provides:
-        if not provided.source or provided.conditional:
-            continue
-        earlier = first.setdefault(provided.path, provided)
-        if earlier.source != provided.source and not provided.path.endswith("__init__.py"):
-            yield Finding(
-                f"{earlier.source} and {provided.source} are both installed as {provided.path}; the last one wins",
-                provided.span,
-                provided.path,
-                (Related(f"{earlier.source} is installed here", earlier.span),),
-            )
+        if provided.source and not (provided.conditional or provided.path.endswith("__init__.py")):
+            by_path.setdefault(provided.path, {}).setdefault(provided.source, provided)
+    for path, sources in by_path.items():
+        if len(sources) > 1:
+            yield _finding(path, sources)
+
+
+def _finding(path: str, sources: dict[str, Provided]) -> Finding:
+    *others, last = sources.values()
+    which = f"{' and '.join(sources)} are both" if len(sources) == 2 else f"{few(sources)} ({len(sources)} files) are all"
+    places = {each.span: f"{each.source} is installed here" for each in reversed(others) if each.span != last.span}
+    return Finding(
+        f"{which} installed as {path}; the last one wins",
+        last.span,
+        path,
+        several(Related(message, span) for span, message in sorted(places.items())),
+    )
 
 
 RULE = Rule(
