@@ -65,44 +65,36 @@ def collect(source: Text) -> SetupCfg:
     texts: list[WrittenText] = []
     section = ""
     last = source.span(0, 0)
-    indent = 0
-    open_option: Option | None = None
-
-    def close() -> None:
-        if open_option is not None:
-            options.append(open_option)
-
+    indent: int | None = None  # of the option that goes on with what is indented more
     for number in range(1, source.line_count + 1):
         line = source.line(number)
         text = line.strip()
-        start = source.offset(number, 1) + len(line) - len(line.lstrip())
         if not text or text[0] in "#;":
             continue
-        last = source.span(start + len(text), start + len(text))
         width = len(line) - len(line.lstrip())
-        if open_option is not None and width > indent:
-            added = Line(text, source.span(start, start + len(text)))
-            open_option = open_option._replace(lines=(*open_option.lines, added))
+        start = source.offset(number, 1) + width
+        whole = source.span(start, start + len(text))
+        last = whole.end()
+        if indent is not None and width > indent:
+            options[-1] = options[-1]._replace(lines=(*options[-1].lines, Line(text, whole)))
             continue
-        close()
-        open_option = None
-        indent = width
+        indent = None
         header, given = _SECTION.match(text), _OPTION.match(text)
         if header:
             section = header[1]
             texts.append(WrittenText("section", section, last))
         elif given is None or not section or not given[1]:
             message = "this line is in no section" if not section else "this line is neither a section nor an option"
-            problems.append(Problem("setup-cfg-syntax", message, source.span(start, start + len(text))))
+            problems.append(Problem("setup-cfg-syntax", message, whole))
         else:
-            span = source.span(start, start + len(given[1]))
+            indent = width
             at = start + given.start(2)
             lines = (Line(given[2], source.span(at, at + len(given[2]))),) if given[2] else ()
-            open_option = Option(section, given[1].replace("-", "_"), lines, span)
+            option = Option(section, given[1].replace("-", "_"), lines, source.span(start, start + len(given[1])))
+            options.append(option)
             if "-" in given[1] and section in _DASHED:
-                better = given[1].replace("-", "_")
-                problems.append(Problem("dashed-key", f"{given[1]} with a dash; write {better}", span, subject=given[1]))
-    close()
+                message = f"{given[1]} with a dash; write {option.key}"
+                problems.append(Problem("dashed-key", message, option.span, subject=given[1]))
     texts += [WrittenText("option", f"{option.section}.{option.key}", option.lines[0].span) for option in options if option.lines]
     texts.append(WrittenText("section", "", last))
     return SetupCfg(tuple(options), tuple(problems), tuple(texts))
