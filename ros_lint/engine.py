@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import fnmatch
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from ros_lint import suppress
@@ -12,7 +12,7 @@ from ros_lint.registry import matching, suggest
 from ros_lint.report import Crash, Hidden, Issue, RefusalError
 from ros_lint.rule import Confidence, Rule, Severity
 from ros_lint.suppress import Suppression
-from ros_lint.workspace import Workspace
+from ros_lint.workspace import Package, Workspace
 
 
 class SelectionError(RefusalError):
@@ -78,12 +78,7 @@ def run(workspace: Workspace, rules: Iterable[Rule]) -> tuple[tuple[Issue, ...],
     for rule in rules:
         for package in workspace.packages if rule.package else (None,):
             try:
-                if rule.package is not None and package is not None:
-                    for finding in rule.package(package, workspace):
-                        issues.add(Issue(rule, package.name, finding))
-                elif rule.workspace is not None:
-                    for finding in rule.workspace(workspace):
-                        issues.add(Issue(rule, finding.package or owner(workspace, finding.span.path), finding))
+                issues.update(_issues(rule, package, workspace))
             except KnowledgeError:
                 raise  # no rule can do its job, and the user must act
             except Exception:
@@ -91,6 +86,16 @@ def run(workspace: Workspace, rules: Iterable[Rule]) -> tuple[tuple[Issue, ...],
 
                 crashes.append(Crash(rule.name, package.name if package else "", traceback.format_exc()))
     return tuple(sorted(issues, key=order)), tuple(crashes)
+
+
+def _issues(rule: Rule, package: Package | None, workspace: Workspace) -> Iterator[Issue]:
+    """Yield what a rule finds: in a package, or in the workspace, for rules that look at it as a whole."""
+    if rule.package is not None and package is not None:
+        for finding in rule.package(package, workspace):
+            yield Issue(rule, package.name, finding)
+    elif rule.workspace is not None:
+        for finding in rule.workspace(workspace):
+            yield Issue(rule, finding.package or owner(workspace, finding.span.path), finding)
 
 
 class Checked(NamedTuple):

@@ -60,15 +60,20 @@ def _cycle_through(arcs: Mapping[str, Collection[str]], start: str, below: int) 
         for name in level:
             for other in sorted(arcs[name]):
                 if other == start:
-                    path = [name]
-                    while path[-1] != start:
-                        path.append(came[path[-1]])
-                    return tuple(reversed(path))
+                    return _way(came, start, name)
                 if other > start and other not in came:
                     came[other] = name
                     following.append(other)
         level = following
     return ()
+
+
+def _way(came: Mapping[str, str], start: str, end: str) -> tuple[str, ...]:
+    """Return the way by which one came from a start to an end, both included."""
+    path = [end]
+    while path[-1] != start:
+        path.append(came[path[-1]])
+    return tuple(reversed(path))
 
 
 def cheapest_cut(graph: Graph, arcs: Mapping[str, Collection[str]]) -> tuple[Edge, ...]:

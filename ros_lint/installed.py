@@ -28,6 +28,8 @@ _LAUNCH_CONTENT = {
     ".yaml": re.compile(rb"\A(?:#.*\n|---.*\n|\s)*launch:"),
 }
 _LAUNCH_CONTENT[".yml"] = _LAUNCH_CONTENT[".yaml"]
+_CONFIGURATION = re.compile(r"(.+)(?:Config|-config)\.cmake")
+"""The file by which find_package() finds a CMake package in configuration mode."""
 _NO_MODULES = (".egg-info", ".dist-info", ".pth", ".egg-link")
 
 
@@ -172,11 +174,8 @@ class Prefix:
             places = [f"share/{package}/cmake"]
             if self.single:
                 places += [f"{at}/{name}" for at in ("lib/cmake", "share/cmake") for name, _ in self._list(at)]
-            for place in places:
-                for name, _ in self._list(place):
-                    for ending in ("Config.cmake", "-config.cmake"):
-                        if name.endswith(ending) and name != ending:
-                            yield name.removesuffix(ending), package
+            listed = [_CONFIGURATION.fullmatch(name) for place in places for name, _ in self._list(place)]
+            yield from ((found[1], package) for found in listed if found is not None)
 
     @cached_property
     def _include_folders(self) -> Mapping[str, tuple[str, ...]]:

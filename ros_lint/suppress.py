@@ -128,24 +128,20 @@ def apply(
             suppressed.append((issue, hits[0][0]))
         else:
             kept.append(issue)
-    unused: list[Unused] = []
-    unknown: list[Unknown] = []
-    broken: list[Suppression] = []
-    for suppression in (each for path in sorted(in_file) for each in in_file[path]):
-        if suppression.problem:
-            broken.append(suppression)
-            continue
-        idle = [
-            name
-            for name in suppression.names
-            if (rule := names.get(name.text.lower())) in ran and rule not in judging and (suppression, name) not in used
-        ]
-        if idle:
-            unused.append(Unused(suppression, tuple(idle)))
-        unknown += [
-            Unknown(suppression, name, _nearest(name.text, names)) for name in suppression.names if name.text.lower() not in names
-        ]
-    return Outcome(tuple(kept), tuple(suppressed), tuple(unused), tuple(unknown), tuple(broken))
+    ordered = [each for path in sorted(in_file) for each in in_file[path]]
+    whole = [(each, [(name, names.get(name.text.lower())) for name in each.names]) for each in ordered if not each.problem]
+    idle = [
+        (each, tuple([name for name, rule in means if rule in ran and rule not in judging and (each, name) not in used]))
+        for each, means in whole
+    ]
+    unknown = [Unknown(each, name, _nearest(name.text, names)) for each, means in whole for name, rule in means if rule is None]
+    return Outcome(
+        tuple(kept),
+        tuple(suppressed),
+        tuple([Unused(each, left) for each, left in idle if left]),
+        tuple(unknown),
+        tuple([each for each in ordered if each.problem]),
+    )
 
 
 def _nearest(word: str, names: Iterable[str]) -> str:

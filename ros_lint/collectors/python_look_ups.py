@@ -133,7 +133,7 @@ def _bound(expression: Expression) -> set[str]:
 def _calls(inner: list[ast.AST]) -> Iterator[tuple[ast.Call, ast.expr]]:
     for node in inner:
         if node.__class__ is ast.Call and callee(node) in LOOK_UPS:
-            given = argument(node, 0, "package", "package_name")
+            given = argument(node, "package", "package_name")
             if given is not None:
                 yield node, given
 
@@ -143,10 +143,8 @@ def _paths(evaluator: Evaluator, node: ast.expr, where: Where) -> Iterator[tuple
     if isinstance(node, (ast.Call, ast.BinOp, ast.JoinedStr)):
         texts = evaluator.values(node, where)
         if texts != (None,):
-            for text in texts:
-                for place in installed(text) if text else ():
-                    if place.known and place.share:
-                        yield node, place.package, place.share
+            places = [place for text in texts if text for place in installed(text)]
+            yield from ((node, place.package, place.share) for place in places if place.known and place.share)
             return
     for child in ast.iter_child_nodes(node):
         if isinstance(child, ast.expr):

@@ -143,17 +143,21 @@ class _Scanner:
                     self._branch(value, where.scope, where.block)
             elif isinstance(value, list):
                 for item in value:
-                    if isinstance(item, ast.ExceptHandler):
-                        if item.name:
-                            where.scope.bind(item.name, None, where)
-                        self._branch(item.body, where.scope, where.block)
-                    elif isinstance(item, ast.match_case):
-                        for inner in ast.walk(item.pattern):
-                            if isinstance(inner, (ast.MatchAs, ast.MatchStar)) and inner.name:
-                                where.scope.bind(inner.name, None, where)
-                        self._branch(item.body, where.scope, where.block)
-                    elif isinstance(item, str):  # global, nonlocal
-                        where.scope.bind(item, None, where)
+                    self._part(item, where)
+
+    def _part(self, item: object, where: Where) -> None:
+        """Handlers of errors, cases of match, and the names of global and nonlocal: each binds names, or has a block."""
+        names: list[str | None] = []
+        if isinstance(item, ast.ExceptHandler):
+            names = [item.name]
+        elif isinstance(item, ast.match_case):
+            names = [inner.name for inner in ast.walk(item.pattern) if isinstance(inner, (ast.MatchAs, ast.MatchStar))]
+        elif isinstance(item, str):
+            names = [item]
+        for name in filter(None, names):
+            where.scope.bind(name, None, where)
+        if isinstance(item, (ast.ExceptHandler, ast.match_case)):
+            self._branch(item.body, where.scope, where.block)
 
     def _function(self, node: ast.FunctionDef | ast.AsyncFunctionDef, scope: Scope, where: Where) -> None:
         scope.bind(node.name, None, where)

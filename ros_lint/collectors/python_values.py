@@ -37,13 +37,13 @@ def callee(node: ast.Call) -> str:
     return function.id if isinstance(function, ast.Name) else ""
 
 
-def argument(node: ast.Call, position: int, *names: str) -> ast.expr | None:
-    """Return an argument by its position or one of its names."""
+def argument(node: ast.Call, *names: str) -> ast.expr | None:
+    """Return the argument that has one of some names, or else the first one."""
     for keyword in node.keywords:
         if keyword.arg in names:
             return keyword.value
-    found = node.args[position] if position < len(node.args) else None
-    return None if isinstance(found, ast.Starred) else found
+    first = node.args[0] if node.args else None
+    return None if isinstance(first, ast.Starred) else first
 
 
 class Evaluator:
@@ -145,17 +145,17 @@ class Evaluator:
         name = callee(node)
         if name in LOOK_UPS:
             place = share if name in _SHARE else prefix
-            given = self.values(argument(node, 0, "package", "package_name"), where)
+            given = self.values(argument(node, "package", "package_name"), where)
             return tuple(None if text is None else place(text) for text in given)
         if name == "join" and not (isinstance(node.func, ast.Attribute) and isinstance(node.func.value, ast.Constant)):
             return self._combine(node.args, where, _join)
         if name in _PATHS and len(node.args) > 1:
             return self._combine(node.args, where, _join)
         if name in ("PathJoinSubstitution", "PathSubstitution"):
-            parts = argument(node, 0, "substitutions", "path")
+            parts = argument(node, "substitutions", "path")
             return self._combine(parts.elts, where, _join) if isinstance(parts, (ast.List, ast.Tuple)) else ANYTHING
         if name in _THROUGH:
-            return self.values(argument(node, 0), where)
+            return self.values(argument(node), where)
         if name == "dirname" and node.args:
             return self._combine(node.args[:1], where, _parent)
         return self._method(node, node.func, where) if isinstance(node.func, ast.Attribute) else ANYTHING
