@@ -10,6 +10,7 @@ and all stages once; the figures are medians over the rounds.
 from __future__ import annotations
 
 import argparse
+import json
 import os
 import resource
 import shutil
@@ -49,20 +50,8 @@ def main() -> int:
 
 def row(workspace: str, rounds: int, jobs: int) -> str:
     """Return the figures of a workspace as a line of a table."""
-    lint = [
-        sys.executable,
-        "-m",
-        "ros_lint",
-        workspace,
-        "--jobs",
-        str(jobs),
-        "--format",
-        "json",
-        "--output",
-        os.devnull,
-        "--fail-on",
-        "never",
-    ]
+    quietly = ["--format", "json", "--output", os.devnull, "--fail-on", "never"]
+    lint = [sys.executable, "-m", "ros_lint", workspace, "--jobs", str(jobs), *quietly]
     colcon = shutil.which("colcon")
     with tempfile.TemporaryDirectory() as cache:
         stages: dict[str, Callable[[], Cost]] = {
@@ -143,8 +132,6 @@ def spend(command: Sequence[str], cache: str) -> Cost:
 def packages(workspace: str) -> int:
     """Return how many packages ros-lint finds."""
     command = [sys.executable, "-m", "ros_lint", "check", workspace, "--format", "json", "--fail-on", "never"]
-    import json
-
     found = subprocess.run(command, capture_output=True, check=False).stdout
     return int(json.loads(found)["packages"])
 
