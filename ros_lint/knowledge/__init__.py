@@ -32,11 +32,8 @@ def distros(places: Sequence[str] = ()) -> tuple[Distribution, ...]:
 
     ``places`` are folders that go before the data shipped, such as :func:`ros_lint.knowledge.store.user_directory`.
     """
-    found = [name for name in Store(places).names(".idx") if name != "rolling"]
-    known = [Distribution(name, _is_long_term(name)) for name in found]
-    if len(found) < len(Store(places).names(".idx")):
-        known.append(Distribution("rolling", long_term=False))
-    return tuple(known)
+    found = sorted(Store(places).names(".idx"), key=lambda name: name == "rolling")
+    return tuple([Distribution(name, name != "rolling" and _is_long_term(name)) for name in found])
 
 
 def newest_lts(places: Sequence[str] = ()) -> str:

@@ -131,9 +131,8 @@ def render_file(distro: str, commit: str, date: str, packages: Iterable[Released
 class Index:
     """The packages of one distribution."""
 
-    def __init__(self, distro: str, head: str, table: Table, path: str = "") -> None:
+    def __init__(self, distro: str, head: str, table: Table) -> None:
         self.distro = distro
-        self.path = path
         said = dict(_HEAD.findall(head))
         self.date = said.get("date", "")
         self.commit = said.get("rosdistro", "")
@@ -152,13 +151,7 @@ class Index:
 
     def get(self, name: str) -> Released | None:
         """Return a package, or None. Raises KnowledgeError when its line makes no sense."""
-        row = self._table.row(name)
-        if row is None:
-            return None
-        try:
-            return parse(row)
-        except ValueError as error:
-            raise KnowledgeError(f"{self.path}: the line of {name} makes no sense: {error}") from error
+        return self._table.entry(name, parse)
 
     def members(self, group: str) -> Iterator[str]:
         """Yield the members of a group, sorted."""
@@ -248,7 +241,7 @@ _HEAD = re.compile(r"(\w+)=(\S+)")
 
 
 def load(store: Store, distro: str) -> Index:
-    """Return the index of a distribution: empty, with neither date nor path, when there is none.
+    """Return the index of a distribution: empty, and without date, when there is none.
 
     Raises KnowledgeError when the file is damaged.
     """
@@ -258,4 +251,4 @@ def load(store: Store, distro: str) -> Index:
     head, table = store.table(name)
     if head and not head.startswith("#ros-index 1 "):
         raise KnowledgeError(f"{store.find(name)} is no index of a distribution in a format that this version knows")
-    return Index(distro, head, table, store.find(name) or "")
+    return Index(distro, head, table)

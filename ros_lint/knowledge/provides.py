@@ -131,22 +131,15 @@ def render_file(distro: str, packages: Iterable[Provided]) -> str:
 class Provides:
     """What the packages of one distribution install."""
 
-    def __init__(self, table: Table, path: str = "") -> None:
+    def __init__(self, table: Table) -> None:
         self._table = table
-        self._path = path
 
     def __len__(self) -> int:
         return len(self._table)
 
     def get(self, name: str) -> Provided | None:
         """Return what a package installs: None when nobody has looked. Raises KnowledgeError for a damaged line."""
-        row = self._table.row(name)
-        if row is None:
-            return None
-        try:
-            return parse(row)
-        except ValueError as error:
-            raise KnowledgeError(f"{self._path}: the line of {name} makes no sense: {error}") from error
+        return self._table.entry(name, parse)
 
     def known(self, name: str, offer: Offer) -> Known:
         """Return what is known of one side of a package."""
@@ -160,4 +153,4 @@ def load(store: Store, distro: str) -> Provides:
     head, table = store.table(name)
     if head and not head.startswith("#ros-provides 1 "):
         raise KnowledgeError(f"{store.find(name)} is no list of what packages install in a known format")
-    return Provides(table, store.find(name) or "")
+    return Provides(table)

@@ -75,9 +75,8 @@ def render_file(keys: Mapping[str, Key]) -> str:
 class Rosdep:
     """All keys."""
 
-    def __init__(self, table: Table, path: str = "") -> None:
+    def __init__(self, table: Table) -> None:
         self._table = table
-        self._path = path
         self._asked: dict[str, tuple[str, ...]] = {}
 
     def __len__(self) -> int:
@@ -92,13 +91,7 @@ class Rosdep:
 
     def get(self, name: str) -> Key | None:
         """Return a key, or None. Raises KnowledgeError when its line makes no sense."""
-        row = self._table.row(name)
-        if row is None:
-            return None
-        try:
-            return parse(row)
-        except ValueError as error:
-            raise KnowledgeError(f"{self._path}: the line of {name} makes no sense: {error}") from error
+        return self._table.entry(name, parse)
 
     def resolves(self, name: str, distro: str) -> bool | None:
         """Return whether a key has a rule for a platform of a distribution: None when either is not known."""
@@ -145,4 +138,4 @@ def load(store: Store) -> Rosdep:
     head, table = store.table("rosdep.tsv")
     if head and not head.startswith("# key\t"):
         raise KnowledgeError(f"{store.find('rosdep.tsv')} is no list of rosdep keys")
-    return Rosdep(table, store.find("rosdep.tsv") or "")
+    return Rosdep(table)

@@ -10,12 +10,14 @@ import os
 import re
 from bisect import bisect_left
 from operator import gt
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from ros_lint.report import RefusalError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
+
+T = TypeVar("T")
 
 SHIPPED = os.path.join(os.path.dirname(os.path.abspath(__file__)), "data")
 
@@ -96,7 +98,7 @@ class Store:
         if any(map(gt, rows, rows[1:])):
             path = self.find(name) or name
             raise KnowledgeError(f"the lines of {path} are not sorted, so nothing can be found in it; {_advice(path)}")
-        return head, Table(rows)
+        return head, Table(rows, self.find(name) or "")
 
 
 _PACKAGES = re.compile(r"\bpackages=(\d+)")
@@ -109,12 +111,13 @@ def _advice(path: str) -> str:
 
 
 class Table:
-    """Lines that are sorted by their first field."""
+    """Lines that are sorted by their first field. ``path`` is that of the file that they are from."""
 
-    __slots__ = ("_lines",)
+    __slots__ = ("_lines", "_path")
 
-    def __init__(self, lines: list[str]) -> None:
+    def __init__(self, lines: list[str], path: str = "") -> None:
         self._lines = lines
+        self._path = path
 
     def __len__(self) -> int:
         return len(self._lines)
@@ -132,6 +135,16 @@ class Table:
         """Return the fields of the line of a name, the name first, or None."""
         line = self.line(name)
         return None if line is None else line.split("\t")
+
+    def entry(self, name: str, parse: Callable[[list[str]], T]) -> T | None:
+        """Return what the fields of the line of a name mean, or None. Raises KnowledgeError for a ValueError of ``parse``."""
+        row = self.row(name)
+        if row is None:
+            return None
+        try:
+            return parse(row)
+        except ValueError as error:
+            raise KnowledgeError(f"{self._path}: the line of {name} makes no sense: {error}") from error
 
     def __contains__(self, name: str) -> bool:
         return self.line(name) is not None
