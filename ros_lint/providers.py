@@ -193,6 +193,7 @@ def _other_names(world: World, name: str, *, python: bool) -> Iterator[Meant | N
         yield _first(world, [f"python3-{bare}", f"python3-{bare}-pip"], "spelling")
         yield _first(world, (*names.module_packages(bare, world.knowledge.distro), *names.module(bare)), "python")
         yield _only(world, rosdep.installing(bare))
+        yield _first(world, [f"python3-{bare.removeprefix('py')}"], "spelling")  # pyserial
     else:
         yield _first(world, _libraries(names.cmake_any_case(name)), "cmake")
     yield _only(world, rosdep.installing(name))

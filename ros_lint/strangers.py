@@ -27,12 +27,13 @@ class Stranger(NamedTuple):
 
     @property
     def runs_python(self) -> bool:
-        """Return whether it is needed to run Python code, for all that the tags say."""
+        """Return whether it is needed to run Python code, for all that the tags say, and what uses it."""
         if self.package.builds_with == "ament_python":
             return True
+        called_so = {use.via for use in self.called_so}
         if not self.package.declares(self.name) & (Role.BUILD | Role.EXPORT | Role.TOOL):
-            return True
-        return {use.via for use in self.called_so} == {"import"}
+            return not called_so or "import" in called_so
+        return called_so == {"import"}
 
     @property
     def called_so(self) -> list[Use]:
