@@ -64,10 +64,11 @@ def evaluate(tree: Tree, packages: Sequence[Parts], distro: str) -> list[BuildSc
 def _cmake(tree: Tree, parts: Parts, distro: str, helpers: dict[str, Helper]) -> BuildScript:
     from ros_lint.interpret import cmake  # noqa: PLC0415
     from ros_lint.interpret.cmake_sources import Helper  # noqa: PLC0415
+    from ros_lint.knowledge.cmake_commands import opaque_packages  # noqa: PLC0415
 
     sources = _sources(tree, parts)
     script = cmake.evaluate(sources, distro, helpers)
-    if script.extras:
+    if script.extras and parts.found.name not in opaque_packages():
         helpers[parts.found.name] = Helper(sources, script)
     folder = parts.found.path
     written = (cmake_calls.collect(join(folder, file), parsed) for file, parsed in sorted(parts.commands.items()))

@@ -109,14 +109,25 @@ def macros() -> Mapping[str, Macro]:
     """Return the released macros that are known, by name in lower case."""
     found: dict[str, Macro] = {}
     package = ""
-    with open(os.path.join(SHIPPED, "ros_macros.cmake"), encoding="utf-8") as file:
-        for match in _PIECE.finditer(file.read()):
-            if match[3]:
-                found[match[3].lower()] = Macro(package, match[0])
-            else:
-                package = match[1]
+    for match in _PIECE.finditer(_written()):
+        if match[4]:
+            found[match[4].lower()] = Macro(package, match[0])
+        else:
+            package = match[1]
     return found
 
 
+@cache
+def opaque_packages() -> frozenset[str]:
+    """Return the packages whose CMake code does not say what it does, and whose macros are all known."""
+    return frozenset([match[1] for match in _PIECE.finditer(_written()) if match[2]])
+
+
+@cache
+def _written() -> str:
+    with open(os.path.join(SHIPPED, "ros_macros.cmake"), encoding="utf-8") as file:
+        return file.read()
+
+
 # Few of the definitions are wanted in a run, so these are not taken apart before.
-_PIECE = re.compile(r'^package\("?([^")\n]*)"?\)$|^(function|macro)\((\w+)[^\n]*\n(?s:.*?)^end\2\(\)$', re.MULTILINE)
+_PIECE = re.compile(r'^package\("?([^" )\n]*)"?( OPAQUE)?\)$|^(function|macro)\((\w+)[^\n]*\n(?s:.*?)^end\3\(\)$', re.MULTILINE)

@@ -47,9 +47,10 @@ _NO_WORDS = frozenset({"lib", "dev", "python", "python3", "pip", "all", "core", 
 _EVERYDAY_WORDS = frozenset({"scripts", "controller", "vehicle"})
 
 _SAME_MACROS: Mapping[str, tuple[str, ...]] = {
-    "rosidl_default_generators": ("rosidl_default_generators", "rosidl_core_generators"),
+    "rosidl_default_generators": ("rosidl_default_generators", "rosidl_core_generators", "rosidl_cmake"),
 }
-"""Packages whose macros another one has, too: the second of these is what the messages use that the first depends on."""
+"""Packages whose macros others have, too: the second of these is what the messages use that the first depends on, the third
+what the tests of single generators use."""
 
 
 class Names:
