@@ -73,7 +73,7 @@ def programs(package: Package) -> Programs | None:
         folder, _, name = provided.path.rpartition("/")
         if folder == f"lib/{package.name}":
             names.add(name)
-        elif folder == "bin" or folder.startswith("lib/"):
+        elif folder == "bin" or (folder.startswith("lib/") and not provided.importable):
             elsewhere.setdefault(name, provided.path)
     return Programs(frozenset(names), elsewhere)
 

@@ -182,5 +182,4 @@ def _beside(source: str, facts: FileFacts, files: Container[str], folders: Conta
 
 def _is_program(provided: Provided) -> bool:
     """Whether an installed file in Python is one that is started, in every build."""
-    path = provided.path
-    return path.startswith("lib/") and not (provided.test or "site-packages" in path or "dist-packages" in path)
+    return provided.path.startswith("lib/") and not (provided.test or provided.importable)

@@ -28,6 +28,11 @@ class Provided(NamedTuple):
     test: bool = False
     """Whether it is installed only where tests are wanted."""
 
+    @property
+    def importable(self) -> bool:
+        """Whether it lies where Python looks for modules."""
+        return "site-packages/" in self.path or "dist-packages/" in self.path
+
 
 class Component(NamedTuple):
     """A class that can be loaded into a component container (rclcpp_components)."""
