@@ -9,7 +9,9 @@ import pytest
 from ros_lint.collectors.cmake_syntax import parse
 from ros_lint.facts.sight import Facet
 from ros_lint.interpret.cmake import evaluate
+from ros_lint.interpret.cmake_flow import HANDLERS
 from ros_lint.interpret.cmake_sources import Helper, Sources
+from ros_lint.knowledge.cmake_commands import macros
 from ros_lint.text import Text
 from tests.cmake_runs import HEAD, hidden, mentioned, paths, run, sources
 
@@ -160,3 +162,10 @@ def test_headers_of_ament_auto_package() -> None:
 def test_version_header() -> None:
     text = "ament_generate_version_header(a)\nament_generate_version_header(b HEADER_PATH b.h INSTALL_PATH include)\n"
     assert paths(run(text)) == {"include/pkg/pkg/version.h": False, "include/b.h": False}
+
+
+def test_no_command_minds_that_it_is_given_nothing() -> None:
+    for name in sorted({*HANDLERS, *macros()}):
+        if not name.startswith(("ros_lint_", "end", "else")):
+            for arguments in ("", "${EMPTY}", "${EMPTY} ${EMPTY}", '""', "a", "a ${EMPTY} b"):
+                run(f"add_library(a a.cpp)\n{name}({arguments})\n", ("a.cpp",))

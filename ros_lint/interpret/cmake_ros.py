@@ -109,10 +109,10 @@ def _interfaces(run: Run, args: list[str]) -> None:
 
 def _python(run: Run, args: list[str]) -> None:
     """``ros_lint_python(module folder)``: an importable package or module is installed."""
-    if not is_known(args[0]):
+    if args and not is_known(args[0]):
         run.hide(Facet.PYTHON, "the name of a Python package is not known")
         return
-    if run.muted:
+    if run.muted or not args:
         return
     name = args[0].replace("/", ".")
     run.python_packages[name] = None
@@ -272,7 +272,8 @@ _TEST_WORDS: Final = {
 
 def _vendor(run: Run, args: list[str]) -> None:
     """``ros_lint_vendor(target ...)``: a project from elsewhere is built and installed below opt/."""
-    run.put(run.targets, args[0], Properties(KIND="other"))
+    if args:
+        run.put(run.targets, args[0], Properties(KIND="other"))
     run.hide(Facet.USES | Facet.LIBRARIES, "what ament_vendor() builds comes from elsewhere")
 
 
