@@ -63,7 +63,7 @@ from ros_lint.facts.sight import ANYTHING, Facet, Opaque, Problem
 from ros_lint.facts.sources import Mention, Registration, Use
 from ros_lint.graph import Edge, Graph, Reason
 from ros_lint.graph_cut import Knot, knots
-from ros_lint.knowledge.spelling import may_be_package, near_names, similar
+from ros_lint.knowledge.spelling import may_be_package, near_names
 from ros_lint.launch_files import Launchable, Programs, launchable, programs, referred
 from ros_lint.launch_links import Links, defaults_of, everything, filled
 from ros_lint.launch_names import Families, needed
@@ -87,11 +87,12 @@ from ros_lint.providers import Meant
 from ros_lint.report import Target
 from ros_lint.resource_files import uninstalled as uninstalled_resources
 from ros_lint.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
+from ros_lint.slips import did_you_mean, similar
 from ros_lint.strangers import Stranger, declared_names, is_near_tool, meant, strangers
 from ros_lint.suppress import Outcome
 from ros_lint.text import Span, beginning
 from ros_lint.tree import folders_of
-from ros_lint.wording import did_you_mean, few, several
+from ros_lint.wording import few, several
 from ros_lint.workspace import Declared, Package, Workspace, per_workspace
 
 if TYPE_CHECKING:  # made only where it is asked for

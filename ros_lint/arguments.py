@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, NoReturn
 
 from ros_lint.options import BY_NAME, COMMANDS, OPTIONS, Option
+from ros_lint.slips import similar
 
 _COMMON = ("distro", "underlay", "config", "isolated", "jobs", "cache", "exclude", "progress")
 _AROUND = "workspace (default: the one that the current folder lies in)"
@@ -23,11 +24,9 @@ exit codes: 0 nothing found, 1 findings at or above --fail-on, 2 the tool could 
 class _Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         if message.startswith("unrecognized arguments: "):
-            import difflib  # noqa: PLC0415  (needed for a slip only)
-
             flag = message.partition(": ")[2].split()[0].partition("=")[0]
             known = [text for action in self._actions for text in action.option_strings]
-            close = difflib.get_close_matches(flag, known, 1)
+            close = similar(flag, known)
             message += f", did you mean {close[0]}?" if close else ""
         print(f"ros-lint: {message} (ros-lint --help lists what there is)", file=sys.stderr)
         raise SystemExit(2)

@@ -5,7 +5,6 @@ The file is the nearest ``ros-lint.toml``, or ``pyproject.toml`` with a table ``
 
 from __future__ import annotations
 
-import difflib
 import os
 import re
 import sys
@@ -14,6 +13,7 @@ from typing import Any, NamedTuple
 
 from ros_lint.options import BY_NAME, OPTIONS, Option
 from ros_lint.report import RefusalError
+from ros_lint.slips import similar
 from ros_lint.tree import upwards
 
 
@@ -129,7 +129,7 @@ def _checked(path: str, text: str, name: str, value: Any) -> Any:
         known = [option.name for option in OPTIONS if option.in_file]
         if option is not None:
             raise ConfigError(f"{_place(path, text, name)}: {name} can be said on the command line only")
-        close = difflib.get_close_matches(name.replace("_", "-"), known, 1)
+        close = similar(name.replace("_", "-"), known)
         hint = f", did you mean {close[0]}?" if close else f"; there are {', '.join(known)}"
         raise ConfigError(f"{_place(path, text, name)}: unknown setting {name}{hint}")
     if complaint := _complaint(option, value):
@@ -163,7 +163,7 @@ def _word_complaint(option: Option, value: Any) -> str:
     if not isinstance(value, str):
         return "must be a string"
     if option.choices and value not in option.choices:
-        close = difflib.get_close_matches(value, option.choices, 1)
+        close = similar(value, option.choices)
         hint = f", did you mean {close[0]}?" if close else ""
         return f"must be one of {', '.join(option.choices)}, not {value!r}{hint}"
     return ""

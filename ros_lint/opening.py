@@ -13,6 +13,7 @@ from ros_lint.knowledge.store import user_directory
 from ros_lint.options import COMMANDS, OPTIONS
 from ros_lint.registry import BUILTIN
 from ros_lint.report import RefusalError, Target
+from ros_lint.slips import similar
 from ros_lint.tree import DiskTree, upwards
 
 if TYPE_CHECKING:
@@ -178,9 +179,7 @@ _MOST_SKIPPED = 3
 
 def _command(written: str) -> str:
     """Return what to say of a path that is not there, and may be meant for a command."""
-    import difflib  # noqa: PLC0415
-
-    close = difflib.get_close_matches(written, COMMANDS, 1)
+    close = similar(written, COMMANDS)
     return f"; did you mean the command {close[0]}?" if close else ""
 
 
@@ -207,11 +206,9 @@ def _target(settings: Settings, places: Sequence[str]) -> tuple[Target, tuple[st
         return Target(distro, settings.origin("distro")), ()
     if settings.origin("distro") == "ROS_DISTRO":
         return Target(distro, "ROS_DISTRO"), (f"nothing is known of ROS_DISTRO {distro}; there are {', '.join(known)}",)
-    import difflib  # noqa: PLC0415
-
     from ros_lint.knowledge.names import has_ended  # noqa: PLC0415
 
-    close = difflib.get_close_matches(distro, known, 1)
+    close = similar(distro, known)
     hint = f", did you mean {close[0]}?" if close else ""
     if has_ended(distro):
         hint = ", which is no longer supported"

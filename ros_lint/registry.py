@@ -15,6 +15,7 @@ from types import ModuleType
 
 from ros_lint.report import RefusalError
 from ros_lint.rule import Rule
+from ros_lint.slips import similar
 
 GROUP = "ros_lint.rules"
 BUILTIN = "ros_lint_rules"
@@ -80,8 +81,6 @@ def matching(rules: Sequence[Rule], selector: str) -> tuple[Rule, ...]:
 
 def suggest(rules: Sequence[Rule], selector: str) -> str:
     """Return the name or code nearest to a selector that means nothing, or ""."""
-    import difflib  # noqa: PLC0415  (needed for a slip only)
-
     words = [word for rule in rules for word in (rule.name, rule.code)]
-    close = difflib.get_close_matches(selector, [*words, "all", "default"], 1)
+    close = similar(selector, [*words, "all", "default"])
     return close[0] if close else ""

@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.rule import Edit
+from ros_lint.slips import similar
 
 if TYPE_CHECKING:
     from collections.abc import Container, Iterable
@@ -145,7 +146,5 @@ def apply(
 
 
 def _nearest(word: str, names: Iterable[str]) -> str:
-    import difflib  # noqa: PLC0415
-
-    close = difflib.get_close_matches(word.lower(), list(names), 1)
+    close = similar(word.lower(), names)
     return (close[0].upper() if close[0].startswith("ros") and close[0][3:].isdigit() else close[0]) if close else ""

@@ -1,8 +1,8 @@
-"""What the messages of several rules have in common: lists that are cut short, further places, names that may be meant."""
+"""What the messages of several rules have in common: lists that are cut short, and further places."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from itertools import islice
 
 from ros_lint.rule import Related
@@ -20,8 +20,3 @@ def few(names: Iterable[str]) -> str:
 def several(places: Iterable[Related]) -> tuple[Related, ...]:
     """Return as many further places as help: the first of those that there are."""
     return tuple(islice(places, _MOST_RELATED))
-
-
-def did_you_mean(names: Sequence[str]) -> str:
-    """Return how a message goes on that names what may be meant, "" if nothing is."""
-    return f"; did you mean {' or '.join(names)}?" if names else ""

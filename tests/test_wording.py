@@ -1,6 +1,7 @@
 from ros_lint.rule import Related
+from ros_lint.slips import did_you_mean, similar
 from ros_lint.text import Span
-from ros_lint.wording import did_you_mean, few, several
+from ros_lint.wording import few, several
 
 
 def test_a_list_says_when_it_is_cut_short() -> None:
@@ -16,5 +17,7 @@ def test_of_many_places_the_first_are_shown() -> None:
 
 
 def test_what_may_be_meant() -> None:
+    assert similar("jazy", ["humble", "jazzy"]) == ["jazzy"]
+    assert similar("jazy", ["humble", "jazzy"], 1, 0.95) == []
     assert did_you_mean([]) == ""
     assert did_you_mean(["a", "b"]) == "; did you mean a or b?"

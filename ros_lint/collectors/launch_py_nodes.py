@@ -15,6 +15,7 @@ from ros_lint.collectors.launch_text import UNKNOWN, named_in
 from ros_lint.collectors.python_values import callee
 from ros_lint.facts.launch import LaunchAction, LaunchValue
 from ros_lint.facts.sight import Problem
+from ros_lint.slips import similar
 
 _REMOVED = {
     "node_executable": "executable",
@@ -61,9 +62,7 @@ def _note_refused(walker: Walker, made: Made, conditions: Conditions, known: Col
 
 
 def _near(name: str, known: Collection[str]) -> str:
-    import difflib  # noqa: PLC0415  (hardly any file needs it)
-
-    return next(iter(difflib.get_close_matches(name, sorted(known), 1, 0.75)), "")
+    return next(iter(similar(name, sorted(known), 1, 0.75)), "")
 
 
 def started_node(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:

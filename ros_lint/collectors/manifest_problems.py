@@ -8,6 +8,7 @@ from typing import Final
 
 from ros_lint.collectors.manifest_xml import Document, Fault, Node, attribute, children, value
 from ros_lint.facts.manifest import Depend, Element
+from ros_lint.slips import similar
 
 _Elements = Sequence[tuple[Node, Element]]
 _Depends = Sequence[tuple[Node, Depend]]
@@ -172,9 +173,7 @@ def _unknown_tag(node: Node, form: int) -> Fault:
     elif newer:
         way_out = f'raise the format to "{newer}"'
     else:
-        from difflib import get_close_matches  # noqa: PLC0415  (slow to import, and needed for a slip only)
-
-        close = get_close_matches(tag, ALLOWED[form], 1, 0.75)
+        close = similar(tag, ALLOWED[form], 1, 0.75)
         way_out = f"did you mean <{close[0]}>?" if close else "remove it, or move it into <export>"
     return Fault("unknown-tag", f"there is no <{tag}> in format {form} of package.xml; {way_out}", node.start, node.end, newer)
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sight import Facet
+from ros_lint.slips import did_you_mean, similar
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -146,8 +147,4 @@ def _where(span: Span) -> dict[str, object]:
 
 
 def _no_such(workspace: Workspace, name: str) -> str:
-    from difflib import get_close_matches  # noqa: PLC0415  (only where something is mistyped)
-
-    near = get_close_matches(name, workspace.by_name, 2, 0.75)
-    hint = f"; did you mean {' or '.join(near)}?" if near else ""
-    return f"ros-lint: the workspace has no package {name}{hint}\n"
+    return f"ros-lint: the workspace has no package {name}{did_you_mean(similar(name, workspace.by_name, 2, 0.75))}\n"

@@ -16,6 +16,7 @@ from ros_lint.commands.launch_lookup import LookUp
 from ros_lint.commands.question import Answer, around, ask, enclosing_workspace
 from ros_lint.interpret.launch_expand import Expansion, expand
 from ros_lint.opening import Opened, UsageError
+from ros_lint.slips import did_you_mean, similar
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -95,13 +96,11 @@ def _doubts(file: LaunchFile, look_up: LookUp, expansion: Expansion, given: Mapp
     for name in given:
         if name in known:
             continue
-        from difflib import get_close_matches  # noqa: PLC0415  (only where something is mistyped)
-
-        near = get_close_matches(name, declared, 1, 0.75)
-        hint = f"did you mean {near[0]}?" if near else f"there are {', '.join(declared)}" if declared else "it takes none"
+        near = similar(name, declared, 1, 0.75)
+        hint = did_you_mean(near) or (f"; there are {', '.join(declared)}" if declared else "; it takes none")
         if takes.complete or near:
-            raise UsageError(f"{file.path} takes no argument {name}; {hint}")
-        yield f"nothing that can be read takes the argument {name}; {hint}"
+            raise UsageError(f"{file.path} takes no argument {name}{hint}")
+        yield f"nothing that can be read takes the argument {name}{hint}"
 
 
 def _problems(file: LaunchFile, look_up: LookUp, expansion: Expansion) -> Iterator[str]:

@@ -10,6 +10,7 @@ from ros_lint.collectors.launch_text import configurations, installed, share
 from ros_lint.facts.sight import Facet
 from ros_lint.launch_links import Links, Takes, everything, values
 from ros_lint.opening import UsageError
+from ros_lint.slips import did_you_mean, similar
 from ros_lint.text import read
 
 if TYPE_CHECKING:
@@ -101,8 +102,7 @@ class LookUp:
     def _no_package(self, package: str) -> str:
         if self._workspace.world.is_package(package):
             return f"{package} is neither in the workspace nor in an underlay; --underlay PREFIX names an installed one"
-        near = self._workspace.world.suggest(package)
-        return f"there is no package {package}" + (f"; did you mean {' or '.join(near)}?" if near else "")
+        return f"there is no package {package}{did_you_mean(self._workspace.world.suggest(package))}"
 
     def _no_file(self, packages: Sequence[Package], package: str, name: str, paths: Sequence[str]) -> str:
         for one in packages:
@@ -110,12 +110,9 @@ class LookUp:
             source = next((file.path for file in one.launch if file.path.rpartition("/")[2] == name), "")
             if source:
                 return f"{package} has {source.removeprefix(base)}, but does not install it; ros-lint launch {source} reads it"
-        from difflib import get_close_matches  # noqa: PLC0415  (only where something is mistyped)
-
         names = sorted({path.rpartition("/")[2] for path in paths if "launch" in path})
-        near = get_close_matches(name, names, 1)
-        hint = f"did you mean {near[0]}?" if near else f"it installs {', '.join(names) or 'none'}"
-        return f"{package} installs no launch file {name}; {hint}"
+        hint = did_you_mean(similar(name, names)) or f"; it installs {', '.join(names) or 'none'}"
+        return f"{package} installs no launch file {name}{hint}"
 
     # --- files that are included ----------------------------------------------------------------------------------
 

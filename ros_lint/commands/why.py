@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.graph_paths import Paths, paths
 from ros_lint.silence import used_in
+from ros_lint.slips import did_you_mean, similar
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -137,8 +138,5 @@ def _is_known(workspace: Workspace, name: str) -> bool:
 
 
 def _no_such(workspace: Workspace, name: str) -> str:
-    from difflib import get_close_matches  # noqa: PLC0415  (only where something is mistyped)
-
-    near = [*get_close_matches(name, workspace.by_name, 2, 0.75), *workspace.world.suggest(name)]
-    hint = f"; did you mean {' or '.join(dict.fromkeys(near[:3]))}?" if near else ""
-    return f"ros-lint: no package or rosdep key is called {name}{hint}\n"
+    near = [*similar(name, workspace.by_name, 2, 0.75), *workspace.world.suggest(name)]
+    return f"ros-lint: no package or rosdep key is called {name}{did_you_mean(list(dict.fromkeys(near[:3])))}\n"

@@ -12,6 +12,8 @@ from bisect import bisect_left
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from ros_lint.slips import similar
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
@@ -98,15 +100,8 @@ class Spelling:
         return sorted("\n".join(self._names)[::-1].split("\n"))
 
 
-def similar(name: str, names: Iterable[str], most: int, least: float) -> list[str]:
-    """Return which of some names look like another one, nearest first; ``least`` is how alike they are, from 0 to 1."""
-    from difflib import get_close_matches  # noqa: PLC0415  (only unknown names need it)
-
-    return get_close_matches(name, list(names), most, least)
-
-
 def near_names(name: str, names: Iterable[str], most: int, least: float) -> list[str]:
-    """Return which of the names that look like another one, as :func:`similar` says, may be meant by it.
+    """Return which of the names that look like another one, as :func:`ros_lint.slips.similar` says, may be meant by it.
 
     Where both have words that the other one lacks, these must resemble each other: front_camera is not meant to be
     rear_camera, however much of it is the same. What several complete alike, as left_arm and right_arm do arm, is neither.
@@ -119,7 +114,7 @@ def near_names(name: str, names: Iterable[str], most: int, least: float) -> list
 
 def _may_be_meant(words: frozenset[str], others: frozenset[str]) -> bool:
     lacking, more = words - others, others - words
-    return not (lacking and more) or all(similar(word, more, 1, 0.6) for word in lacking)
+    return not (lacking and more) or all(similar(word, more) for word in lacking)
 
 
 def may_be_package(name: str) -> bool:
