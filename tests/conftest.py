@@ -10,6 +10,11 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--bless", action="store_true", help="rewrite expected output from what the tool does now")
 
 
+def pytest_configure(config: pytest.Config) -> None:
+    if config.getoption("bless") and hasattr(config, "workerinput"):
+        raise pytest.UsageError("--bless rewrites files that several cases share: without -n")
+
+
 @pytest.fixture(autouse=True)
 def _no_ros_around(monkeypatch: pytest.MonkeyPatch, tmp_path_factory: pytest.TempPathFactory) -> None:
     """The caller's ROS, colours and caches are no part of any test."""
