@@ -31,6 +31,7 @@ from ros_lint.api import (
     Finding,
     Fix,
     Package,
+    Related,
     Rule,
     Severity,
     Workspace,
@@ -39,6 +40,7 @@ from ros_lint.api import (
     evaluated_name,
     hidden,
     installed_targets,
+    several,
     similar,
 )
 
@@ -65,19 +67,19 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for call in called(package, *_MAKERS, anywhere=True):
         defined.update(call.texts[:1])
         defined.add((evaluated_name(package, call.texts[0]) if call.args else None) or "")
-    reported: set[str] = set()
+    wrong: dict[str, list[tuple[Call, int]]] = {}
     finds_strangers = any(
         not workspace.world.by_cmake(call.texts[0]).known for call in called(package, "find_package", anywhere=True) if call.args
     )
     for call in called(package, *_USERS, "install"):
         for index in installed_targets(call) if call.name == "install" else range(len(call.args[:1])):
             name = evaluated_name(package, call.texts[index])
-            if name is None or call.blocks or name in defined or "::" in name or name in reported:
+            if name is None or call.blocks or name in defined or "::" in name:
                 continue
-            if call.name != "install" and finds_strangers and not similar(name, names, 1, 0.8):
-                continue
-            reported.add(name)
-            yield _finding(f"{call.name}() of {name}, which is no target", name, names, call, index)
+            if call.name == "install" or not finds_strangers or similar(name, names, 1, 0.8):
+                wrong.setdefault(name, []).append((call, index))
+    for name, places in wrong.items():
+        yield _finding(f"{places[0][0].name}() of {name}, which is no target", name, names, places)
     yield from _unfilled(package)
     yield from _no_libraries(package, defined)
 
@@ -96,7 +98,7 @@ def _unfilled(package: Package) -> Iterator[Finding]:
             if text == "HAS_LIBRARY_TARGET" or name is None or call.blocks or "__rosidl" in name or name in filled:
                 continue
             says = f"{call.name}() of {name}, and no install(TARGETS ... EXPORT {name}) puts a target there"
-            yield _finding(says, name, sorted(each for each in filled if each), call, index)
+            yield _finding(says, name, sorted(each for each in filled if each), [(call, index)])
 
 
 def _export_set(package: Package, call: Call) -> str | None:
@@ -115,17 +117,18 @@ def _no_libraries(package: Package, defined: Collection[str]) -> Iterator[Findin
                 continue
             if name == evaluated_name(package, "${PROJECT_NAME}") or similar(name, libraries, 1, 0.9):
                 says = f"ament_export_libraries() of {name}, which is no library of this package"
-                yield _finding(says, name, libraries, call, index)._replace(severity=Severity.WARNING)
+                yield _finding(says, name, libraries, [(call, index)])._replace(severity=Severity.WARNING)
 
 
-def _finding(message: str, name: str, names: list[str], call: Call, index: int) -> Finding:
+def _finding(message: str, name: str, names: list[str], places: list[tuple[Call, int]]) -> Finding:
     near = similar(name, names, 1, 0.8)
     fix = None
     if near:
         message += f"; is {near[0]} meant?"
-        if call.texts[index] == name:
-            fix = Fix(f"write {near[0]}", (cmake_edits.write(call, index, near[0]),), safe=False)
-    return Finding(message, call.span(index), name, fix=fix)
+        if all(call.texts[index] == name for call, index in places):
+            fix = Fix(f"write {near[0]}", tuple(cmake_edits.write(call, index, near[0]) for call, index in places), safe=False)
+    first, *others = [call.span(index) for call, index in places]
+    return Finding(message, first, name, several(Related("also here", span) for span in others), fix)
 
 
 RULE = Rule(

@@ -104,7 +104,10 @@ def _finding(package: Package, folder: str, paths: Iterable[str], whole: bool) -
     assert script is not None
     paths = sorted(paths)
     named = few(path.rpartition("/")[2] for path in paths)
-    what = f"{folder}/ has launch files ({named}), but is not installed" if whole else f"{named} is not installed"
+    if whole:
+        what = f"{folder}/ has launch files ({named}), but is not installed"
+    else:
+        what = f"{named} {'is' if len(paths) == 1 else 'are'} not installed"
     return Finding(
         f"{what}: ros2 launch will not find {'it' if len(paths) == 1 else 'them'}",
         setup_edits.place(script),
