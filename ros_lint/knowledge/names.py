@@ -22,17 +22,17 @@ NOTHING_NEEDED = "-"
 """Stands in a map for a name that comes with the tool chain."""
 
 END_OF_LIFE: Mapping[str, str] = {
-    "N": "ROS 1 Noetic",
-    "M": "ROS 1 Melodic",
-    "K": "ROS 1 Kinetic",
     "i": "ROS 2 Iron",
     "g": "ROS 2 Galactic",
     "f": "ROS 2 Foxy",
     "e": "ROS 2 Eloquent",
     "d": "ROS 2 Dashing",
     "c": "ROS 2 Crystal",
+    "N": "ROS 1 Noetic",
+    "M": "ROS 1 Melodic",
+    "K": "ROS 1 Kinetic",
 }
-"""Distributions at their end of life, as the letters of the data stand for them."""
+"""Distributions at their end of life, as the letters of the data stand for them: those of ROS 2 first, each newest first."""
 
 
 def has_ended(distro: str) -> bool:
@@ -40,11 +40,11 @@ def has_ended(distro: str) -> bool:
     return any(name.endswith(f" {distro.capitalize()}") for name in END_OF_LIFE.values())
 
 
-# Each of these is one package's top-level module and a word that any folder of anybody may be called.
 _NO_WORDS = frozenset({"lib", "dev", "python", "python3", "pip", "all", "core", "data", "tools"})
 """Parts of the names of rosdep keys that say nothing."""
 
 _EVERYDAY_WORDS = frozenset({"scripts", "controller", "vehicle"})
+"""Each of these is one package's top-level module and a word that any folder of anybody may be called."""
 
 _SAME_MACROS: Mapping[str, tuple[str, ...]] = {
     "rosidl_default_generators": ("rosidl_default_generators", "rosidl_core_generators", "rosidl_cmake"),
@@ -142,7 +142,8 @@ class Names:
     def end_of_life(self, name: str) -> tuple[str, ...]:
         """Return the distributions at their end of life that had a package which no active one has, newest first."""
         row = self._eol.row(name)
-        return tuple(END_OF_LIFE[letter] for letter in "igfedcNMK" if letter in row[1]) if row and len(row) > 1 else ()
+        letters = row[1] if row and len(row) > 1 else ""
+        return tuple(distro for letter, distro in END_OF_LIFE.items() if letter in letters)
 
     def called(self, key: str) -> tuple[str, ...]:
         """Return words of which one stands in whatever uses a rosdep key: of its name, of headers, modules and for CMake."""
