@@ -11,7 +11,7 @@ from ros_lint.facts.build import BuildScript, LeftBehind
 from ros_lint.facts.launch import LaunchFile, LaunchReference
 from ros_lint.facts.manifest import ColconDepend, Depend, Manifest, Role
 from ros_lint.facts.sight import Facet, Opaque
-from ros_lint.facts.sources import LookUp, ParameterFile, Registration, Use
+from ros_lint.facts.sources import LookUp, ParameterFile, PluginLoader, Registration, Use
 from ros_lint.report import NotChecked, Target
 from ros_lint.text import Span, beginning
 from ros_lint.tree import join
@@ -74,6 +74,8 @@ class Package(NamedTuple):
     """Its YAML files."""
     unusable_headers: tuple[str, ...] = ()
     """Those installed headers, relative to it, that do not compile anywhere else: what they include is not installed."""
+    loaders: tuple[PluginLoader, ...] = ()
+    """What its C++ sources load plugins by."""
     left_behind: tuple[LeftBehind, ...] = ()
     """What its programs in Python import and that is not installed beside them."""
 

@@ -261,11 +261,28 @@ def test_files_that_are_looked_up(text: str, expected: list[tuple[str, str]]) ->
         ('p = std::make_unique<pluginlib::ClassLoader<a::B<C>>>("a", "a::B");', ["a"]),
         ('// ClassLoader<X> loader("a", "a::B");', []),
         ('ClassLoader<X> loader("a", "b::C");', []),
+        ('Chain::Chain() : loader_("a", "a::Filter<b::msg::C>") {', ["a"]),
     ],
 )
 def test_plugin_loaders(text: str, expected: list[str]) -> None:
     assert [name for via, name, _ in collected("#include <pluginlib/class_loader.hpp>\n" + text) if via == "package"] == expected
     assert not [name for via, name, _ in collected(text) if via == "package"]
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ('p = std::make_unique<pluginlib::ClassLoader<b::C>>(\n  "a", "b::C");', [("a", "b::C")]),
+        ('Chain::Chain() : loader_("a", "a::Filter<b::msg::C>") {', [("a", "a::Filter<b::msg::C>")]),
+        ('// ClassLoader<X> loader("a", "b::C");', []),
+        ('loader.load("a", "b");', []),
+    ],
+)
+def test_what_plugins_are_loaded_for(text: str, expected: list[tuple[str, str]]) -> None:
+    facts = cpp.collect(source := Text("a.cpp", "#include <pluginlib/class_loader.hpp>\n" + text))
+    assert [(loader.package, loader.base) for loader in facts.loaders] == expected
+    assert all(source.slice(loader.span) == loader.package for loader in facts.loaders)
+    assert not cpp.collect(Text("a.cpp", text)).loaders
 
 
 def test_computed_include_is_opaque() -> None:

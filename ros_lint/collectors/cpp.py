@@ -6,7 +6,7 @@ import operator
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.cpp_includes import Include, mentions
-from ros_lint.collectors.cpp_look_ups import look_ups
+from ros_lint.collectors.cpp_look_ups import loaders, look_ups
 from ros_lint.collectors.cpp_registrations import registrations
 from ros_lint.collectors.cpp_symbols import symbols
 from ros_lint.facts.sight import Facet, Opaque
@@ -29,13 +29,19 @@ def collect(source: Text) -> FileFacts:
     found = mentions(source)
     included, code = found.mentions, found.code
     known = {mention[0].partition("/")[0] for mention in included}  # by index: there are ten thousands
-    packages, files = look_ups(source, not known.isdisjoint(_LOADERS), code)
+    packages, files = look_ups(source, code)
+    loading = () if known.isdisjoint(_LOADERS) else loaders(source, code)
+    packages += [
+        Mention(loader.package, "package", loader.span, f'"{loader.package}", "{loader.base}"')
+        for loader in loading
+        if loader.base.startswith(f"{loader.package}::")  # else it may be any pair of words
+    ]
     packages += symbols(source, known, found)
     if packages:
         included += packages
         included.sort(key=_place)
     opaque = _opaque(source, found.computed) if found.computed else ()
-    return FileFacts(tuple(included), opaque, registrations(source, code), files)
+    return FileFacts(tuple(included), opaque, registrations(source, code), files, loaders=loading)
 
 
 def _opaque(source: Text, computed: list[Include]) -> tuple[Opaque, ...]:

@@ -1,4 +1,4 @@
-"""Packages that a C++ source looks up with ament_index_cpp, and files in their share folders that it makes paths of."""
+"""Packages that a C++ source looks up with ament_index_cpp, files in their share folders that it makes paths of, and plugins."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.cpp_includes import blanked, in_doubt
-from ros_lint.facts.sources import LookUp, Mention
+from ros_lint.facts.sources import LookUp, Mention, PluginLoader
 
 if TYPE_CHECKING:
     from ros_lint.text import Text
 
 _LOOK_UP = re.compile(r'(get_package_(?:share_directory|share_path|prefix))\s*\(\s*"([^"\\\n]+)"')
-_LOADER = re.compile(r'oader\w*(?:<[^;{}()"]*>)?\s*\w*\s*[({]\s*("([\w.-]+)"\s*,\s*"\2::[\w:]+")')
+_LOADER = re.compile(r'oader\w*(?:<[^;{}()"]*>)?\s*\w*\s*[({]\s*"([\w.-]+)"\s*,\s*"([\w:]*\w::\w[^"\\\n]*)"')
 # What is added to a path: only literals count, and only when nothing else is added behind them.
 _ADDED = re.compile(r'((?:\s*[/+]\s*"[^"\\\n]*")+)(?!\s*[/+]\s*[\w("])')
 _PIECE = re.compile(r'([/+])\s*"([^"]*)"')
@@ -25,34 +25,35 @@ _FARTHEST = 200
 """How far before a look-up the variable is looked for that gets what it gives."""
 
 
-def look_ups(source: Text, loads_plugins: bool, code: Sequence[int] = ()) -> tuple[list[Mention], tuple[LookUp, ...]]:
-    """Return the packages that a source names in look-ups and to plugin loaders, and the files that it looks up.
+def look_ups(source: Text, code: Sequence[int] = ()) -> tuple[list[Mention], tuple[LookUp, ...]]:
+    """Return the packages that a source names in look-ups, and the files that it looks up.
 
-    ``loads_plugins`` says whether the source includes what declares the loaders. ``code`` are offsets known to be
-    code, sorted. Reference, section E2, rows 23 and 24.
+    ``code`` are offsets known to be code, sorted. Reference, section E2, row 23.
     """
     text = source.text
-    patterns = [_LOOK_UP] if "get_package_" in text else []
-    patterns += [_LOADER] if loads_plugins else []
-    if not patterns:
+    if "get_package_" not in text:
         return [], ()
-    if any(in_doubt(text, match.start(), code) for pattern in patterns for match in pattern.finditer(text)):
+    if any(in_doubt(text, match.start(), code) for match in _LOOK_UP.finditer(text)):
         text = blanked(text)
-    calls = list(_LOOK_UP.finditer(text)) if _LOOK_UP in patterns else []
-    named = [(match.span(2), match[2], f'{match[1]}("{match[2]}")') for match in calls]
-    named += [
-        ((match.start(1) + 1, match.end(2)), match[2], match[1]) for match in (_LOADER.finditer(text) if loads_plugins else ())
-    ]
-    named.sort()
-    spans = source.spans([place for place, _, _ in named])
+    calls = list(_LOOK_UP.finditer(text))
+    spans = source.spans([match.span(2) for match in calls])
     tried = _tried(text) if "PackageNotFoundError" in text else []
     mentions = [
-        Mention(name, "package", span, what, any(place[0] in block for block in tried))
-        for (place, name, what), span in zip(named, spans, strict=True)
+        Mention(match[2], "package", span, f'{match[1]}("{match[2]}")', any(match.start(2) in block for block in tried))
+        for match, span in zip(calls, spans, strict=True)
     ]
     files = sorted(_files(text, calls))
     spans = source.spans([place for place, _, _ in files])
     return mentions, tuple(LookUp(package, path, span) for (_, package, path), span in zip(files, spans, strict=True))
+
+
+def loaders(source: Text, code: Sequence[int] = ()) -> tuple[PluginLoader, ...]:
+    """Return the plugin loaders of a source that includes what declares them. Reference, section E2, row 24."""
+    matches = list(_LOADER.finditer(source.text))
+    if any(in_doubt(source.text, match.start(), code) for match in matches):
+        matches = list(_LOADER.finditer(blanked(source.text)))
+    spans = source.spans([match.span(1) for match in matches])
+    return tuple(PluginLoader(match[1], match[2], span) for match, span in zip(matches, spans, strict=True))
 
 
 def _tried(text: str) -> list[range]:

@@ -30,7 +30,7 @@ def registrations(source: Text, code: Sequence[int] = ()) -> tuple[Registration,
         name, _, base = (part.strip() for part in match[2].partition(","))
         kind: Literal["component", "plugin"] = "component" if match[1].startswith("RCLCPP") else "plugin"
         if name and (base or kind == "component"):
-            found.append(Registration(kind, _plain(name), span))
+            found.append(Registration(kind, _plain(name), span, _plain(base) if kind == "plugin" else ""))
     return tuple(found)
 
 

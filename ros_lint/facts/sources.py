@@ -82,6 +82,19 @@ class Registration(NamedTuple):
     name: str
     """The class as written, without a leading ``::``."""
     span: Span
+    base: str = ""
+    """Of a plugin: the class that it is loaded as, likewise."""
+
+
+class PluginLoader(NamedTuple):
+    """A loader of plugins in C++ that says in words what it loads (``pluginlib::ClassLoader``)."""
+
+    package: str
+    """For which plugins are exported."""
+    base: str
+    """The class that they are loaded as, with its namespaces."""
+    span: Span
+    """Of the package."""
 
 
 class FileFacts(NamedTuple):
@@ -100,3 +113,4 @@ class FileFacts(NamedTuple):
     """Names of Python files that its literals end with: a test starts some of them by path."""
     sets_path: bool = False
     """Whether it speaks of ``sys.path``, so that modules may be sought in more folders."""
+    loaders: tuple[PluginLoader, ...] = ()

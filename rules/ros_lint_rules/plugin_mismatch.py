@@ -4,8 +4,9 @@
 Plugins of pluginlib that cannot be loaded:
 
 - a class made loadable with `PLUGINLIB_EXPORT_CLASS`, in a package that exports no plugin description;
-- a plugin description that is not exported, so not installed either;
-- a class in the description that no source makes loadable under this very name;
+- a plugin description that is not exported, so not installed either, or exported for what is no package, while a loader of
+  the workspace asks for plugins of its classes for another name;
+- a class in the description that no source makes loadable under this very name, or as another class than it says;
 - a library that the package does not build or install, or a `<library>` without `path`.
 
 ## Why it matters
@@ -27,6 +28,7 @@ confidence is medium.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from ros_lint.api import (
@@ -39,6 +41,7 @@ from ros_lint.api import (
     PluginClass,
     PluginFile,
     PluginLibrary,
+    PluginLoader,
     Registration,
     Related,
     Rule,
@@ -50,6 +53,7 @@ from ros_lint.api import (
     is_apart,
     is_shared_by_words,
     library_of,
+    per_workspace,
     relative,
     several,
     similar,
@@ -58,7 +62,7 @@ from ros_lint.api import (
 _SEEN = Facet.LIBRARIES | Facet.SHARE | Facet.COMPONENTS
 
 
-def check(package: Package, _: Workspace) -> Iterator[Finding]:
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_cmake" or hidden(package, _SEEN):
         return
@@ -75,6 +79,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
                 for finding in _libraries(package, plugin, everything):
                     yield finding._replace(confidence=Confidence.MEDIUM)
         return
+    yield from _for_nobody(package, workspace)
     found = {
         one.type
         for plugin in script.plugins
@@ -98,8 +103,45 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             )
 
 
+@per_workspace
+def _loading(workspace: Workspace) -> dict[str, list[PluginLoader]]:
+    """Return the loaders of all packages by the class that they load plugins as."""
+    found: dict[str, list[PluginLoader]] = {}
+    for package in workspace.packages:
+        for loader in package.loaders:
+            found.setdefault("".join(loader.base.split()), []).append(loader)
+    return found
+
+
+def _for_nobody(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    """Compare what a description is exported for with what the loaders of the workspace ask for."""
+    script = package.script
+    assert script is not None
+    described = {plugin.path: plugin for plugin in script.plugins}
+    for call in called(package, EXPORTING_PLUGINS, anywhere=True):
+        if len(call.texts) < 2 or "$" in call.texts[0] or call.texts[1] not in described:
+            continue
+        meant, path = call.texts[:2]
+        bases = {"".join(one.base.split()) for library in described[path].libraries for one in library.classes}
+        loaders = [loader for base in sorted(bases) for loader in _loading(workspace).get(base, ())]
+        asked = sorted({loader.package for loader in loaders})
+        if loaders and meant not in asked and not workspace.world.is_package(meant):
+            fix = Fix(f"export it for {asked[0]}", (cmake_edits.write(call, 0, asked[0]),), safe=False)
+            yield Finding(
+                f"{path} is exported for {meant}, which is no package; what loads its plugins asks for {', '.join(asked)}",
+                call.span(0),
+                path,
+                several(Related("loaded here", loader.span) for loader in loaders),
+                fix if len(asked) == 1 else None,
+            )
+
+
 def _builds_libraries(package: Package) -> bool:
     return package.script is not None and any(target.kind == "library" and target.sources for target in package.script.targets)
+
+
+_READ_BY_RQT = frozenset({"rqt_gui", "qt_gui"})
+"""Exports of the manifest whose plugins are found by them. Those of other names say nothing to anybody in ROS 2."""
 
 
 def _unexported(package: Package, registered: list[Registration]) -> Iterator[Finding]:
@@ -110,8 +152,7 @@ def _unexported(package: Package, registered: list[Registration]) -> Iterator[Fi
     first, *others = registered
     names = {made.name for made in registered}
     plugin = next((p for p in script.plugins if any(c.type in names for lib in p.libraries for c in lib.classes)), None)
-    # rqt finds the plugins that the manifest exports.
-    if package.manifest and any(element.get("plugin") for element in package.manifest.exports):
+    if package.manifest and any(element.tag in _READ_BY_RQT and element.get("plugin") for element in package.manifest.exports):
         return
     way = f"{EXPORTING_PLUGINS}(... {plugin.path})" if plugin else f"a plugin description and {EXPORTING_PLUGINS}()"
     yield Finding(
@@ -174,7 +215,11 @@ def _plain(path: str) -> str:
 
 def _class(package: Package, plugin: PluginFile, one: PluginClass, registered: list[Registration]) -> Iterator[Finding]:
     wanted = one.type.replace(" ", "").removeprefix("::")
-    if not wanted or not registered or any(made.name == wanted for made in registered):
+    if not wanted or not registered:
+        return
+    same = [made for made in registered if made.name == wanted]
+    if same:
+        yield from _base(plugin, one, same)
         return
     last = wanted.rpartition("::")[2]
     alike = [made for made in registered if made.name.rpartition("::")[2] == last]
@@ -187,6 +232,34 @@ def _class(package: Package, plugin: PluginFile, one: PluginClass, registered: l
         related,
         confidence=Confidence.HIGH if alike or one.type in package.unwritten else Confidence.MEDIUM,
     )
+
+
+def _base(plugin: PluginFile, one: PluginClass, made: list[Registration]) -> Iterator[Finding]:
+    """Compare the class that a plugin is described as with those that it is made loadable as."""
+    base = "".join(one.base.split()).removeprefix("::")
+    if all(_differ(base, each.base) for each in made):
+        yield Finding(
+            f"{one.type} is described as a {base}, and made loadable as a {made[0].base}; write the same in both places",
+            one.span,
+            f"{plugin.path}#{one.type}",
+            several(Related("made loadable here", each.span) for each in made),
+        )
+
+
+def _differ(described: str, made: str) -> bool:
+    """Whether two names are those of two classes. One without a namespace may stand for any; so may each in ``< >``."""
+    if "::" not in described or "::" not in made:
+        return False
+    there, here = (_NAME.findall(name) for name in (described, made))
+    return len(there) != len(here) or not all(map(_may_be_same, there, here))
+
+
+_NAME = re.compile(r"[\w:]+")
+
+
+def _may_be_same(one: str, other: str) -> bool:
+    """Whether two names may be of one class, one of them with fewer of its namespaces."""
+    return f"::{one}".endswith(f"::{other}") or f"::{other}".endswith(f"::{one}")
 
 
 RULE = Rule(
