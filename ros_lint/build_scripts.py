@@ -14,7 +14,7 @@ from ros_lint.facts.sources import Registration
 from ros_lint.knowledge.cmake_commands import INSTALL_ARTIFACTS, INSTALL_TARGETS_WORDS
 from ros_lint.liveness import HEADERS
 from ros_lint.text import Span, beginning
-from ros_lint.tree import join
+from ros_lint.tree import join, within
 from ros_lint.workspace import Package
 
 
@@ -64,7 +64,7 @@ def hidden(package: Package, facet: Facet) -> tuple[Opaque, ...]:
 
 def relative(package: Package, path: str) -> str:
     """Return a path relative to the package."""
-    return path.removeprefix(f"{package.path}/") if package.path else path
+    return within(package.path, path)
 
 
 def from_base(package: Package, path: str) -> str:

@@ -15,7 +15,7 @@ from ros_lint.facts.build import BuildScript
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.launch_links import everything
 from ros_lint.text import Text, read
-from ros_lint.tree import Tree, join, parent
+from ros_lint.tree import Tree, join, parent, within
 
 if TYPE_CHECKING:
     from ros_lint.collectors.launch_py_objects import Module
@@ -123,8 +123,7 @@ class _Places:
 
     @staticmethod
     def _existing(module: str, package: Around) -> str:
-        skip = len(package.path) + 1 if package.path else 0
-        return next((path for path in _sources(module) if path[skip:] in package.files), "")
+        return next((path for path in _sources(module) if within(package.path, path) in package.files), "")
 
     # --- files ----------------------------------------------------------------------------------------------------
 
@@ -145,8 +144,7 @@ class _Places:
         if own:
             return provided.get(posixpath.normpath(join(parent(own), path)), "")
         source = posixpath.normpath(join(parent(file.path), path))
-        skip = len(package.path) + 1 if package.path else 0
-        return source if source[skip:] in package.files else ""
+        return source if within(package.path, source) in package.files else ""
 
     def _provided(self, package: Around) -> dict[str, str]:
         """Return the sources of what a package installs, by install path."""
