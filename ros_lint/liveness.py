@@ -22,7 +22,7 @@ _IDLE_FOLDERS = frozenset({"doc", "docs", "example", "examples", "tutorial", "tu
 """Folders whose files are often not part of what the package builds and installs."""
 
 HEADERS = (".h", ".hh", ".hpp", ".hxx", ".inl", ".ipp", ".tpp", ".cuh")
-_SOURCES = (".c", ".cc", ".cpp", ".cxx", ".cu")
+SOURCES = (".c", ".cc", ".cpp", ".cxx", ".cu")
 _INTERFACES = (".msg", ".srv", ".action", ".idl")
 _RESOURCES = (".urdf", ".xacro", ".sdf", ".world", ".rviz", ".yaml", ".yml", ".xml")
 
@@ -248,7 +248,7 @@ class Liveness:
             return frozenset()
         compiled = self._production | self._tests | self._optional
         idle = _TEST_FOLDERS | _IDLE_FOLDERS
-        dead = {file for file in self._files if file.endswith(_SOURCES) and idle.isdisjoint(file.split("/"))} - compiled
+        dead = {file for file in self._files if file.endswith(SOURCES) and idle.isdisjoint(file.split("/"))} - compiled
         left = self._own.reached(dead) - compiled if dead and self._production else frozenset()
         return left - self._own.reached(self._offered - left) if left else left
 
@@ -296,7 +296,7 @@ class Liveness:
     @cached_property
     def _optional_stems(self) -> frozenset[str]:
         """Names of headers, without suffix and below any folder, that have a source which only some builds compile."""
-        return frozenset([_stem(file) for file in self._optional if file.endswith(_SOURCES)])
+        return frozenset([_stem(file) for file in self._optional if file.endswith(SOURCES)])
 
     def _compiled(self, *, test: bool) -> set[str]:
         """Return the sources of targets that are compiled in every build: also by one of two targets of a name."""

@@ -11,7 +11,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from ros_lint.collectors import cpp_types
-from ros_lint.liveness import HEADERS
+from ros_lint.liveness import HEADERS, SOURCES
 from ros_lint.tree import contents, join
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from ros_lint.text import Span
     from ros_lint.tree import Tree
 
-_SOURCES = (*HEADERS, ".c", ".cc", ".cpp", ".cxx", ".cu")
+_CODE = (*HEADERS, *SOURCES)
 
 
 class _Wanted(NamedTuple):
@@ -107,7 +107,7 @@ class Types:
         return {name: tuple(places) for name, places in found.items()}
 
     def _texts(self, source: Source, files: Iterable[str]) -> Iterator[tuple[str, bytes]]:
-        return contents(self._tree, source.path, (file for file in files if file.endswith(_SOURCES)))
+        return contents(self._tree, source.path, (file for file in files if file.endswith(_CODE)))
 
 
 def _is_public(file: str) -> bool:
