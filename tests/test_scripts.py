@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from ros_lint import engine, registry
 from ros_lint.facts.sight import ANYTHING, Facet
 from ros_lint.interpret import cmake
 from ros_lint.load import Loader
@@ -56,6 +57,15 @@ def test_a_script_that_fails_us_is_told_of(monkeypatch: pytest.MonkeyPatch) -> N
     reason = "ros-lint failed on it (ValueError: oh); please report this"
     assert [(entry.what, entry.reason) for entry in workspace.not_checked] == [("p/CMakeLists.txt", reason)]
     assert workspace.by_name["p"][0].hidden(Facet.SHARE)
+
+
+@pytest.mark.parametrize(("end", "found"), [("\r\n", ["save it with LF"]), ("\n", [])])
+def test_no_interpreter_is_found_whose_name_ends_with_a_carriage_return(end: str, found: list[str]) -> None:
+    text = end.join(["#!/usr/bin/env python3", "if __name__ == '__main__':", "    print(1)", ""])
+    workspace = load("install(PROGRAMS a.py DESTINATION lib/${PROJECT_NAME})\nament_package()\n", p__a_dot_py=text)
+    rules = [rule for rule in registry.load() if rule.name == "script-not-executable"]
+    issues = engine.check(workspace, rules, (), rules).issues
+    assert [issue.finding.message.rpartition("; ")[2] for issue in issues if issue.finding.confidence == 3] == found
 
 
 SETUP = {
