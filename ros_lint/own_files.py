@@ -142,8 +142,11 @@ def left_behind(files: Sequence[str], script: BuildScript | None, facts: Mapping
     """Yield the imports of programs in Python that work among the sources, and not where the program is installed.
 
     Python looks for modules beside the program that it starts, beside what a link to it points to (reference, section D4.4).
-    That of an entry point is made by pip, so what lies beside its module is only found as a part of the Python package.
+    That of an entry point is made by pip, so what lies beside its module is only found as a part of the Python package; and
+    setuptools installs no folder that is not among the packages.
     """
+    if script is not None:
+        yield from _unlisted(files, script, facts)
     provides = script.provides if script else ()
     programs = [(p.path, p.source) for p in provides if p.source.endswith(".py") and p.source in facts and _is_program(p)]
     modules = [(each.name, each.path) for each in script.modules if each.path in facts and "." in each.name] if script else []
@@ -166,6 +169,33 @@ def left_behind(files: Sequence[str], script: BuildScript | None, facts: Mapping
         for module, beside, span in _beside(source, facts[source], known, folders):
             if f"{module}.py" not in names:
                 yield LeftBehind(name, module, beside, span, sure=True)
+
+
+def _unlisted(files: Sequence[str], script: BuildScript, facts: Mapping[str, FileFacts]) -> Iterator[LeftBehind]:
+    """Yield the imports, in Python packages that a setup.py installs, of what lies in a folder that is not among them.
+
+    What an entry point names is sure to be started.
+    """
+    if not script.python_packages or script.path.endswith("CMakeLists.txt"):
+        return
+    packages = frozenset(script.python_packages)
+    started = {module.path for module in script.modules}
+    inside = {file.rpartition("/")[0]: file for file in files if file.endswith(".py")}
+    known = frozenset(files)
+    for path, each in facts.items():
+        folder = path.rpartition("/")[0]
+        top = "src/" if folder.startswith("src/") else ""
+        if not path.endswith(".py") or folder.removeprefix(top).replace("/", ".") not in packages:
+            continue
+        for mention in each.mentions:
+            name = mention.name
+            if mention.via != "import" or mention.optional or name.partition(".")[0] in each.caught:
+                continue
+            if f"{top}{name.replace('.', '/')}.py" in known:
+                name = name.rpartition(".")[0]
+            source = f"{top}{name.replace('.', '/')}"
+            if name not in packages and name.rpartition(".")[0] and name.partition(".")[0] in packages and source in inside:
+                yield LeftBehind(path, name, f"{source}/", mention.span, path in started)
 
 
 def _beside(source: str, facts: FileFacts, files: Container[str], folders: Container[str]) -> Iterator[tuple[str, str, Span]]:

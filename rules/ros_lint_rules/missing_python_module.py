@@ -2,12 +2,12 @@
 ## What it finds
 
 Python packages in the sources of an `ament_python` package that are not installed: a sub-package that a written list
-`packages=[package_name]` leaves out, and the folder of an entry point that is not listed, or that `find_packages()` passes
-over because it has no `__init__.py`. And programs of any package that import a module which lies beside them in the
-sources, and not where they are installed; the module of an entry point is installed in its Python package, and so must name
-this when it imports its neighbours. And the Python package of an `ament_cmake` package, called as it is, of which nothing
-is installed: the confidence is high if it has a `setup.cfg` for `ament_python_install_package()`, or another package of the
-workspace imports it, else medium.
+`packages=[package_name]` leaves out, and the folder of an entry point, or one that its module imports from, that is
+not listed, or that `find_packages()` passes over because it has no `__init__.py`. And programs of any package that
+import a module which lies beside them in the sources, and not where they are installed; the module of an entry point
+is installed in its Python package, and so must name this when it imports its neighbours. And the Python package of an
+`ament_cmake` package, called as it is, of which nothing is installed: the confidence is high if it has a `setup.cfg`
+for `ament_python_install_package()`, or another package of the workspace imports it, else medium.
 
 ## Why it matters
 
@@ -23,11 +23,12 @@ In `CMakeLists.txt`: `ament_python_install_package(${PROJECT_NAME})`, which the 
 
 ## When it keeps silent
 
-For tests, for folders without modules, for those whose modules `data_files` puts elsewhere, and where `packages` cannot be
-evaluated. About what a program imports, where anybody else offers a module of that name; the confidence is medium where
-the program changes `sys.path`. About the neighbours of an entry point's module, where any module of the Python package changes
-`sys.path`. About the Python package of an `ament_cmake` package that has a single module, and where the package makes
-interfaces, or builds what is imported by this name.
+For tests, for folders without modules, for those whose modules `data_files` puts elsewhere, and where `packages`
+cannot be evaluated. Of a folder that only modules import from which no entry point names, the confidence is medium.
+About what a program imports, where anybody else offers a module of that name; the confidence is medium where the
+program changes `sys.path`. About the neighbours of an entry point's module, where any module of the Python package
+changes `sys.path`. About the Python package of an `ament_cmake` package that has a single module, and where the
+package makes interfaces, or builds what is imported by this name.
 """
 
 from __future__ import annotations
@@ -83,16 +84,33 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             continue
         told.add(inside)
         entry = next(entry for entry in script.entry_points if entry.module == module.name)
-        folder = module.path.rpartition("/")[0]
-        whole = f"{folder}/__init__.py" in package.files
-        listed = f", and {inside} to packages" if slot else ""  # find_packages() finds it by itself then
-        way = "" if whole else f"; add {folder}/__init__.py{listed}"
+        way = _way(package, module.path.rpartition("/")[0], inside, slot)
         yield Finding(
             f"{entry.name} needs {module.path}, and {inside} is not among the packages that are installed{way}",
             entry.span,
             inside,
-            fix=_fix(slot, inside, package.name) if whole else None,
+            fix=None if way else _fix(slot, inside, package.name),
         )
+    for left in package.left_behind:
+        folder, name = left.source.rstrip("/"), left.module
+        if "." not in name or name in told or folder in beside:
+            continue
+        told.add(name)
+        way = _way(package, folder, name, slot)
+        yield Finding(
+            f"{left.program} imports what lies in {left.source}, and {name} is not among the packages that are installed{way}",
+            left.span,
+            name,
+            fix=None if way else _fix(slot, name, package.name),
+            confidence=Confidence.HIGH if left.sure else Confidence.MEDIUM,
+        )
+
+
+def _way(package: Package, folder: str, name: str, slot: Slot | None) -> str:
+    """Return how a message goes on that says what makes a folder a Python package, "" if it is one."""
+    if f"{folder}/__init__.py" in package.files:
+        return ""
+    return f"; add {folder}/__init__.py" + (f", and {name} to packages" if slot else "")  # find_packages() finds it by itself
 
 
 def _beside_programs(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -103,7 +121,7 @@ def _beside_programs(package: Package, workspace: Workspace) -> Iterator[Finding
     told: set[str] = set()
     for left in package.left_behind:
         module = left.module
-        if module in own or workspace.world.by_import(module).known or left.source in told:
+        if "." in module or module in own or workspace.world.by_import(module).known or left.source in told:
             continue
         told.add(left.source)
         place, slash, _ = left.program.rpartition("/")
