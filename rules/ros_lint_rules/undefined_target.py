@@ -23,7 +23,7 @@ that may be the system's; where a package is found that nobody knows, which may 
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 
 from ros_lint.api import (
     ANYTHING,
@@ -86,10 +86,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _unfilled(package: Package) -> Iterator[Finding]:
     """Yield what is to say of exported sets of targets (reference, section C3): that none is in them."""
-    filled = {_export_set(package, call) for call in called(package, "install", anywhere=True)}
-    if package.script is None or None in filled:
-        return
-    filled.update(package.script.export_sets)
+    filled = package.script.export_sets if package.script else ()
     for call in called(package, "ament_export_targets", "ament_export_interfaces"):
         for index, text in enumerate(call.texts):
             name = evaluated_name(package, text)
@@ -98,13 +95,7 @@ def _unfilled(package: Package) -> Iterator[Finding]:
             if text == "HAS_LIBRARY_TARGET" or name is None or call.blocks or "__rosidl" in name or name in filled:
                 continue
             says = f"{call.name}() of {name}, and no install(TARGETS ... EXPORT {name}) puts a target there"
-            yield _finding(says, name, sorted(each for each in filled if each), [(call, index)])
-
-
-def _export_set(package: Package, call: Call) -> str | None:
-    """Return the set that an install command puts targets into, "" if none, None when its name is not known."""
-    after = call.texts.index("EXPORT", 1) + 1 if "EXPORT" in call.texts[1:] else 0
-    return evaluated_name(package, call.texts[after]) if 0 < after < len(call.texts) else ""
+            yield _finding(says, name, filled, [(call, index)])
 
 
 def _no_libraries(package: Package, defined: Collection[str]) -> Iterator[Finding]:
@@ -120,7 +111,7 @@ def _no_libraries(package: Package, defined: Collection[str]) -> Iterator[Findin
                 yield _finding(says, name, libraries, [(call, index)])._replace(severity=Severity.WARNING)
 
 
-def _finding(message: str, name: str, names: list[str], places: list[tuple[Call, int]]) -> Finding:
+def _finding(message: str, name: str, names: Sequence[str], places: list[tuple[Call, int]]) -> Finding:
     near = similar(name, names, 1, 0.8)
     fix = None
     if near:
