@@ -19,7 +19,7 @@ A parameter file has the full name of the node, `ros__parameters`, and then the 
 
 ## When it keeps silent
 
-- Which file is given, or what the node is called, is not known from the launch file, or changes with its arguments.
+- Which file is given, or what the node is called, is not known from the launch file, even with the defaults of its arguments.
 - The file is installed by no package of the workspace, or rewritten before it is given.
 - One of several nodes that the launch file gives it to is among those in the file; or the file has parameters of several
   nodes, and another launch file gives it to one of them.
