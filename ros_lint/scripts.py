@@ -2,35 +2,26 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Container, Iterator, Mapping, Sequence, Set
+from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint import resource_files
-from ros_lint.apart import is_apart
 from ros_lint.collect import FAILED
-from ros_lint.collectors import cmake_calls, plugin_xml, python_names, setup_layout, setup_texts
+from ros_lint.collectors import cmake_calls, python_names, setup_layout, setup_texts
 from ros_lint.collectors.cmake_syntax import Parsed, parse
 from ros_lint.discover import Found
-from ros_lint.facts.build import BuildScript, ScriptFile
+from ros_lint.facts.build import BuildScript
 from ros_lint.facts.setup_py import PythonModule
-from ros_lint.facts.sight import ANYTHING, Facet, Opaque
-from ros_lint.text import Span, Text, beginning, span_in
-from ros_lint.tree import Tree, contents, folders_of, join, text_of
+from ros_lint.facts.sight import ANYTHING, Opaque
+from ros_lint.script_files import Executables, text_in, with_files
+from ros_lint.text import beginning
+from ros_lint.tree import Tree, join
 
 if TYPE_CHECKING:
     from ros_lint.interpret.cmake_sources import Helper, Sources
 
-_PLUGIN_FILE = re.compile(r"plugin.*\.xml\Z", re.IGNORECASE)
-_SCRIPTS = re.compile(r"(?:scripts|nodes|bin|script)/[^/]+\Z")
-_MOST_RESOURCES = 40
-"""Of a folder: a tree of models has thousands of files, and one that is named is enough."""
 _MOST_UNSEEN = 5_000
-_PAGES = (".md", ".rst", ".txt", ".sh", ".bash")
-_TELLS = (*_PAGES, ".py", ".yaml", ".yml")
-"""Texts that may say how a program is started."""
 _PYTHON = ("setup.py", "setup.cfg", "pyproject.toml")
 
 
@@ -53,9 +44,9 @@ def evaluate(tree: Tree, packages: Sequence[Parts], distro: str) -> list[BuildSc
         parts = packages[number]
         try:
             if "CMakeLists.txt" in parts.commands and parts.found.type != "ros.ament_python":
-                result[number] = _with_files(tree, parts, _cmake(tree, parts, distro, helpers))
+                result[number] = with_files(tree, parts.found, parts.commands, _cmake(tree, parts, distro, helpers))
             elif script := _python(tree, parts.found):
-                result[number] = _with_files(tree, parts, script)
+                result[number] = with_files(tree, parts.found, parts.commands, script)
         except Exception as error:  # a mistake of ours in one script must not cost the user all the others
             result[number] = _failed(parts, FAILED.format(f"{type(error).__name__}: {error}"))
     return result
@@ -86,9 +77,9 @@ def _sources(tree: Tree, parts: Parts) -> Sources:
     found, depends = parts.found, parts.depends
     built = tuple(dict.fromkeys((*depends.get("b", ()), *depends.get("t", ()))))
     version = found.manifest.version if found.manifest else ""
-    executables = _Executables(tree, found)
+    executables = Executables(tree, found)
     unseen = tuple(skipped.path for skipped in found.unseen)
-    config = _text(tree, found, "setup.cfg")
+    config = text_in(tree, found, "setup.cfg")
     texts = {"setup.cfg": config.text} if config else {}
     return Sources(
         found.name,
@@ -118,7 +109,7 @@ class _Scripts(Mapping[str, Parsed]):
 
     def __getitem__(self, path: str) -> Parsed:
         if path not in self._parsed:
-            text = _text(self._tree, self._found, path)
+            text = text_in(self._tree, self._found, path)
             if text is None:
                 raise KeyError(path)
             self._parsed[path] = parse(text)
@@ -153,8 +144,8 @@ def _python(tree: Tree, found: Found) -> BuildScript | None:
         return None
     from ros_lint.interpret import setup_py  # noqa: PLC0415
 
-    setup, config, project = texts_read = [_text(tree, found, file) for file in _PYTHON]
-    script = setup_py.evaluate(found.name, found.path, found.files, setup, config, project, _Executables(tree, found))
+    setup, config, project = texts_read = [text_in(tree, found, file) for file in _PYTHON]
+    script = setup_py.evaluate(found.name, found.path, found.files, setup, config, project, Executables(tree, found))
     slots = setup_layout.collect(setup, found.name) if setup else ()
     texts = setup_texts.collect(setup) if setup else ()
     unread = [join(found.path, file) for file, text in zip(_PYTHON, texts_read, strict=True) if not text and file in found.files]
@@ -175,165 +166,9 @@ def _modules(tree: Tree, found: Found, script: BuildScript) -> Iterator[PythonMo
         ends = (f"{stem}.py", f"{stem}/__init__.py")
         path = next((f"{top}{end}" for end in ends for top in ("", "src/") if f"{top}{end}" in files), None)
         path = path or next((file for file in found.files if file.endswith(tuple(f"/{end}" for end in ends))), None)
-        text = _text(tree, found, path) if path else None
+        text = text_in(tree, found, path) if path else None
         if path and text:
             yield python_names.collect(name, path, text)
-
-
-def _with_files(tree: Tree, parts: Parts, script: BuildScript) -> BuildScript:
-    """Return a script with what is known of other files of its package: plugin descriptions, scripts, resources."""
-    found = parts.found
-    named = {call.texts[1] for call in script.written if call.name.startswith("pluginlib_export") and len(call.args) > 1}
-    markup = [file for file in found.files if file.endswith(".xml")]
-    candidates = [file for file in markup if file in named or _PLUGIN_FILE.search(file)]
-    described = (plugin_xml.collect(file, text) for file in candidates if (text := _text(tree, found, file)))
-    plugins = tuple([plugin for plugin in described if plugin])
-    started = (f"lib/{found.name}/", "bin/")
-    sources = dict.fromkeys([p.source for p in script.provides if p.source and p.path.startswith(started)])
-    folders = {file.rpartition("/")[0] for file in sources}
-    if script.path.endswith(".txt") and not any(p.source.startswith(f"{found.name}/") for p in script.provides):
-        folders.add(found.name)  # a Python package that CMake does not install
-    sources.update(dict.fromkeys(_programs(found.files, folders)))
-    executables = _Executables(tree, found)
-    files = [_script_file(file, text, file in executables) for file in sources if (text := _text(tree, found, file))]
-    files = _with_runs(tree, found, script, files)
-    provided = [each.source for each in script.provides]
-    missing = {} if script.hides(Facet.SHARE) else resource_files.uninstalled(found.files, provided)
-    if not (plugins or files or missing):
-        return script
-    return script._replace(
-        plugins=plugins,
-        files=tuple(files),
-        named=tuple(_named(tree, found, missing)),
-        inputs=tuple(_inputs(parts.commands, missing, [file.path for file in files])),
-    )
-
-
-def _inputs(scripts: Mapping[str, Parsed], missing: Mapping[str, Sequence[str]], programs: Sequence[str]) -> Iterator[str]:
-    """Yield what a command of a CMake file has among its arguments, install() left out: resources, their folders, programs."""
-    if not missing and not programs:
-        return
-    subfolders = [command for parsed in scripts.values() for command in parsed.commands if command.name == "add_subdirectory"]
-    entered = [command.args[0][0] for command in subfolders if command.args]
-    built = (parsed for path, parsed in scripts.items() if _may_be_read(path, entered))
-    commands = (command for parsed in built for command in parsed.commands if command.name != "install")
-    text = "\n".join([argument[0] for command in commands for argument in command.args])
-    for folder, files in missing.items():
-        if re.search(rf"(?<![\w.-]){re.escape(folder)}(?:/|$)", text, re.MULTILINE):
-            yield f"{folder}/"
-        yield from (file for file in files if file.rpartition("/")[2] in text)
-    yield from (file for file in programs if re.search(rf"(?<![\w.-]){re.escape(file)}(?![\w.-])", text))
-
-
-def _may_be_read(path: str, entered: Sequence[str]) -> bool:
-    """Whether a CMake file can be part of the build: not if it is the CMakeLists.txt of a folder that nobody enters."""
-    folder, _, name = path.rpartition("/")
-    inner = folder.rpartition("/")[2]
-    return name != "CMakeLists.txt" or not folder or any("$" in text or text.endswith(inner) for text in entered)
-
-
-def _named(tree: Tree, found: Found, missing: Mapping[str, Sequence[str]]) -> Iterator[tuple[str, Span]]:
-    """Yield the resources that are not installed and that a text of the package names, with the first place."""
-    left: dict[str, tuple[bytes, bytes]] = {}
-    for file in (file for files in missing.values() for file in files[:_MOST_RESOURCES]):
-        folder, _, name = file.encode().rpartition(b"/")
-        left[file] = folder.rpartition(b"/")[2], name
-    if any(map(_is_picture, left)):  # most pictures are there for the documentation
-        for _, page in contents(tree, found.path, (file for file in found.files if file.endswith(".md"))):
-            left = {file: inner for file, inner in left.items() if not (_is_picture(file) and inner[1] in page)}
-    for path, data in contents(tree, found.path, filter(resource_files.may_name, found.files if left else ())):
-        folders = {folder for folder in {folder for folder, _ in left.values()} if folder in data}
-        for resource, (folder, name) in list(left.items()) if folders else ():
-            if folder not in folders or name not in data or join(found.path, resource) == path:
-                continue
-            hits = resource_files.pattern_of(resource).finditer(data)
-            hit = next((one for one in hits if not _is_remark(path, data, one.start(1))), None)
-            if hit:
-                yield resource, span_in(path, data, *hit.span(1))
-                del left[resource]
-        if not left:
-            return
-
-
-def _with_runs(tree: Tree, found: Found, script: BuildScript, files: list[ScriptFile]) -> list[ScriptFile]:
-    """Return the scripts of a package with where they are started, and with modules that are, if they are not installed.
-
-    CMake installs what lies among scripts; setup.py also makes programs of the modules that its entry points name.
-    """
-    if script.path.endswith(".txt"):
-        kept = {provided.source for provided in script.provides}
-        lost = [file.path for file in files if file.path not in kept and file.shebang and file.main]
-        run = _run(tree, found, lost, _TELLS) if lost else {}
-        return [file._replace(run=run.get(file.path)) for file in files] if run else files
-    names = {provided.path.rpartition("/")[2] for provided in script.provides if not provided.path.startswith("share/")}
-    named = {entry.module.replace(".", "/") for entry in script.entry_points}
-    inside = (file for file in found.files if file.startswith(f"{found.name}/") and file.endswith(".py"))
-    modules = [file for file in inside if file.removesuffix(".py") not in named]
-    lost = [f for f in (*modules, *_programs(found.files, ())) if names.isdisjoint(_called(f)) and not is_apart(f)]
-    run = _run(tree, found, lost, _PAGES) if lost else {}
-    texts = {path: text for path in run if (text := _text(tree, found, path))}
-    executables = _Executables(tree, found)
-    started = [
-        _script_file(path, text, path in executables)._replace(
-            run=run[path], main="def main(" in text.text or "__main__" in text.text
-        )
-        for path, text in texts.items()
-    ]
-    return [*(file for file in files if file.path not in texts), *started]
-
-
-def _called(program: str) -> tuple[str, str]:
-    """Return how a program may be called: with its ending and without."""
-    name = program.rpartition("/")[2]
-    return name, name.removesuffix(".py")
-
-
-def _run(tree: Tree, found: Found, programs: Sequence[str], endings: tuple[str, ...]) -> dict[str, Span]:
-    """Return where a text of the package starts programs with ``ros2 run``, by their paths: a script, or a page that tells how.
-
-    With or without their ending, for who installs a program may rename it. The pages of the folders above count, too.
-    """
-    names = {program.rpartition("/")[2]: program for program in programs}
-    names = {**{name.removesuffix(".py"): program for name, program in names.items()}, **names}
-    words = b"|".join([re.escape(name.encode()) for name in names])
-    command = re.compile(rb"\bros2 run +%s +(%s)(?![\w-]|\.\w)" % (re.escape(found.name.encode()), words))
-    above = [join(folder, "README.md") for folder in (*folders_of(found.path), "")] if found.path else []
-    told = [file for file in found.files if file.endswith(endings) and not file.startswith("CHANGELOG")]
-    places: dict[str, Span] = {}
-    for path, data in (*contents(tree, found.path, told), *contents(tree, "", above)):
-        for hit in command.finditer(data) if b"ros2 run" in data else ():
-            places.setdefault(names[hit[1].decode()], span_in(path, data, *hit.span(1)))
-    return places
-
-
-def _is_remark(file: str, data: bytes, start: int) -> bool:
-    """Whether a place in a text lies in a line that is a comment as a whole."""
-    mark = b"#" if file.endswith((".py", ".yaml", ".yml")) else b"//"
-    return data[data.rfind(b"\n", 0, start) + 1 : start].lstrip().startswith(mark)
-
-
-def _is_picture(file: str) -> bool:
-    return file.startswith(("images/", "media/")) and file.endswith((".png", ".jpg", ".jpeg"))
-
-
-def _programs(files: Sequence[str], folders: Container[str]) -> Iterator[str]:
-    """Yield the files that may be programs: by their place, beside others or in a folder for them, and by their name."""
-    for file in files:
-        if file.endswith((".py", ".sh")) or file.rfind(".") < file.rfind("/"):
-            folder = file.rpartition("/")[0]
-            if folder and (folder in folders or _SCRIPTS.match(file)):
-                yield file
-
-
-def _script_file(path: str, text: Text, executable: bool) -> ScriptFile:
-    first = text.text[: text.text.find("\n") + 1] or text.text
-    shebang = first[2:].strip() if first.startswith("#!") else ""
-    main = not path.endswith(".py") or "__main__" in text.text
-    return ScriptFile(path, shebang, bool(shebang) and first.endswith("\r\n"), main, executable)
-
-
-def _text(tree: Tree, found: Found, file: str) -> Text | None:
-    return text_of(tree, join(found.path, file)) if file in found.files else None
 
 
 def _helps(parts: Parts) -> bool:
@@ -358,23 +193,3 @@ def _helping(packages: Sequence[Parts]) -> Iterator[int]:
 
 def _needed(parts: Parts) -> set[str]:
     return {name for names in parts.depends.values() for name in names}
-
-
-class _Executables(Set[str]):
-    """The files of a package that have the executable bit. The system is asked when a script is."""
-
-    def __init__(self, tree: Tree, found: Found) -> None:
-        self._tree = tree
-        self._found = found
-
-    def __contains__(self, file: object) -> bool:
-        try:
-            return self._tree.stamp(join(self._found.path, str(file))).executable
-        except OSError:
-            return False
-
-    def __iter__(self) -> Iterator[str]:
-        return (file for file in self._found.files if file in self)
-
-    def __len__(self) -> int:
-        return sum(1 for _ in self)
