@@ -147,12 +147,7 @@ def _is_of_launch(module: str) -> bool:
 
 def _known_inside(file: LaunchFile, links: Links) -> frozenset[str]:
     """Return every name that the included files know."""
-    found: set[str] = set()
-    for action in everything(file.actions):
-        target = links.target(action.target, file) if action.kind == "include" else None
-        if target is not None:
-            found |= links.takes(target.file).known
-    return frozenset(found)
+    return frozenset().union(*(links.takes(inner).known for inner in links.includes(file)))
 
 
 def _undeclared(name: str, span: Span, declared: list[str], *, sure: bool) -> Finding:

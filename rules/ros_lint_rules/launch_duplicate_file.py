@@ -34,22 +34,19 @@ from ros_lint.api import (
     Severity,
     Workspace,
     beginning,
-    everything,
     from_base,
     launchable,
+    per_workspace,
 )
 
 _LAUNCH = re.compile(r"launch\.(?:py|xml|ya?ml)\Z|\.launch\Z")
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
-    included: frozenset[str] | None = None
     for package in workspace.packages:
         for name, places in _twice(package).items():
             sources = [from_base(package, place.source) for place in places]
-            if included is None:
-                included = _included(workspace)
-            if len(set(sources)) > 1 and (workspace.unread() or included.issuperset(sources)):
+            if len(set(sources)) > 1 and (workspace.unread() or _included(workspace).issuperset(sources)):
                 continue
             paths = ", ".join(place.path.partition(f"share/{package.name}/")[2] for place in places)
             yield Finding(
@@ -79,16 +76,11 @@ def _twice(package: Package) -> dict[str, list[Provided]]:
     return {name: list(places.values()) for name, places in names.items() if len(places) > 1}
 
 
+@per_workspace
 def _included(workspace: Workspace) -> frozenset[str]:
     """Return the paths of the launch files that others include."""
-    found: set[str] = set()
-    for package in workspace.packages:
-        for file in package.launch:
-            for action in everything(file.actions):
-                target = workspace.links.target(action.target, file) if action.kind == "include" else None
-                if target is not None:
-                    found.add(target.file.path)
-    return frozenset(found)
+    files = (file for package in workspace.packages for file in package.launch)
+    return frozenset([inner.path for file in files for inner in workspace.links.includes(file)])
 
 
 RULE = Rule(
