@@ -37,6 +37,7 @@ from ros_lint.build_scripts import (
 )
 from ros_lint.carriers import Carried, carriers, found_for_nothing
 from ros_lint.cmake_finds import come_along, found_along, found_names, given_for
+from ros_lint.collectors.launch import NAMES as LAUNCH_NAMES
 from ros_lint.collectors.launch_text import agree, is_plain, renames
 from ros_lint.declare import (
     PYTHON_LIKE,
@@ -103,6 +104,7 @@ __all__ = [
     "ENDS",
     "EXPORTING_PLUGINS",
     "HEADERS",
+    "LAUNCH_NAMES",
     "PYTHON_LIKE",
     "REGISTERING",
     "ROLES",

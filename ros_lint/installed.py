@@ -10,6 +10,7 @@ import re
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from ros_lint.collectors import launch
 from ros_lint.tree import join
 
 if TYPE_CHECKING:
@@ -21,7 +22,6 @@ _INDEX = "share/ament_index/resource_index"
 _PLUGINS = "__pluginlib__plugin"
 _LIBRARIES = (".a", ".la", ".pyc")
 _LIBRARY = re.compile(r"\.so(\.\d+)*$|\.dylib$|\.dll$")
-_LAUNCH_NAMES = ("launch.py", "launch.xml", "launch.yaml", "launch.yml", ".launch")
 _LAUNCH_CONTENT = {
     ".py": re.compile(rb"^(?:async )?def generate_launch_description\b", re.MULTILINE),
     ".xml": re.compile(rb"\A(?:\xef\xbb\xbf)?(?:\s|<\?.*?\?>|<!--.*?-->)*<launch[\s/>]", re.DOTALL),
@@ -217,7 +217,7 @@ class Prefix:
                     yield name
 
     def _is_launch(self, package: str, path: str) -> bool:
-        if path.endswith(_LAUNCH_NAMES):
+        if path.endswith(launch.NAMES):
             return True
         content = _LAUNCH_CONTENT.get(os.path.splitext(path)[1])
         if content is None or path == "package.xml":

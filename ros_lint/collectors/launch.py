@@ -15,6 +15,9 @@ from ros_lint.text import Text
 
 Language = Literal["python", "xml", "yaml"]
 
+NAMES = ("launch.py", "launch.xml", "launch.yaml", "launch.yml", ".launch")
+"""How the names of files end that ``ros2 launch`` takes for launch files when it is given a name alone."""
+
 _PYTHON = re.compile(r"generate_(launch|test)_description\b")
 _DEFINED = re.compile(r"(?:async[ \t]+)?def[ \t]+\Z")
 _HELPER = re.compile(r"^[ \t]*(?:from|import)[ \t]+launch(?:_ros)?\b", re.MULTILINE)

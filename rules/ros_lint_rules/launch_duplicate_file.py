@@ -22,10 +22,10 @@ Rename one, or install it once. Including works all the same, since an include n
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 
 from ros_lint.api import (
+    LAUNCH_NAMES,
     Finding,
     Package,
     Provided,
@@ -38,8 +38,6 @@ from ros_lint.api import (
     launchable,
     per_workspace,
 )
-
-_LAUNCH = re.compile(r"launch\.(?:py|xml|ya?ml)\Z|\.launch\Z")
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
@@ -69,7 +67,7 @@ def _twice(package: Package) -> dict[str, list[Provided]]:
     names: dict[str, dict[str, Provided]] = {}
     for provided in package.script.provides if package.script and files else ():
         name = provided.path.rpartition("/")[2]
-        if provided.source not in files or provided.conditional or not _LAUNCH.search(name):
+        if provided.source not in files or provided.conditional or not name.endswith(LAUNCH_NAMES):
             continue
         if provided.path.startswith(f"share/{package.name}/"):
             names.setdefault(name, {}).setdefault(provided.path, provided)

@@ -35,6 +35,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros_lint.api import (
+    LAUNCH_NAMES,
     Confidence,
     Facet,
     Finding,
@@ -81,7 +82,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for look_up in workspace.looked_up.get(package.name, ()):
         path, span = look_up.path.rstrip("/"), look_up.span
         place = f"share/{package.name}/{path}"
-        if place in installed or _is_launch(path) or not (path in files or path in folders):
+        if place in installed or path.endswith(LAUNCH_NAMES) or not (path in files or path in folders):
             continue
         if any(each.startswith(f"{place}/") for each in installed) or package.hidden(Facet.SHARE, place):
             continue
@@ -97,10 +98,6 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 def _is_resource(path: str) -> bool:
     """Whether a file is one of a folder that a launch file or a program can look up as a whole."""
     return "/" in path and path.lower().endswith(_RUN_TIME) and not is_apart(path)
-
-
-def _is_launch(path: str) -> bool:
-    return path.endswith((".launch.py", ".launch.xml", ".launch.yaml", ".launch", "_launch.py"))
 
 
 def _unit(path: str, kept: set[str]) -> str:
