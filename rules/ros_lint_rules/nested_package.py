@@ -12,8 +12,8 @@ root of a repository makes colcon take all of it for one plain package.
 ## How to fix it
 
 Move the nested package beside the outer one. If the outer folder is not meant to be a package, put the packages into
-a folder of their own and build from there, or rename the script. If the nested one is not meant to be built, put an
-empty `COLCON_IGNORE` beside its manifest.
+a folder of their own and build from there (`colcon build --base-paths src`, `ros-lint src`), or rename the script. If
+the nested one is not meant to be built, put an empty `COLCON_IGNORE` beside its manifest.
 
 ## When it keeps silent
 
@@ -22,7 +22,7 @@ empty `COLCON_IGNORE` beside its manifest.
   called like it (`add_rosidl_subdirectory()`): it is a part of that package then.
 - The nested manifest would be rejected anyway, or has no build script beside it.
 - In folders of tests, templates, examples or vendored code the confidence is medium: such manifests are mostly data. So it is
-  where a file of the outer package cannot be read.
+  where a file of the outer package cannot be read, and in packages of ROS 1 (catkin), which nobody builds with ROS 2.
 """
 
 from __future__ import annotations
@@ -45,11 +45,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             continue
         between = nested.path.removeprefix(f"{package.path}/").split("/")[:-1]
         data = any(_DATA.fullmatch(folder) for folder in between)
+        lost = not data and package.builds_with != "catkin" and not workspace.unread(package)
         yield Finding(
-            f"colcon does not see {nested.name}: it lies in {_outer(package)}; move it out, or mark it with COLCON_IGNORE",
+            f"colcon does not see {nested.name}: it lies in {_outer(package)}; {_way_out(package, between)}",
             nested.name_span,
             nested.name,
-            confidence=Confidence.MEDIUM if data or workspace.unread(package) else Confidence.HIGH,
+            confidence=Confidence.HIGH if lost else Confidence.MEDIUM,
         )
 
 
@@ -58,6 +59,13 @@ def _outer(package: Package) -> str:
         return f"the package {package.name}"
     script = "CMakeLists.txt" if package.type == "cmake" else "setup.py"
     return f"{package.path or 'a folder'}, which is the plain package {package.name} because of its {script}"
+
+
+def _way_out(package: Package, between: list[str]) -> str:
+    """Return what to do. A root with a script of its own may be meant: then packages are sought in a folder below it."""
+    if package.path or not between:
+        return "move it out, or mark it with COLCON_IGNORE"
+    return f"build with --base-paths {between[0]}, move it out, or mark it with COLCON_IGNORE"
 
 
 RULE = Rule(
