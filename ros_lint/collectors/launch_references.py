@@ -29,6 +29,12 @@ from ros_lint.facts.sight import Facet, Opaque
 from ros_lint.text import Span
 
 Kind = Literal["node", "component", "include", "command", "file", "package"]
+_COMMANDS: Mapping[tuple[str, ...], str] = {
+    ("ros2", "bag"): "ros2bag",
+    ("ros2", "control"): "ros2controlcli",
+    ("ros2", "trace"): "ros2trace",
+}
+"""Who brings the commands of ros2 that do not come along with ros2cli_common_extensions."""
 
 
 class References:
@@ -115,15 +121,18 @@ class References:
                 self.hide("which launch file is included is computed", target.span)
 
     def _process(self, action: LaunchAction, conditional: bool) -> None:
-        """``ros2 run package executable`` and ``ros2 launch package file`` (reference, section E2.19)."""
+        """``ros2 run package executable``, ``ros2 launch package file`` (reference, section E2.19), and other commands."""
         words: list[tuple[str, LaunchValue, bool]] = []
         for name, value in action.arguments:
             if not name:
                 texts, default = self._filled(value)
                 words += [(word, value, default) for word in _words(texts[0] if len(texts) == 1 else UNKNOWN)]
-        if [word for word, _, _ in words[:1]] == ["xacro"]:
+        said = tuple([word for word, _, _ in words[:2]])
+        if said[:1] == ("xacro",):
             self._add("command", "xacro", "xacro", words[0][1], words[0][1], conditional, by_default=False)
-        if [word for word, _, _ in words[:2]] not in (["ros2", "run"], ["ros2", "launch"]):
+        elif said in _COMMANDS:
+            self._add("command", _COMMANDS[said], " ".join(said), words[1][1], words[1][1], conditional, by_default=False)
+        if said not in (("ros2", "run"), ("ros2", "launch")):
             return
         rest = [one for one in words[2:] if not one[0].startswith("-")][:2]
         if not rest or not is_plain(rest[0][0]):

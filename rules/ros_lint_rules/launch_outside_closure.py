@@ -2,7 +2,8 @@
 ## What it finds
 
 A launch file that starts something from a package, includes a file of it or looks it up, while that package does not
-come along when the launch file's own package is installed: it is not in the closure of its run-time dependencies.
+come along when the launch file's own package is installed: it is not in the closure of its run-time dependencies. So it is
+with commands that it runs: `xacro`, `ros2 control`, `ros2 bag`, `ros2 trace`.
 
 ## Why it matters
 
@@ -65,7 +66,7 @@ _SAYS = {
     "node": "{what} is started here",
     "component": "{what} is loaded here",
     "include": "{what} is included here",
-    "command": "{name} is run here",
+    "command": "{what} is run here",
     "file": "{what} is used here",
     "package": "{what} is looked up here",
 }
