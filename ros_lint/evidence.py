@@ -225,6 +225,7 @@ class _Uses:
         self._caught = _caught(source, alive)
         self._added = frozenset([span for facts in source.facts.values() for span in facts.added])
         script = source.script
+        self._reaches_out = script is not None and script.reaches_out
         self._bundled = frozenset([name.lower() for name in script.bundled]) if script else frozenset()
         self._found_always = frozenset(
             [each.name for each in script.mentions if each.via == "cmake" and not (each.optional or each.test)] if script else ()
@@ -258,6 +259,8 @@ class _Uses:
             if via == "import":
                 spared = spared or self._is_spared(name, span, providers[0])
                 known = known and name.partition(".")[0] not in self._absent
+            elif known and self._reaches_out and via == "include" and "/" not in name:
+                known = False  # any folder may have it
             elif self._absent and known:
                 known = self._is_here(name, providers[0])
             if not known and providers[0] in self._found_always and _INTERFACES.match(name):

@@ -355,6 +355,27 @@ def test_what_is_built_along_is_no_need(lines: str, files: dict[str, str]) -> No
     assert "libfcl-dev" in {use.package for use in load("add_library(r src/a.cpp)", files).packages[0].uses}
 
 
+@pytest.mark.parametrize(
+    ("folder", "sure"),
+    [
+        ("${CMAKE_CURRENT_SOURCE_DIR}/../../third_party/sql/include", False),
+        ("$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/../sql>", False),
+        ("../sql", False),
+        ("${SQL_DIR}", False),
+        ("include", True),
+        ("${CMAKE_CURRENT_SOURCE_DIR}/a/../include", True),
+        ("/usr/include/../local", True),
+        ("${acme_INCLUDE_DIRS}", True),
+    ],
+)
+def test_a_header_without_a_folder_may_lie_where_the_script_leads(folder: str, sure: bool) -> None:
+    files = {"src/a.cpp": "#include <sqlite3.h>\n#include <Eigen/Core>\n"}
+    path = "set(SQL_DIR ${CMAKE_CURRENT_SOURCE_DIR}/../sql)\nif(NOT EXISTS ${SQL_DIR})\nset(SQL_DIR /opt/sql)\nendif()\n"
+    workspace = load(f"{path}add_library(r src/a.cpp)\ntarget_include_directories(r PRIVATE {folder})", files)
+    assert use(workspace, "libsqlite3-dev").sure is sure
+    assert use(workspace, "eigen").sure
+
+
 def test_the_namespace_of_a_target_need_not_be_its_package() -> None:
     lines = "find_package(std_msgs REQUIRED)\nadd_library(r a.cpp)\ntarget_link_libraries(r nav_msgs::std_msgs shape_msgs::a)"
     found = {use.package for use in load(lines, {"a.cpp": ""}).packages[0].uses}

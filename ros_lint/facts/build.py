@@ -169,6 +169,8 @@ class BuildScript(NamedTuple):
     """Where the command before ``end`` ends, if nothing but blank lines stand between the two."""
     runs_tests: bool = False
     """Whether it is a CMake script that calls what runs tests by an interpreter, going by the names of commands."""
+    reaches_out: bool = False
+    """Whether it is a CMake script that takes headers from folders of the sources outside of the package."""
     makes_nothing: bool = False
     """Whether it is a CMake script that builds, installs and tests nothing but the style of what is there."""
 

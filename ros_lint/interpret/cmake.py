@@ -127,6 +127,7 @@ def _result(run: Run, path: str) -> BuildScript:
         handed_on=tuple(_handed_on(run)),
         untaken=tuple(_untaken(run, taken)),
         bundled=tuple(run.bundled),
+        reaches_out=run.reaches_out,
         runs=_runs(run),
         runs_tests=any(map(_RUNS_TESTS.search, calls)),
         export_sets=tuple(dict.fromkeys([made.exported_in for made in run.installed_targets if is_known(made.exported_in)])),

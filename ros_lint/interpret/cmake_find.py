@@ -165,6 +165,11 @@ def link(run: Run, args: list[str]) -> None:
                 run.mention(package, "target", command.span(frame.path, start, end), match[0])
 
 
+def _include_directories(run: Run, args: list[str]) -> None:
+    link(run, args)
+    run.reaches_out = run.reaches_out or any(map(run.leads_out, args))
+
+
 def _brings(run: Run, space: str, inner: str) -> bool:
     """Return whether a target is of what is built along, or of a package that is found by the name of the target itself."""
     return run.is_bundled(space) or (space not in run.prefixes and inner in run.prefixes)
@@ -203,8 +208,8 @@ COMMANDS: Final[dict[str, Handler]] = {
     "pkg_check_modules": _pkg_config,
     "pkg_search_module": _pkg_config,
     "target_link_libraries": _link_libraries,
-    "target_include_directories": link,
-    "include_directories": link,
+    "target_include_directories": _include_directories,
+    "include_directories": _include_directories,
     "link_libraries": link,
     "ros_lint_find": _find_all,
     "ros_lint_uses": _uses,

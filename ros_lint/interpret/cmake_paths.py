@@ -9,8 +9,10 @@ from functools import lru_cache
 
 from ros_lint.interpret.cmake_sources import Sources
 from ros_lint.interpret.cmake_state import Frame, State
-from ros_lint.interpret.cmake_values import ATOM, BINARY, HOLE, PREFIX, SOURCE
+from ros_lint.interpret.cmake_values import ATOM, BINARY, HOLE, MAYBE, PREFIX, SOURCE
 from ros_lint.tree import join as join_path
+
+_OF_BUILD = "$<BUILD_INTERFACE:"
 
 
 class Paths(State):
@@ -37,6 +39,16 @@ class Paths(State):
     def source(self, value: str) -> str | None:
         """Return a path relative to the package, or None for one that lies elsewhere or is not known."""
         return _source(self.directories[-1], value)
+
+    def leads_out(self, value: str) -> bool:
+        """Return whether a path that may be given to a build lies among the sources, but outside of the package."""
+        plain = value.lstrip(MAYBE).removeprefix(_OF_BUILD)
+        if HOLE in plain or plain.startswith("$<"):
+            return False
+        below = plain.removeprefix(SOURCE)
+        if below == plain:
+            below = join_path(self.directories[-1], plain) if plain[:1] != "/" else ""
+        return posixpath.normpath(below.lstrip("/")).startswith("../")
 
     def destination(self, value: str) -> str | None:
         """Return an install destination relative to the prefix, or None when it is not known or lies elsewhere."""

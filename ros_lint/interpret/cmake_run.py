@@ -146,6 +146,8 @@ class Run(Paths):
         """Those whose CMakeLists.txt runs, if it does, while tests are built."""
         self.bundled: dict[str, None] = {}
         """Projects that are built along with the package."""
+        self.reaches_out = False
+        """Whether headers are taken from folders of the sources outside of the package."""
         self.fetched: dict[str, list[str]] = {}
         """What projects that FetchContent can get are called by where they come from: owner/name and the like."""
         self.ran: dict[str, None] = {}
