@@ -48,7 +48,7 @@ def _line(choice: random.Random) -> str:
         options = " ".join(
             some(("", "", found))
             for found in (
-                f"LIST_DIRECTORIES {some(('true', 'false'))}",
+                f"LIST_DIRECTORIES {some(('true', 'false', 'Y', 'off'))}",
                 f"RELATIVE {some(('${CMAKE_CURRENT_SOURCE_DIR}', '${CMAKE_CURRENT_SOURCE_DIR}/src'))}",
             )
         )

@@ -11,6 +11,7 @@ from ros_lint.interpret.cmake_basic import nothing
 from ros_lint.interpret.cmake_glob import glob_regex
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_targets import generate
+from ros_lint.interpret.cmake_truth import TRUE_WORDS
 from ros_lint.interpret.cmake_values import ATOM, HOLE, SOURCE, data, is_fixed, is_known, join
 
 
@@ -52,7 +53,7 @@ def _glob(run: Run, args: list[str], recurse: bool) -> None:
             relative = args[index]
             index += 1
         elif word == "LIST_DIRECTORIES" and index < len(args):
-            folders = args[index].upper() in ("TRUE", "ON", "1", "YES")
+            folders = args[index].upper() in TRUE_WORDS
             index += 1
         elif word not in ("CONFIGURE_DEPENDS", "FOLLOW_SYMLINKS"):
             patterns.append(word)

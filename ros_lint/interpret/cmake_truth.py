@@ -21,7 +21,7 @@ NUMBER = re.compile(
     r"|(?!0[xX])(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)"
 )
 """As much of a text as C's scanf() takes for a number, infinities left out."""
-_TRUE_WORDS: Final = frozenset({"1", "ON", "YES", "TRUE", "Y"})
+TRUE_WORDS: Final = frozenset({"1", "ON", "YES", "TRUE", "Y"})
 _FALSE_WORDS: Final = frozenset({"", "0", "OFF", "NO", "FALSE", "N", "IGNORE"})
 
 
@@ -81,7 +81,7 @@ def is_off(text: str) -> bool:
 @lru_cache(maxsize=1024)
 def constant(text: str) -> bool | None:
     """Return what a word means as a condition, or None when it is neither a true nor a false constant nor a number."""
-    if text.upper() in _TRUE_WORDS:
+    if text.upper() in TRUE_WORDS:
         return True
     if is_off(text):
         return False
