@@ -11,6 +11,7 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from itertools import groupby, pairwise
 from typing import Final, NamedTuple
 
+from ros_lint.collectors.manifest_xml import escaped
 from ros_lint.facts.manifest import Depend, Element, Manifest
 from ros_lint.rule import Edit
 from ros_lint.text import Span
@@ -38,7 +39,7 @@ def add(manifest: Manifest, tag: str, name: str) -> Edit:
     It goes among the tags of its kind, at its place if they are sorted; else to where the usual order wants it, set off by
     a blank line if that is the habit of the file.
     """
-    return _put(_Layout(manifest), manifest.depends, tag, name, f"<{tag}>{_escape(name)}</{tag}>")
+    return _put(_Layout(manifest), manifest.depends, tag, name, f"<{tag}>{escaped(name)}</{tag}>")
 
 
 def _put(layout: _Layout, depends: Sequence[Depend], tag: str, name: str, element: str) -> Edit:
@@ -91,7 +92,7 @@ def rename(depend: Depend, name: str) -> Edit:
     """Return the edit that puts another name into a dependency."""
     if not depend.name:
         return Edit(depend.span, _written(depend._replace(name=name)))
-    return Edit(depend.name_span, _escape(name))
+    return Edit(depend.name_span, escaped(name))
 
 
 def change_kind(manifest: Manifest, depend: Depend, tag: str, alike: Collection[Depend]) -> tuple[Edit, ...]:
@@ -127,7 +128,7 @@ def change_tag(depend: Depend, tag: str) -> tuple[Edit, ...]:
 def set_build_type(manifest: Manifest, build_type: str) -> Edit:
     """Return the edit that gives a manifest without a build type one: in its ``<export>``, or in a new one."""
     layout, newline, indent = _Layout(manifest), manifest.newline, manifest.indent
-    element = f"<build_type>{_escape(build_type)}</build_type>"
+    element = f"<build_type>{escaped(build_type)}</build_type>"
     whole = f"<export>{newline}{indent * 2}{element}{newline}{indent}</export>"
     export = next((child for child in manifest.elements if child.tag == "export"), None)
     if export is None:
@@ -310,8 +311,8 @@ def _written(child: Element | Depend) -> str:
 
 
 def _tagged(tag: str, attributes: Iterable[tuple[str, str]], text: str) -> str:
-    written = "".join(f' {name}="{_escape(value).replace(chr(34), "&quot;")}"' for name, value in attributes)
-    return f"<{tag}{written}>{_escape(text)}</{tag}>"
+    written = "".join(f' {name}="{escaped(value).replace(chr(34), "&quot;")}"' for name, value in attributes)
+    return f"<{tag}{written}>{escaped(text)}</{tag}>"
 
 
 def _is_verbatim(child: Element | Depend) -> bool:
@@ -320,10 +321,6 @@ def _is_verbatim(child: Element | Depend) -> bool:
     if child.tag in ("description", "export") or span.line != span.end_line:
         return False
     return len(_written(child)) == span.end_column - span.column
-
-
-def _escape(text: str) -> str:
-    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
 
 
 def _longest_ascent(ranks: list[int]) -> frozenset[int]:

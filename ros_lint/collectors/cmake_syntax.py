@@ -7,9 +7,9 @@ Nothing is evaluated here; :mod:`ros_lint.interpret.cmake` does that.
 from __future__ import annotations
 
 import re
-from bisect import bisect_right
 from typing import NamedTuple
 
+from ros_lint.facts.cmake import position
 from ros_lint.facts.sight import Problem
 from ros_lint.text import Span, Text
 
@@ -61,10 +61,7 @@ class Command(NamedTuple):
         return tuple.__new__(Span, (path, self.line, self.column, self.line, self.column + len(self.written)))
 
     def _position(self, offset: int) -> tuple[int, int]:
-        passed = bisect_right(self.breaks, offset)
-        if passed:
-            return self.line + passed, offset - self.breaks[passed - 1] + 1
-        return self.line, self.column + offset - self.start
+        return position(offset, self.start, self.line, self.column, self.breaks)
 
 
 class Parsed(NamedTuple):

@@ -15,7 +15,7 @@ from ros_lint.facts.sight import Problem
 from ros_lint.text import Span
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
 
     from ros_lint.text import Text
 
@@ -138,9 +138,9 @@ class Entity:
         """Return the place of the value of an attribute."""
         return self.written(name)[0] if name in self.attributes else self.span
 
-    def lacks(self, names: frozenset[str]) -> bool:
+    def lacks(self, names: Iterable[str]) -> bool:
         """Return whether none of some names is an attribute, and asking for them could not raise."""
-        return self.form == "element" and names.isdisjoint(self.attributes)
+        return self.form == "element" and self.attributes.keys().isdisjoint(names)
 
     def get(self, name: str, kind: Type = "str") -> Any:
         """Return the value of an attribute, None when it is not there. Raises Rejected when it is of another type."""

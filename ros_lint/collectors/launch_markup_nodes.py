@@ -16,7 +16,7 @@ def _process(reader: Reader, entity: Entity, kind: str) -> LaunchAction:
     given: list[tuple[str, LaunchValue]] = []
     if kind == "process":
         given += reader.words(entity, "cmd", entity.need("cmd"))
-    for attribute in () if entity.lacks(_SURROUNDINGS) else ("cwd", "launch-prefix", "output", "respawn"):
+    for attribute in () if entity.lacks(_SURROUNDINGS) else _SURROUNDINGS:
         value = reader.optional(entity, attribute)
         if value is not None and attribute in ("cwd", "launch-prefix"):
             given.append((attribute, value))
@@ -39,8 +39,9 @@ def _process(reader: Reader, entity: Entity, kind: str) -> LaunchAction:
     )
 
 
-_SURROUNDINGS = frozenset({"cwd", "launch-prefix", "output", "respawn"})
-_LIMITS = frozenset({"respawn_max_retries", "respawn_delay", "sigkill_timeout", "sigterm_timeout"})
+_SURROUNDINGS = ("cwd", "launch-prefix", "output", "respawn")
+_SECONDS = ("respawn_delay", "sigkill_timeout", "sigterm_timeout")
+_LIMITS = ("respawn_max_retries", *_SECONDS)
 
 
 def _limits(reader: Reader, entity: Entity) -> None:
@@ -48,7 +49,7 @@ def _limits(reader: Reader, entity: Entity) -> None:
         if f"attribute {name}" in SINCE:
             reader.note_newer(f"attribute {name}", entity.place(name))
     entity.get("respawn_max_retries", "int")
-    for limit in ("respawn_delay", "sigkill_timeout", "sigterm_timeout"):
+    for limit in _SECONDS:
         seconds = entity.get(limit, "float")
         if seconds is not None and (isinstance(seconds, str) or seconds < 0):
             raise Rejected("wrong-type", f"{limit} of <{entity.tag}> is no number from 0 on", entity.place(limit))

@@ -134,10 +134,11 @@ def markup(text: str, node: Node) -> str:
     pieces = list(_PIECE.finditer(raw))
     if not any(_counts(piece) for piece in pieces):
         return ""
-    return "".join([_escaped(_resolve(p)) if p.lastgroup in ("text", "entity") else _one_newline(p[0]) for p in pieces])
+    return "".join([escaped(_resolve(p)) if p.lastgroup in ("text", "entity") else _one_newline(p[0]) for p in pieces])
 
 
-def _escaped(text: str) -> str:
+def escaped(text: str) -> str:
+    """Return a text as the content of an element."""
     return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from ros_lint.commands.spoken import where
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sight import Facet
 from ros_lint.slips import did_you_mean, similar
@@ -133,17 +134,13 @@ def _json(workspace: Workspace, packages: Iterable[Package]) -> str:
             "path": package.path,
             "type": package.type,
             **{
-                title.replace(" ", "-"): [{"name": row.name, "note": row.note, **_where(row.span)} for row in rows]
+                title.replace(" ", "-"): [{"name": row.name, "note": row.note, **where(row.span)} for row in rows]
                 for title, rows in _sections(package, len(package.uses))
             },
         }
         for package in packages
     ]
     return json.dumps({"distro": workspace.target.distro, "packages": found}, indent=2, ensure_ascii=False) + "\n"
-
-
-def _where(span: Span) -> dict[str, object]:
-    return {"path": span.path, "line": span.line, "column": span.column}
 
 
 def _no_such(workspace: Workspace, name: str) -> str:

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
+from ros_lint.commands.spoken import label
 from ros_lint.graph_cut import knots
 
 if TYPE_CHECKING:
@@ -71,7 +72,7 @@ def _mermaid(graph: Graph) -> Iterator[str]:
     identifier = {name: f"p{number}" for number, name in enumerate(graph.names)}
     yield "flowchart LR"
     for name in graph.names:
-        yield f'  {identifier[name]}["{_entities(name)}"]'
+        yield f'  {identifier[name]}["{label(name)}"]'
     red = []
     for number, edge in enumerate(graph.edges):
         arrow = "-.->" if is_test_only(graph, edge) else "-->"
@@ -80,10 +81,6 @@ def _mermaid(graph: Graph) -> Iterator[str]:
             red.append(str(number))
     if red:
         yield f"  linkStyle {','.join(red)} stroke:red"
-
-
-def _entities(name: str) -> str:
-    return "".join(letter if letter.isalnum() or letter in "_-. /" else f"#{ord(letter)};" for letter in name)
 
 
 def _json(graph: Graph, figures: Mapping[str, Metrics]) -> str:

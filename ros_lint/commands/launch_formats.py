@@ -19,6 +19,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros_lint.collectors.launch_text import UNKNOWN, readable
+from ros_lint.commands.spoken import label, where
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -178,12 +179,12 @@ def json(found: Found) -> str:
                 **_named([(one.name, one.texts)])[0],
                 "given": one.given,
                 "included": one.depth > 0,
-                **_place(one.span),
+                **where(one.span),
             }
             for one in expansion.arguments
         ],
         "starts": _nested(expansion.started, 0, found),
-        "unknown": [{"reason": reason, **_place(span)} for reason, span in _unknown(found)],
+        "unknown": [{"reason": reason, **where(span)} for reason, span in _unknown(found)],
         "complete": expansion.complete,
     }
     return library.dumps(document, indent=2, ensure_ascii=False) + "\n"
@@ -225,7 +226,7 @@ def _item(one: Started) -> dict[str, Any]:
         "certain": one.certain,
         "when": _when(one),
         "unknown": list(one.unknown),
-        **_place(one.span),
+        **where(one.span),
     }
 
 
@@ -237,16 +238,12 @@ def _list(texts: Iterable[str]) -> list[str]:
     return [readable(text) for text in texts]
 
 
-def _place(span: Span) -> dict[str, Any]:
-    return {"path": span.path, "line": span.line, "column": span.column}
-
-
 # --- mermaid -------------------------------------------------------------------------------------------------------
 
 
 def mermaid(found: Found) -> str:
     """Return the expansion as a flow chart: files, what they start, and what they include; dotted is perhaps."""
-    lines = ["flowchart LR", f'  n0["{_entities(found.file.path.rpartition("/")[2])}"]']
+    lines = ["flowchart LR", f'  n0["{label(found.file.path.rpartition("/")[2])}"]']
     above = ["n0"]
     for number, started in enumerate(found.expansion.started, 1):
         del above[started.depth + 1 :]
@@ -254,7 +251,7 @@ def mermaid(found: Found) -> str:
         opening, closing = _SHAPES[started.kind]
         lines.append(f'  {name}{opening}"{_label(started)}"{closing}')
         said = " and ".join(_when(started))
-        arrow = "-->" if started.certain else f'-.->|"{_entities(said)}"|' if said else "-.->"
+        arrow = "-->" if started.certain else f'-.->|"{label(said)}"|' if said else "-.->"
         lines.append(f"  {above[started.depth]} {arrow} {name}")
         if started.kind == "include":
             above.append(name)
@@ -267,13 +264,9 @@ _SHAPES = {"node": ("(", ")"), "component": ("([", "])"), "process": ("{{", "}}"
 def _label(started: Started) -> str:
     target = _text(started.target) or "?"
     if started.kind == "include":
-        return _entities(target.rpartition("/")[2])
+        return label(target.rpartition("/")[2])
     lines = [f"{_text(started.package)} {target}".strip(), _full_name(started)]
-    return "<br/>".join(_entities(line) for line in lines if line)
-
-
-def _entities(text: str) -> str:
-    return "".join(letter if letter.isalnum() or letter in "_-. /" else f"#{ord(letter)};" for letter in text)
+    return "<br/>".join(label(line) for line in lines if line)
 
 
 FORMATS: Mapping[str, Callable[[Found], str]] = {"tree": tree, "json": json, "mermaid": mermaid}

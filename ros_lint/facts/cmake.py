@@ -65,7 +65,13 @@ class Call(NamedTuple):
         return Span(self.path, *self._position(start), *self._position(end))
 
     def _position(self, offset: int) -> tuple[int, int]:
-        passed = bisect_right(self.breaks, offset)
-        if passed:
-            return self.line + passed, offset - self.breaks[passed - 1] + 1
-        return self.line, self.column + offset - self.start
+        return position(offset, self.start, self.line, self.column, self.breaks)
+
+
+def position(offset: int, start: int, line: int, column: int, breaks: tuple[int, ...]) -> tuple[int, int]:
+    """Return line and column of an offset in what begins at some offset, line and column.
+
+    ``breaks`` are the offsets at which further lines of it begin.
+    """
+    passed = bisect_right(breaks, offset)
+    return (line + passed, offset - breaks[passed - 1] + 1) if passed else (line, column + offset - start)

@@ -19,7 +19,7 @@ from ros_lint.collectors.python_syntax import NotPythonError, parse, span_of, sy
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.sight import Facet, Opaque
 from ros_lint.facts.sources import Mention
-from ros_lint.interpret.setup_py_distribution import Context, Distribution
+from ros_lint.interpret.setup_py_distribution import INSTALLED, Context, Distribution
 from ros_lint.interpret.setup_py_files import Files
 from ros_lint.interpret.setup_py_options import completed
 from ros_lint.interpret.setup_py_run import Program, Setup
@@ -31,7 +31,6 @@ if TYPE_CHECKING:
     from ros_lint.collectors.setup_cfg import SetupCfg
     from ros_lint.text import Text
 
-_INSTALLED = Facet.SHARE | Facet.EXECUTABLES | Facet.PYTHON
 _PLAIN_SETUPS = frozenset({"setuptools", "distutils", "distutils.core"})
 
 
@@ -71,7 +70,7 @@ def evaluate(
         distribution.read(options)
         if setup.module not in _PLAIN_SETUPS:
             reason = f"setup() of {setup.module} may install more than its arguments say"
-            found.append(Opaque(_INSTALLED | Facet.LIBRARIES, reason, call))
+            found.append(Opaque(INSTALLED | Facet.LIBRARIES, reason, call))
         script = _with(script, distribution, options, place, call)
     return script._replace(
         python_packages=tuple(sorted({*script.python_packages, *program.generated})),
@@ -88,7 +87,7 @@ def _run(program: Program, source: Text, start: Span) -> BuildScript:
         tree = parse(source)
     except NotPythonError as error:
         problem = syntax_problem(source, error)
-        opaque = Opaque(_INSTALLED, f"no Python that can be read: {error.message}", start)
+        opaque = Opaque(INSTALLED, f"no Python that can be read: {error.message}", start)
         return script._replace(opaque=(opaque,), problems=(problem,) if problem else ())
     program.run(tree)
     imports = [item for item in walk(source, tree) if item.module != "__future__"]
@@ -101,7 +100,7 @@ def _run(program: Program, source: Text, start: Span) -> BuildScript:
     )
     if program.end or not program.setups:
         reason = f"setup.py is not followed to its end: {program.end}" if program.end else "no call of setup() is seen"
-        return script._replace(opaque=(Opaque(_INSTALLED, reason, start),))
+        return script._replace(opaque=(Opaque(INSTALLED, reason, start),))
     return script
 
 

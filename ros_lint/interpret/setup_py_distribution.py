@@ -15,7 +15,8 @@ from ros_lint.interpret.setup_py_files import Files
 from ros_lint.interpret.setup_py_values import REST, Class, Globbed, Maybe, Unknown, Value
 from ros_lint.text import Span
 
-_EVERYTHING = Facet.SHARE | Facet.EXECUTABLES | Facet.PYTHON
+INSTALLED = Facet.SHARE | Facet.EXECUTABLES | Facet.PYTHON
+"""What setup.py decides."""
 _HARMLESS_COMMANDS = frozenset({"sdist", "test", "clean", "pytest", "lint", "upload", "docs", "build_sphinx"})
 _ENTRY = re.compile(r"\s*([^=\s][^=]*?)\s*=\s*(.*?)\s*\Z", re.DOTALL)
 _RESERVED_FOLDERS = frozenset(
@@ -57,7 +58,7 @@ class Distribution:
     def read(self, options: Mapping[str, Value]) -> None:
         """Take in the options of setup()."""
         if REST in options:
-            self._hide(_EVERYTHING, options[REST])
+            self._hide(INSTALLED, options[REST])
         self._python(options)
         self._data_files(options.get("data_files"))
         self._scripts(options.get("scripts"))
@@ -66,13 +67,13 @@ class Distribution:
             self.opaque.append(Opaque(Facet.PYTHON, "which modules an extension has is not followed", self._context.call))
         commands = options.get("cmdclass")
         if isinstance(commands, Unknown):
-            self._hide(_EVERYTHING, commands)
+            self._hide(INSTALLED, commands)
         elif isinstance(commands, dict):
             for name, command in commands.items():
                 if name not in _HARMLESS_COMMANDS:
                     what = command.name if isinstance(command, Class) else "another class"
                     reason = f"the command {name} is replaced by {what}, which may install anything"
-                    self.opaque.append(Opaque(_EVERYTHING, reason, self._context.call))
+                    self.opaque.append(Opaque(INSTALLED, reason, self._context.call))
 
     def _hide(self, facet: Facet, value: Value) -> None:
         reason = value.reason if isinstance(value, Unknown) else "it has another form than is followed"
@@ -243,7 +244,7 @@ class Distribution:
 def _facet(folder: str) -> Facet:
     """Return what a file in a folder of the prefix is."""
     top = folder.partition("/")[0]
-    return {"share": Facet.SHARE, "lib": Facet.EXECUTABLES, "bin": Facet.EXECUTABLES}.get(top, _EVERYTHING)
+    return {"share": Facet.SHARE, "lib": Facet.EXECUTABLES, "bin": Facet.EXECUTABLES}.get(top, INSTALLED)
 
 
 def folder_of(package: str, folders: Mapping[str, str]) -> str:

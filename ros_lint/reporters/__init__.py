@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 from collections.abc import Callable
 
+from ros_lint.options import FORMATS
 from ros_lint.report import Report
 from ros_lint.reporters.ansi import Style
 from ros_lint.text import Text
@@ -13,11 +14,9 @@ Texts = Callable[[str], Text | None]
 """Gives the source of a file, or None when it cannot be read."""
 Reporter = Callable[[Report, Texts, Style], str]
 
-FORMATS = ("text", "concise", "json", "sarif", "github")
-
 
 def reporter(name: str) -> Reporter:
-    """Return the reporter of a format. Raises KeyError for a name that is none of FORMATS."""
+    """Return the reporter of a format. Raises KeyError for a name that is none of them."""
     if name not in FORMATS:
         raise KeyError(name)
     # Imported by name, for each costs the imports of its own format only.
