@@ -12,7 +12,7 @@ from collections import defaultdict
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.knowledge.store import KnowledgeError, Store, Table
+from ros_lint.knowledge.store import Entries, KnowledgeError, Store, Table
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
@@ -128,30 +128,16 @@ def render_file(distro: str, commit: str, date: str, packages: Iterable[Released
     return "\n".join([head, *lines, ""])
 
 
-class Index:
+class Index(Entries[Released]):
     """The packages of one distribution."""
 
     def __init__(self, distro: str, head: str, table: Table) -> None:
+        super().__init__(table, parse)
         self.distro = distro
         said = dict(_HEAD.findall(head))
         self.date = said.get("date", "")
         self.commit = said.get("rosdistro", "")
-        self._table = table
         self._brings: dict[str, tuple[str, ...]] = {}
-
-    def __len__(self) -> int:
-        return len(self._table)
-
-    def __contains__(self, name: str) -> bool:
-        return name in self._table
-
-    def names(self) -> Iterator[str]:
-        """Yield the name of every package, sorted."""
-        return self._table.names()
-
-    def get(self, name: str) -> Released | None:
-        """Return a package, or None. Raises KnowledgeError when its line makes no sense."""
-        return self._table.entry(name, parse)
 
     def members(self, group: str) -> Iterator[str]:
         """Yield the members of a group, sorted."""

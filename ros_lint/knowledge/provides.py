@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from ros_lint.knowledge.store import KnowledgeError, Store, Table
+from ros_lint.knowledge.store import Entries, KnowledgeError, Store, Table
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
@@ -128,18 +128,11 @@ def render_file(distro: str, packages: Iterable[Provided]) -> str:
     return "\n".join([f"#ros-provides 1 distro={distro} packages={len(lines)}", *lines, ""])
 
 
-class Provides:
+class Provides(Entries[Provided]):
     """What the packages of one distribution install."""
 
     def __init__(self, table: Table) -> None:
-        self._table = table
-
-    def __len__(self) -> int:
-        return len(self._table)
-
-    def get(self, name: str) -> Provided | None:
-        """Return what a package installs: None when nobody has looked. Raises KnowledgeError for a damaged line."""
-        return self._table.entry(name, parse)
+        super().__init__(table, parse)
 
     def known(self, name: str, offer: Offer) -> Known:
         """Return what is known of one side of a package."""

@@ -6,10 +6,10 @@ import re
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.knowledge.store import KnowledgeError, Store, Table
+from ros_lint.knowledge.store import Entries, KnowledgeError, Store, Table
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Mapping
 
 PLATFORMS: Mapping[str, tuple[str, ...]] = {
     "foxy": ("ubuntu:focal",),
@@ -72,26 +72,12 @@ def render_file(keys: Mapping[str, Key]) -> str:
     return "\n".join([f"# key\tresolves on: {platforms}\tapt\tpip", *lines, ""])
 
 
-class Rosdep:
+class Rosdep(Entries[Key]):
     """All keys."""
 
     def __init__(self, table: Table) -> None:
-        self._table = table
+        super().__init__(table, parse)
         self._asked: dict[str, tuple[str, ...]] = {}
-
-    def __len__(self) -> int:
-        return len(self._table)
-
-    def __contains__(self, name: str) -> bool:
-        return name in self._table
-
-    def names(self) -> Iterator[str]:
-        """Yield every key, sorted."""
-        return self._table.names()
-
-    def get(self, name: str) -> Key | None:
-        """Return a key, or None. Raises KnowledgeError when its line makes no sense."""
-        return self._table.entry(name, parse)
 
     def resolves(self, name: str, distro: str) -> bool | None:
         """Return whether a key has a rule for a platform of a distribution: None when either is not known."""

@@ -10,7 +10,7 @@ import os
 import re
 from bisect import bisect_left
 from operator import gt
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 from ros_lint.report import RefusalError
 
@@ -113,11 +113,11 @@ def _advice(path: str) -> str:
 class Table:
     """Lines that are sorted by their first field. ``path`` is that of the file that they are from."""
 
-    __slots__ = ("_lines", "_path")
+    __slots__ = ("_lines", "path")
 
     def __init__(self, lines: list[str], path: str = "") -> None:
         self._lines = lines
-        self._path = path
+        self.path = path
 
     def __len__(self) -> int:
         return len(self._lines)
@@ -136,16 +136,6 @@ class Table:
         line = self.line(name)
         return None if line is None else line.split("\t")
 
-    def entry(self, name: str, parse: Callable[[list[str]], T]) -> T | None:
-        """Return what the fields of the line of a name mean, or None. Raises KnowledgeError for a ValueError of ``parse``."""
-        row = self.row(name)
-        if row is None:
-            return None
-        try:
-            return parse(row)
-        except ValueError as error:
-            raise KnowledgeError(f"{self._path}: the line of {name} makes no sense: {error}") from error
-
     def __contains__(self, name: str) -> bool:
         return self.line(name) is not None
 
@@ -156,3 +146,31 @@ class Table:
     def names(self) -> Iterator[str]:
         """Yield every name, sorted."""
         return (line.partition("\t")[0] for line in self._lines)
+
+
+class Entries(Generic[T]):
+    """What the lines of a table mean, by name. ``parse`` takes the fields of a line, and raises ValueError for nonsense."""
+
+    def __init__(self, table: Table, parse: Callable[[list[str]], T]) -> None:
+        self._table = table
+        self._parse = parse
+
+    def __len__(self) -> int:
+        return len(self._table)
+
+    def __contains__(self, name: str) -> bool:
+        return name in self._table
+
+    def names(self) -> Iterator[str]:
+        """Yield every name, sorted."""
+        return self._table.names()
+
+    def get(self, name: str) -> T | None:
+        """Return what there is of a name, or None. Raises KnowledgeError when its line makes no sense."""
+        row = self._table.row(name)
+        if row is None:
+            return None
+        try:
+            return self._parse(row)
+        except ValueError as error:
+            raise KnowledgeError(f"{self._table.path}: the line of {name} makes no sense: {error}") from error
