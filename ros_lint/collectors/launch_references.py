@@ -6,7 +6,6 @@ import re
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from posixpath import normpath
 from types import MappingProxyType
-from typing import Literal
 
 from ros_lint.collectors import launch_text
 from ros_lint.collectors.launch_expression import evaluate
@@ -24,11 +23,10 @@ from ros_lint.collectors.launch_text import (
     runs_xacro,
     share,
 )
-from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchReference, LaunchValue
+from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchReference, LaunchValue, ReferenceKind
 from ros_lint.facts.sight import Facet, Opaque
 from ros_lint.text import Span
 
-Kind = Literal["node", "component", "include", "command", "file", "package"]
 _COMMANDS: Mapping[tuple[str, ...], str] = {
     ("ros2", "bag"): "ros2bag",
     ("ros2", "control"): "ros2controlcli",
@@ -78,7 +76,7 @@ class References:
         self._optional, self._narrowed, self._known = before, narrowed, known
 
     def _program(self, action: LaunchAction, conditional: bool) -> None:
-        kind: Kind = "node" if action.kind == "node" else "component"
+        kind: ReferenceKind = "node" if action.kind == "node" else "component"
         if action.package is None:
             if action.target is not None:
                 self._paths(action.target, action.package_span, conditional)
@@ -236,7 +234,7 @@ class References:
 
     def _add(
         self,
-        kind: Kind,
+        kind: ReferenceKind,
         package: str,
         name: str,
         at: LaunchValue,

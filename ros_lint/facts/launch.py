@@ -61,10 +61,14 @@ class LaunchAction(NamedTuple):
     """Names of what is passed to an included file only if something holds of which nothing is known."""
 
 
+ReferenceKind = Literal["node", "component", "include", "command", "file", "package"]
+"""What a launch file names: what it starts or reads, or a package alone."""
+
+
 class LaunchReference(NamedTuple):
     """A line of a launch file that names a package, and mostly something in it."""
 
-    kind: Literal["node", "component", "include", "command", "file", "package"]
+    kind: ReferenceKind
     package: str
     name: str
     """The executable, the component class, the command of a shell, or a path below share/<package>; "" for a plain look-up of
