@@ -58,7 +58,7 @@ from ros_lint.facts.build import BuildScript, Component, PluginClass, PluginFile
 from ros_lint.facts.cmake import Call
 from ros_lint.facts.cmake import Target as BuildTarget
 from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchFile, LaunchReference, LaunchValue
-from ros_lint.facts.manifest import ROLES, Depend, Element, Manifest, Role
+from ros_lint.facts.manifest import Depend, Element, Manifest, Role
 from ros_lint.facts.setup_py import EntryPoint, PythonModule, Slot
 from ros_lint.facts.sight import ANYTHING, Facet, Opaque, Problem
 from ros_lint.facts.sources import Mention, PluginLoader, Registration, Use
@@ -107,7 +107,6 @@ __all__ = [
     "LAUNCH_NAMES",
     "PYTHON_LIKE",
     "REGISTERING",
-    "ROLES",
     "Advice",
     "Broken",
     "BuildScript",

@@ -25,7 +25,7 @@ import operator
 import re
 from collections.abc import Callable, Iterator
 
-from ros_lint.api import ROLES, Finding, Package, Related, Rule, Severity, Workspace
+from ros_lint.api import Finding, Package, Related, Rule, Severity, Workspace
 
 _Version = tuple[int, ...]
 _TESTS: dict[str, tuple[str, Callable[[_Version, _Version], bool]]] = {
@@ -40,7 +40,7 @@ _TESTS: dict[str, tuple[str, Callable[[_Version, _Version], bool]]] = {
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for declared in package.declared:
         depend = declared.depend
-        if not depend.versions or not declared.certain or depend.tag not in ROLES:
+        if not depend.versions or not declared.certain:
             continue
         if workspace.world.layer(depend.name) not in ("workspace", "underlay"):
             continue
