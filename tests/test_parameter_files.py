@@ -57,6 +57,11 @@ def test_a_file_of_another_kind_has_none() -> None:
     assert nodes("") is None
 
 
+def test_a_namespace_may_have_very_many_nodes() -> None:
+    text = "ns:\n" + "".join(f"  n{number}:\n    ros__parameters:\n" for number in range(30_000))
+    assert nodes(text) == tuple(f"/ns/n{number}" for number in range(30_000))
+
+
 def test_places() -> None:
     found = collect(Text("a.yaml", "---\n# c\nns:\n  node:\n    ros__parameters:\n      x: 1\n"))
     assert found is not None

@@ -11,14 +11,16 @@ from typing import TYPE_CHECKING
 from ros_lint.facts.sources import ParameterFile
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from ros_lint.text import Span, Text
 
 _MARK = "ros__parameters"
-_PARAMETERS = re.compile(r"^([ ]*)[\"']?ros__parameters[\"']?[ \t]*:", re.MULTILINE)
+_LINE = re.compile(r"^([ ]*)([\"']?ros__parameters[\"']?[ \t]*:|[^\s#])", re.MULTILINE)
+"""A line that says something, and whether it begins the parameters of a node."""
 _KEY = re.compile(r"([ ]*)([\"']?)([^\s\"'#:{}\[\],&*!|>%@`-][^\"'#:{}\[\],]*?|/?\*\*?[^\"'#:{}\[\],]*?)\2[ \t]*:(?=\s|$)")
 _FIRST = re.compile(r"^[ ]*[\"']?([^\s\"'#:{}\[\],&!|>%@`-][^\"'#:{}\[\]\n]*?)[\"']?[ \t]*:(?=\s)", re.MULTILINE)
 _ANY = "/**"
-_MOST_LINES = 20_000
 
 
 def collect(source: Text) -> ParameterFile | None:
@@ -38,8 +40,7 @@ def _collected(source: Text) -> ParameterFile | None:
     if not marks or marks == _in_comments(text):
         return None if first is None else ParameterFile(source.path, (), source.span(*first.span(1)))
     found: list[tuple[str, Span]] = []
-    for match in _PARAMETERS.finditer(text):
-        keys = _above(text, match.start(), len(match[1]))
+    for keys in _headings(text):
         if not keys:
             break
         name = "/".join(key.strip("/") for _, _, key in keys)
@@ -54,21 +55,15 @@ def _in_comments(text: str) -> int:
     return sum(_MARK in line.partition("#")[2] for line in text.splitlines() if "#" in line)
 
 
-def _above(text: str, at: int, indent: int) -> list[tuple[int, int, str]]:
-    """Return the keys that a line stands under, from the top: offsets and key. [] when one cannot be read."""
-    found: list[tuple[int, int, str]] = []
-    for _ in range(_MOST_LINES):
-        if indent == 0 or at <= 0:
-            break
-        start = text.rfind("\n", 0, at - 1) + 1
-        line = text[start : at - 1]
-        at = start
-        bare = line.lstrip(" ")
-        if not bare.strip() or bare.startswith("#") or len(line) - len(bare) >= indent:
-            continue
-        key = _KEY.match(line)
-        if key is None:
-            return []
-        indent = len(key[1])
-        found.append((start + key.start(3), start + key.end(3), key[3]))
-    return found[::-1] if indent == 0 else []
+def _headings(text: str) -> Iterator[list[tuple[int, int, str]]]:
+    """Yield the keys that each ``ros__parameters`` stands under, from the top: offsets and key. [] when one cannot be read."""
+    above: list[tuple[int, int]] = []
+    for match in _LINE.finditer(text):
+        indent = len(match[1])
+        while above and above[-1][1] >= indent:
+            above.pop()
+        if len(match[2]) > 1:
+            keys = [_KEY.match(text, start) for start, _ in above]
+            readable = keys and not above[0][1]
+            yield [(key.start(3), key.end(3), key[3]) for key in keys if key] if readable and all(keys) else []
+        above.append((match.start(), indent))
