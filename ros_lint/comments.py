@@ -106,6 +106,9 @@ def _in_python(text: str) -> Ranges:
         return
 
 
+_TO_LINE_END = re.compile(r"#[^\r\n]*")
+
+
 def _in_yaml(text: str) -> Ranges:
     import yaml  # noqa: PLC0415
 
@@ -115,9 +118,8 @@ def _in_yaml(text: str) -> Ranges:
     except (yaml.YAMLError, UnicodeError):
         yield from _after_hash(text)  # such as a template of a YAML file
         return
-    comment = re.compile(r"#[^\r\n]*")
     at = 0
     for start, end in (*ranges, (len(text), len(text))):
         # Between two tokens there are but space and comments.
-        yield from (found.span() for found in comment.finditer(text, at, start))
+        yield from (found.span() for found in _TO_LINE_END.finditer(text, at, start))
         at = max(at, end)

@@ -5,7 +5,6 @@ The rules about dependencies share this, so that each need is judged once and na
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
@@ -376,7 +375,7 @@ _EVERYDAY = frozenset({"ros", "ament", "cmake", "python", "lib", "dev", "msgs", 
 
 def _words(name: str) -> frozenset[str]:
     """Return how the telling words of a name begin, without the number of a generation: mrpt2 is akin to mrpt_libobs."""
-    return frozenset([word.rstrip("0123456789")[:8] or word for word in re.split("[-_]", name)]) - _EVERYDAY
+    return frozenset([word.rstrip("0123456789")[:8] or word for word in name.replace("-", "_").split("_")]) - _EVERYDAY
 
 
 _OF_TOOLS = ("ament", "cmake", "lint", "common", "tools", "test")

@@ -87,6 +87,9 @@ _TOKEN = re.compile(
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
 _PLACEHOLDER = re.compile(r"@\w+@\Z")
 _NEW_LINE = re.compile(r"\n")
+_OPENING = re.compile(r"(?:[ \t\r]|#\[(=*)\[(?s:.*?)\]\1\])*\(")
+"""What leads to the parenthesis of a command: spaces and bracket comments."""
+_BLANK = re.compile(r"(?:[ \t\r\n]+|#(?!\[=*\[)[^\n]*)*")
 _MARKS = dict.fromkeys((1, 2, 3), "\ufffd")
 
 
@@ -215,11 +218,11 @@ class _Reader:
 
     def _opens(self, offset: int) -> bool:
         """Return whether only spaces and bracket comments stand between a name and its parenthesis."""
-        return re.compile(r"(?:[ \t\r]|#\[(=*)\[(?s:.*?)\]\1\])*\(").match(self.text, offset) is not None
+        return _OPENING.match(self.text, offset) is not None
 
     def _wrong(self, position: int) -> _SyntaxError:
         """Return the error at the first thing after an offset that is no token."""
-        blank = re.compile(r"(?:[ \t\r\n]+|#(?!\[=*\[)[^\n]*)*").match(self.text, position)
+        blank = _BLANK.match(self.text, position)
         at = blank.end() if blank else position
         what = self.text[at : at + 1]
         reasons = {

@@ -88,9 +88,12 @@ def read(source: Text) -> Document:
     return document._replace(faults=(*faults, *document.faults))
 
 
+_START = re.compile(r"<[^\s/>]+")
+
+
 def attribute(text: str, node: Node, name: str) -> tuple[int, int, int]:
     """Return the offsets of an attribute's name, of its value, and of the value's end."""
-    opened = re.compile(r"<[^\s/>]+").match(text, node.start)
+    opened = _START.match(text, node.start)
     at = opened.end() if opened else node.start
     while match := _ATTRIBUTE.match(text, at):
         if match[1] == name:
@@ -339,6 +342,10 @@ _MARKUP = re.compile(r"<!--.*?-->|<\?.*?\?>|<!.*?>|<([^\s>/!?]+)[^>]*>?", re.DOT
 """Group 1 is the name of an element."""
 
 
+_OPENED = re.compile(r"<!--|<!\[CDATA\[|<\?|</?[^\s>]*|")
+_NAME = re.compile(r"[^\s>]*")
+
+
 def _explain(text: str, code: int, at: int) -> Fault:
     """Return an expat error in words that say how to get out of it. ``at`` is the offset that expat gives."""
     start, end = at, min(at + 1, len(text))
@@ -350,11 +357,11 @@ def _explain(text: str, code: int, at: int) -> Fault:
     elif code in (errors[expat.errors.XML_ERROR_UNCLOSED_TOKEN], errors[expat.errors.XML_ERROR_UNCLOSED_CDATA_SECTION]):
         if not text.startswith("<", at):
             start = max(text.rfind("<![CDATA[", 0, at), 0)
-        opened = re.compile(r"<!--|<!\[CDATA\[|<\?|</?[^\s>]*|").match(text, start)
+        opened = _OPENED.match(text, start)
         end = len(text)
         message = f"{opened[0] if opened else ''} is never closed"
     elif code == errors[expat.errors.XML_ERROR_TAG_MISMATCH]:
-        name = re.compile(r"[^\s>]*").match(text, at)
+        name = _NAME.match(text, at)
         end = name.end() if name else end
         message = f"</{text[start:end]}> closes {_still_open(text)}; one of the two is misspelt or missing"
     elif code == errors[expat.errors.XML_ERROR_UNDEFINED_ENTITY]:

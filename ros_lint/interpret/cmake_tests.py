@@ -63,8 +63,11 @@ def _is_absolute(_run: Run, token: Token) -> Truth:
     return Truth(TRUE if token.text.startswith(("/", "~")) else FALSE)
 
 
+_POLICY = re.compile(r"CMP(\d{4})")
+
+
 def _policy(_run: Run, token: Token) -> Truth:
-    match = re.fullmatch(r"CMP(\d{4})", token.text)
+    match = _POLICY.fullmatch(token.text)
     return Truth(TRUE if match and int(match[1]) <= 50 else LIKELY)
 
 

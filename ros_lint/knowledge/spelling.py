@@ -152,8 +152,11 @@ def _bare(library: str) -> str:
     return plain(library.removesuffix("-dev").removeprefix("lib"))
 
 
+_WORD = re.compile(r"[a-z]+|[0-9]+")
+
+
 def _words(name: str) -> frozenset[str]:
-    return frozenset(re.findall(r"[a-z]+|[0-9]+", name.lower()))
+    return frozenset(_WORD.findall(name.lower()))
 
 
 def _overlap(left: frozenset[str], right: frozenset[str]) -> float:
