@@ -78,7 +78,6 @@ from ros_lint.needs import (
     covered,
     declared_closure,
     is_somewhere,
-    may_bring,
     needs,
     tells,
     undeclared,
@@ -93,6 +92,7 @@ from ros_lint.strangers import Stranger, declared_names, is_near_tool, meant, st
 from ros_lint.suppress import Outcome
 from ros_lint.text import Span, beginning
 from ros_lint.tree import folders_of
+from ros_lint.unknowns import may_bring
 from ros_lint.wording import few, several
 from ros_lint.workspace import Declared, Package, Workspace, per_workspace
 

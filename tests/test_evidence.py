@@ -8,9 +8,10 @@ from ros_lint.evidence import used_names
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Use
 from ros_lint.load import Loader
-from ros_lint.needs import covered, may_bring, needs, undeclared
+from ros_lint.needs import covered, needs, undeclared
 from ros_lint.report import Target
 from ros_lint.tree import MemoryTree
+from ros_lint.unknowns import may_bring
 from ros_lint.workspace import Workspace
 
 HEAD = """<package format="3"><name>{name}</name><version>1.0.0</version><description>Does it.</description>
