@@ -52,9 +52,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             case "find_package":
                 earlier = first.setdefault(call.texts, call)
                 if earlier is not call:
-                    yield Finding(f"{name} is found already", call.place, name, (Related("here", earlier.place),))
+                    message = f"{name} is found already; remove one of the two"
+                    yield Finding(message, call.place, name, (Related("here", earlier.place),))
                 elif not {"REQUIRED", "QUIET"}.intersection(call.texts) and _is_firm(package, call):
-                    message = f"find_package({name}) without REQUIRED: CMake goes on when it is not found"
+                    message = f"find_package({name}) without REQUIRED: CMake goes on when it is not found; write it, or QUIET"
                     yield Finding(message, call.place, name, severity=Severity.INFO)
             case "set" if name in _OVERWRITTEN and not any(name in text for text in call.texts[1:]):
                 yield Finding(f"{name} is overwritten; set it only if it is not set", call.place, name)

@@ -125,7 +125,7 @@ def _of_file(
     for name, span in names.declared.items():
         if name not in asked and name not in taken:
             yield Finding(
-                f"the argument {name} is declared and never used: it does nothing",
+                f"the argument {name} is declared and never used: it does nothing; use it, or take it out",
                 span,
                 name,
                 severity=Severity.INFO,
@@ -226,7 +226,7 @@ def _useless(file: str, name: str, place: Span, left: frozenset[str], *, sure: b
     """Return the finding for an argument that nobody takes. One that resembles an argument not given was renamed."""
     near = similar(name, left, 1, 0.85)
     return Finding(
-        f"{file} takes no argument {name}: it does nothing there{did_you_mean(near)}",
+        f"{file} takes no argument {name}: it does nothing there{did_you_mean(near) or '; take it out'}",
         place,
         f"{file}:{name}",
         confidence=Confidence.HIGH if sure else Confidence.MEDIUM,

@@ -48,7 +48,8 @@ def check(workspace: Workspace) -> Iterator[Finding]:
                 continue
             paths = ", ".join(place.path.partition(f"share/{package.name}/")[2] for place in places)
             yield Finding(
-                f"{package.name} installs {name} more than once ({paths}), so ros2 launch {package.name} {name} refuses",
+                f"{package.name} installs {name} more than once ({paths}), so ros2 launch {package.name} {name} refuses; "
+                "rename one, or install it once",
                 beginning(sources[0]),
                 name,
                 tuple(

@@ -39,13 +39,15 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         for name, span in launch.file.imports:
             if name.startswith("."):
                 yield Finding(
-                    f"{name} is imported relative to the launch file, which ros2 launch loads without a package",
+                    f"{name} is imported relative to the launch file, which ros2 launch loads without a package; "
+                    "import it by its name from one that is installed",
                     span,
                     name,
                 )
             elif _is_sibling(name, folder, files) and not workspace.world.by_import(name).known:
                 yield Finding(
-                    f"{name} is imported from the folder of the launch file, where ros2 launch does not look",
+                    f"{name} is imported from the folder of the launch file, where ros2 launch does not look; "
+                    "import it from a package that is installed",
                     span,
                     name,
                 )

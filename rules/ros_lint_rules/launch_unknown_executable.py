@@ -96,7 +96,7 @@ def _missing(owner: str, name: str, workspace: Workspace) -> _Missing | None:
             path = found.elsewhere[name]
             script = one.script
             where = tuple(Related("installed here", p.span) for p in script.provides if p.path == path) if script else ()
-            return _Missing(f" in lib/{owner}, but {path}, where launch does not look", "", where)
+            return _Missing(f" in lib/{owner}, but {path}, where launch does not look; install it there", "", where)
         names |= found.names
         if lying := _lying(one, name):
             return lying
@@ -118,7 +118,7 @@ def _lying(package: Package, name: str) -> _Missing | None:
         return None
     elsewhere = any(provided.source == lying for provided in script.provides)
     there = Related("this file", place_of(package, lying))
-    return _Missing(f": {lying} is not installed{f' to {own[:-1]}' if elsewhere else ''}", "", (there,))
+    return _Missing(f": {lying} is not installed{f' to {own[:-1]}' if elsewhere else ''}; install it", "", (there,))
 
 
 def _hint(name: str, meant: str, names: tuple[str, ...]) -> str:

@@ -77,7 +77,7 @@ def _flat(together: list[Given]) -> Iterator[Finding]:
     nodes = [given for given in together if given.action.kind == "node"]
     if nodes:
         yield Finding(
-            f"{_name(nodes[0])} is no parameter file, since it has no ros__parameters: the node stops",
+            f"{_name(nodes[0])} is no parameter file, since it has no ros__parameters: the node stops; put them below that word",
             nodes[0].value.span,
             nodes[0].file.path,
             (Related("the file", nodes[0].file.first), *_more(nodes)),
@@ -89,7 +89,8 @@ def _of_others(together: list[Given]) -> Finding:
     first = together[0]
     names = few(dict.fromkeys(name for name, _ in first.file.nodes))
     return Finding(
-        f"{_name(first)} has parameters of {names}, and none of {_full_name(first)}, which gets it here",
+        f"{_name(first)} has parameters of {names}, and none of {_full_name(first)}, which gets it here; "
+        "correct the name, or write /**",
         first.value.span,
         first.file.path,
         (Related("the file", first.file.nodes[0][1]), *_more(together)),

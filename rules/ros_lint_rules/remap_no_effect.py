@@ -58,7 +58,7 @@ def _of_pair(before: LaunchValue, after: LaunchValue, arguments: set[str]) -> It
     for side, value in (("from", before), ("to", after)):
         if len(value.texts) == 1 and is_plain(value.texts[0]) and _is_none(value.texts[0]):
             yield Finding(
-                f"a remapping {side} {value.texts[0]!r} is none: that is no name",
+                f"a remapping {side} {value.texts[0]!r} is none: that is no name; write one, or remove the remapping",
                 value.span,
                 before.texts[0],
                 severity=Severity.ERROR,
@@ -67,8 +67,9 @@ def _of_pair(before: LaunchValue, after: LaunchValue, arguments: set[str]) -> It
     if before.exact and after.exact and before.texts == after.texts:
         name = before.texts[0]
         meant = name in arguments
+        way_out = "the argument of that name is meant" if meant else "remove it, or correct a name"
         yield Finding(
-            f"{name} is remapped to itself, which does nothing{'; the argument of that name is meant' if meant else ''}",
+            f"{name} is remapped to itself, which does nothing; {way_out}",
             after.span,
             name,
             confidence=Confidence.HIGH if meant else Confidence.MEDIUM,

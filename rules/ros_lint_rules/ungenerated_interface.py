@@ -100,9 +100,9 @@ def _camel(stem: str) -> str:
 
 def _finding(package: Package, calls: list[Call], file: str, wanted: str) -> Finding:
     """``wanted``: what the file has to be called before anything can be generated from it, "" if it is."""
-    rename = f"; rosidl wants it to be called {wanted}" if wanted else ""
+    way_out = f"rosidl wants it to be called {wanted}" if wanted else "add it, or remove it"
     return Finding(
-        f"{file} is not given to {_GENERATE}(), so nothing is generated from it{rename}",
+        f"{file} is not given to {_GENERATE}(), so nothing is generated from it; {way_out}",
         calls[0].place,
         file,
         (_here(package, file),),

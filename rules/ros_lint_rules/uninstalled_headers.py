@@ -89,7 +89,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     sure = Confidence.HIGH if exports or linked or wanted else Confidence.MEDIUM if library else Confidence.LOW
     why = ", but exported" if exports else f", and {wanted[0][0].name} includes them" if wanted else ""
     yield Finding(
-        f"the headers in include/ ({headers[0].rpartition('/')[2]} ...) are not installed{why}",
+        f"the headers in include/ ({headers[0].rpartition('/')[2]} ...) are not installed{why}; "
+        f"install them to {_place(exports)}",
         script.end,
         "include/",
         (*(Related("exported here", call.place) for call in exports), *_included_here(wanted)),
@@ -159,11 +160,15 @@ def _exports(package: Package) -> list[Call]:
     ]
 
 
+def _place(exports: list[Call]) -> str:
+    """Return where headers are looked for: in the folder that is exported, if one is."""
+    return exports[0].texts[0].strip("/") if exports else "include"
+
+
 def _fix(package: Package, exports: list[Call]) -> Fix | None:
     script = package.script
     assert script is not None
-    folder = exports[0].texts[0].strip("/") if exports else "include"
-    line = f"install(DIRECTORY include/ DESTINATION {folder})"
+    line = f"install(DIRECTORY include/ DESTINATION {_place(exports)})"
     return Fix.of("install the headers", cmake_edits.at_end(script, line), safe=bool(exports))
 
 

@@ -104,12 +104,13 @@ def _finding(package: Package, folder: str, paths: Iterable[str], whole: bool) -
     assert script is not None
     paths = sorted(paths)
     named = few(path.rpartition("/")[2] for path in paths)
+    it = "it" if len(paths) == 1 else "them"
     if whole:
         what = f"{folder}/ has launch files ({named}), but is not installed"
     else:
         what = f"{named} {'is' if len(paths) == 1 else 'are'} not installed"
     return Finding(
-        f"{what}: ros2 launch will not find {'it' if len(paths) == 1 else 'them'}",
+        f"{what}: ros2 launch will not find {it}; install {'it' if whole else it} to share/{package.name}",
         setup_edits.place(script),
         folder or paths[0],
         several(Related("this launch file", place_of(package, path)) for path in paths),

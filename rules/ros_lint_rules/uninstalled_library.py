@@ -81,7 +81,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             related += (Related("it is exported here", exported),)
         reason = f", and {users[0][0]} needs it at run time" if users else ", and is exported" if exported else ""
         yield Finding(
-            f"the library {target.name} is built, but not installed{reason}",
+            f"the library {target.name} is built, but not installed{reason}; install it to lib",
             target.span,
             target.name,
             related,

@@ -115,7 +115,7 @@ def _named(package: Package, unit: str, found: list[tuple[str, Span]]) -> Findin
     named = few(path.rpartition("/")[2] for path in paths)
     inside = f"{named} is looked up in it" if unit.endswith("/") and paths else "is looked up at run time"
     return Finding(
-        f"{unit} is not installed, and {inside}",
+        f"{unit} is not installed, and {inside}; install it to share/{package.name}",
         setup_edits.place(script),
         unit,
         several(Related("looked up here", span) for _, span in found),
@@ -155,7 +155,7 @@ def _folders(package: Package, kept: set[str], told: set[str]) -> Iterator[Findi
         shown = [file.rpartition("/")[2] for file in named + [file for file in files if file not in places]]
         examples = few(shown)
         yield Finding(
-            f"{folder}/ ({examples}) is not installed, so nothing finds it at run time",
+            f"{folder}/ ({examples}) is not installed, so nothing finds it at run time; install it to share/{package.name}",
             setup_edits.place(script),
             f"{folder}/",
             several(Related(f"{file.rpartition('/')[2]} is named here", places[file]) for file in looked_up),

@@ -66,7 +66,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         forgotten = file.path in nodes and file.path.rpartition("/")[0] in with_nodes
         sure = file.run is not None or (forgotten and file.executable)
         yield Finding(
-            f"{file.path} is a script, and is not installed, so ros2 run does not find it",
+            f"{file.path} is a script, and is not installed, so ros2 run does not find it; install it to lib/{package.name}",
             place_of(package, file.path),
             file.path,
             (Related("it is started here", file.run),) if file.run else (),

@@ -53,7 +53,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if is_on_request(package, target):
             continue
         fix = Fix.of(f"install {target.name}", cmake_edits.install_program(script, "TARGETS", target.name), safe=False)
-        yield Finding(f"{target.name} is built, but neither installed nor a test", target.span, target.name, fix=fix)
+        message = f"{target.name} is built, but neither installed nor a test; install it, or build it only if it is wanted"
+        yield Finding(message, target.span, target.name, fix=fix)
 
 
 RULE = Rule(
