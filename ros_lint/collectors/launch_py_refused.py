@@ -6,7 +6,6 @@ At once, or when it comes to a name that nothing binds, to a substitution as a t
 from __future__ import annotations
 
 import ast
-import builtins
 import warnings
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
@@ -14,6 +13,7 @@ from typing import TYPE_CHECKING
 from ros_lint.collectors.launch_py_misuse import are_unknown
 from ros_lint.collectors.launch_py_walk import span_of
 from ros_lint.collectors.python_syntax import refusal
+from ros_lint.collectors.python_unbound import tried, unbound
 from ros_lint.collectors.python_values import callee
 from ros_lint.facts.sight import Problem
 
@@ -21,10 +21,6 @@ if TYPE_CHECKING:
     from ros_lint.collectors.launch_py_misuse import How, Misused
     from ros_lint.collectors.launch_py_objects import Made, Source, Value
     from ros_lint.text import Text
-
-_ANYWHERE = frozenset({"exec", "eval", "globals", "locals", "vars", "setattr"})
-"""What can bind names that are not written."""
-_MODULE = frozenset({"__file__", "__name__", "__doc__", "__package__", "__spec__", "__loader__", "__builtins__", "__path__"})
 
 
 def misplaced(tree: ast.Module, source: Text) -> Iterator[Problem]:
@@ -41,46 +37,9 @@ def misplaced(tree: ast.Module, source: Text) -> Iterator[Problem]:
 
 def undefined(tree: ast.Module, source: Source, met: Iterable[tuple[ast.Name, Source]]) -> Iterator[Problem]:
     """Yield those names that were met, bound by nothing, of which it is sure that Python stops there."""
-    names = [node for node, where in met if where is source and node.id not in _KNOWN]
-    if not names:
-        return
-    bound, guarded = set[str](), set[ast.AST]()
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Name):
-            if node.id in _ANYWHERE:
-                return
-            if not isinstance(node.ctx, ast.Load):
-                bound.add(node.id)
-        elif isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)):
-            bound.add(node.name)
-        elif isinstance(node, ast.arg):
-            bound.add(node.arg)
-        elif isinstance(node, ast.alias):
-            if node.name == "*":
-                return
-            bound.add(node.asname or node.name.partition(".")[0])
-        elif isinstance(node, (ast.Global, ast.Nonlocal)):
-            bound.update(node.names)
-        elif isinstance(node, (ast.ExceptHandler, ast.MatchAs, ast.MatchStar)):
-            bound.add(node.name or "")
-        elif isinstance(node, ast.MatchMapping):
-            bound.add(node.rest or "")
-        elif isinstance(node, ast.Try):
-            guarded.update(_tried(node))
-    for node in names:
-        if node.id not in bound and node not in guarded:
-            bound.add(node.id)  # once is enough
-            yield Problem("undefined-name", f"{node.id} is not defined", span_of(node, source))
+    for node in unbound(tree, [node for node, where in met if where is source]):
+        yield Problem("undefined-name", f"{node.id} is not defined", span_of(node, source))
 
-
-def _tried(node: ast.Try) -> Iterator[ast.AST]:
-    """Yield all that stands where an error is caught."""
-    for statement in node.body:
-        yield from ast.walk(statement)
-
-
-_KNOWN = _MODULE | set(dir(builtins)) | {"copyright", "credits", "exit", "help", "license", "quit", "WindowsError"}
-"""What Python binds, with what it does so only when it starts as people start it, or elsewhere."""
 
 _SAY: Mapping[How, tuple[str, str]] = {
     "added": ("substitution-refused", "a {name} cannot be added to a text: put both into a list, [a, b]"),
@@ -120,7 +79,7 @@ def _spared(tree: ast.Module) -> set[ast.AST]:
     found: set[ast.AST] = set()
     for node in ast.walk(tree):
         if isinstance(node, ast.Try):
-            found.update(_tried(node))
+            found.update(tried(node))
         elif isinstance(node, ast.Call) and callee(node) in _TELLS:
             found.update(ast.walk(node))
     return found

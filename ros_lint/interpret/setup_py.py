@@ -9,21 +9,23 @@ from __future__ import annotations
 import ast
 import posixpath
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors import setup_cfg as setup_cfg_collector
 from ros_lint.collectors.python_import_tree import walk
 from ros_lint.collectors.python_syntax import NotPythonError, parse, span_of, syntax_problem
+from ros_lint.collectors.python_unbound import tried, unbound
 from ros_lint.facts.build import BuildScript
-from ros_lint.facts.sight import Facet, Opaque
+from ros_lint.facts.sight import Facet, Opaque, Problem
 from ros_lint.facts.sources import Mention
+from ros_lint.interpret import setup_py_library as library
 from ros_lint.interpret.setup_py_distribution import INSTALLED, Context, Distribution
 from ros_lint.interpret.setup_py_files import Files
 from ros_lint.interpret.setup_py_options import completed
 from ros_lint.interpret.setup_py_run import Program, Setup
-from ros_lint.interpret.setup_py_values import Value
+from ros_lint.interpret.setup_py_values import Module, Value
 from ros_lint.text import Span, beginning
 from ros_lint.tree import join
 
@@ -48,7 +50,8 @@ def evaluate(
     ``name`` is that of package.xml, ``path_prefix`` the folder of the package, and ``files`` are those below it,
     relative to it, ``executables`` those of them that have the executable bit. Problems are of the kinds
     ``syntax``, ``missing-file``, ``directory-in-data-files``, ``empty-glob``, ``data-files-form``,
-    ``absolute-destination``, ``entry-point-form``, and those of :mod:`ros_lint.collectors.setup_cfg`.
+    ``absolute-destination``, ``entry-point-form``, ``undefined-name``, ``no-function``, and those of
+    :mod:`ros_lint.collectors.setup_cfg`.
     """
     first = setup_py or setup_cfg or pyproject
     start = beginning(first.path if first else join(path_prefix, "setup.py"))
@@ -98,10 +101,29 @@ def _run(program: Program, source: Text, start: Span) -> BuildScript:
             for item, span in zip(imports, spans, strict=True)
         )
     )
+    script = script._replace(problems=tuple(_failing(program, tree, source)))
     if program.end or not program.setups:
         reason = f"setup.py is not followed to its end: {program.end}" if program.end else "no call of setup() is seen"
         return script._replace(opaque=(Opaque(INSTALLED, reason, start),))
     return script
+
+
+def _failing(program: Program, tree: ast.Module, source: Text) -> Iterator[Problem]:
+    """Yield what Python stops at, where nothing catches that."""
+    for name in unbound(tree, program.strange):
+        yield Problem("undefined-name", f"{name.id} is not defined", span_of(source, name))
+    caught = {node for statement in ast.walk(tree) if isinstance(statement, ast.Try) for node in tried(statement)}
+    for call, value in program.no_functions:
+        if call not in caught:
+            yield Problem("no-function", _no_function(value), span_of(source, call.func))
+
+
+def _no_function(value: Value) -> str:
+    if isinstance(value, Module):
+        inside = f"{value.name}.{value.name}"
+        return f"{value.name} is a module and cannot be called" + (f"; say {inside}()" if library.member(inside) else "")
+    kind = "text" if isinstance(value, str) else type(value).__name__
+    return f"this {kind} cannot be called; is a comma missing after it?"
 
 
 def _placer(setup_py: Text | None) -> Callable[[Value, Span], Span]:

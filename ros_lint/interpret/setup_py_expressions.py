@@ -39,6 +39,8 @@ class Expressions(ABC):
         self.files = files
         self.journal = Journal()
         self.scopes: Scopes = ({"__file__": f"{ROOT}/setup.py", "__name__": "__main__"},)
+        self.strange: list[ast.Name] = []
+        """Names that are asked for on the way that is surely taken, and mean nothing that is known."""
         self._steps = 0
 
     @abstractmethod
@@ -156,7 +158,11 @@ class Expressions(ABC):
             if node.id in scope:
                 return scope[node.id]
         found = self.builtin(node.id)
-        return Unknown(f"the name {node.id} is not known", node) if found is None else found
+        if found is None:
+            if not self.journal.unsure:
+                self.strange.append(node)
+            return Unknown(f"the name {node.id} is not known", node)
+        return found
 
     def _attribute(self, node: ast.Attribute) -> Value:
         owner = self.value(node.value)

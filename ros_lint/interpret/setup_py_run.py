@@ -35,6 +35,8 @@ class Program(Expressions):
         self.setups: list[Setup] = []
         self.generated: list[str] = []
         """Python modules that a generator adds to the package, dotted."""
+        self.no_functions: list[tuple[ast.Call, Value]] = []
+        """Calls of what cannot be called, on the way that is surely taken."""
         self.end: str = ""
         """Why the evaluation stopped before the end, a clause; "" when it did not."""
         self._depth = 0
@@ -83,6 +85,8 @@ class Program(Expressions):
             return library.call(self, function, arguments, keywords, node)
         if isinstance(function, Function):
             return self._invoke(function, arguments, keywords, node)
+        if isinstance(function, (Module, tuple, list, str)) and not self.journal.unsure:
+            self.no_functions.append((node, function))
         return Unknown(f"{at(node.func)}() is not followed", node)
 
     def _invoke(self, function: Function, arguments: list[Value], keywords: dict[str, Value], node: ast.Call) -> Value:

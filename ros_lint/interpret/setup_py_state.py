@@ -36,6 +36,11 @@ class Journal:
         self._open: list[dict[int, tuple[Container, Container]]] = []
         self._forks = 0
 
+    @property
+    def unsure(self) -> bool:
+        """Whether what is done now is one of two ways."""
+        return bool(self._open)
+
     def touch(self, container: Container) -> None:
         """Say that a container is about to change."""
         for changes in self._open:

@@ -2,8 +2,9 @@
 ## What it finds
 
 Build scripts that their tools refuse: syntax errors in `CMakeLists.txt`, `*.cmake`, `setup.py` and `setup.cfg`, marks of a
-merge conflict among them; entries of `data_files` that are no pair of a folder and a list, and destinations outside the
-install prefix.
+merge conflict among them; names in a `setup.py` that nothing defines, and calls of what cannot be called: a module, or the
+tuple before a comma that is missing; entries of `data_files` that are no pair of a folder and a list, and destinations outside
+the install prefix.
 
 ## Why it matters
 
@@ -16,7 +17,8 @@ prefix and a list of files.
 
 ## When it keeps silent
 
-For templates, for Python 2, and for Python that is newer than what can be read here.
+For templates, for Python 2, and for Python that is newer than what can be read here. About names and calls where an error is
+caught, or where it is not known whether `setup.py` comes there.
 """
 
 from __future__ import annotations
@@ -28,6 +30,8 @@ from ros_lint.api import Finding, Package, Rule, Severity, Workspace, relative
 _KINDS = {
     "cmake-syntax": "CMake stops here: ",
     "syntax": "",
+    "undefined-name": "",
+    "no-function": "",
     "setup-cfg-syntax": "",
     "data-files-form": "",
     "absolute-destination": "",
