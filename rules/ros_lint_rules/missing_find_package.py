@@ -2,7 +2,8 @@
 ## What it finds
 
 A CMake script that uses a ROS package without having found it: a target `package::library`, an argument of
-`ament_target_dependencies()`, or a macro of the package.
+`ament_target_dependencies()`, or a macro of the package. And what `ament_target_dependencies()` is given that is no package:
+a target of the script, or nearly the name of a package that is found.
 
 ## Why it matters
 
@@ -18,7 +19,8 @@ Add `find_package(package REQUIRED)`, before the first use.
 - The package comes along with one that is found, for then it is found, too: then, and when nobody knows what comes along,
   the confidence is medium.
 - The script cannot be followed everywhere, or the use hangs on a condition that cannot be decided.
-- The name belongs to no ROS package that is known, or is that of a package that is found, in other capitals.
+- The name belongs to no ROS package that is known, to no target either, and looks like no name that is found; or it is that
+  of a package that is found, in other capitals.
 - A command that another package of the workspace gives has it in itself: that package is to find it.
 """
 
@@ -30,14 +32,18 @@ from ros_lint.api import (
     Confidence,
     Facet,
     Finding,
+    Fix,
     Package,
     Related,
     Rule,
     Severity,
     Workspace,
+    called,
+    cmake_edits,
     come_along,
     found_names,
     several,
+    similar,
 )
 
 _NOT_SOUGHT = ("export", "plugins", "helper")
@@ -51,6 +57,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     found = found_names(package, script)
     spelt = {name.lower() for name in found}  # namespaces of targets may be spelt another way: RTABMap, rtabmap::core
     along = come_along(workspace, found)
+    yield from _no_packages(package, found, workspace)
     missing: dict[str, list[tuple[str, Related]]] = {}
     for mention in script.mentions:
         name = mention.name.partition("::")[0]
@@ -76,6 +83,34 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             confidence=Confidence.HIGH if sure else Confidence.MEDIUM,
             severity=None if sure else Severity.INFO,
         )
+
+
+def _no_packages(package: Package, found: frozenset[str], workspace: Workspace) -> Iterator[Finding]:
+    """Yield what is given to ament_target_dependencies() and is no package for sure: a target, or a slip for what is found."""
+    script = package.script
+    assert script is not None
+    targets = {target.name for target in script.targets}
+    spelt = {name.lower() for name in found}
+    for call in called(package, "ament_target_dependencies", anywhere=True):
+        if _REPEATED.intersection(call.blocks):
+            continue
+        for index, name in enumerate(call.texts[1:], 1):
+            if "$" in name or name in _WORDS or name.lower() in spelt or workspace.world.is_package(name):
+                continue
+            near = similar(name, sorted(found), 1, 0.9)
+            if name in targets:
+                way_out = "is a target of this package and no package: link it with target_link_libraries()"
+            elif near:
+                way_out = f"is no package that is found; is {near[0]} meant?"
+            else:
+                continue
+            fix = Fix.of(f"write {near[0]}", cmake_edits.write(call, index, near[0]), safe=False) if near else None
+            yield Finding(f"ament_target_dependencies() takes packages, and {name} {way_out}", call.span(index), name, fix=fix)
+
+
+_WORDS = frozenset({"PUBLIC", "PRIVATE", "INTERFACE", "SYSTEM"})
+_REPEATED = frozenset({"foreach", "while", "function", "macro"})
+"""In these a name may be one that is put together elsewhere."""
 
 
 RULE = Rule(
