@@ -40,6 +40,7 @@ _MODULES: Mapping[str, frozenset[str]] = {
     }.items()
 }
 """What the modules offer in any distribution, as far as launch files ask for it (launch 3.7.1, launch_ros 0.28 and later)."""
+ACTIONS = _MODULES["launch.actions"] | _MODULES["launch_ros.actions"]
 _HOMES: Mapping[str, tuple[str, ...]] = {
     name: tuple(module for module, names in _MODULES.items() if name in names) for names in _MODULES.values() for name in names
 }

@@ -11,6 +11,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.launch_py_misuse import are_unknown
+from ros_lint.collectors.launch_py_names import ACTIONS
+from ros_lint.collectors.launch_py_objects import Made
 from ros_lint.collectors.launch_py_walk import span_of
 from ros_lint.collectors.python_syntax import refusal
 from ros_lint.collectors.python_unbound import tried, unbound
@@ -19,7 +21,7 @@ from ros_lint.facts.sight import Problem
 
 if TYPE_CHECKING:
     from ros_lint.collectors.launch_py_misuse import How, Misused
-    from ros_lint.collectors.launch_py_objects import Made, Source, Value
+    from ros_lint.collectors.launch_py_objects import Source, Value
     from ros_lint.text import Text
 
 
@@ -108,6 +110,7 @@ _WHERE: Mapping[str, tuple[tuple[int, str], ...]] = {
     "DeclareLaunchArgument": ((-1, "default_value"),),
     "ExecuteProcess": ((-1, "cmd"),),
     "IncludeLaunchDescription": ((1, "launch_arguments"),),
+    "LaunchConfiguration": ((0, "variable_name"),),
     "PathJoinSubstitution": ((0, "substitutions"),),
     "PythonExpression": ((0, "expression"),),
     "PushRosNamespace": ((0, "namespace"),),
@@ -116,7 +119,7 @@ _WHERE: Mapping[str, tuple[tuple[int, str], ...]] = {
 
 
 def no_texts(tree: ast.Module, source: Source, made: Iterable[Made]) -> Iterator[Problem]:
-    """Yield where a number or a truth is given for a text, and arguments that are a dictionary and no list of pairs."""
+    """Yield where a number, a truth or an action is given for a text, and arguments that are a dictionary, not pairs."""
     found: list[tuple[str, ast.expr]] = []
     for one in made:
         for position, name in _WHERE.get(one.name, ()) if one.source is source and not are_unknown(one.conditions) else ():
@@ -125,8 +128,8 @@ def no_texts(tree: ast.Module, source: Source, made: Iterable[Made]) -> Iterator
                 continue  # what is passed is looked at when it is launched
             if name == "launch_arguments" and isinstance(value, dict):
                 found.append(("launch_arguments are pairs: say .items()", one.written(position, name)))
-            elif (number := _number_in(value)) is not None:
-                message = f"{name} of {one.name} takes texts and substitutions: say '{number}' instead of {number}"
+            elif (odd := _odd_in(value)) is not None:
+                message = f"{name} of {one.name} takes texts and substitutions{_instead(odd, one)}"
                 found.append((message, one.written(position, name)))
     spared = _spared(tree) if found else set()
     for message, node in found:
@@ -134,18 +137,30 @@ def no_texts(tree: ast.Module, source: Source, made: Iterable[Made]) -> Iterator
             yield Problem("no-text", message, span_of(node, source))
 
 
-def _number_in(value: Value) -> bool | int | float | None:
-    """Return a number that is a value, or stands in the lists in it."""
+def _odd_in(value: Value) -> bool | int | float | Made | None:
+    """Return a number or an action that is a value, or stands in the lists in it."""
     waiting = [value]
     for _ in range(_MOST_ITEMS):
         if not waiting:
             break
         one = waiting.pop()
-        if isinstance(one, (bool, int, float)):
+        if isinstance(one, (bool, int, float)) or (isinstance(one, Made) and one.name in ACTIONS):
             return one
         if isinstance(one, (list, tuple)):
             waiting += one
     return None
+
+
+def _instead(odd: bool | int | float | Made, taken: Made) -> str:
+    """Return how a message goes on that says what something is given to that takes texts."""
+    if not isinstance(odd, Made):
+        return f": say '{odd}' instead of {odd}"
+    name = odd.get(0, "name") if odd.name == "DeclareLaunchArgument" else None
+    if not isinstance(name, str):
+        return f", and no {odd.name}"
+    return f", and no {odd.name}: say " + (
+        f"'{name}'" if taken.name == "LaunchConfiguration" else f"LaunchConfiguration('{name}')"
+    )
 
 
 _MOST_ITEMS = 200
