@@ -38,7 +38,7 @@ from ros_lint.build_scripts import (
 from ros_lint.carriers import Carried, carriers, found_for_nothing
 from ros_lint.cmake_finds import come_along, found_along, found_names, given_for
 from ros_lint.collectors.launch import NAMES as LAUNCH_NAMES
-from ros_lint.collectors.launch_text import agree, is_plain, renames
+from ros_lint.collectors.launch_text import agree, configurations, is_plain, renames
 from ros_lint.declare import (
     PYTHON_LIKE,
     add_dependency,
@@ -66,7 +66,7 @@ from ros_lint.graph import Edge, Graph, Reason
 from ros_lint.graph_cut import Knot, knots
 from ros_lint.knowledge.spelling import may_be_package, near_names
 from ros_lint.launch_files import Launchable, Programs, launchable, programs, referred
-from ros_lint.launch_links import Links, defaults_of, everything, filled
+from ros_lint.launch_links import Links, defaults_of, everything, filled, texts_of
 from ros_lint.launch_names import Families, needed
 from ros_lint.launch_parameters import Given, ParameterFiles
 from ros_lint.launch_runs import Broken, PassedFile, broken_expressions, launched, passed_files
@@ -179,6 +179,7 @@ __all__ = [
     "comes_elsewhere",
     "comes_with_launching",
     "conditions",
+    "configurations",
     "covered",
     "declared_closure",
     "declared_names",
@@ -247,6 +248,7 @@ __all__ = [
     "strangers",
     "tag_for",
     "tells",
+    "texts_of",
     "top_file",
     "undeclared",
     "unguarded_tests",

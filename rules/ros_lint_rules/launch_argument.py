@@ -3,7 +3,8 @@
 
 - An include that does not give an argument which the included launch file requires, or that gives one which neither this
   file nor any that it includes declares or uses.
-- A launch configuration that is asked for, while nothing declares or sets it.
+- A launch configuration that is asked for, while nothing declares or sets it, or before it is declared: what stands in a
+  launch file is done in order.
 - An argument whose default is none of its choices, or one that makes an expression fail: with `false` or `fast` for
   `$(var x)`, `$(eval 'not $(var x)')` and `$(eval '$(var x) == 0')` are no Python that can be evaluated.
 - An argument that is declared and never used.
@@ -36,6 +37,9 @@ Give the argument, or give it a default where it is declared; correct the name, 
 - A file of the workspace cannot be read: it may include this one and give it anything. What is asked for and declared
   nowhere, and what is declared and never used, is not told of then, and of an expression that fails the confidence is medium.
 - A file has nothing but arguments: it sets them for whoever includes it.
+- What is asked for before it is declared is declared or set by a file that includes this one, or perhaps by one that it
+  includes before. Where it is asked for under a condition, or the file requires other arguments, so that it is a part of
+  others, the confidence is medium.
 - An argument that does nothing is empty by default, and another launch file of the folder requires it: this one may be put
   in the place of the other, and takes what that one takes.
 
@@ -62,12 +66,14 @@ from ros_lint.api import (
     Span,
     Workspace,
     broken_expressions,
+    configurations,
     did_you_mean,
     everything,
     is_plain,
     launchable,
     needed,
     similar,
+    texts_of,
 )
 
 _MOST_MISSING = 2
@@ -107,6 +113,8 @@ def _of_file(
             yield from _of_choices(action)
     names, takes, above = families.names(file), links.takes(file), families.above(file)
     given = {name for one in above for name in one.made}
+    if whole:
+        yield from _too_early(file, links, given.union(*(one.declared for one in above)))
     yield from (_failing(broken, sure=whole and broken.argument not in given) for broken in broken_expressions(file))
     if not (whole and names.whole and takes.complete):
         return
@@ -130,6 +138,51 @@ def _of_file(
                 name,
                 severity=Severity.INFO,
             )
+
+
+def _too_early(file: LaunchFile, links: Links, above: Collection[str]) -> Iterator[Finding]:
+    """Yield the arguments that are asked for before they are declared: what a launch file does, it does in order.
+
+    ``above`` are those that files which include this one declare or set.
+    """
+    declared: dict[str, tuple[int, Span]] = {}
+    for index, action in enumerate(file.actions):
+        if action.kind == "argument" and action.target is not None:
+            for name in action.target.texts:
+                declared.setdefault(name, (index, action.span))
+    there = set(above)
+    part = bool(links.takes(file).required)
+    for index, action in enumerate(file.actions):
+        late = [name for name, (at, _) in declared.items() if at > index and name not in there]
+        if not late:
+            return
+        # A condition is asked for whatever comes of it.
+        asking = [text for condition in action.conditions for text in condition.texts]
+        for text, span in texts_of(action) if action.kind != "later" else ():
+            for name, has_default, _ in configurations(text):
+                if name in late and not has_default:
+                    late.remove(name)
+                    sure = not part and (not action.conditions or text in asking)
+                    yield _early(name, span, declared[name][1], sure=sure)
+        for inner in everything((action,)):
+            if inner.kind == "include" and (target := links.target(inner.target, file)) is not None:
+                there |= links.takes(target.file).known
+            elif inner.kind == "include":
+                return  # what is included may declare anything
+            there.update(name for name, _ in inner.arguments)
+            if inner.kind in ("argument", "set") and inner.target is not None:
+                there.update(inner.target.texts)
+
+
+def _early(name: str, span: Span, declared: Span, *, sure: bool) -> Finding:
+    return Finding(
+        f"{name} is asked for before it is declared, so the launch file stops where nobody gives it; declare it further up",
+        span,
+        name,
+        (Related("declared only here", declared),),
+        confidence=Confidence.HIGH if sure else Confidence.MEDIUM,
+        severity=Severity.ERROR,
+    )
 
 
 def _empty(file: LaunchFile) -> Iterator[str]:
