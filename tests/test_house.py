@@ -13,15 +13,6 @@ ROOT = Path(__file__).parent.parent
 FIXTURES = ROOT / "fixtures"
 HEADINGS = ["What it finds", "Why it matters", "How to fix it", "When it keeps silent"]
 RULES = registry.load()
-CHECKED = RULES
-GROUPS = {
-    "1": "workspace and manifest",
-    "2": "dependencies",
-    "3": "build scripts",
-    "4": "install",
-    "5": "launch",
-    "9": "the tool",
-}
 
 
 def by_name(rule: Rule) -> str:
@@ -43,20 +34,20 @@ def test_papers(rule: Rule) -> None:
     assert sum(check is not None for check in (rule.package, rule.workspace, rule.suppressions)) == 1
 
 
-@pytest.mark.parametrize("rule", CHECKED, ids=by_name)
+@pytest.mark.parametrize("rule", RULES, ids=by_name)
 def test_has_cases_for_and_against(rule: Rule) -> None:
     wants = [bool(case.wants()) for case in read_cases(FIXTURES / f"{rule.name}.md")]
     assert any(wants), "no case in which the rule speaks"
     assert not all(wants), "no case in which the rule keeps silent"
 
 
-@pytest.mark.parametrize("rule", [rule for rule in CHECKED if rule.fixable], ids=by_name)
+@pytest.mark.parametrize("rule", [rule for rule in RULES if rule.fixable], ids=by_name)
 def test_a_fix_is_shown(rule: Rule) -> None:
     assert any(case.diff for case in read_cases(FIXTURES / f"{rule.name}.md")), "no case shows the fix as a diff"
 
 
 def test_no_case_without_a_rule() -> None:
-    assert {path.stem for path in FIXTURES.glob("*.md")} == {rule.name for rule in CHECKED}
+    assert {path.stem for path in FIXTURES.glob("*.md")} == {rule.name for rule in RULES}
 
 
 def test_every_fence_is_closed() -> None:

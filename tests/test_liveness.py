@@ -24,7 +24,16 @@ PUBLIC = BUILT | Role.EXPORT
 def load(lines: str, files: dict[str, str], depends: str = "") -> Workspace:
     """Return a workspace with one package of ament_cmake, given what its CMakeLists.txt has in the middle."""
     script = f"project(robot)\nfind_package(ament_cmake REQUIRED)\n{lines}\nament_package()\n"
-    files = {"package.xml": MANIFEST.format(depends=depends), "CMakeLists.txt": script, **files}
+    return loaded({"package.xml": MANIFEST.format(depends=depends), "CMakeLists.txt": script, **files})
+
+
+def load_python(options: str, files: dict[str, str]) -> Workspace:
+    """Return the same of ament_python, given what its setup() says."""
+    manifest = MANIFEST.format(depends="").replace("ament_cmake", "ament_python")
+    return loaded({"package.xml": manifest, "setup.py": f"from setuptools import setup\nsetup({options})\n", **files})
+
+
+def loaded(files: dict[str, str]) -> Workspace:
     tree = MemoryTree({f"robot/{path}": text for path, text in files.items()})
     return Loader(tree, ("",), Target("jazzy", "test")).load()
 
@@ -283,41 +292,25 @@ def test_a_header_of_ros_1_that_nothing_includes_is_left_over(header: str, sourc
 
 
 @pytest.mark.parametrize(
-    ("more", "sure"),
+    ("options", "more", "sure"),
     [
-        ({}, False),
-        ({"robot/tools/__init__.py": ""}, True),
-        ({"robot/node.py": "from robot.tools.learn import main\n"}, True),
-        ({"robot/node.py": "from other.tools import main\n"}, False),
-        ({"setup.py": "setup(packages=['robot', 'robot.tools'])\n"}, True),
-        ({"setup.py": "setup(packages=['robot'], entry_points={'console_scripts': ['learn = robot.tools.learn:main']})\n"}, True),
+        ("packages=['robot']", {}, False),
+        ("packages=['robot']", {"robot/tools/__init__.py": ""}, True),
+        ("packages=['robot']", {"robot/node.py": "from robot.tools.learn import main\n"}, True),
+        ("packages=['robot']", {"robot/node.py": "from other.tools import main\n"}, False),
+        ("packages=['robot', 'robot.tools']", {}, True),
+        ("packages=['robot'], entry_points={'console_scripts': ['learn = robot.tools.learn:main']}", {}, True),
     ],
 )
-def test_a_folder_in_a_python_package_is_none_by_itself(more: dict[str, str], sure: bool) -> None:
-    files = {
-        "package.xml": MANIFEST.format(depends="").replace("ament_cmake", "ament_python"),
-        "setup.py": "setup(packages=['robot'])\n",
-        "robot/__init__.py": "",
-        "robot/tools/learn.py": "import nav_msgs.msg\n",
-        **more,
-    }
-    files["setup.py"] = "from setuptools import setup\n" + files["setup.py"]
-    tree = MemoryTree({f"robot/{path}": text for path, text in files.items()})
-    workspace = Loader(tree, ("",), Target("jazzy", "test")).load()
-    assert placed(workspace, "nav_msgs") == (Role.EXEC, sure, False)
+def test_a_folder_in_a_python_package_is_none_by_itself(options: str, more: dict[str, str], sure: bool) -> None:
+    files = {"robot/__init__.py": "", "robot/tools/learn.py": "import nav_msgs.msg\n", **more}
+    assert placed(load_python(options, files), "nav_msgs") == (Role.EXEC, sure, False)
 
 
 @pytest.mark.parametrize(("name", "sure"), [("node.py", True), ("node copy.py", False)])
 def test_what_nobody_can_import_is_put_aside(name: str, sure: bool) -> None:
-    files = {
-        "package.xml": MANIFEST.format(depends="").replace("ament_cmake", "ament_python"),
-        "setup.py": "from setuptools import setup\nsetup(packages=['robot'])\n",
-        "robot/__init__.py": "",
-        f"robot/{name}": "import nav_msgs.msg\n",
-    }
-    tree = MemoryTree({f"robot/{path}": text for path, text in files.items()})
-    workspace = Loader(tree, ("",), Target("jazzy", "test")).load()
-    assert placed(workspace, "nav_msgs") == (Role.EXEC, sure, False)
+    files = {"robot/__init__.py": "", f"robot/{name}": "import nav_msgs.msg\n"}
+    assert placed(load_python("packages=['robot']", files), "nav_msgs") == (Role.EXEC, sure, False)
 
 
 def test_headers_that_are_installed_for_tests_serve_tests() -> None:
