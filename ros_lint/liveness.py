@@ -10,6 +10,7 @@ from functools import cached_property
 from itertools import accumulate
 
 from ros_lint import apart
+from ros_lint.facts.build import BuildScript
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sight import Facet
 from ros_lint.own_files import OwnFiles
@@ -56,20 +57,22 @@ class Liveness:
     def __init__(self, own: OwnFiles, launched: Collection[str]) -> None:
         self._own = own
         self._files = own.files
-        self._script = script = own.script
+        known = own.script is not None
+        self._script = script = own.script or BuildScript("")  # that builds and installs nothing
+        self._sees_script = known
         self._facts = own.facts
         self._launched = launched
         hidden = around = beside = Facet(0)
-        for opaque in script.opaque if script else ():
+        for opaque in script.opaque:
             hidden |= opaque.hides
             around |= opaque.hides if not opaque.inside else Facet(0)
             beside |= opaque.hides if not (opaque.inside or opaque.undefined) else Facet(0)
-        self._sees_targets = script is not None and not hidden & (Facet.LIBRARIES | Facet.EXECUTABLES)
-        self._sees_share = script is not None and not hidden & Facet.SHARE
+        self._sees_targets = known and not hidden & (Facet.LIBRARIES | Facet.EXECUTABLES)
+        self._sees_share = known and not hidden & Facet.SHARE
         # What is built in a folder that is not there, such as a submodule, takes no sources and installs no modules from around
         # it; a target, no modules.
-        self._sees_compiled = script is not None and not around & (Facet.LIBRARIES | Facet.EXECUTABLES)
-        self._sees_python = script is not None and not beside & (Facet.PYTHON | Facet.EXECUTABLES)
+        self._sees_compiled = known and not around & (Facet.LIBRARIES | Facet.EXECUTABLES)
+        self._sees_python = known and not beside & (Facet.PYTHON | Facet.EXECUTABLES)
 
     def place(self, path: str) -> tuple[Role, bool]:
         """Return what a file is needed for, and whether it is sure to be alive."""
@@ -134,7 +137,7 @@ class Liveness:
 
     def _may_be_launched(self, path: str) -> bool:
         """Whether a file among the tests is a launch file, and not one that is left out of what is known to be run."""
-        sees_all = self._script is not None and (self._script.runs is not None or self._tests_nothing)
+        sees_all = self._script.runs is not None or self._tests_nothing
         return path in self._launched and (not sees_all or path in self._installed)
 
     def _is_of_ros_1(self, path: str) -> bool:
@@ -144,24 +147,24 @@ class Liveness:
 
     def _is_of_tests(self, path: str) -> bool:
         """Whether a file lies in a folder that is built for tests only, and is not installed out of there all the same."""
-        folders = self._script.test_folders if self._script else ()
-        return path.startswith(tuple([f"{folder}/" for folder in folders])) and path not in self._always_installed
+        of_tests = tuple([f"{folder}/" for folder in self._script.test_folders])
+        return path.startswith(of_tests) and path not in self._always_installed
 
     def _is_of_python_package(self, path: str, *, idle: bool) -> bool:
         """Whether a file is nearly sure to be installed, where it cannot be seen what is: a script may be anybody's."""
         folder, _, name = path.rpartition("/")
         if idle or name == "conf.py" or self._is_beside_script(path) or self._is_left_out(path):
             return False
-        return self._script is None or f"{folder}/__init__.py" in self._facts
+        return not self._sees_script or f"{folder}/__init__.py" in self._facts
 
     def _is_beside_script(self, path: str) -> bool:
         """Whether a file lies at the top of a package that CMake builds: what works on the sources does, to release them, say."""
-        return "/" not in path and self._script is not None and self._script.path.endswith("CMakeLists.txt")
+        return "/" not in path and self._script.path.endswith("CMakeLists.txt")
 
     def _is_run(self, path: str) -> bool:
         """Whether a file in Python is run as a test, or lies beside one."""
         folder, _, name = path.rpartition("/")
-        runs = self._script.runs if self._script else None
+        runs = self._script.runs
         if runs is None:
             return _is_test(name) or folder in self._folders_with_tests
         if path in runs or "" in runs or path.startswith(tuple([f"{each}/" for each in runs])):
@@ -183,13 +186,11 @@ class Liveness:
     @cached_property
     def _sees_sources(self) -> bool:
         """Whether it is known of every target what it is made of."""
-        return self._script is not None and all(target.whole for target in self._script.targets)
+        return all(target.whole for target in self._script.targets)
 
     @cached_property
     def _named(self) -> frozenset[str]:
         """Folders out of which the script takes files, each with what the names of these end with."""
-        if self._script is None:
-            return frozenset()
         files = {source for target in self._script.targets for source in target.sources}
         files.update([p.source for p in self._script.provides if p.source])
         split = [file.rpartition("/") for file in files]
@@ -204,22 +205,18 @@ class Liveness:
     @cached_property
     def _idle(self) -> frozenset[str]:
         """Folders with projects of their own that are no sure part of the build of this one."""
-        entered = self._script.entered if self._script else ()
         split = (file.rpartition("/") for file in self._files)
-        return frozenset([folder for folder, _, name in split if folder and name in _PROJECTS]).difference(entered)
+        return frozenset([folder for folder, _, name in split if folder and name in _PROJECTS]).difference(self._script.entered)
 
     @cached_property
     def _runs_python_tests(self) -> bool:
         """Whether anything runs tests written in Python: always in a Python package, and in others where CMake says so."""
-        if self._script is None or not self._script.path.endswith("CMakeLists.txt"):
-            return True
-        return self._script.runs_tests
+        return self._script.runs_tests or not self._script.path.endswith("CMakeLists.txt")
 
     @cached_property
     def _tests_nothing(self) -> bool:
         """Whether CMake builds no tests, and runs none: what lies among them is started by nobody else either."""
-        targets = self._script.targets if self._script else ()
-        return not self._runs_python_tests and not any(target.test for target in targets)
+        return not self._runs_python_tests and not any(target.test for target in self._script.targets)
 
     @cached_property
     def _folders_with_tests(self) -> frozenset[str]:
@@ -234,7 +231,7 @@ class Liveness:
 
     @cached_property
     def _installed_headers(self) -> frozenset[str]:
-        return frozenset([p.source for p in self._script.provides if p.path.startswith("include/")] if self._script else ())
+        return frozenset([p.source for p in self._script.provides if p.path.startswith("include/")])
 
     @cached_property
     def _public(self) -> frozenset[str]:
@@ -256,7 +253,7 @@ class Liveness:
     def _kept(self) -> frozenset[str]:
         """Headers that neither what is compiled nor another package includes: it builds programs only, and exports nothing."""
         script = self._script
-        if script is None or not self._sees_targets or not self._sees_sources or not self._production:
+        if not self._sees_targets or not self._sees_sources or not self._production:
             return frozenset()
         if any(target.kind != "executable" for target in script.targets if not target.test) or _OFFERS.intersection(script.calls):
             return frozenset()
@@ -265,18 +262,17 @@ class Liveness:
     @cached_property
     def _installed_for_tests(self) -> frozenset[str]:
         """Files that are installed only where tests are wanted."""
-        provides = self._script.provides if self._script else ()
+        provides = self._script.provides
         always = {p.source for p in provides if not p.test}
         return frozenset([p.source for p in provides if p.test and p.source not in always])
 
     @cached_property
     def _generates(self) -> frozenset[str] | None:
         """Interface files that code is generated from, None where nobody knows."""
-        script = self._script
-        if script is None or script.hides(Facet.INTERFACES):
+        if not self._sees_script or self._script.hides(Facet.INTERFACES):
             return None
         files = (file for file in self._files if file.endswith(_INTERFACES))
-        return frozenset([file for file in files if _interface(file) in script.interfaces])
+        return frozenset([file for file in files if _interface(file) in self._script.interfaces])
 
     @cached_property
     def _production(self) -> frozenset[str]:
@@ -289,8 +285,7 @@ class Liveness:
     @cached_property
     def _optional(self) -> frozenset[str]:
         """Files that are compiled, or included by what is, in some builds only."""
-        targets = self._script.targets if self._script else ()
-        sources = {source for target in targets for source in target.optional}
+        sources = {source for target in self._script.targets for source in target.optional}
         return self._own.reached(sources) - self._production - self._tests if sources else frozenset()
 
     @cached_property
@@ -302,7 +297,7 @@ class Liveness:
         """Return the sources of targets that are compiled in every build: also by one of two targets of a name."""
         found: set[str] = set()
         sometimes: dict[str, list[set[str]]] = {}
-        for target in self._script.targets if self._script else ():
+        for target in self._script.targets:
             if target.test is test:
                 found.update(target.sources if not target.optional else set(target.sources).difference(target.optional))
                 sometimes.setdefault(target.name, []).append(set(target.optional))
@@ -314,13 +309,11 @@ class Liveness:
 
     @cached_property
     def _installed(self) -> frozenset[str]:
-        return frozenset(p.source for p in self._script.provides if p.source) if self._script else frozenset()
+        return frozenset([p.source for p in self._script.provides if p.source])
 
     @cached_property
     def _started(self) -> frozenset[str]:
         """What people start, whatever its name: launch files and programs that are always installed, and entry points."""
-        if self._script is None:
-            return frozenset()
         always = [(p.source, p.path) for p in self._script.provides if p.source and not p.conditional]
         found = {source for source, path in always if source in self._launched or path.startswith(_PROGRAMS)}
         commands = [entry for entry in self._script.entry_points if entry.group in ("console_scripts", "gui_scripts")]
@@ -329,10 +322,8 @@ class Liveness:
 
     @cached_property
     def _always_installed(self) -> frozenset[str]:
-        script = self._script
-        if script is None:
-            return frozenset()
-        return frozenset([p.source for p in script.provides if p.source and not p.conditional]) | self._in_python_packages
+        always = [p.source for p in self._script.provides if p.source and not p.conditional]
+        return self._in_python_packages.union(always)
 
     @cached_property
     def _beside_launch_files(self) -> frozenset[str]:
@@ -347,15 +338,13 @@ class Liveness:
 
     @cached_property
     def _installed_python(self) -> frozenset[str]:
-        if self._script is None:
-            return frozenset()
         found = {p.source for p in self._script.provides if p.source and p.path.startswith(_PROGRAMS)}
         return self._in_python_packages | found
 
     @cached_property
     def _in_python_packages(self) -> frozenset[str]:
         """Files of packages that are installed with all that is in them, as far as Python can find it."""
-        if self._script is None or not self._script.python_packages:
+        if not self._script.python_packages:
             return frozenset()
         packages = [name.replace(".", "/") for name in self._script.python_packages]
         moved = self._script.moved
@@ -376,7 +365,7 @@ class Liveness:
     def _imported_folders(self) -> frozenset[str]:
         """Folders that a file of the package imports from, or that an entry point is in: those of other packages, too."""
         names = {mention.name for facts in self._facts.values() for mention in facts.mentions if mention.via == "import"}
-        names.update([entry.module for entry in self._script.entry_points] if self._script else ())
+        names.update([entry.module for entry in self._script.entry_points])
         paths = {path for name in names for path in accumulate(name.split("."), "{}/{}".format)}
         return frozenset([*paths, *(f"src/{path}" for path in paths)])
 
