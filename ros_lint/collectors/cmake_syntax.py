@@ -69,7 +69,11 @@ class Parsed(NamedTuple):
 
     commands: tuple[Command, ...]
     problems: tuple[Problem, ...]
+    set_aside: tuple[str, ...] = ()
+    """Interfaces that stand in comments where a list of them had an element, as ``msg/Name``."""
 
+
+_SET_ASIDE = re.compile(r"""^[ \t]*\#[ \t\#"]*((?:msg|srv|action)/\w+)\.(?:msg|srv|action|idl)\b""", re.MULTILINE)
 
 _TOKEN = re.compile(
     r"""(?:[ \t\r\n]+|\#(?!\[=*\[)[^\n]*)*                         # spaces and line comments
@@ -127,7 +131,9 @@ class _Reader:
         except _SyntaxError as error:
             span = self.source.span(error.start, error.end)
             problems = (Problem("cmake-syntax", str(error), span),)
-        return Parsed(tuple(self.commands), problems)
+        text = self.text
+        comments = "#" in text and (".msg" in text or ".srv" in text or ".action" in text or ".idl" in text)
+        return Parsed(tuple(self.commands), problems, tuple(_SET_ASIDE.findall(text)) if comments else ())
 
     def _commands(self) -> None:
         text = self.text

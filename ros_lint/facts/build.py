@@ -173,6 +173,8 @@ class BuildScript(NamedTuple):
     """Whether it is a CMake script that takes headers from folders of the sources outside of the package."""
     makes_nothing: bool = False
     """Whether it is a CMake script that builds, installs and tests nothing but the style of what is there."""
+    set_aside: tuple[str, ...] = ()
+    """Interfaces that stand in comments of its CMake files, as ``msg/Name``: somebody took them off a list."""
 
     def hides(self, facet: Facet) -> bool:
         """Whether the script cannot be seen through as to a facet. What code computes when it runs is no matter here."""

@@ -131,6 +131,7 @@ def _result(run: Run, path: str) -> BuildScript:
         runs=_runs(run),
         runs_tests=any(map(_RUNS_TESTS.search, calls)),
         export_sets=tuple(dict.fromkeys([made.exported_in for made in run.installed_targets if is_known(made.exported_in)])),
+        set_aside=tuple([name for parsed in run.sources.scripts.values() for name in parsed.set_aside]),
     )
 
 

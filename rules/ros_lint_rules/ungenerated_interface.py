@@ -19,8 +19,8 @@ defines has to move to one of `ament_cmake`.
 ## When it keeps silent
 
 For packages that generate nothing, for files in other folders, and where the list of files cannot be followed. So it does of
-copies that were left lying, such as `State copy.msg` or `State.old.msg`. A call that stands under a condition is told of with
-medium confidence.
+copies that were left lying, such as `State copy.msg` or `State.old.msg`, and of what a comment in a CMake file has where a list
+had it: it was set aside. A call that stands under a condition is told of with medium confidence.
 """
 
 from __future__ import annotations
@@ -62,10 +62,11 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     calls = list(called(package, _GENERATE, anywhere=True))
     if not calls or not script.interfaces:
         return
+    listed = {*script.interfaces, *script.set_aside}
     for file in package.files:
         folder, _, name = file.partition("/")
         stem, _, suffix = name.rpartition(".")
-        if suffix not in _KINDS.get(folder, ()) or "/" in name or f"{folder}/{stem}" in script.interfaces:
+        if suffix not in _KINDS.get(folder, ()) or "/" in name or f"{folder}/{stem}" in listed:
             continue
         if stem.isidentifier():
             yield _finding(package, calls, file, "" if suffix == "idl" or _NAME.fullmatch(stem) else _camel(stem))
