@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 
@@ -135,6 +136,10 @@ def _other(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAct
         return started_node(walker, made, conditions)
     if made.name in SUBSTITUTIONS:
         return []
+    if _DECLARES.match(made.name):
+        (action,) = _declare(walker, made, conditions)
+        unknown = LaunchValue((UNKNOWN,), place_of(made))  # it has a default of its own, for all that can be seen
+        return [action._replace(value=action.value or unknown)] if action.target else []
     given: list[tuple[str, LaunchValue]] = []
     for position, value in enumerate(made.arguments):
         given += [("", walker.text(one, made.written(position), made.source)) for one in _texts_in(value)]
@@ -172,6 +177,9 @@ def _texts_in(value: Value) -> list[Value]:
 def _silent(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:  # noqa: ARG001
     return []
 
+
+_DECLARES = re.compile(r"Declare\w*Arg(?:ument)?\Z")
+"""What packages call actions of their own that declare a launch argument: ``DeclareBooleanLaunchArg`` (moveit_configs_utils)."""
 
 _RULES: Mapping[str, Rule] = {
     **launch_py_nodes.RULES,
