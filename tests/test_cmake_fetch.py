@@ -4,23 +4,18 @@ from __future__ import annotations
 
 import pytest
 
-from ros_lint.load import Loader
-from ros_lint.report import Target
-from ros_lint.tree import MemoryTree
 from ros_lint.workspace import Package
+from tests.one_package import loaded
+from tests.packages import manifest_text
 
-MANIFEST = """<package format="3"><name>robot</name><version>1.0.0</version><description>Does it.</description>
-<maintainer email="ada@robots.example">Ada</maintainer><license>Apache-2.0</license>
-<export><build_type>ament_cmake</build_type></export></package>
-"""
+MANIFEST = manifest_text("robot")
 LINKED = "add_library(r r.cpp)\ntarget_link_libraries(r nlohmann_json::nlohmann_json)"
 
 
 def load(lines: str, source: str = "#include <nlohmann/json.hpp>\n") -> Package:
     script = f"project(robot)\nfind_package(ament_cmake REQUIRED)\n{lines}\n{LINKED}\nament_package()\n"
     files = {"package.xml": MANIFEST, "CMakeLists.txt": script, "r.cpp": source}
-    tree = MemoryTree({f"robot/{path}": text for path, text in files.items()})
-    return Loader(tree, ("",), Target("jazzy", "test")).load().packages[0]
+    return loaded({f"robot/{path}": text for path, text in files.items()}).packages[0]
 
 
 def uses(package: Package) -> set[str]:
@@ -79,5 +74,5 @@ def test_what_is_built_while_cmake_configures_is_no_need() -> None:
     files = {"package.xml": MANIFEST, "r.cpp": "#include <part_msgs/msg/part.hpp>\n", "part_msgs/CMakeLists.txt": ""}
     for before, needs in ((build, set()), ("", {"part_msgs"})):
         script = f"project(robot)\nfind_package(ament_cmake REQUIRED)\nadd_library(r r.cpp)\n{before}{lines}\nament_package()\n"
-        tree = MemoryTree({f"robot/{path}": text for path, text in {**files, "CMakeLists.txt": script}.items()})
-        assert uses(Loader(tree, ("",), Target("jazzy", "test")).load().packages[0]) == needs
+        paths = {f"robot/{path}": text for path, text in {**files, "CMakeLists.txt": script}.items()}
+        assert uses(loaded(paths).packages[0]) == needs

@@ -17,12 +17,11 @@ from ros_lint.commands import graph, order, overlay, why
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Use
 from ros_lint.knowledge import Knowledge
-from ros_lint.load import Loader
 from ros_lint.report import Target
 from ros_lint.text import Span
-from ros_lint.tree import MemoryTree
 from ros_lint.workspace import Package, Workspace
 from ros_lint.world import Member, World
+from tests.one_package import loaded
 from tests.packages import manifest_text, package
 
 ODD = 'a "b" \\ <c>\n;'
@@ -252,7 +251,7 @@ def test_why_shows_the_uses_of_what_is_not_declared() -> None:
         "a/package.xml": manifest_text("a"),
         "a/CMakeLists.txt": "project(a)\nfind_package(nav_msgs REQUIRED)\nament_package()\n",
     }
-    found = Loader(MemoryTree(files), ("",), Target("jazzy", "test")).load()
+    found = loaded(files)
     assert why.run(found, "a", "nav_msgs") == (
         "a uses nav_msgs, but neither declares it nor anything that brings it:\n"
         "   a/CMakeLists.txt:2:14: find_package(nav_msgs), needed to build\n",

@@ -6,10 +6,8 @@ import pytest
 
 from ros_lint.declare import tag_for
 from ros_lint.facts.manifest import Role
-from ros_lint.load import Loader
-from ros_lint.report import Target
-from ros_lint.tree import MemoryTree
 from ros_lint.workspace import Package, Workspace
+from tests import one_package
 
 HEAD = """<package format="{form}">
   <name>talker</name>
@@ -22,8 +20,8 @@ HEAD = """<package format="{form}">
 
 def loaded(depends: str, form: int = 3) -> tuple[Package, Workspace]:
     text = f"{HEAD.format(form=form)}{depends}<export><build_type>ament_cmake</build_type></export></package>"
-    tree = MemoryTree({"talker/package.xml": text, "talker/CMakeLists.txt": "project(talker)\nament_package()\n"})
-    workspace = Loader(tree, ("",), Target("jazzy", "test")).load()
+    script = "project(talker)\nament_package()\n"
+    workspace = one_package.loaded({"talker/package.xml": text, "talker/CMakeLists.txt": script})
     return workspace.packages[0], workspace
 
 
@@ -55,7 +53,7 @@ def test_the_tag_holds_all_that_is_needed(role: Role, depends: str, tag: str) ->
 def test_what_is_run_is_not_found_and_linked_with_all_that_is_declared() -> None:
     text = f"{HEAD.format(form=3)}{ALWAYS}<export><build_type>ament_cmake</build_type></export></package>"
     lines = "project(talker)\nfind_package(ament_cmake_auto REQUIRED)\nament_auto_find_build_dependencies()\n"
-    workspace = Loader(MemoryTree({"a/package.xml": text, "a/CMakeLists.txt": lines}), ("",), Target("jazzy", "test")).load()
+    workspace = one_package.loaded({"a/package.xml": text, "a/CMakeLists.txt": lines})
     package = workspace.packages[0]
     assert tag_for(package, workspace, "nav_msgs", Role.EXEC) == "exec_depend"
     assert tag_for(package, workspace, "nav_msgs", Role.BUILD) == "depend"

@@ -7,12 +7,10 @@ import pytest
 from ros_lint.evidence import used_names
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Use
-from ros_lint.load import Loader
 from ros_lint.needs import covered, needs, undeclared
-from ros_lint.report import Target
-from ros_lint.tree import MemoryTree
 from ros_lint.unknowns import may_bring
 from ros_lint.workspace import Workspace
+from tests.one_package import loaded
 
 HEAD = """<package format="3"><name>{name}</name><version>1.0.0</version><description>Does it.</description>
 <maintainer email="ada@robots.example">Ada</maintainer><license>Apache-2.0</license>{depends}
@@ -30,16 +28,12 @@ def cmake(name: str, depends: str, lines: str, **files: str) -> dict[str, str]:
     return found
 
 
-def load(files: dict[str, str], distro: str = "jazzy") -> Workspace:
-    return Loader(MemoryTree(files), ("",), Target(distro, "test")).load()
-
-
 def uses(workspace: Workspace, name: str) -> list[Use]:
     return [use for use in workspace.packages[0].uses if use.package == name]
 
 
 def test_roles_come_from_where_a_file_goes() -> None:
-    workspace = load(
+    workspace = loaded(
         cmake(
             "talker",
             "",
@@ -58,7 +52,7 @@ def test_roles_come_from_where_a_file_goes() -> None:
 
 
 def test_a_folder_of_its_own_in_include_has_its_own_headers() -> None:
-    workspace = load(
+    workspace = loaded(
         cmake(
             "talker",
             "",
@@ -75,12 +69,12 @@ def test_a_folder_of_its_own_in_include_has_its_own_headers() -> None:
 def test_a_metapackage_has_no_headers(lines: str, found: bool) -> None:
     source = "#include <robot/can/socket.hpp>\n"
     driver = cmake("driver", "", "add_library(driver driver.cpp)", driver_dot_cpp=source)
-    workspace = load({**driver, **cmake("robot", "", lines, sdk__CMakeLists_dot_txt="")})
+    workspace = loaded({**driver, **cmake("robot", "", lines, sdk__CMakeLists_dot_txt="")})
     assert bool(uses(workspace, "robot")) == found
 
 
 def test_what_a_hand_wrote_into_a_map_is_less_than_sure() -> None:
-    workspace = load(cmake("talker", "", "find_package(CUDA REQUIRED)\nfind_package(Eigen3 REQUIRED)"))
+    workspace = loaded(cmake("talker", "", "find_package(CUDA REQUIRED)\nfind_package(Eigen3 REQUIRED)"))
     assert [use.sure for use in uses(workspace, "nvidia-cuda")] == [False]
     assert [use.sure for use in uses(workspace, "eigen")] == [True]
 
@@ -92,18 +86,18 @@ def test_an_action_needs_action_msgs_where_the_generators_do_not_bring_it() -> N
         "find_package(rosidl_default_generators REQUIRED)\nrosidl_generate_interfaces(robot_msgs action/Go.action)",
         action__Go_dot_action="---\n---\n",
     )
-    old, new = load(files, "humble"), load(files, "jazzy")
+    old, new = loaded(files, "humble"), loaded(files, "jazzy")
     assert [need.name for need, _ in undeclared(old.packages[0], old)] == ["action_msgs"]
     assert not undeclared(new.packages[0], new)
 
 
 def test_what_is_exported_is_needed_by_others_only() -> None:
-    workspace = load(cmake("base", "", "find_package(nav_msgs REQUIRED)\nament_export_dependencies(nav_msgs rclcpp)"))
+    workspace = loaded(cmake("base", "", "find_package(nav_msgs REQUIRED)\nament_export_dependencies(nav_msgs rclcpp)"))
     assert [use.role for use in uses(workspace, "rclcpp")] == [Role.EXPORT]
 
 
 def test_each_need_is_answered_once() -> None:
-    workspace = load(
+    workspace = loaded(
         cmake(
             "talker",
             "<depend>sensor_msgs</depend><depend>rclcpp</depend>",
@@ -120,13 +114,13 @@ def test_each_need_is_answered_once() -> None:
 
 
 def test_a_key_brings_the_keys_of_the_packages_that_its_own_depends_on() -> None:
-    workspace = load(cmake("talker", "<depend>libpcl-all-dev</depend>", "find_package(Eigen3 REQUIRED)"))
+    workspace = loaded(cmake("talker", "<depend>libpcl-all-dev</depend>", "find_package(Eigen3 REQUIRED)"))
     assert "eigen" not in [need.name for need, _ in undeclared(workspace.packages[0], workspace)]
     assert [need.brought for need in needs(workspace.packages[0], workspace) if need.name == "eigen"] == [True]
 
 
 def test_an_unknown_name_can_bring_some_things_only() -> None:
-    workspace = load(cmake("talker", "", "") | cmake("base", "", ""))
+    workspace = loaded(cmake("talker", "", "") | cmake("base", "", ""))
     assert not may_bring(("strange",), "base", workspace)  # a repository elsewhere needs none of this workspace
     assert may_bring(("strange",), "rclcpp", workspace)
     assert may_bring(("strange_msgs",), "std_msgs", workspace)
@@ -137,7 +131,7 @@ def test_an_unknown_name_can_bring_some_things_only() -> None:
 
 
 def test_a_tag_covers_what_comes_along_with_it_for_its_role() -> None:
-    workspace = load(cmake("talker", "<build_depend>nav_msgs</build_depend><exec_depend>std_msgs</exec_depend>", ""))
+    workspace = loaded(cmake("talker", "<build_depend>nav_msgs</build_depend><exec_depend>std_msgs</exec_depend>", ""))
     package = workspace.packages[0]
     assert covered(package, workspace, ("geometry_msgs",), Role.BUILD)
     assert not covered(package, workspace, ("geometry_msgs",), Role.EXEC)
@@ -146,10 +140,10 @@ def test_a_tag_covers_what_comes_along_with_it_for_its_role() -> None:
 
 def test_variables_of_ros_come_from_a_package() -> None:
     lines = 'set(distro $ENV{ROS_DISTRO})\nmessage(STATUS "for $ENV{ROS_VERSION}")'
-    assert [(use.what, use.optional) for use in uses(load(cmake("talker", "", lines)), "ros_environment")] == [
+    assert [(use.what, use.optional) for use in uses(loaded(cmake("talker", "", lines)), "ros_environment")] == [
         ("$ENV{ROS_DISTRO}", False)
     ]
-    guarded = load(cmake("talker", "", f"if(DEFINED ENV{{ROS_DISTRO}})\n{lines}\nendif()"))
+    guarded = loaded(cmake("talker", "", f"if(DEFINED ENV{{ROS_DISTRO}})\n{lines}\nendif()"))
     assert all(use.optional for use in uses(guarded, "ros_environment"))
 
 
@@ -162,14 +156,14 @@ def test_a_module_within_a_package_is_imported_by_its_full_name_only() -> None:
         "talker/talker/rclpy.py": "",
         "talker/talker/main.py": "import rclpy\nimport controller_manager\n",
     }
-    found = {(use.package, use.span.path.rpartition("/")[2]) for use in load(files).packages[0].uses}
+    found = {(use.package, use.span.path.rpartition("/")[2]) for use in loaded(files).packages[0].uses}
     assert ("controller_manager", "controller_manager.py") in found  # not itself
     assert not {("controller_manager", "main.py"), ("rclpy", "main.py")} & found  # main.py may be started where it is
 
 
 def test_what_brings_the_best_is_no_answer_of_its_own() -> None:
     lines = "find_package(cv_bridge REQUIRED)\nfind_package(OpenCV REQUIRED)"
-    workspace = load(cmake("talker", "<depend>cv_bridge</depend>", lines))
+    workspace = loaded(cmake("talker", "<depend>cv_bridge</depend>", lines))
     found = {need.name: (need.declared, need.brought) for need in needs(workspace.packages[0], workspace)}
     assert found["cv_bridge"] == (("cv_bridge",), True)
     assert found["libopencv-dev"] == ((), True)
@@ -177,14 +171,14 @@ def test_what_brings_the_best_is_no_answer_of_its_own() -> None:
 
 def test_what_names_a_package_is_told_before_what_it_brings() -> None:
     headers = {"a_dot_cpp": "#include <opencv2/core.hpp>\n", "b_dot_cpp": "#include <cv_bridge/cv_bridge.h>\n"}
-    workspace = load(cmake("talker", "", "add_library(talker a.cpp b.cpp)", **headers))
+    workspace = loaded(cmake("talker", "", "add_library(talker a.cpp b.cpp)", **headers))
     found = {need.name: [use.package for use in need.uses] for need, _ in undeclared(workspace.packages[0], workspace)}
     assert found == {"ament_cmake": ["ament_cmake"], "cv_bridge": ["cv_bridge", "libopencv-dev"]}
 
 
 def test_what_names_a_package_by_its_folder_stays_in_its_place() -> None:
     source = '#include "boost/program_options.hpp"\n#include "boost/tokenizer.hpp"\n'
-    workspace = load(cmake("talker", "", "add_library(talker a.cpp)", a_dot_cpp=source))
+    workspace = loaded(cmake("talker", "", "add_library(talker a.cpp)", a_dot_cpp=source))
     found = {need.name: [use.span.line for use in need.uses] for need, _ in undeclared(workspace.packages[0], workspace)}
     assert found["boost"] == [1, 2]
 
@@ -192,7 +186,7 @@ def test_what_names_a_package_by_its_folder_stays_in_its_place() -> None:
 def test_each_place_of_a_need_is_answered_for_itself() -> None:
     lines = "if(BUILD_TESTING)\nfind_package(ament_cmake_gtest REQUIRED)\nament_add_gtest(t test/t.cpp)\nendif()"
     depends = "<depend>cv_bridge</depend><test_depend>gtest</test_depend>"
-    workspace = load(cmake("talker", depends, lines, test__t_dot_cpp="#include <gtest/gtest.h>\n"))
+    workspace = loaded(cmake("talker", depends, lines, test__t_dot_cpp="#include <gtest/gtest.h>\n"))
     found = [need for need in needs(workspace.packages[0], workspace) if need.name == "ament_cmake_gtest"]
     assert [(need.declared, sorted({use.via for use in need.uses})) for need in found] == [
         ((), ["cmake", "macro"]),
@@ -202,12 +196,12 @@ def test_each_place_of_a_need_is_answered_for_itself() -> None:
 
 def test_a_vendor_package_and_what_it_stands_for_have_the_same_macros() -> None:
     lines = "find_package(pybind11 REQUIRED)\npybind11_add_module(talker src/talker.cpp)"
-    workspace = load(cmake("talker", "<depend>pybind11-dev</depend>", lines))
+    workspace = loaded(cmake("talker", "<depend>pybind11-dev</depend>", lines))
     assert "pybind11_vendor" not in [need.name for need in needs(workspace.packages[0], workspace)]
 
 
 def test_what_hardly_anybody_brings_is_not_brought_by_a_stranger() -> None:
-    workspace = load(cmake("talker", "", "") | cmake("base", "<depend>octomap_server</depend>", ""))
+    workspace = loaded(cmake("talker", "", "") | cmake("base", "<depend>octomap_server</depend>", ""))
     assert not may_bring(("acme_arm",), "depthimage_to_laserscan", workspace)
     assert may_bring(("acme_laserscan",), "depthimage_to_laserscan", workspace)  # the same family
     assert may_bring(("depthimage2",), "depthimage_to_laserscan", workspace)  # of another generation
@@ -219,7 +213,7 @@ def test_what_hardly_anybody_brings_is_not_brought_by_a_stranger() -> None:
 
 
 def test_what_another_distribution_has_is_known_from_there() -> None:
-    workspace = load(cmake("talker", "", ""), "lyrical")
+    workspace = loaded(cmake("talker", "", ""), "lyrical")
     assert workspace.world.standing("gazebo_ros") == "elsewhere"
     assert may_bring(("gazebo_ros",), "rclpy", workspace)
     assert not may_bring(("gazebo_ros",), "rviz_common", workspace)
@@ -235,12 +229,12 @@ def test_modules_with_parts_of_launch_files_are_less_than_sure() -> None:
         "talker/talker/__init__.py": "",
         "talker/talker/nodes.py": "from launch_ros.actions import Node\nRVIZ = Node(package='rviz2', executable='rviz2')\n",
     }
-    workspace = load(files)
+    workspace = loaded(files)
     assert [sure for need, sure in undeclared(workspace.packages[0], workspace) if need.name == "rviz2"] == [False]
 
 
 def test_of_several_that_would_do_the_best_that_is_declared_is_used() -> None:
-    workspace = load(cmake("talker", "", "find_package(PCL REQUIRED)"))
+    workspace = loaded(cmake("talker", "", "find_package(PCL REQUIRED)"))
     (use,) = uses(workspace, "libpcl-all-dev")
     assert used_names(("pcl_ros", "pcl_conversions"), [use]) == {"pcl_conversions"}
     assert used_names(("pcl_ros", "libpcl-all-dev"), [use]) == {"libpcl-all-dev"}
@@ -250,8 +244,8 @@ def test_a_folder_with_launch_files_is_no_module() -> None:
     launch = "from launch import LaunchDescription\ndef generate_launch_description():\n    return LaunchDescription([])\n"
     lines = "install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})"
     files = cmake("talker", "", lines, launch__a_dot_launch_dot_py=launch)
-    assert uses(load(files), "launch")
-    assert not uses(load({**files, "talker/launch/__init__.py": ""}), "launch")
+    assert uses(loaded(files), "launch")
+    assert not uses(loaded({**files, "talker/launch/__init__.py": ""}), "launch")
 
 
 def test_what_has_no_part_in_a_package_needs_nothing() -> None:
@@ -271,13 +265,13 @@ def test_what_has_no_part_in_a_package_needs_nothing() -> None:
         "talker/talker/conf.py": "import yaml\n",
         "talker/talker/main.py": "import yaml\n",
     }
-    found = {use.span.path for use in load(files).packages[0].uses if use.via in ("import", "include", "launch")}
+    found = {use.span.path for use in loaded(files).packages[0].uses if use.via in ("import", "include", "launch")}
     assert found == {"talker/launch/all.launch.xml", "talker/talker/conf.py", "talker/talker/main.py"}
 
 
 def _python(**files: str) -> Workspace:
     lines = "install(PROGRAMS scripts/a.py scripts/b.py DESTINATION lib/${PROJECT_NAME})"
-    return load(cmake("talker", "", lines, **files))
+    return loaded(cmake("talker", "", lines, **files))
 
 
 def test_a_module_that_may_be_missing_in_one_file_may_be_missing_in_all() -> None:
@@ -301,7 +295,7 @@ def test_a_copy_of_a_library_is_not_taken_for_the_library() -> None:
         "r_dot_cpp": "#include <nlohmann/json.hpp>\n",
     }
     code = "#include <nlohmann/json.hpp>\n#include <shapes/box.hpp>\n"
-    workspace = load({**cmake("base", "", lines, **own), **cmake("talker", "", lines, r_dot_cpp=code)})
+    workspace = loaded({**cmake("base", "", lines, **own), **cmake("talker", "", lines, r_dot_cpp=code)})
     base, talker = workspace.packages
     assert [use.package for use in base.uses if use.via == "include"] == []
     assert [use.providers for use in talker.uses if use.via == "include"] == [("nlohmann-json-dev", "base"), ("base",)]
@@ -312,18 +306,18 @@ def test_what_comes_from_folders_that_are_not_there_is_not_sure() -> None:
     workspace = _python(scripts__a_dot_py=added, scripts__b_dot_py="import serial\n")
     assert [use.optional for use in uses(workspace, "python3-serial")] == [True, False]
     files = cmake("talker", "", "install(PROGRAMS a.py DESTINATION lib/${PROJECT_NAME})", a_dot_py="import serial\nimport cv2\n")
-    workspace = load({**files, ".gitmodules": '[submodule "x"]\n\tpath = talker/deps/serial\n'})
+    workspace = loaded({**files, ".gitmodules": '[submodule "x"]\n\tpath = talker/deps/serial\n'})
     assert [use.sure for use in uses(workspace, "python3-serial")] == [False]
     assert [use.sure for use in uses(workspace, "python3-opencv")] == [True]
     lines = "add_library(r r.cpp)\ntarget_link_libraries(r nlohmann_json::nlohmann_json)"
     files = cmake("talker", "", lines, r_dot_cpp="#include <nlohmann/json.hpp>\n#include <yaml-cpp/yaml.h>\n")
-    workspace = load({**files, ".gitmodules": '[submodule "x"]\n\tpath = talker/deps/json\n'})
+    workspace = loaded({**files, ".gitmodules": '[submodule "x"]\n\tpath = talker/deps/json\n'})
     assert [use.sure for use in uses(workspace, "nlohmann-json-dev")] == [False, False]
     assert [use.sure for use in uses(workspace, "yaml-cpp")] == [True]
     files = cmake("talker", "", "add_library(r r.cpp)", r_dot_cpp="#include <gtest/gtest_prod.h>\n")
-    workspace = load({**files, ".gitmodules": '[submodule "x"]\n\tpath = talker/deps/googletest\n'})
+    workspace = loaded({**files, ".gitmodules": '[submodule "x"]\n\tpath = talker/deps/googletest\n'})
     assert [use.sure for use in uses(workspace, "ament_cmake_gtest")] == [False]
-    assert [use.sure for use in uses(load(files), "ament_cmake_gtest")] == [True]
+    assert [use.sure for use in uses(loaded(files), "ament_cmake_gtest")] == [True]
 
 
 def test_what_is_installed_to_be_started_is_no_test_whatever_its_name() -> None:
@@ -339,7 +333,7 @@ def test_what_is_installed_to_be_started_is_no_test_whatever_its_name() -> None:
         "install(FILES test/test_some.launch.py DESTINATION share/${PROJECT_NAME}/test)\n"
         "install(PROGRAMS scripts/test_motor.py DESTINATION lib/${PROJECT_NAME})"
     )
-    workspace = load(cmake("talker", "", lines, **files))
+    workspace = loaded(cmake("talker", "", lines, **files))
     roles = {use.span.path[7:]: use.role for use in workspace.packages[0].uses}
     assert roles == {
         "launch/test_all.launch.py": Role.EXEC,
@@ -359,7 +353,7 @@ def test_folders_of_data_are_no_modules_that_others_import() -> None:
         "example/arms/left.py": "",
         "example/yaml/__init__.py": "",
     }
-    names = {name: load(example).world.by_import(name).names for name in ("launch", "models", "arms", "yaml")}
+    names = {name: loaded(example).world.by_import(name).names for name in ("launch", "models", "arms", "yaml")}
     assert names == {"launch": ("launch",), "models": (), "arms": ("example",), "yaml": ("example",)}
-    workspace = load({**example, "example/rclpy/__init__.py": ""})
+    workspace = loaded({**example, "example/rclpy/__init__.py": ""})
     assert workspace.world.by_import("rclpy").names == ("rclpy", "example")

@@ -11,12 +11,10 @@ import pytest
 from ros_lint.collectors import launch
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.interpret.launch_expand import expand
-from ros_lint.load import Loader
 from ros_lint.opening import open_workspace
 from ros_lint.registry import load
-from ros_lint.report import Target
 from ros_lint.text import Text
-from ros_lint.tree import MemoryTree
+from tests.one_package import loaded
 
 SECONDS = 2.0
 KILOBYTES = 100 << 10
@@ -137,7 +135,7 @@ def test_what_is_huge_stays_small(name: str) -> None:
 def test_the_whole_run_ends_soon(language: str, program: str) -> None:
     tree = {"a/package.xml": MANIFEST, "a/CMakeLists.txt": BUILD, f"a/launch/a.launch.{language}": program}
     start = time.process_time()
-    workspace = Loader(MemoryTree(tree), ("",), Target("jazzy", "test")).load()
+    workspace = loaded(tree)
     for rule in load():
         for package in workspace.packages:
             list(rule.package(package, workspace) if rule.package else ())

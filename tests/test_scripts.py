@@ -11,6 +11,7 @@ from ros_lint.load import Loader
 from ros_lint.report import Target
 from ros_lint.tree import MemoryTree
 from ros_lint.workspace import Workspace
+from tests.one_package import loaded
 from tests.trees import Locked
 
 XML = '<package format="3"><name>{}</name><version>1.0.0</version><description>d</description><maintainer email="a@b.cd">a'
@@ -22,7 +23,7 @@ HEAD = "cmake_minimum_required(VERSION 3.8)\nproject(p)\nfind_package(ament_cmak
 def load(script: str, **files: str) -> Workspace:
     texts = {"p/package.xml": XML.format("p"), "p/CMakeLists.txt": HEAD + script}
     texts.update({name.replace("__", "/").replace("_dot_", "."): text for name, text in files.items()})
-    return Loader(MemoryTree(texts), ("",), Target("jazzy", "test")).load()
+    return loaded(texts)
 
 
 def installed(workspace: Workspace) -> set[str]:

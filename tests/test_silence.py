@@ -5,10 +5,8 @@ from __future__ import annotations
 import pytest
 
 from ros_lint.commands import silence
-from ros_lint.load import Loader
-from ros_lint.report import Target
-from ros_lint.tree import MemoryTree
 from ros_lint.workspace import Workspace
+from tests.one_package import loaded
 
 FILES = {
     "talker/package.xml": """<package format="3"><name>talker</name><version>1.0.0</version><description>Talks.</description>
@@ -39,7 +37,7 @@ ament_package()
 
 @pytest.fixture(scope="module")
 def workspace() -> Workspace:
-    return Loader(MemoryTree(FILES), ("",), Target("jazzy", "test")).load()
+    return loaded(FILES)
 
 
 @pytest.mark.parametrize(
