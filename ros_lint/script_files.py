@@ -41,7 +41,9 @@ def with_files(tree: Tree, found: Found, commands: Mapping[str, Parsed], script:
         folders.add(found.name)  # a Python package that CMake does not install
     sources.update(dict.fromkeys(_programs(found.files, folders)))
     executables = Executables(tree, found)
-    files = [_script_file(file, text, file in executables) for file in sources if (text := text_in(tree, found, file))]
+    texts = {file: text for file in sources if (text := text_in(tree, found, file))}
+    files = [_script_file(file, text, file in executables) for file, text in texts.items()]
+    files = [file._replace(helper=_is_helper(file, texts)) for file in files]
     files = _with_runs(tree, found, script, files)
     provided = [each.source for each in script.provides]
     missing = {} if script.hides(Facet.SHARE) else resource_files.uninstalled(found.files, provided)
@@ -169,6 +171,16 @@ def _programs(files: Sequence[str], folders: Container[str]) -> Iterator[str]:
             folder = file.rpartition("/")[0]
             if folder and (folder in folders or _SCRIPTS.match(file)):
                 yield file
+
+
+def _is_helper(file: ScriptFile, texts: Mapping[str, Text]) -> bool:
+    """Whether a script that has no interpreter line is imported by one beside it."""
+    if file.shebang or not (file.main and file.path.endswith(".py")):
+        return False
+    folder, _, name = file.path.removesuffix(".py").rpartition("/")
+    imports = re.compile(rf"^[ \t]*(?:from|import)[ \t]+{re.escape(name)}\b", re.MULTILINE)
+    beside = (text.text for path, text in texts.items() if path.rpartition("/")[0] == folder)
+    return any(map(imports.search, beside))
 
 
 def _script_file(path: str, text: Text, executable: bool) -> ScriptFile:

@@ -89,6 +89,8 @@ class ScriptFile(NamedTuple):
     """Whether the source has the executable bit."""
     run: Span | None = None
     """Where a text of the package says ``ros2 run`` with its name; sought only if the script is not installed."""
+    helper: bool = False
+    """Whether a script beside it imports it; sought only if it runs something and has no interpreter line."""
 
 
 class LeftBehind(NamedTuple):

@@ -23,7 +23,8 @@ it shows only in builds without `--symlink-install`.
 ## When it keeps silent
 
 For modules that scripts import from beside them: files without an interpreter line that run nothing when they are
-started, unless a launch file of the workspace starts them. Under conditions that may not hold.
+started, unless a launch file of the workspace starts them. If they run something, a test of their own say, the confidence
+is medium. Under conditions that may not hold.
 """
 
 from __future__ import annotations
@@ -88,7 +89,7 @@ def _line(package: Package, file: ScriptFile, name: str, started: bool) -> Itera
         if name.endswith(_ENDINGS):
             interpreter = "#!/usr/bin/env python3" if name.endswith(".py") else "#!/bin/bash"
             message = f"{file.path} has no interpreter line, so it cannot be started; begin it with {interpreter}"
-            sure = name.endswith(".py") and (file.main or started)
+            sure = name.endswith(".py") and (started or (file.main and not file.helper))
             fix = Fix(f"begin with {interpreter}", (Edit(place, f"{interpreter}\n"),)) if sure else None
             yield Finding(message, place, file.path, fix=fix, confidence=Confidence.HIGH if sure else Confidence.MEDIUM)
     elif not file.executable and package.builds_with == "ament_cmake":
