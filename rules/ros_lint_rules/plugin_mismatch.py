@@ -21,9 +21,9 @@ sources and in `add_library()`. The fix exports a description whose base classes
 
 ## When it keeps silent
 
-Where the libraries cannot be seen whole, for tests, for descriptions that are exported under a condition only, and for classes
-in packages that register some with macros of their own. Where a source has the name of a class that none makes loadable, the
-confidence is medium.
+Where the libraries cannot be seen whole, for tests, for nodelets, which ROS 2 does not have, for descriptions that are exported
+under a condition only, and for classes in packages that register some with macros of their own. Where a source has the name of
+a class that none makes loadable, the confidence is medium.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if script is None or package.builds_with != "ament_cmake" or hidden(package, _SEEN):
         return
     everything = [made for made in package.registrations if made.kind == "plugin"]
-    registered = [made for made in everything if not is_apart(relative(package, made.span.path))]
+    registered = [made for made in everything if not (is_apart(relative(package, made.span.path)) or _is_of_ros_1(made))]
     names = {made.name for made in registered}
     installed = {provided.source for provided in script.provides}
     exported = list(called(package, EXPORTING_PLUGINS, anywhere=True))
@@ -101,6 +101,11 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 plugin.path,
                 fix=_export(package, plugin),
             )
+
+
+def _is_of_ros_1(made: Registration) -> bool:
+    """Whether a class is loadable by what ROS 2 does not have. Sources for both lie in one package, and are not built here."""
+    return made.base.strip().removeprefix("::").startswith("nodelet::")
 
 
 @per_workspace
