@@ -22,12 +22,13 @@ exit codes: 0 nothing found, 1 findings at or above --fail-on, 2 the tool could 
 
 
 class _Parser(argparse.ArgumentParser):
+    def refuse(self, strange: Sequence[str]) -> NoReturn:
+        """End because of arguments that mean nothing."""
+        known = [text for action in self._actions for text in action.option_strings]
+        close = similar(strange[0].partition("=")[0], known)
+        self.error(f"unrecognized arguments: {' '.join(strange)}" + (f", did you mean {close[0]}?" if close else ""))
+
     def error(self, message: str) -> NoReturn:
-        if message.startswith("unrecognized arguments: "):
-            flag = message.partition(": ")[2].split()[0].partition("=")[0]
-            known = [text for action in self._actions for text in action.option_strings]
-            close = similar(flag, known)
-            message += f", did you mean {close[0]}?" if close else ""
         print(f"ros-lint: {message} (ros-lint --help lists what there is)", file=sys.stderr)
         raise SystemExit(2)
 
@@ -58,11 +59,13 @@ def parse(arguments: Sequence[str]) -> tuple[str, dict[str, Any]]:
         command, rest = "check", list(arguments)
     made = parser(command, top=not arguments or arguments[0] != command)
     # Options may stand between paths, but argparse cannot do that where there are actions below a command.
-    said = vars(made.parse_args(rest) if command == "index" else made.parse_intermixed_args(rest))
-    return command, {name.replace("_", "-"): value for name, value in said.items()}
+    said, strange = made.parse_known_args(rest) if command == "index" else made.parse_known_intermixed_args(rest)
+    if strange:
+        made.refuse(strange)
+    return command, {name.replace("_", "-"): value for name, value in vars(said).items()}
 
 
-def parser(command: str, *, top: bool = False) -> argparse.ArgumentParser:
+def parser(command: str, *, top: bool = False) -> _Parser:
     """Return the parser of a command. With ``top``, the one that also tells of the other commands."""
     listed = "\n".join(f"  {name:17}{summary}" for name, summary in COMMANDS.items())
     made = _Parser(
