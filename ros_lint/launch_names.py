@@ -61,6 +61,8 @@ class Families:
         self._names = {file.path: names_of(file) for file in files}
         self._includers: dict[str, set[str]] = {}
         self._included: dict[str, set[str]] = {}
+        self._filling = {path for path, names in self._names.items() if names.fills}
+        self._filled: dict[str, bool] = {}
         for file in files:
             for inner in links.includes(file):
                 self._includers.setdefault(inner.path, set()).add(file.path)
@@ -72,8 +74,13 @@ class Families:
 
     def fill(self, file: LaunchFile) -> bool:
         """Whether parameters are filled in from launch configurations by a file, one that it includes or one that includes it."""
-        related = {file.path} | _reached(self._includers, file.path) | _reached(self._included, file.path)
-        return any(self._names[path].fills for path in related)
+        if not self._filling:
+            return False
+        path = file.path
+        if path not in self._filled:
+            related = {path} | _reached(self._includers, path) | _reached(self._included, path)
+            self._filled[path] = not related.isdisjoint(self._filling)
+        return self._filled[path]
 
     def above(self, file: LaunchFile) -> list[Names]:
         """Return the same of every file that includes it, itself or by way of others."""

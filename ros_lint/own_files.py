@@ -162,9 +162,10 @@ def left_behind(files: Sequence[str], script: BuildScript | None, facts: Mapping
             if f"{there}.py" not in installed and f"{there}/" not in installed:
                 yield LeftBehind(program, module, beside, span, not facts[source].sets_path)
     names = {path.rpartition("/")[2] for path in installed}
+    setting = [path for path, each in facts.items() if each.sets_path] if modules else []
     for name, source in modules:
         top = source.removesuffix(f"{name.replace('.', '/')}.py") + name.partition(".")[0]
-        if any(each.sets_path for path, each in facts.items() if path.startswith(f"{top}/")):
+        if any(path.startswith(f"{top}/") for path in setting):
             continue  # mostly to find these
         for module, beside, span in _beside(source, facts[source], known, folders):
             if f"{module}.py" not in names:

@@ -80,14 +80,14 @@ class _Names:
 
         What starts later, or under conditions that exclude each other, does not count.
         """
-        seen: list[tuple[frozenset[str], Conditions]] = []
+        seen: dict[str, list[Conditions]] = {}
         found: set[str] = set()
         for names, conditions in self._parts(file, (), ()):
-            for others, theirs in seen:
-                if not others.isdisjoint(names) and agree((*conditions, *theirs)):
-                    found |= others & names
-            if names:
-                seen.append((names, conditions))
+            for name in names - found:
+                others = seen.setdefault(name, [])
+                if any(agree((*conditions, *theirs)) for theirs in others):
+                    found.add(name)
+                others.append(conditions)
         return found
 
     def of(self, file: LaunchFile) -> frozenset[str]:
