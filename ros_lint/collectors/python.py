@@ -34,20 +34,10 @@ def collect(source: Text, *, launch: bool = False) -> FileFacts:
 
     Of a file that the interpreter cannot parse, what its lines seem to import counts as optional.
     """
-    found = scan(source.text)
-    looked_up = Found() if launch else literals(source)
-    if found is not None and looked_up is None:
-        with suppress(NotPythonError):
-            looked_up = in_excerpt(source)
-    if found is None or looked_up is None:
-        try:
-            tree = parse(source)
-        except NotPythonError as error:
-            return _unreadable(source, error)
-        if found is None:
-            found = walk(source, tree)
-        if looked_up is None:
-            looked_up = look_ups(source, tree)
+    try:
+        found, looked_up = _found(source, launch)
+    except NotPythonError as error:
+        return _unreadable(source, error)
     named = [item for item in found if item.module]
     spans = list(source.spans([(item.start, item.start + len(item.module)) for item in named]))
     folders = added_folders(source.text) if "sys.path" in source.text else ()
@@ -72,6 +62,19 @@ def collect(source: Text, *, launch: bool = False) -> FileFacts:
         sets_path="sys.path" in source.text,
         programs=_programs(source.text),
     )
+
+
+def _found(source: Text, launch: bool) -> tuple[list[Import], Found]:
+    """Return imports and look-ups, by scans and, where these cannot tell, by the parser. Raises NotPythonError."""
+    found = scan(source.text)
+    looked_up = Found() if launch else literals(source)
+    if found is not None and looked_up is None:
+        with suppress(NotPythonError):
+            looked_up = in_excerpt(source)
+    if found is not None and looked_up is not None:
+        return found, looked_up
+    tree = parse(source)
+    return walk(source, tree) if found is None else found, look_ups(source, tree) if looked_up is None else looked_up
 
 
 def _programs(text: str) -> tuple[str, ...]:

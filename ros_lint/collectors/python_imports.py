@@ -50,22 +50,11 @@ def scan(text: str) -> list[Import] | None:
             continue
         line = text.rfind("\n", 0, start) + 1
         before = text[line:start].lstrip()
-        if not before:
-            names = _names(text, match.end())
-            if names is None:
-                return None
-        elif before.startswith(("from ", "from\t", "from.")):
-            named = _FROM.match(before)
-            if named:
-                names = [Import(start - len(before) + named.start(1), named[1], False)]
-            elif _RELATIVE.match(before):
-                continue
-            else:
-                return None
-        elif before[0] == "#" or (text[match.end()] in " \t(*\\" and not _may_follow(before)):
-            continue
-        else:
+        names = _imported(text, match, before)
+        if names is None:
             return None
+        if not names:
+            continue
         places.append(line)
         if text[line] in " \t\f":
             blocks = blocks or _Blocks(text)
@@ -75,12 +64,11 @@ def scan(text: str) -> list[Import] | None:
             places += [block.head for block in around]
             guard = next((block for block in around if block.guards), None)
             if guard:
-                end = block_end(text, guard.width, guard.head)
-                statement = text[guard.start : end]
+                statement = text[guard.start : block_end(text, guard.width, guard.head)]
                 if not is_whole(statement):
                     return None
                 if _DECIDES.search(statement):
-                    done = end
+                    done = guard.start + len(statement)
                     names = _fragment(statement, guard.start)
                     if names is None:
                         return None
@@ -89,6 +77,22 @@ def scan(text: str) -> list[Import] | None:
         found += names
     if not places or (outside_strings(text, places) and not _CONTINUED.search(text)):
         return found
+    return None
+
+
+def _imported(text: str, match: re.Match[str], before: str) -> list[Import] | None:
+    """Return what an import imports, nothing for a relative one or a mere word, None when only a parser can tell.
+
+    ``before`` is what stands before the word in its line.
+    """
+    if not before:
+        return _names(text, match.end())
+    if before.startswith(("from ", "from\t", "from.")):
+        if named := _FROM.match(before):
+            return [Import(match.start() - len(before) + named.start(1), named[1], False)]
+        return [] if _RELATIVE.match(before) else None
+    if before[0] == "#" or (text[match.end()] in " \t(*\\" and not _may_follow(before)):
+        return []
     return None
 
 
