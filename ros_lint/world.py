@@ -192,6 +192,12 @@ class World:
         """
         return self._known(name, "executables")
 
+    def lacks(self, name: str, offer: Offer, wanted: str, *, everywhere: bool) -> bool:
+        """Return whether a package is known not to offer something, with ``everywhere`` in no distribution that has it."""
+        if self._known(name, offer).ask(wanted) != "missing":
+            return False
+        return not (everywhere and self.knowledge.offered_elsewhere(name, offer, wanted))
+
     def launch_files(self, name: str) -> Known:
         """Return the launch files, relative to share/<package>."""
         return self._known(name, "launch")

@@ -19,6 +19,8 @@ from ros_lint.knowledge.store import Store
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
 
+    from ros_lint.knowledge.provides import Offer
+
 
 class Distribution(NamedTuple):
     """A distribution that there is an index of."""
@@ -104,6 +106,11 @@ class Knowledge:
         if having is None:
             having = self._having[name] = tuple([other for other in self.others if name in other])
         return having
+
+    def offered_elsewhere(self, package: str, offer: Offer, name: str) -> bool:
+        """Return whether a package may offer a name in one of the other distributions that have it."""
+        having = [provides.load(self._store, other.distro) for other in self._where(package)]
+        return any(one.known(package, offer).ask(name) != "missing" for one in having)
 
     def brings_elsewhere(self, package: str, name: str) -> bool | None:
         """Return whether a name comes along with a package in any of the other distributions that have it.

@@ -23,7 +23,8 @@ Correct the path; the message names files of the same name that the package does
   for certain: parameters, the displays of rviz2. Maps, which people make with the robot, and what git ignores have medium
   confidence, and so have records beside which one of nearly the same name is installed; unless that one is the only one
   that nothing names.
-- For a released package: its launch files are not known whole; other files of it are not known at all.
+- For a released package: its launch files are not known whole; other files of it are not known at all. Where nobody said
+  which distribution is meant, the confidence is medium as long as one of them may have the file.
 - The launch file asks first if the package is there, or the file (`os.path.exists`), unless it stops where it is not.
 
 Where the name hangs on the default of an argument, which others can replace, the confidence is medium.
@@ -80,7 +81,10 @@ def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if not written and not twin:
             continue
         meant = written or _is_left_over(twin, owner, others_there, workspace)
-        sure = meant and (bool(workspace.by_name.get(owner)) or workspace.target.told)
+        everywhere = not workspace.target.told
+        sure = meant and (
+            bool(workspace.by_name.get(owner)) or workspace.world.lacks(owner, "launch", path, everywhere=everywhere)
+        )
         yield Finding(
             f"{owner} has no {path}{_hint(path, others_there)}",
             best.span,

@@ -16,7 +16,8 @@ or `rclcpp_components_register_nodes(library "ns::Class")`. The fix corrects the
 ## When it keeps silent
 
 - A part of the package's build script that cannot be followed may register the class.
-- For a released package: the sources of its release are not known whole.
+- For a released package: the sources of its release are not known whole. Where nobody said which distribution is meant, the
+  confidence is medium as long as one of them may have the class.
 - Launch files of tests and examples.
 """
 
@@ -52,7 +53,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         meant = [other for other in names if other.lower() == name.lower()]
         near = meant or similar(name, names, 2, 0.75)
         hint = did_you_mean(near) if names else ", and no other either"
-        sure = bool(workspace.by_name.get(owner)) or workspace.target.told
+        everywhere = not workspace.target.told
+        sure = bool(workspace.by_name.get(owner)) or workspace.world.lacks(owner, "components", name, everywhere=everywhere)
         yield Finding(
             f"{owner} registers no component {name}{hint}",
             best.span,
