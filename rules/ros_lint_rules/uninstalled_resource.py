@@ -32,10 +32,11 @@ where `data_files` is written out and the files are not too many.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from ros_lint.api import (
     LAUNCH_NAMES,
+    BuildScript,
     Confidence,
     Facet,
     Finding,
@@ -48,6 +49,7 @@ from ros_lint.api import (
     Workspace,
     cmake_edits,
     few,
+    folders_of,
     from_base,
     is_apart,
     launchable,
@@ -74,8 +76,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with not in ("ament_cmake", "ament_python"):
         return
-    installed = {provided.path for provided in script.provides}
-    kept = {provided.source for provided in script.provides if provided.source}
+    installed = _with_folders(provided.path for provided in script.provides)
+    kept = _with_folders(provided.source for provided in script.provides if provided.source)
     missing: dict[str, list[tuple[str, Span]]] = {}
     files = frozenset(package.files)
     folders = frozenset(file.partition("/")[0] for file in package.files if _is_resource(file))
@@ -84,15 +86,18 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         place = f"share/{package.name}/{path}"
         if place in installed or path.endswith(LAUNCH_NAMES) or not (path in files or path in folders):
             continue
-        if any(each.startswith(f"{place}/") for each in installed) or package.hidden(Facet.SHARE, place):
-            continue
-        missing.setdefault(_unit(path, kept), []).append((path, span))
+        if not package.hidden(Facet.SHARE, place):
+            missing.setdefault(_unit(path, kept), []).append((path, span))
     for unit, found in missing.items():
-        yield _named(package, unit, found)
-    if package.hidden(Facet.SHARE):
-        return
-    told = {unit.partition("/")[0] for unit in missing}
-    yield from _folders(package, kept, told)
+        yield _named(package, script, unit, found)
+    if not package.hidden(Facet.SHARE):
+        told = {unit.partition("/")[0] for unit in missing}
+        yield from _folders(package, script, kept, told)
+
+
+def _with_folders(paths: Iterable[str]) -> set[str]:
+    found = set(paths)
+    return found.union(*[folders_of(path) for path in found])
 
 
 def _is_resource(path: str) -> bool:
@@ -105,119 +110,124 @@ def _unit(path: str, kept: set[str]) -> str:
     top, inside, _ = path.partition("/")
     if not inside and "." not in top:
         return f"{top}/"
-    return f"{top}/" if "/" in path and not any(source.startswith(f"{top}/") for source in kept) else path
+    return f"{top}/" if inside and top not in kept else path
 
 
-def _named(package: Package, unit: str, found: list[tuple[str, Span]]) -> Finding:
-    script = package.script
-    assert script is not None
+def _named(package: Package, script: BuildScript, unit: str, found: list[tuple[str, Span]]) -> Finding:
     paths = sorted({path for path, _ in found} - {unit.rstrip("/")})
-    named = few(path.rpartition("/")[2] for path in paths)
+    named = few(_name(path) for path in paths)
     inside = f"{named} is looked up in it" if unit.endswith("/") and paths else "is looked up at run time"
     return Finding(
         f"{unit} is not installed, and {inside}; install it to share/{package.name}",
         setup_edits.place(script),
         unit,
         several(Related("looked up here", span) for _, span in found),
-        _fix(package, unit),
+        _fix(package, script, unit),
     )
 
 
-def _folders(package: Package, kept: set[str], told: set[str]) -> Iterator[Finding]:
+def _name(path: str) -> str:
+    return path.rpartition("/")[2]
+
+
+def _folders(package: Package, script: BuildScript, kept: set[str], told: set[str]) -> Iterator[Finding]:
     """Speak of folders of resources of which nothing is installed."""
-    script = package.script
-    assert script is not None
     launches = {launch.path for launch in launchable(package)}
     places = dict(script.named)
-    inputs = frozenset(script.inputs)
     # What is installed from a place that is not known, such as one of several folders, may be any file of the name.
-    chosen = frozenset([provided.path.rpartition("/")[2] for provided in script.provides if not provided.source])
-    shared = _shared(package) or _makes_nothing(package)
-    of_nodes = _of_nodes(package)
-    elsewhere = _looked_up_elsewhere(package)
+    chosen = frozenset([_name(provided.path) for provided in script.provides if not provided.source])
+    forgotten = _Forgotten(package, script, places)
     for folder, found in uninstalled_resources(package.files, kept).items():
-        files = [file for file in found if file not in launches and file not in inputs]
-        if any(file.rpartition("/")[2] in chosen for file in files):
+        files = [file for file in found if file not in launches and file not in script.inputs]
+        top = folder.partition("/")[0]
+        if top in told or any(_name(file) in chosen for file in files):
             continue
-        if folder.partition("/")[0] in _PICTURES and not any(file in places for file in files):
+        if top in _PICTURES and not any(file in places for file in files):
             files = [file for file in files if not file.lower().endswith(_PICTURE)]
-        if (
-            not files
-            or folder.partition("/")[0] in told
-            or (folder != "controllers" and all(file.rpartition(".")[2] in _PLAIN for file in files))
-        ):
-            continue
+        if files and (folder == "controllers" or not all(file.rpartition(".")[2] in _PLAIN for file in files)):
+            yield forgotten.finding(folder, files)
+
+
+class _Forgotten:
+    """What to say of a folder that is not installed, and how sure that is, going by the rest of the package.
+
+    ``places`` are those where a text of the package names one of its files.
+    """
+
+    def __init__(self, package: Package, script: BuildScript, places: Mapping[str, Span]) -> None:
+        self._package = package
+        self._script = script
+        self._places = places
+        self._shared = _shares(package, script) or _makes_nothing(package, script)
+        self._of_nodes = _of_nodes(package, script)
+        self._elsewhere = _looked_up_elsewhere(package)
+
+    def finding(self, folder: str, files: Sequence[str]) -> Finding:
+        package, script, places = self._package, self._script, self._places
         # What the files say of each other tells nothing of who reads the first of them.
         below = from_base(package, f"{folder}/")
         named = [file for file in files if file in places and not places[file].path.startswith(below)]
-        looked_up = [file for file in named if (places[file].path, file.rpartition("/")[2]) not in elsewhere]
-        copies = {name for _, name in elsewhere}.intersection(file.rpartition("/")[2] for file in files if file not in looked_up)
-        shown = [file.rpartition("/")[2] for file in named + [file for file in files if file not in places]]
-        examples = few(shown)
-        yield Finding(
+        looked_up = [file for file in named if (places[file].path, _name(file)) not in self._elsewhere]
+        examples = few(_name(file) for file in (*named, *(file for file in files if file not in places)))
+        return Finding(
             f"{folder}/ ({examples}) is not installed, so nothing finds it at run time; install it to share/{package.name}",
             setup_edits.place(script),
             f"{folder}/",
-            several(Related(f"{file.rpartition('/')[2]} is named here", places[file]) for file in looked_up),
-            fix=_fix(package, f"{folder}/") if "/" not in folder else None,
-            confidence=_confidence(folder, files, looked_up, shared and not copies and f"{folder}/" not in inputs, of_nodes),
+            several(Related(f"{_name(file)} is named here", places[file]) for file in looked_up),
+            fix=_fix(package, script, f"{folder}/") if "/" not in folder else None,
+            confidence=Confidence.HIGH if looked_up else self._unnamed(folder, files),
             severity=Severity.WARNING,
         )
+
+    def _unnamed(self, folder: str, files: Sequence[str]) -> Confidence:
+        """Return how sure it is that a folder has been forgotten which nothing in the package names."""
+        if folder.partition("/")[0] in _DOCUMENTS:
+            return Confidence.LOW
+        copied = not {name for _, name in self._elsewhere}.isdisjoint([_name(file) for file in files])
+        files = [file for file in files if "example" not in file]
+        if any(file in self._of_nodes for file in files):
+            return Confidence.HIGH
+        for_run_time = any(file.endswith(_RUN_TIME) or "/textures/" in file for file in files)
+        meant = self._shared and not copied and f"{folder}/" not in self._script.inputs
+        return Confidence.HIGH if meant and for_run_time else Confidence.MEDIUM
 
 
 def _looked_up_elsewhere(package: Package) -> frozenset[tuple[str, str]]:
     """Return launch files with the names of files that they look up in other packages, and not in this one."""
     files = [each for launch in package.launch for each in launch.references if each.kind in ("file", "include")]
-    own = {(each.span.path, each.name.rpartition("/")[2]) for each in files if each.package == package.name}
-    return frozenset([(each.span.path, each.name.rpartition("/")[2]) for each in files]) - own
+    own = {(each.span.path, _name(each.name)) for each in files if each.package == package.name}
+    return frozenset([(each.span.path, _name(each.name)) for each in files]) - own
 
 
-def _shared(package: Package) -> bool:
+def _shares(package: Package, script: BuildScript) -> bool:
     """Whether a package installs other folders of files for run time, so that this one is forgotten."""
-    script = package.script
-    assert script is not None
     share = f"share/{package.name}/"
     return any(
         provided.path.startswith(share) and provided.source.partition("/")[0] in _FOR_RUN_TIME for provided in script.provides
     )
 
 
-def _makes_nothing(package: Package) -> bool:
+def _makes_nothing(package: Package, script: BuildScript) -> bool:
     """Whether a package has nothing for its users, so that the files that it has are what it is there for.
 
     One that is called after tests or examples may keep them where it lies.
     """
-    script = package.script
-    return script is not None and script.makes_nothing and not is_apart(f"{package.name.replace('_', '/')}/")
+    return script.makes_nothing and not is_apart(f"{package.name.replace('_', '/')}/")
 
 
-def _of_nodes(package: Package) -> frozenset[str]:
+def _of_nodes(package: Package, script: BuildScript) -> frozenset[str]:
     """Return the files with parameters of nodes, for a package that installs nodes."""
-    script = package.script
-    assert script is not None
     installs = script.components or any(provided.path.startswith(f"lib/{package.name}/") for provided in script.provides)
     if not installs or "example" in package.name:
         return frozenset()
     return frozenset(relative(package, file.path) for file in package.parameter_files if file.nodes)
 
 
-def _confidence(folder: str, files: list[str], looked_up: list[str], shared: bool, of_nodes: frozenset[str]) -> Confidence:
-    if looked_up:
-        return Confidence.HIGH
-    if folder.partition("/")[0] in _DOCUMENTS:
-        return Confidence.LOW
-    for_run_time = any((file.endswith(_RUN_TIME) or "/textures/" in file) and "example" not in file for file in files)
-    for_nodes = any(file in of_nodes and "example" not in file for file in files)
-    return Confidence.HIGH if (shared and for_run_time) or for_nodes else Confidence.MEDIUM
-
-
 _MOST_LISTED = 12
 """Files that a fix lists or globs in ``data_files``; a folder with more may need another way."""
 
 
-def _fix(package: Package, unit: str) -> Fix | None:
-    script = package.script
-    assert script is not None
+def _fix(package: Package, script: BuildScript, unit: str) -> Fix | None:
     folder, _, name = unit.rpartition("/")
     edit = None
     if script.path.endswith("CMakeLists.txt"):
