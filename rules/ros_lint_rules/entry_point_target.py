@@ -27,6 +27,7 @@ import re
 from collections.abc import Iterator
 
 from ros_lint.api import (
+    BuildScript,
     Edit,
     EntryPoint,
     Facet,
@@ -36,7 +37,6 @@ from ros_lint.api import (
     Related,
     Rule,
     Severity,
-    Span,
     Workspace,
     place_of,
     similar,
@@ -51,31 +51,32 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if script is None:
         return
     for entry in script.entry_points:
-        yield from _entry(package, entry, workspace)
+        target = _TARGET.match(entry.target)
+        if target is None:
+            yield _malformed(script, entry)
+        else:
+            yield from _lacking(package, script, entry, target[1], target[2], workspace)
     for problem in script.problems:
         if problem.kind == "entry-point-form":
             yield Finding(problem.message, problem.span, problem.subject)
 
 
-def _entry(package: Package, entry: EntryPoint, workspace: Workspace) -> Iterator[Finding]:
-    script = package.script
-    assert script is not None
-    runs = entry.group in ("console_scripts", "gui_scripts")
+def _malformed(script: BuildScript, entry: EntryPoint) -> Finding:
     if _GLUED.search(entry.target):
         message = f"two entries are glued to one: {entry.name} = {entry.target}; is a comma missing between them?"
-        gaps = [text.span for text in script.texts if text.kind == "gap" and entry.span.covers(text.span)]
-        fix = Fix("write a comma between them", tuple(Edit(gap, ",") for gap in gaps)) if gaps else None
-        yield Finding(message, entry.span, entry.name, fix=fix)
-        return
+        gaps = [Edit(text.span, ",") for text in script.texts if text.kind == "gap" and entry.span.covers(text.span)]
+        return Finding(message, entry.span, entry.name, fix=Fix.of("write a comma between them", *gaps))
     if entry.target.rstrip().endswith("()"):
         message = f"the target of {entry.name} ends with (); write {entry.target.rstrip()[:-2]}"
-        yield Finding(message, entry.span, entry.name, fix=_without_call(entry))
-        return
-    match = _TARGET.match(entry.target)
-    if match is None:
-        yield Finding(f"{entry.name} = {entry.target} is not of the form name = module:function", entry.span, entry.name)
-        return
-    name, attribute = match[1], match[2]
+        return Finding(message, entry.span, entry.name, fix=_without_call(entry))
+    return Finding(f"{entry.name} = {entry.target} is not of the form name = module:function", entry.span, entry.name)
+
+
+def _lacking(
+    package: Package, script: BuildScript, entry: EntryPoint, name: str, attribute: str | None, workspace: Workspace
+) -> Iterator[Finding]:
+    """Speak of the module of an entry, by its ``name``, and of the ``attribute`` in it, if one of them is not there."""
+    runs = entry.group in ("console_scripts", "gui_scripts")
     module = next((module for module in script.modules if module.name == name), None)
     if attribute is None:
         missing = list(_no_module(package, entry, name, "main", workspace)) if runs and module is None else []
@@ -91,7 +92,7 @@ def _entry(package: Package, entry: EntryPoint, workspace: Workspace) -> Iterato
         yield from _no_module(package, entry, name, attribute, workspace)
         return
     first = attribute.partition(".")[0]
-    if not module.open and first not in module.names and not _is_submodule(package, name, first):
+    if not module.open and first not in module.names and f"{name}.{first}" not in script.python_packages:
         near = similar(first, module.names, 1, 0.7)
         hint = f"; is {near[0]} meant?" if near else "; define it, or take the entry point out"
         yield Finding(
@@ -100,11 +101,6 @@ def _entry(package: Package, entry: EntryPoint, workspace: Workspace) -> Iterato
             entry.name,
             (Related("this module", place_of(package, module.path)),),
         )
-
-
-def _is_submodule(package: Package, module: str, name: str) -> bool:
-    script = package.script
-    return script is not None and f"{module}.{name}" in script.python_packages
 
 
 def _no_module(package: Package, entry: EntryPoint, name: str, function: str, workspace: Workspace) -> Iterator[Finding]:
@@ -144,13 +140,11 @@ def _without_call(entry: EntryPoint) -> Fix | None:
 
 def _fix(entry: EntryPoint, wrong: str, right: str) -> Fix | None:
     """Write another module name, where the entry is written out on one line."""
-    span = entry.span
-    plain = f"{entry.name} = {entry.target}"
-    if not right or span.line != span.end_line or span.end_column - span.column != len(plain) + 2:
+    inner = entry.span.inner(f"{entry.name} = {entry.target}")
+    if not right or inner is None:
         return None
-    start = span.column + 1 + len(entry.name) + 3
-    place = Span(span.path, span.line, start, span.line, start + len(wrong))
-    return Fix(f"write {right}", (Edit(place, right),), safe=False)
+    start = inner.column + len(f"{entry.name} = ")
+    return Fix(f"write {right}", (Edit(inner._replace(column=start, end_column=start + len(wrong)), right),), safe=False)
 
 
 RULE = Rule(
