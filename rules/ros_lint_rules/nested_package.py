@@ -22,7 +22,8 @@ the nested one is not meant to be built, put an empty `COLCON_IGNORE` beside its
   called like it (`add_rosidl_subdirectory()`): it is a part of that package then.
 - The nested manifest would be rejected anyway, or has no build script beside it.
 - In folders of tests, templates, examples or vendored code the confidence is medium: such manifests are mostly data. So it is
-  where a file of the outer package cannot be read, and in packages of ROS 1 (catkin), which nobody builds with ROS 2.
+  where a file of the outer package cannot be read, and where one of the two is of ROS 1 (catkin), which nobody builds with
+  ROS 2.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ros_lint.api import Confidence, Finding, Package, Rule, Severity, Workspace
+from ros_lint.api import Confidence, Finding, Manifest, Package, Rule, Severity, Workspace
 
 _DATA = re.compile(
     r"\..*|tests?|testing|fixtures|data|resources?|templates?|examples?|demos?|docs?|vendor|third_?party|3rdparty|external|contrib",
@@ -45,13 +46,20 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             continue
         between = nested.path.removeprefix(f"{package.path}/").split("/")[:-1]
         data = any(_DATA.fullmatch(folder) for folder in between)
-        lost = not data and package.builds_with != "catkin" and not workspace.unread(package)
+        of_ros_1 = package.builds_with == "catkin" or _is_of_ros_1(nested)
+        lost = not (data or of_ros_1 or workspace.unread(package))
         yield Finding(
             f"colcon does not see {nested.name}: it lies in {_outer(package)}; {_way_out(package, between)}",
             nested.name_span,
             nested.name,
             confidence=Confidence.HIGH if lost else Confidence.MEDIUM,
         )
+
+
+def _is_of_ros_1(manifest: Manifest) -> bool:
+    """Whether a manifest asks for catkin, and names no build type."""
+    typed = any(element.tag == "build_type" for element in manifest.exports)
+    return not typed and any(depend.name == "catkin" for depend in manifest.depends)
 
 
 def _outer(package: Package) -> str:
