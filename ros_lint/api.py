@@ -65,7 +65,7 @@ from ros_lint.facts.sources import Mention, PluginLoader, Registration, Use
 from ros_lint.graph import Edge, Graph, Reason
 from ros_lint.graph_cut import Knot, knots
 from ros_lint.knowledge.spelling import may_be_package, near_names
-from ros_lint.launch_files import Launchable, Programs, launchable, programs, referred
+from ros_lint.launch_files import Launchable, Programs, corrected, launchable, programs, referred
 from ros_lint.launch_links import Links, defaults_of, everything, filled, texts_of
 from ros_lint.launch_names import Families, needed
 from ros_lint.launch_parameters import Given, ParameterFiles
@@ -180,6 +180,7 @@ __all__ = [
     "comes_with_launching",
     "conditions",
     "configurations",
+    "corrected",
     "covered",
     "declared_closure",
     "declared_names",

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Iterator
+from collections.abc import Container, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from ros_lint.apart import is_apart, lies_apart
 from ros_lint.facts.launch import LaunchFile, LaunchReference
 from ros_lint.facts.sight import Facet
 from ros_lint.facts.sources import LookUp
+from ros_lint.rule import Edit, Fix
+from ros_lint.text import Span
 from ros_lint.tree import within
 from ros_lint.workspace import Package
 
@@ -51,6 +53,16 @@ def referred(package: Package, kinds: Container[str], *, apart: bool = False) ->
             if reference.kind in kinds:
                 found.setdefault((reference.package, reference.name), []).append(reference)
     return found
+
+
+def corrected(title: str, text: str, places: Sequence[tuple[Span, bool]]) -> Fix | None:
+    """Return the unsafe fix that writes a text at places, each with whether nothing but the name stands there.
+
+    None where there is no text, or where something else stands at a place.
+    """
+    if not text or not all(exact for _, exact in places):
+        return None
+    return Fix.of(title, *(Edit(span, text) for span in dict.fromkeys(span for span, _ in places)), safe=False)
 
 
 class Programs(NamedTuple):

@@ -27,16 +27,14 @@ from collections.abc import Iterator
 
 from ros_lint.api import (
     Confidence,
-    Edit,
     Facet,
     Finding,
-    Fix,
-    LaunchReference,
     Package,
     Related,
     Rule,
     Severity,
     Workspace,
+    corrected,
     did_you_mean,
     referred,
     several,
@@ -54,13 +52,14 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         near = meant or similar(name, names, 2, 0.75)
         hint = did_you_mean(near) if names else ", and no other either"
         everywhere = not workspace.target.told
+        only = meant[0] if len(meant) == 1 else ""
         sure = bool(workspace.by_name.get(owner)) or workspace.world.lacks(owner, "components", name, everywhere=everywhere)
         yield Finding(
             f"{owner} registers no component {name}{hint}",
             best.span,
             f"{owner}/{name}",
             several(Related("also loaded here", other.span) for other in others),
-            _fix(meant, references),
+            corrected(f"load {only}", only, [(reference.span, reference.exact) for reference in references]),
             Confidence.HIGH if sure and not best.by_default else Confidence.MEDIUM,
         )
 
@@ -79,13 +78,6 @@ def _names_without(owner: str, name: str, workspace: Workspace) -> tuple[str, ..
         # Of a class that the sources make loadable and CMake does not register, component-mismatch speaks.
         names.update(made.name for made in one.registrations if made.kind == "component")
     return None if name in names else tuple(sorted(names))
-
-
-def _fix(meant: list[str], references: list[LaunchReference]) -> Fix | None:
-    if len(meant) != 1 or not all(reference.exact for reference in references):
-        return None
-    spans = dict.fromkeys(reference.span for reference in references)
-    return Fix(f"load {meant[0]}", tuple(Edit(span, meant[0]) for span in spans), safe=False)
 
 
 RULE = Rule(

@@ -32,15 +32,13 @@ from typing import NamedTuple
 
 from ros_lint.api import (
     Confidence,
-    Edit,
     Finding,
-    Fix,
-    LaunchReference,
     Package,
     Related,
     Rule,
     Severity,
     Workspace,
+    corrected,
     did_you_mean,
     launchable,
     near_names,
@@ -66,7 +64,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             best.span,
             name,
             (*missing.related, *several(Related("also started here", reference.span) for reference in others)),
-            _fix(missing.meant, references),
+            corrected(f"start {missing.meant}", missing.meant, [(one.span, one.exact) for one in references]),
             Confidence.MEDIUM if best.by_default or best.span.path in idle else missing.confidence,
         )
 
@@ -154,13 +152,6 @@ def _meant(name: str, names: tuple[str, ...]) -> str:
 
     same = [other for other in names if plain(other) == plain(name)]
     return same[0] if len(same) == 1 else ""
-
-
-def _fix(meant: str, references: list[LaunchReference]) -> Fix | None:
-    if not meant or not all(reference.exact for reference in references):
-        return None
-    spans = dict.fromkeys(reference.span for reference in references)
-    return Fix(f"start {meant}", tuple(Edit(span, meant) for span in spans), safe=False)
 
 
 RULE = Rule(

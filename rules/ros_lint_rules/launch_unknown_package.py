@@ -36,15 +36,13 @@ elsewhere, check with the workspace that holds it as `--underlay`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 from ros_lint.api import (
     Confidence,
-    Edit,
     Facet,
     Finding,
-    Fix,
     LaunchReference,
     Package,
     Related,
@@ -53,6 +51,7 @@ from ros_lint.api import (
     Severity,
     Span,
     Workspace,
+    corrected,
     declared_closure,
     did_you_mean,
     launchable,
@@ -85,7 +84,11 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             best.reference.package_span,
             name,
             several(Related("also named here", other.reference.package_span) for other in others),
-            _fix(name, verdict.meant, [place.reference for place in places]),
+            corrected(
+                f"say {verdict.meant} instead of {name}",
+                verdict.meant,
+                [(place.reference.package_span, place.reference.package_exact) for place in places],
+            ),
             Confidence.HIGH if left_out else verdict.confidence if wanted else Confidence.MEDIUM,
             severity=Severity.WARNING if left_out else None,
         )
@@ -117,13 +120,6 @@ def _never_comes(name: str, package: Package, workspace: Workspace) -> bool:
         return False
     closure = declared_closure(package, workspace, Role.EXEC | Role.EXPORT)
     return name not in closure and not may_bring(closure.unknown, name, workspace)
-
-
-def _fix(name: str, meant: str, references: Sequence[LaunchReference]) -> Fix | None:
-    if not meant or not all(reference.package_exact for reference in references):
-        return None
-    spans = dict.fromkeys(reference.package_span for reference in references)
-    return Fix(f"say {meant} instead of {name}", tuple(Edit(span, meant) for span in spans), safe=False)
 
 
 class _Verdict(NamedTuple):
