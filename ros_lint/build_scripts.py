@@ -153,7 +153,7 @@ def node_targets(package: Package) -> frozenset[str]:
     files = with_client(package)
     return frozenset(
         target.name
-        for target in (package.script.targets if package.script else ())
+        for target in package.built.targets
         if target.kind == "executable" and (not files.isdisjoint(target.sources) or has_header(target, files))
     )
 
@@ -185,7 +185,7 @@ def is_shared_by_words(package: Package, name: str) -> bool:
 def library_of(package: Package, made: Registration) -> str:
     """Return the library, tests aside, of which a source makes a class loadable; "" if there is none."""
     path = relative(package, made.span.path)
-    for target in package.script.targets if package.script else ():
+    for target in package.built.targets:
         if target.kind == "library" and not target.test and path in target.sources:
             return target.name
     return ""
@@ -208,7 +208,7 @@ def astray(package: Package, endings: tuple[str, ...]) -> dict[str, Provided]:
     Of the files of a library those count that have one of some endings.
     """
     places: dict[str, list[Provided]] = {}
-    for provided in package.script.provides if package.script else ():
+    for provided in package.built.provides:
         if provided.target and provided.path.endswith(endings):
             places.setdefault(provided.target, []).append(provided)
     own = f"lib/{package.name}/"

@@ -48,8 +48,7 @@ def install_folder(package: Package, folder: str) -> Edit | None:
     call = _beside(package)
     if call is not None:
         return _append(call, call.texts.index("DESTINATION") - 1, folder)
-    script = package.script
-    return at_end(script, f"install(DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}})") if script else None
+    return at_end(package.built, f"install(DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}})")
 
 
 def export_dependencies(package: Package, name: str, all_names: Sequence[str]) -> Edit | None:
@@ -60,7 +59,7 @@ def export_dependencies(package: Package, name: str, all_names: Sequence[str]) -
     call = next((call for call in called(package, "ament_export_dependencies") if call.args and not call.blocks), None)
     if call is not None:
         return _append(call, len(call.args) - 1, name)
-    return at_end(package.script, f"ament_export_dependencies({' '.join(all_names)})") if package.script else None
+    return at_end(package.built, f"ament_export_dependencies({' '.join(all_names)})")
 
 
 def _append(call: Call, last: int, text: str) -> Edit:

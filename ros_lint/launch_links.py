@@ -49,7 +49,7 @@ def installed_below_share(package: Package, files: Iterable[File]) -> Iterator[t
     """Yield those files of a package that it installs below share/<package>, each with its path there."""
     by_source = {within(package.path, file.path): file for file in files}
     share = f"share/{package.name}/"
-    for provided in package.script.provides if package.script and by_source else ():
+    for provided in package.built.provides if by_source else ():
         file = by_source.get(provided.source)
         if file is not None and provided.path.startswith(share):
             yield file, provided.path[len(share) :]

@@ -10,7 +10,7 @@ from functools import cached_property
 from itertools import accumulate
 
 from ros_lint import apart
-from ros_lint.facts.build import BuildScript
+from ros_lint.facts.build import NOTHING_BUILT
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sight import Facet
 from ros_lint.own_files import OwnFiles
@@ -58,7 +58,7 @@ class Liveness:
         self._own = own
         self._files = own.files
         known = own.script is not None
-        self._script = script = own.script or BuildScript("")  # that builds and installs nothing
+        self._script = script = own.script or NOTHING_BUILT
         self._sees_script = known
         self._facts = own.facts
         self._launched = launched

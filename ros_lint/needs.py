@@ -93,7 +93,7 @@ def _gathered(package: Package, workspace: Workspace, uses: Iterable[Use]) -> tu
 
 def _is_ament(package: Package) -> bool:
     """Whether CMake takes a package for one of ROS 2, though its manifest says nothing of it."""
-    mentions = package.script.mentions if package.script else ()
+    mentions = package.built.mentions
     return any(mention.via == "cmake" and mention.name.startswith("ament_cmake") for mention in mentions)
 
 

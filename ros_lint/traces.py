@@ -75,7 +75,7 @@ def unwritten(tree: Tree, package: Package) -> frozenset[str]:
     None where names are put together, so that they need not stand there.
     """
     made = {registration.name for registration in package.registrations}
-    plugins = package.script.plugins if package.script else ()
+    plugins = package.built.plugins
     described = [one.type for plugin in plugins for library in plugin.libraries for one in library.classes]
     wanted = [name for name in dict.fromkeys(described) if name.replace(" ", "").removeprefix("::") not in made]
     if not wanted:

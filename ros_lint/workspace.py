@@ -7,7 +7,7 @@ from functools import cached_property, wraps
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from ros_lint import ignored
-from ros_lint.facts.build import BuildScript, LeftBehind
+from ros_lint.facts.build import NOTHING_BUILT, BuildScript, LeftBehind
 from ros_lint.facts.launch import LaunchFile, LaunchReference
 from ros_lint.facts.manifest import ColconDepend, Depend, Manifest, Role
 from ros_lint.facts.sight import Facet, Opaque
@@ -88,6 +88,11 @@ class Package(NamedTuple):
             return beginning(self.script.path)
         first = next((file for file in self.files if file in ("CMakeLists.txt", "setup.py", "setup.cfg")), self.files[0])
         return beginning(join(self.path, first))
+
+    @property
+    def built(self) -> BuildScript:
+        """Return the build script, one that builds and installs nothing where there is none."""
+        return self.script or NOTHING_BUILT
 
     @property
     def builds_with(self) -> str:

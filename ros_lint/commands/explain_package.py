@@ -106,7 +106,7 @@ def _provides(package: Package) -> Iterator[_Row]:
 
 
 def _installs(package: Package) -> Iterator[_Row]:
-    for provided in sorted(package.script.provides if package.script else (), key=lambda provided: provided.path):
+    for provided in sorted(package.built.provides, key=lambda provided: provided.path):
         source = f"from {provided.source}" if provided.source else f"built as {provided.target}" if provided.target else "made"
         program = ", executable" if provided.program else ""
         yield _Row(provided.path, f"{source}{program}{_maybe(provided.conditional)}", provided.span)

@@ -136,7 +136,7 @@ class LookUp:
         packages = self._workspace.by_name.get(package, ())
         name = path.removeprefix(f"share/{package}/")
         for one in packages:
-            for provided in one.script.provides if one.script else ():
+            for provided in one.built.provides:
                 if provided.path == path:
                     if not provided.source:
                         return Absent("it is made when the package is built", surely=False)
@@ -169,5 +169,4 @@ class LookUp:
 
 def _share_files(package: Package) -> list[str]:
     share_folder = f"share/{package.name}/"
-    provides = package.script.provides if package.script else ()
-    return [one.path[len(share_folder) :] for one in provides if one.path.startswith(share_folder)]
+    return [one.path[len(share_folder) :] for one in package.built.provides if one.path.startswith(share_folder)]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from ros_lint.facts.cmake import Call, Target
 from ros_lint.facts.setup_py import EntryPoint, PythonModule, Slot, WrittenText
@@ -181,3 +181,7 @@ class BuildScript(NamedTuple):
     def hides(self, facet: Facet) -> bool:
         """Whether the script cannot be seen through as to a facet. What code computes when it runs is no matter here."""
         return any(opaque.hides & facet for opaque in self.opaque)
+
+
+NOTHING_BUILT: Final = BuildScript("")
+"""What stands for the script of a package that has none: it builds and installs nothing."""

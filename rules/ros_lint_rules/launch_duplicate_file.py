@@ -66,7 +66,7 @@ def _twice(package: Package) -> dict[str, list[Provided]]:
     """Return the launch files that a package installs at several places, by their names."""
     files = {launch.path for launch in launchable(package)}
     names: dict[str, dict[str, Provided]] = {}
-    for provided in package.script.provides if package.script and files else ():
+    for provided in package.built.provides if files else ():
         name = provided.path.rpartition("/")[2]
         if provided.source not in files or provided.conditional or not name.endswith(LAUNCH_NAMES):
             continue

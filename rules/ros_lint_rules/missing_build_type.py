@@ -52,8 +52,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 def _meant(package: Package) -> str:
     """Return the build type that the scripts of a package need, or "" if that is not clear."""
     if "CMakeLists.txt" in package.files:
-        calls = package.script.calls if package.script else ()
-        return "ament_cmake" if not set(ENDS).isdisjoint(calls) else ""
+        return "ament_cmake" if not set(ENDS).isdisjoint(package.built.calls) else ""
     return "ament_python" if "setup.py" in package.files else ""
 
 

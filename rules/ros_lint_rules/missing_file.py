@@ -89,7 +89,7 @@ def _confidence(package: Package, workspace: Workspace, problem: Problem) -> Con
 
 def _makes_files(package: Package) -> bool:
     """Whether the script may make files while CMake configures."""
-    ran = _MAKES_FILES.intersection(package.script.calls) if package.script else frozenset()
+    ran = _MAKES_FILES.intersection(package.built.calls)
     if not ran.issubset(_RUNS):
         return True
     calls = list(called(package, *_RUNS, anywhere=True))

@@ -117,7 +117,7 @@ def _beside_programs(package: Package, workspace: Workspace) -> Iterator[Finding
     """Speak of modules that are not installed where the program is that imports them."""
     if package.hidden(Facet.PYTHON | Facet.EXECUTABLES | Facet.SHARE):
         return
-    own = {module.partition(".")[0] for module in package.script.python_packages} if package.script else set()
+    own = {module.partition(".")[0] for module in package.built.python_packages}
     told: set[str] = set()
     for left in package.left_behind:
         module = left.module

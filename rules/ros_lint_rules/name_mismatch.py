@@ -68,8 +68,9 @@ def _mismatches(package: Package, manifest: Manifest, script: BuildScript) -> It
 
 def _is_called(package: Package, name: str) -> bool:
     """Whether CMake may take a package for one of a name: one that builds itself anew has more than one project()."""
-    own = package.script.name if package.script else ""
-    return name == own or any(evaluated_name(package, call.texts[0]) == name for call in called(package, "project") if call.args)
+    return name == package.built.name or any(
+        evaluated_name(package, call.texts[0]) == name for call in called(package, "project") if call.args
+    )
 
 
 def _python(manifest: Manifest, script: BuildScript) -> Iterator[Finding]:

@@ -38,7 +38,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _modules(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    imports = [mention for mention in package.script.mentions if mention.via == "import"] if package.script else []
+    imports = [mention for mention in package.built.mentions if mention.via == "import"]
     gone = [mention for mention in imports if mention.name.partition(".")[0] == _MODULE and not mention.optional]
     if gone and not any(other.name == _MODULE for other in workspace.packages):
         first, *others = gone

@@ -86,7 +86,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _unfilled(package: Package) -> Iterator[Finding]:
     """Yield what is to say of exported sets of targets (reference, section C3): that none is in them."""
-    filled = package.script.export_sets if package.script else ()
+    filled = package.built.export_sets
     for call in called(package, "ament_export_targets", "ament_export_interfaces"):
         for index, text in enumerate(call.texts):
             name = evaluated_name(package, text)
@@ -100,7 +100,7 @@ def _unfilled(package: Package) -> Iterator[Finding]:
 
 def _no_libraries(package: Package, defined: Collection[str]) -> Iterator[Finding]:
     """Yield what is to say of exported libraries. Any name may be that of a library of the system, but for the own one."""
-    libraries = sorted(target.name for target in package.script.targets if target.kind == "library") if package.script else []
+    libraries = sorted(target.name for target in package.built.targets if target.kind == "library")
     for call in called(package, "ament_export_libraries"):
         for index, text in enumerate(call.texts):
             name = evaluated_name(package, text)

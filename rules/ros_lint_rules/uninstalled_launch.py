@@ -82,7 +82,7 @@ def _is_left_out(package: Package, path: str) -> bool:
     suffix = _SUFFIX.search(name)
     if suffix is None:
         return True
-    provides = package.script.provides if package.script else ()
+    provides = package.built.provides
     together = Counter(provided.span for provided in provides)
     return any(
         together[provided.span] > 1 and provided.source.rpartition("/")[0] == folder and provided.source.endswith(suffix[0])
@@ -132,7 +132,7 @@ def _fix(package: Package, folder: str, paths: Sequence[str], whole: bool) -> Fi
 
 
 def _fix_of_setup(package: Package, folder: str, paths: Iterable[str], whole: bool) -> Fix | None:
-    slot = setup_edits.slot(package.script, "data_files") if package.script else None
+    slot = setup_edits.slot(package.built, "data_files")
     if slot is None or not all("/" in path for path in paths):  # one beside setup.py itself
         return None
     edit = setup_edits.add_files(slot, package.name, paths, package.files)

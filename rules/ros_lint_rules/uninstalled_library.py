@@ -111,7 +111,7 @@ def _names(package: Package, texts: tuple[str, ...]) -> Iterator[str]:
 
 def _is_shared(package: Package, name: str) -> bool:
     """Whether the library is a shared one for sure."""
-    found = found_names(package, package.script) if package.script else ()
+    found = found_names(package, package.built)
     for call in library_calls(package, name):
         kinds = {"STATIC", "OBJECT", "INTERFACE"}.intersection(call.texts)
         return "SHARED" in call.texts or (not kinds and "ament_cmake_ros" in found)

@@ -77,7 +77,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _of_setup(package: Package) -> Iterator[Finding]:
     """Speak of programs that setup.py does not install, and that are said to be started with ``ros2 run``."""
-    for file in package.script.files if package.script else ():
+    for file in package.built.files:
         if file.run is not None and file.main:
             yield Finding(
                 f"{file.path} is a program, and setup.py does not install it, so ros2 run does not find it; add an entry point",

@@ -93,7 +93,7 @@ def _is_own_program(stranger: Stranger) -> bool:
     own = programs(package)
     if own is None or name not in own.names:
         return False
-    found = {mention.name for mention in package.script.mentions} if package.script else set()
+    found = {mention.name for mention in package.built.mentions}
     return name not in found and not any(each.package == name for launch in package.launch for each in launch.references)
 
 
@@ -140,7 +140,7 @@ def _caller(by: str, key: str) -> str:
 
 def _is_found_as_declared(package: Package, name: str) -> bool:
     """Whether CMake finds something only because it is declared by this very name."""
-    if package.script is None or _FINDS_DECLARED not in package.script.calls:
+    if _FINDS_DECLARED not in package.built.calls:
         return False
     return not any(name in call.texts[:1] for call in called(package, "find_package", anywhere=True))
 

@@ -42,8 +42,11 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _also_named(package: Package, found: Mention) -> list[Mention]:
     """Return where else the build script names what is found: what is linked or exported fails when it is found no more."""
-    mentions = package.script.mentions if package.script else ()
-    places = {each.span: each for each in mentions if each.name.partition("::")[0] == found.name and each.span != found.span}
+    places = {
+        each.span: each
+        for each in package.built.mentions
+        if each.name.partition("::")[0] == found.name and each.span != found.span
+    }
     return [places[span] for span in sorted(places)]
 
 

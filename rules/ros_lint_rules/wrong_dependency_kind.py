@@ -39,7 +39,6 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from ros_lint.api import (
-    BuildTarget,
     Confidence,
     Declared,
     Depend,
@@ -129,7 +128,7 @@ def _wrong(package: Package, workspace: Workspace) -> Iterator[_Wrong]:
             continue
         seen = need._replace(uses=tuple(_outside(package, need, hopeful=False)))
         lacking = _lacks(package, workspace, seen, tags)
-        if lacking is None and any(target.kind == "library" and not target.test for target in _targets(package)):
+        if lacking is None and any(target.kind == "library" and not target.test for target in package.built.targets):
             seen = need._replace(uses=tuple(_outside(package, need, hopeful=True)))
             lacking = _once_installed(_lacks(package, workspace, seen, tags))
         if lacking is None:
@@ -147,10 +146,6 @@ def _wrong(package: Package, workspace: Workspace) -> Iterator[_Wrong]:
 def _is_for_all(declared: Declared) -> bool:
     """Whether an element is enough for whatever it is needed for, or may be."""
     return declared.depend.tag == "depend" or bool(declared.depend.condition)
-
-
-def _targets(package: Package) -> tuple[BuildTarget, ...]:
-    return package.script.targets if package.script else ()
 
 
 def _outside(package: Package, need: Need, *, hopeful: bool) -> Iterator[Use]:
@@ -176,7 +171,7 @@ def _outside(package: Package, need: Need, *, hopeful: bool) -> Iterator[Use]:
 def _installed_headers(package: Package) -> dict[str, bool]:
     """Return the sources of installed headers, and whether they are installed in every build."""
     found: dict[str, bool] = {}
-    for provided in package.script.provides if package.script else ():
+    for provided in package.built.provides:
         if provided.path.startswith("include/"):
             found[provided.source] = found.get(provided.source, False) or not provided.conditional
     return found
