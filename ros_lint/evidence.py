@@ -10,7 +10,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
-from ros_lint.facts.build import BuildScript
+from ros_lint.facts.build import NOTHING_BUILT, BuildScript
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sight import Opaque
@@ -57,6 +57,11 @@ class Source(NamedTuple):
     absent: frozenset[str] = frozenset()
     """Names of the folders of git submodules that are not cloned: they may be Python modules, or libraries."""
 
+    @property
+    def built(self) -> BuildScript:
+        """Return the build script, one that builds and installs nothing where there is none."""
+        return self.script or NOTHING_BUILT
+
 
 _WORD = re.compile("[A-Za-z0-9]+")
 
@@ -93,7 +98,7 @@ class Resolver:
     def __init__(self, sources: Sequence[Source], names: Names) -> None:
         self.names = names
         self._headers = include_index(sources)
-        self._empty = frozenset([source.name for source in sources if source.script and source.script.makes_nothing])
+        self._empty = frozenset([source.name for source in sources if source.built.makes_nothing])
         self._ask: Mapping[Via, Callable[[str], Answer]] = {
             "include": self._include,
             "import": lambda name: self._told(self.names.by_import(name), name.partition(".")[0], name),
@@ -178,21 +183,7 @@ def resolve(source: Source, resolver: Resolver) -> tuple[Use, ...]:
     own = OwnFiles(source.name, source.files, source.script, source.facts)
     alive = Liveness(own, launched)
     uses = _Uses(source, own, alive, resolver)
-    if source.script is not None:
-        by_role: dict[tuple[str, Role], list[Mention]] = {}
-        untaken = frozenset(source.script.untaken)
-        for mention in source.script.mentions:
-            if mention.purpose == "plugins":
-                continue  # who loads them need not be there, and the base class is in headers
-            role = _TEST if mention.test else _script_role(source, mention)
-            only_named = mention.via == "cmake" and mention.span in untaken
-            ours = by_role.setdefault((mention.span.path, role), [])
-            ours.append(mention._replace(optional=True) if only_named else mention)
-        for (path, role), mentions in by_role.items():
-            uses.add(within(source.path, path), mentions, role, role, sure=True)
-        for mention, always in source.script.handed_on:
-            uses.add(within(source.path, mention.span.path), [mention], Role.EXPORT, Role.EXPORT, always)
-        _unspoken(source, uses)
+    _add_script(source, uses)
     for path, facts in source.facts.items():
         if not facts.mentions or alive.is_foreign(path):
             continue
@@ -213,6 +204,24 @@ def resolve(source: Source, resolver: Resolver) -> tuple[Use, ...]:
     return uses.sorted()
 
 
+def _add_script(source: Source, uses: _Uses) -> None:
+    """Add what the build script names, and what it is said to search on behalf of others."""
+    by_role: dict[tuple[str, Role], list[Mention]] = {}
+    untaken = frozenset(source.built.untaken)
+    for mention in source.built.mentions:
+        if mention.purpose == "plugins":
+            continue  # who loads them need not be there, and the base class is in headers
+        role = _TEST if mention.test else _script_role(source, mention)
+        only_named = mention.via == "cmake" and mention.span in untaken
+        ours = by_role.setdefault((mention.span.path, role), [])
+        ours.append(mention._replace(optional=True) if only_named else mention)
+    for (path, role), mentions in by_role.items():
+        uses.add(within(source.path, path), mentions, role, role, sure=True)
+    for mention, always in source.built.handed_on:
+        uses.add(within(source.path, mention.span.path), [mention], Role.EXPORT, Role.EXPORT, always)
+    _unspoken(source, uses)
+
+
 class _Uses:
     """The uses found in a package so far. Of two of one package in one place by one way the last counts."""
 
@@ -224,11 +233,11 @@ class _Uses:
         self._absent = source.absent
         self._caught = _caught(source, alive)
         self._added = frozenset([span for facts in source.facts.values() for span in facts.added])
-        script = source.script
-        self._reaches_out = script is not None and script.reaches_out
-        self._bundled = frozenset([name.lower() for name in script.bundled]) if script else frozenset()
+        script = source.built
+        self._reaches_out = script.reaches_out
+        self._bundled = frozenset([name.lower() for name in script.bundled])
         self._found_always = frozenset(
-            [each.name for each in script.mentions if each.via == "cmake" and not (each.optional or each.test)] if script else ()
+            [each.name for each in script.mentions if each.via == "cmake" and not (each.optional or each.test)]
         )
         self._found: dict[tuple[Span, str, Via], Use] = {}
 
@@ -306,11 +315,9 @@ def _caught(source: Source, alive: Liveness) -> frozenset[str]:
 
 def _unspoken(source: Source, uses: _Uses) -> None:
     """Add what generated code needs without being told: actions are made of it (reference, section C4.4)."""
-    script = source.script
-    assert script is not None
-    if source.name == _ACTIONS or not any(each.startswith("action/") for each in script.interfaces):
+    if source.name == _ACTIONS or not any(each.startswith("action/") for each in source.built.interfaces):
         return
-    for mention in script.mentions:
+    for mention in source.built.mentions:
         if mention.via == "macro" and mention.purpose == "interfaces" and uses.resolver.names.is_package(_ACTIONS):
             role = _TEST if mention.test else Role.BUILD | Role.EXPORT | Role.EXEC
             uses.put(Use(_ACTIONS, (_ACTIONS,), role, "an action", "macro", mention.optional, mention.span))
@@ -356,7 +363,7 @@ def include_index(sources: Iterable[Source]) -> dict[str, tuple[str, ...]]:
 
 def opaque_of(source: Source) -> tuple[Opaque, ...]:
     """Return everything that hides a side of the package."""
-    found: list[Opaque] = list(source.script.opaque) if source.script else []
+    found: list[Opaque] = list(source.built.opaque)
     for facts in source.facts.values():
         found += facts.opaque
     for launch in source.launch:

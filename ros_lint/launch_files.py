@@ -30,10 +30,10 @@ def launchable(package: Package, *, apart: bool = False) -> Iterator[Launchable]
     """Yield the launch files that are there to be launched: no mere helpers, and tests and examples only if asked for."""
     if not package.launch:  # so it is with most packages, and many rules ask
         return
-    script = package.script
-    installed = {provided.source: provided.conditional for provided in script.provides if provided.source} if script else {}
-    tests = frozenset(script.runs or ()) if script else frozenset()
-    modules = tuple(f"{module.replace('.', '/')}/" for module in script.python_packages) if script else ()
+    script = package.built
+    installed = {provided.source: provided.conditional for provided in script.provides if provided.source}
+    tests = frozenset(script.runs or ())
+    modules = tuple(f"{module.replace('.', '/')}/" for module in script.python_packages)
     for file in package.launch:
         path = within(package.path, file.path)
         if file.helper:

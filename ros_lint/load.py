@@ -219,8 +219,8 @@ class Loader:
                 loaders=tuple([loader for facts in done.facts.values() for loader in facts.loaders]),
                 look_ups=tuple([look_up for facts in done.facts.values() for look_up in facts.look_ups]),
                 parameter_files=tuple([f.parameters for f in done.facts.values() if f.parameters is not None]),
-                unusable_headers=public_headers.unusable(done.script, done.facts, found.files),
-                left_behind=tuple(own_files.left_behind(found.files, done.script, done.facts)),
+                unusable_headers=public_headers.unusable(source.built, done.facts, found.files),
+                left_behind=tuple(own_files.left_behind(found.files, source.built, done.facts)),
             )
             if package.registrations and done.script and done.script.plugins:
                 package = package._replace(unwritten=traces.unwritten(tree, package))

@@ -138,18 +138,17 @@ class OwnFiles:
         return frozenset([name.partition(".")[0] for name in names])
 
 
-def left_behind(files: Sequence[str], script: BuildScript | None, facts: Mapping[str, FileFacts]) -> Iterator[LeftBehind]:
+def left_behind(files: Sequence[str], script: BuildScript, facts: Mapping[str, FileFacts]) -> Iterator[LeftBehind]:
     """Yield the imports of programs in Python that work among the sources, and not where the program is installed.
 
     Python looks for modules beside the program that it starts, beside what a link to it points to (reference, section D4.4).
     That of an entry point is made by pip, so what lies beside its module is only found as a part of the Python package; and
     setuptools installs no folder that is not among the packages.
     """
-    if script is not None:
-        yield from _unlisted(files, script, facts)
-    provides = script.provides if script else ()
+    yield from _unlisted(files, script, facts)
+    provides = script.provides
     programs = [(p.path, p.source) for p in provides if p.source.endswith(".py") and p.source in facts and _is_program(p)]
-    modules = [(each.name, each.path) for each in script.modules if each.path in facts and "." in each.name] if script else []
+    modules = [(each.name, each.path) for each in script.modules if each.path in facts and "." in each.name]
     if not (programs or modules):
         return
     known = frozenset(files)

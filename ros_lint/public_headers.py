@@ -8,13 +8,13 @@ from ros_lint.facts.build import BuildScript
 from ros_lint.facts.sources import FileFacts
 
 
-def unusable(script: BuildScript | None, facts: Mapping[str, FileFacts], files: tuple[str, ...]) -> tuple[str, ...]:
+def unusable(script: BuildScript, facts: Mapping[str, FileFacts], files: tuple[str, ...]) -> tuple[str, ...]:
     """Return the installed headers that do not compile anywhere else, sorted.
 
     They include a file of the package that is not installed, or one that Qt makes of a form (``ui_*.h``), or another such
     header. ``facts`` are by path relative to the package, as are ``files`` and what is returned.
     """
-    provided = [each for each in script.provides if each.path.startswith("include/")] if script else []
+    provided = [each for each in script.provides if each.path.startswith("include/")]
     headers = sorted({each.source for each in provided if each.source in facts})
     if not headers:
         return ()
