@@ -112,3 +112,11 @@ def test_a_file_comes_into_being(tmp_path: Path) -> None:
     assert (tmp_path / "new").read_bytes() == b"a\n"
     assert (tmp_path / "new").stat().st_mode & 0o777 == 0o644
     assert unified("new", None, "a\n") == "--- /dev/null\n+++ b/new\n@@ -0,0 +1 @@\n+a\n"
+
+
+def test_a_fix_is_none_where_one_of_its_edits_has_no_place() -> None:
+    edit = Edit(Span("a", 1, 1, 1, 1), "x")
+    assert Fix.of("write x", edit, safe=False) == Fix("write x", (edit,), safe=False)
+    assert Fix.of("write x", edit, edit) == Fix("write x", (edit, edit))
+    assert Fix.of("write x", edit, None) is None
+    assert Fix.of("write x") is None

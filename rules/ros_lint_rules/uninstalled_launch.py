@@ -20,7 +20,7 @@ written out.
 
 - A part of the build script that cannot be followed may install the files, or a file of the package cannot be read.
 - Launch files of tests, examples and templates, those of ROS 1, and modules that only build actions for launch files;
-  packages that are called tests.
+  packages for tests, going by their names.
 - Files that are installed under a condition, and those that a rule leaves out which installs others of their kind
   (`PATTERN x EXCLUDE`).
 - A file of the same name is installed from another folder: these are variants, of which one is chosen.
