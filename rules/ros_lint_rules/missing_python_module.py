@@ -33,9 +33,12 @@ package makes interfaces, or builds what is imported by this name.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
+from itertools import chain
+from typing import NamedTuple
 
 from ros_lint.api import (
+    BuildScript,
     Confidence,
     Facet,
     Finding,
@@ -45,6 +48,7 @@ from ros_lint.api import (
     Rule,
     Severity,
     Slot,
+    Span,
     Workspace,
     beginning,
     cmake_edits,
@@ -62,48 +66,60 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_python" or package.hidden(Facet.PYTHON):
         return
-    installed = set(script.python_packages)
     slot = setup_edits.slot(script, "packages")
-    place = slot.end if slot else (script.name_span or beginning(script.path))
     beside = {provided.source.rpartition("/")[0] for provided in script.provides if provided.source.endswith(".py")}
     told: set[str] = set()
+    for lack in chain(_left_out(package, script, beside), _of_entry_points(script), _imported(package, beside)):
+        if lack.name not in told:
+            told.add(lack.name)
+            way = _way(package, lack.folder, lack.name, slot)
+            yield Finding(
+                f"{lack.says}{way}",
+                lack.span,
+                lack.name,
+                fix=None if way else _fix(slot, lack.name, package.name),
+                confidence=Confidence.HIGH if lack.sure else Confidence.MEDIUM,
+            )
+
+
+class _Lack(NamedTuple):
+    """A Python package that setup.py does not install."""
+
+    name: str
+    folder: str
+    says: str
+    span: Span
+    sure: bool = True
+
+
+def _left_out(package: Package, script: BuildScript, beside: Container[str]) -> Iterator[_Lack]:
+    """Yield the packages below one that is installed. Modules ``beside`` others that data_files has are put elsewhere."""
+    installed = script.python_packages
+    slot = setup_edits.slot(script, "packages")
+    place = slot.end if slot else (script.name_span or beginning(script.path))
     for name, folder in _packages(package):
-        parent = name.rpartition(".")[0]
-        if name in installed or parent not in installed or f"{folder}/__init__.py" not in package.files or folder in beside:
-            continue
-        told.add(name)
-        yield Finding(
-            f"the Python package {name} is not installed; add it to packages",
-            place,
-            name,
-            fix=_fix(slot, name, package.name),
-        )
+        inside = name.rpartition(".")[0] in installed and f"{folder}/__init__.py" in package.files
+        if inside and name not in installed and folder not in beside:
+            yield _Lack(name, folder, f"the Python package {name} is not installed; add it to packages", place)
+
+
+def _of_entry_points(script: BuildScript) -> Iterator[_Lack]:
+    """Yield the packages with modules that entry points name."""
     for module in script.modules:
         inside = module.name.rpartition(".")[0]
-        if module.name in installed or inside in installed or not inside or inside in told:
-            continue
-        told.add(inside)
-        entry = next(entry for entry in script.entry_points if entry.module == module.name)
-        way = _way(package, module.path.rpartition("/")[0], inside, slot)
-        yield Finding(
-            f"{entry.name} needs {module.path}, and {inside} is not among the packages that are installed{way}",
-            entry.span,
-            inside,
-            fix=None if way else _fix(slot, inside, package.name),
-        )
+        if inside and not {module.name, inside}.intersection(script.python_packages):
+            entry = next(entry for entry in script.entry_points if entry.module == module.name)
+            says = f"{entry.name} needs {module.path}, and {inside} is not among the packages that are installed"
+            yield _Lack(inside, module.path.rpartition("/")[0], says, entry.span)
+
+
+def _imported(package: Package, beside: Container[str]) -> Iterator[_Lack]:
+    """Yield the packages that modules import which are installed."""
     for left in package.left_behind:
         folder, name = left.source.rstrip("/"), left.module
-        if "." not in name or name in told or folder in beside:
-            continue
-        told.add(name)
-        way = _way(package, folder, name, slot)
-        yield Finding(
-            f"{left.program} imports what lies in {left.source}, and {name} is not among the packages that are installed{way}",
-            left.span,
-            name,
-            fix=None if way else _fix(slot, name, package.name),
-            confidence=Confidence.HIGH if left.sure else Confidence.MEDIUM,
-        )
+        if "." in name and folder not in beside:
+            says = f"{left.program} imports what lies in {left.source}, and {name} is not among the packages that are installed"
+            yield _Lack(name, folder, says, left.span, left.sure)
 
 
 def _way(package: Package, folder: str, name: str, slot: Slot | None) -> str:
