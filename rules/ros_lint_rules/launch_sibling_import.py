@@ -19,7 +19,8 @@ and import it from there; or include a launch file instead.
 - The import is guarded, or inside a function.
 - Somebody offers a module of that name: a package of the workspace, one that is installed or released, a library, or Python
   itself.
-- A part of the package's build script that cannot be followed may install Python modules.
+- A part of the package's build script that cannot be followed may install Python modules, or a file of the workspace cannot be
+  read: it may say that another package has the module.
 - Launch files of tests and examples.
 """
 
@@ -44,7 +45,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                     span,
                     name,
                 )
-            elif _is_sibling(name, folder, files) and not workspace.world.by_import(name).known:
+            elif _is_sibling(name, folder, files) and not (workspace.unread() or workspace.world.by_import(name).known):
                 yield Finding(
                     f"{name} is imported from the folder of the launch file, where ros2 launch does not look; "
                     "import it from a package that is installed",
