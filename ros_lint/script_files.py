@@ -53,7 +53,7 @@ def with_files(tree: Tree, found: Found, commands: Mapping[str, Parsed], script:
         plugins=plugins,
         files=tuple(files),
         named=tuple(_named(tree, found, missing)),
-        inputs=tuple(_inputs(commands, missing, [file.path for file in files])),
+        inputs=(*_inputs(commands, missing, [file.path for file in files]), *_read_in_sources(tree, found, missing)),
     )
 
 
@@ -71,6 +71,17 @@ def _inputs(scripts: Mapping[str, Parsed], missing: Mapping[str, Sequence[str]],
             yield f"{folder}/"
         yield from (file for file in files if file.rpartition("/")[2] in text)
     yield from (file for file in programs if re.search(rf"(?<![\w.-]){re.escape(file)}(?![\w.-])", text))
+
+
+def _read_in_sources(tree: Tree, found: Found, missing: Mapping[str, Sequence[str]]) -> Iterator[str]:
+    """Yield the folders of resources that a text names where they lie on some machine, as ``/home/me/src/robot/maps/hall``."""
+    if not missing:
+        return
+    top = found.path.rpartition("/")[2] or found.name
+    folders = b"|".join([re.escape(folder.encode()) for folder in missing])
+    place = re.compile(rb"(?<=[\w.~}-])(?<!\bshare)/%s/(%s)(?![\w.-])" % (re.escape(top.encode()), folders))
+    for path, data in contents(tree, found.path, filter(resource_files.may_name, found.files)):
+        yield from (f"{hit[1].decode()}/" for hit in place.finditer(data) if not _is_remark(path, data, hit.start()))
 
 
 def _may_be_read(path: str, entered: Sequence[str]) -> bool:

@@ -26,8 +26,9 @@ where `data_files` is written out and the files are not too many.
 - A folder that nothing in the package names has medium confidence: it may serve documentation, or be left over. Not so if
   other folders of the kind are installed and its files serve at run time alone: displays, maps, models, textures, parameters;
   nor if the package builds, installs and tests nothing, so that it is there for these files; nor if they are parameters of
-  nodes (`ros__parameters`), and the package has nodes. A launch file that looks a file of the name up in another package
-  names that one, and what lies here may be a copy.
+  nodes (`ros__parameters`), and the package has nodes. Where a text names the folder as it lies on some machine
+  (`/home/me/src/robot/maps/hall`), it is found there: the confidence is medium. A launch file that looks a file of the name
+  up in another package names that one, and what lies here may be a copy.
 """
 
 from __future__ import annotations
