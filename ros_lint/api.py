@@ -54,7 +54,7 @@ from ros_lint.declare import (
     works_unseen,
 )
 from ros_lint.evidence import satisfying, used_names
-from ros_lint.facts.build import BuildScript, Component, PluginClass, PluginFile, PluginLibrary, Provided, ScriptFile
+from ros_lint.facts.build import BuildScript, Component, LeftBehind, PluginClass, PluginFile, PluginLibrary, Provided, ScriptFile
 from ros_lint.facts.cmake import Call
 from ros_lint.facts.cmake import Target as BuildTarget
 from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchFile, LaunchReference, LaunchValue
@@ -134,6 +134,7 @@ __all__ = [
     "LaunchReference",
     "LaunchValue",
     "Launchable",
+    "LeftBehind",
     "Links",
     "Manifest",
     "Meant",

@@ -26,14 +26,14 @@ In `CMakeLists.txt`: `ament_python_install_package(${PROJECT_NAME})`, which the 
 For tests, for folders without modules, for those whose modules `data_files` puts elsewhere, and where `packages`
 cannot be evaluated. Of a folder that only modules import from which no entry point names, the confidence is medium.
 About what a program imports, where anybody else offers a module of that name; the confidence is medium where the
-program changes `sys.path`. About the neighbours of an entry point's module, where any module of the Python package
-changes `sys.path`. About the Python package of an `ament_cmake` package that has a single module, and where the
-package makes interfaces, or builds what is imported by this name.
+program changes `sys.path`, or a file of the package cannot be read. About the neighbours of an entry point's module,
+where any module of the Python package changes `sys.path`. About the Python package of an `ament_cmake` package that
+has a single module, and where the package makes interfaces, or builds what is imported by this name.
 """
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator
+from collections.abc import Container, Iterable, Iterator
 from itertools import chain
 from typing import NamedTuple
 
@@ -43,6 +43,7 @@ from ros_lint.api import (
     Facet,
     Finding,
     Fix,
+    LeftBehind,
     Package,
     Related,
     Rule,
@@ -69,7 +70,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     slot = setup_edits.slot(script, "packages")
     beside = {provided.source.rpartition("/")[0] for provided in script.provides if provided.source.endswith(".py")}
     told: set[str] = set()
-    for lack in chain(_left_out(package, script, beside), _of_entry_points(script), _imported(package, beside)):
+    left = _left_behind(package, workspace)
+    for lack in chain(_left_out(package, script, beside), _of_entry_points(script), _imported(left, beside)):
         if lack.name not in told:
             told.add(lack.name)
             way = _way(package, lack.folder, lack.name, slot)
@@ -113,13 +115,19 @@ def _of_entry_points(script: BuildScript) -> Iterator[_Lack]:
             yield _Lack(inside, module.path.rpartition("/")[0], says, entry.span)
 
 
-def _imported(package: Package, beside: Container[str]) -> Iterator[_Lack]:
+def _imported(left_behind: Iterable[LeftBehind], beside: Container[str]) -> Iterator[_Lack]:
     """Yield the packages that modules import which are installed."""
-    for left in package.left_behind:
+    for left in left_behind:
         folder, name = left.source.rstrip("/"), left.module
         if "." in name and folder not in beside:
             says = f"{left.program} imports what lies in {left.source}, and {name} is not among the packages that are installed"
             yield _Lack(name, folder, says, left.span, left.sure)
+
+
+def _left_behind(package: Package, workspace: Workspace) -> Iterator[LeftBehind]:
+    """Yield what is imported and not installed. A file that cannot be read may say where else modules are sought."""
+    unread = workspace.unread(package)
+    yield from (left._replace(sure=False) if unread else left for left in package.left_behind)
 
 
 def _way(package: Package, folder: str, name: str, slot: Slot | None) -> str:
@@ -135,7 +143,7 @@ def _beside_programs(package: Package, workspace: Workspace) -> Iterator[Finding
         return
     own = {module.partition(".")[0] for module in package.built.python_packages}
     told: set[str] = set()
-    for left in package.left_behind:
+    for left in _left_behind(package, workspace):
         module = left.module
         if "." in module or module in own or workspace.world.by_import(module).known or left.source in told:
             continue
