@@ -8,7 +8,7 @@ Scripts that are installed to `lib/<package>` and cannot be run:
 - without an interpreter line such as `#!/usr/bin/env python3`;
 - with one that ends with a carriage return, so that no system finds the interpreter;
 - installed by `install(PROGRAMS ...)` from a file without the bit: with `colcon build --symlink-install` that file is what
-  is started (confidence medium).
+  is started. The confidence is medium where no other script of the package that is installed so has the bit either.
 
 ## Why it matters
 
@@ -63,6 +63,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     files = {file.path: file for file in script.files}
     started = workspace.started.get(package.name, {})
     runs = {provided.path for provided in script.provides if provided.program}
+    kept = any(
+        provided.program and provided.source in files and files[provided.source].executable for provided in script.provides
+    )
     told: dict[Span, list[Provided]] = {}
     for provided in script.provides:
         file = files.get(provided.source)
@@ -74,13 +77,16 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             if wanted and (file.shebang or name.endswith(_ENDINGS)):
                 told.setdefault(provided.span, []).append(provided)
         elif provided.program and (file.main or name in started):
-            yield from _line(package, file, name, name in started)
+            yield from _line(package, file, name, name in started, kept)
     for span, provided_here in told.items():
         yield _no_bit(package, span, provided_here, files)
 
 
-def _line(package: Package, file: ScriptFile, name: str, started: bool) -> Iterator[Finding]:
-    """Yield what is wrong with the interpreter line, or else with the permissions of the source."""
+def _line(package: Package, file: ScriptFile, name: str, started: bool, kept: bool) -> Iterator[Finding]:
+    """Yield what is wrong with the interpreter line, or else with the permissions of the source.
+
+    ``kept``: others that are installed have the executable bit. Where none has, they may come from where there is no such bit.
+    """
     place = place_of(package, file.path)
     if file.carriage_return:
         message = f"the first line of {file.path} ends with a carriage return, so no interpreter is found; save it with LF"
@@ -94,7 +100,8 @@ def _line(package: Package, file: ScriptFile, name: str, started: bool) -> Itera
             yield Finding(message, place, file.path, fix=fix, confidence=Confidence.HIGH if sure else Confidence.MEDIUM)
     elif not file.executable and package.builds_with == "ament_cmake":
         message = f"{file.path} is not executable, so it does not start after colcon build --symlink-install; chmod +x"
-        yield Finding(message, place, file.path, confidence=Confidence.MEDIUM, severity=Severity.WARNING)
+        confidence = Confidence.HIGH if kept else Confidence.MEDIUM
+        yield Finding(message, place, file.path, confidence=confidence, severity=Severity.WARNING)
 
 
 def _no_bit(package: Package, span: Span, provided: list[Provided], files: dict[str, ScriptFile]) -> Finding:
