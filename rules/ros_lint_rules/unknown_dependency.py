@@ -19,7 +19,8 @@ is not released, put its sources into the workspace, or name the prefix it is in
 ## When it keeps silent
 
 For tags under a condition that is false or cannot be evaluated, for packages of ROS 1 (build type catkin), and when there
-is no index of the distribution. Unless the name is clearly a slip, near one of the tools of ament, of which nearly everything
+is no index of the distribution. Unless the name is clearly a slip, one that nothing else names, near a package that is used
+and not declared, near one of the tools of ament, of which nearly everything
 is released, or one that no package has (REP 144: no dashes, no capitals), the confidence is medium, so that the finding shows
 with `--pedantic` only: packages that are not released anywhere cannot be told from those that do not exist. So it is for the
 names of libraries when a `.repos` file or `.gitmodules` says that sources of the workspace are elsewhere.
@@ -110,7 +111,13 @@ def _unknown(stranger: Stranger, workspace: Workspace) -> Finding:
         message = f"{what}, but what {_caller('system', installing[0])} calls it: write {' or '.join(installing[:_MOST_KEYS])}"
     elif meant is None:
         near = world.suggest(name, python=stranger.runs_python)
+        lacking = [] if _is_named(stranger) else [other for other in near if _is_lacking(stranger.package, other)]
         hint = f"did you mean {' or '.join(near)}?" if near else "correct it, or add what provides it"
+        if len(lacking) == 1:
+            hint = f"write {lacking[0]}, which is used and not declared"
+            sure = Confidence.HIGH
+            edits = _rename(stranger, lacking[0])
+            fix = Fix(f"write {lacking[0]} for {name}", edits) if edits else None
         message = f"{what}: {hint}"
     else:
         caller = _caller(meant.by, meant.name)
@@ -131,6 +138,19 @@ def _unknown(stranger: Stranger, workspace: Workspace) -> Finding:
         confidence=sure,
         package=stranger.package.name,
     )
+
+
+def _is_named(stranger: Stranger) -> bool:
+    """Whether anything but the manifest names it, so that there may be such a package after all."""
+    package, name = stranger.package, stranger.name
+    mentions = {mention.name.partition("::")[0] for mention in package.script.mentions} if package.script else set()
+    return name in mentions or name in package.traces or any(name in use.providers for use in package.uses)
+
+
+def _is_lacking(package: Package, name: str) -> bool:
+    """Whether a package needs another one for sure, and does not declare it."""
+    needed = any(use.package == name and use.sure and not use.optional for use in package.uses)
+    return needed and not package.declares(name)
 
 
 def _caller(by: str, key: str) -> str:
