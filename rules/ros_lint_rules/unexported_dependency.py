@@ -1,12 +1,14 @@
 """
 ## What it finds
 
-Installed headers that include another package which `ament_export_dependencies()` does not name.
+Installed headers that include another package which `ament_export_dependencies()` does not name, and exported libraries that
+hand on targets of one: what `target_link_libraries()` is given without `PRIVATE`.
 
 ## Why it matters
 
 Whoever finds this package gets neither the include directories nor the targets of the other one: its headers do not
-compile there, unless they happen to find the other package themselves.
+compile there, unless they happen to find the other package themselves. Where a library that `ament_export_targets()` exports
+hands on targets of the other one, `find_package()` of this package stops: "imported targets are referenced, but are missing".
 
 ## How to fix it
 
@@ -18,6 +20,7 @@ not `gz_sim_vendor`. The fix does this; it needs `--unsafe-fixes`, for whoever f
 - `ament_auto_package()` does the exporting, or `rosidl_generate_interfaces()` that of its `DEPENDENCIES`.
 - The header is not installed, or perhaps not, or the script cannot be followed everywhere.
 - The script does not find the other package: that is another mistake.
+- Targets are handed on in functions or under conditions, or are those of a package that comes along with one that is exported.
 - What the header includes comes with the tools that tests are built with, such as `ament_cmake_gtest`.
 
 The confidence is medium when the other package comes along, or may come along, with one that is exported, when the package
@@ -29,7 +32,8 @@ because it includes a file that is not installed, or a package that only ROS 1 h
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Container, Iterator
 
 from ros_lint.api import (
     HEADERS,
@@ -43,13 +47,17 @@ from ros_lint.api import (
     Role,
     Rule,
     Severity,
+    Span,
     Use,
     Workspace,
     called,
     cmake_edits,
+    evaluated_name,
+    few,
     found_along,
     found_names,
     given_for,
+    installed_targets,
     may_bring,
     relative,
     several,
@@ -63,19 +71,80 @@ _VENDOR = "_vendor"
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    every = list(_unexported(package, workspace))
+    every = list(_included(package, workspace))
     sure = list(dict.fromkeys([written for written, finding in every if finding.confidence is Confidence.HIGH]))
     for written, finding in every:
         edit = cmake_edits.export_dependencies(package, written, sure) if written in sure else None
         yield finding._replace(fix=Fix.of(f"export {written}", edit, safe=False))
+    yield from _linked(package, workspace, {finding.subject for _, finding in every})
 
 
-def _unexported(package: Package, workspace: Workspace) -> Iterator[tuple[str, Finding]]:
-    """Yield what is not exported, as find_package() calls it, and what to say of it."""
+def _is_seen(package: Package) -> bool:
+    """Whether all that a script exports is seen, and written there."""
     script = package.script
     if script is None or script.problems or package.builds_with != "ament_cmake":
+        return False
+    return not (script.hides(Facet.USES) or _EXPORTS_ALL.intersection(script.calls))
+
+
+def _linked(package: Package, workspace: Workspace, told: Container[str]) -> Iterator[Finding]:
+    """Yield the packages that exported libraries hand on as targets, and that whoever finds this package does not find."""
+    script = package.script
+    if script is None or not _is_seen(package):
         return
-    if script.hides(Facet.USES) or _EXPORTS_ALL.intersection(script.calls):
+    found = found_names(package, script)
+    exported = {mention.name for mention in given_for(script, "export", "interfaces")}
+    along = found_along(workspace, exported)
+    places: dict[str, list[Span]] = {}
+    for name, span in _handed_on(package):
+        if name in found and name not in exported and name not in told and workspace.world.is_package(name):
+            places.setdefault(name, []).append(span)
+    names = [name for name in places if name != package.name and name not in along]
+    sure = [name for name in names if along.complete or not may_bring(along.unknown, name, workspace)]
+    for some, confidence in ((sure, Confidence.HIGH), ([name for name in names if name not in sure], Confidence.MEDIUM)):
+        if not some:
+            continue
+        first, *others = [span for name in some for span in places[name]]
+        edit = cmake_edits.export_dependencies(package, " ".join(some), some) if some is sure else None
+        yield Finding(
+            f"an exported library hands on targets of {few(some)}, and whoever finds this package does not find them: "
+            f"add ament_export_dependencies({' '.join(some)})",
+            first,
+            some[0],
+            several(Related("also handed on", span) for span in others),
+            Fix.of(f"export {few(some)}", edit, safe=False),
+            confidence,
+        )
+
+
+def _handed_on(package: Package) -> Iterator[tuple[str, Span]]:
+    """Yield the packages whose targets an exported library hands on to those who link it."""
+    sets = {text for call in called(package, "ament_export_targets", "ament_export_interfaces") for text in call.texts}
+    exported: set[str | None] = set()
+    for call in called(package, "install"):
+        words = call.texts
+        if not call.blocks and "EXPORT" in words[:-1] and words[words.index("EXPORT") + 1] in sets:
+            exported.update(evaluated_name(package, words[index]) for index in installed_targets(call))
+    targets = package.script.targets if package.script else ()
+    libraries = {target.name for target in targets if target.name in exported and target.kind in ("library", "interface")}
+    for call in called(package, "target_link_libraries"):
+        if not call.args or call.blocks or evaluated_name(package, call.texts[0]) not in libraries:
+            continue
+        handed = True
+        for index, word in enumerate(call.texts[1:], 1):
+            if word in ("PUBLIC", "INTERFACE", "PRIVATE"):
+                handed = word != "PRIVATE"
+            elif handed and (match := _TARGET.match(word)):
+                yield match[1] or match[2], call.span(index)
+
+
+_TARGET = re.compile(r"([\w-]+)::[\w:-]+\Z|\$\{(\w+)_TARGETS\}\Z")
+
+
+def _included(package: Package, workspace: Workspace) -> Iterator[tuple[str, Finding]]:
+    """Yield what installed headers include and is not exported, as find_package() calls it, and what to say of it."""
+    script = package.script
+    if script is None or not _is_seen(package):
         return
     by_cmake = workspace.world.by_cmake
     exported = {mention.name for mention in given_for(script, "export", "interfaces")}
