@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Iterable, Iterator, Sequence
 
 from ros_lint.build_scripts import called
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.cmake import Call
 from ros_lint.rule import Edit
 from ros_lint.tree import join
-from ros_lint.workspace import Package
+from ros_lint.workspace import Package, Workspace
 
 _LIBRARY = """\
 install(TARGETS {}
@@ -60,6 +61,35 @@ def export_dependencies(package: Package, name: str, all_names: Sequence[str]) -
     if call is not None:
         return _append(call, len(call.args) - 1, name)
     return at_end(package.built, f"ament_export_dependencies({' '.join(all_names)})")
+
+
+LINKED = "link to the targets of the packages"
+"""What :func:`link_to_targets` does."""
+
+_NAME = re.compile(r"[A-Za-z]\w*")
+
+
+def link_to_targets(calls: Iterable[Call], workspace: Workspace) -> Iterator[Edit | None]:
+    """Replace each ``ament_target_dependencies()`` by the link to targets that it makes itself (reference, section C3).
+
+    None for a package that is not named, or not known to export targets: for such it takes other variables.
+    """
+    for call in calls:
+        yield Edit(call.place, "target_link_libraries")
+        for index, text in enumerate(call.texts[1:], 1):
+            if text not in ("PUBLIC", "INTERFACE"):
+                known = _NAME.fullmatch(text) and _exports_targets(text, workspace)
+                yield Edit(call.span(index), f"${{{text}_TARGETS}}") if known else None
+
+
+def _exports_targets(name: str, workspace: Workspace) -> bool:
+    own = workspace.by_name.get(name)
+    if own is None:
+        return workspace.world.exports_targets(name)
+    return all(not _EXPORTS_TARGETS.isdisjoint(package.built.calls) for package in own)
+
+
+_EXPORTS_TARGETS = frozenset({"ament_export_targets", "rosidl_generate_interfaces"})
 
 
 def _append(call: Call, last: int, text: str) -> Edit:

@@ -224,6 +224,11 @@ class World:
 
     # --- names that are none of packages --------------------------------------------------------------------------
 
+    def exports_targets(self, name: str) -> bool:
+        """Return whether a package that is released is known to export all that it offers to CMake as targets."""
+        released = self.released(name)
+        return released is not None and (released.interfaces or self.knowledge.names.exports_targets(name))
+
     def by_cmake(self, name: str) -> Providers:
         """Return who provides the argument of find_package (reference, sections C2a and C2b)."""
         key = ("cmake", name)

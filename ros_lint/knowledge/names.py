@@ -73,6 +73,10 @@ class Names:
         """Return what provides the same to CMake as a package does, this included: a vendor package and the key it stands for."""
         return self._alternatives.get(package, (package,))
 
+    def exports_targets(self, package: str) -> bool:
+        """Return whether a released package with libraries is known to export them as targets, in ``<package>_TARGETS``."""
+        return package in self._targets
+
     def cmake_sure(self, name: str) -> bool:
         """Return whether those that find a name also declare what :meth:`cmake` gives, as a rule."""
         return name not in self._doubted("cmake_system.tsv")
@@ -174,6 +178,10 @@ class Names:
     @cached_property
     def _unseen_pattern(self) -> re.Pattern[str]:
         return re.compile("|".join(fnmatch.translate(pattern) for pattern, _ in self._rows("unseen.tsv")))
+
+    @cached_property
+    def _targets(self) -> frozenset[str]:
+        return frozenset([name for name, _ in self._rows("cmake_targets.tsv")])
 
     @cached_property
     def _cmake_ros(self) -> Mapping[str, tuple[str, ...]]:

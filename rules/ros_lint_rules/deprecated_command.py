@@ -12,7 +12,8 @@ with an error.
 
 ## How to fix it
 
-- `ament_target_dependencies(t p)`: `target_link_libraries(t PUBLIC p::p)`, or `${p_TARGETS}` for interface packages.
+- `ament_target_dependencies(t p)`: `target_link_libraries(t PUBLIC p::p)`, or `${p_TARGETS}` for interface packages. The fix
+  links to `${p_TARGETS}`, as the command does, where each package is named in all calls and is known to export targets.
 - `rosidl_target_interfaces(t ${PROJECT_NAME} "rosidl_typesupport_cpp")`: `rosidl_get_typesupport_target(support
   ${PROJECT_NAME} "rosidl_typesupport_cpp")` and `target_link_libraries(t ${support})`.
 - `ament_export_interfaces()`: `ament_export_targets()`.
@@ -29,7 +30,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Call, Edit, Finding, Fix, Package, Related, Rule, Severity, Workspace, called, several
+from ros_lint.api import Call, Edit, Finding, Fix, Package, Related, Rule, Severity, Workspace, called, cmake_edits, several
 
 _ALWAYS = {
     "rosidl_target_interfaces": (
@@ -54,7 +55,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 continue
             first, *others = calls
             fix = None
-            if name == "ament_export_interfaces":
+            if name == "ament_target_dependencies":
+                fix = Fix.of(cmake_edits.LINKED, *cmake_edits.link_to_targets(calls, workspace), safe=False)
+            elif name == "ament_export_interfaces":
                 fix = Fix("call ament_export_targets()", tuple(Edit(call.place, "ament_export_targets") for call in calls))
             related = several(Related("also here", call.place) for call in others)
             yield Finding(f"{name}() is deprecated; {instead}", first.place, name, related, fix)

@@ -14,6 +14,8 @@ For `ament_python`: write `data_files` out, and let `[install] install_scripts` 
 link to targets: `target_link_libraries(t PUBLIC rclcpp::rclcpp ${std_msgs_TARGETS})`. For the time being, the package
 `ament_cmake_target_dependencies` brings the command back: find it and declare it as `<buildtool_depend>`.
 
+The fix links to `${p_TARGETS}`, as the command did, where each package is named in all calls and is known to export targets.
+
 ## When it keeps silent
 
 In other distributions; where that package is found, or the command is defined in the package itself; under conditions, and
@@ -24,7 +26,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Confidence, Finding, Package, Related, Rule, Severity, Workspace, called, found_names, several
+from ros_lint.api import (
+    Confidence,
+    Finding,
+    Fix,
+    Package,
+    Related,
+    Rule,
+    Severity,
+    Workspace,
+    called,
+    cmake_edits,
+    found_names,
+    several,
+)
 
 _GONE = {"ament_target_dependencies": ("ament_cmake_target_dependencies", frozenset({"lyrical", "rolling"}))}
 _MODULE = "ament_python"
@@ -66,7 +81,8 @@ def _commands(package: Package, workspace: Workspace) -> Iterator[Finding]:
             first.place,
             name,
             related,
-            confidence=Confidence.HIGH if workspace.target.told else Confidence.MEDIUM,
+            Fix.of(cmake_edits.LINKED, *cmake_edits.link_to_targets(calls, workspace), safe=False),
+            Confidence.HIGH if workspace.target.told else Confidence.MEDIUM,
         )
 
 
@@ -77,5 +93,6 @@ RULE = Rule(
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,
+    fixable=True,
     package=check,
 )
