@@ -1,7 +1,8 @@
 """
 ## What it finds
 
-A valid `package.xml` with a build script beside it, in a folder below another package.
+A valid `package.xml` with a build script beside it, in a folder below another package. Where a script makes one plain
+package of a folder with several, that is told once.
 
 ## Why it matters
 
@@ -31,7 +32,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ros_lint.api import Confidence, Finding, Manifest, Package, Rule, Severity, Workspace
+from ros_lint.api import Confidence, Finding, Manifest, Package, Related, Rule, Severity, Workspace, few, several
 
 _DATA = re.compile(
     r"\..*|tests?|testing|fixtures|data|resources?|templates?|examples?|demos?|docs?|vendor|third_?party|3rdparty|external|contrib",
@@ -41,19 +42,41 @@ _DATA = re.compile(
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    for nested in package.nested:
-        if nested.problems:
-            continue
-        between = nested.path.removeprefix(f"{package.path}/").split("/")[:-1]
-        data = any(_DATA.fullmatch(folder) for folder in between)
-        of_ros_1 = package.builds_with == "catkin" or _is_of_ros_1(nested)
-        lost = not (data or of_ros_1 or workspace.unread(package))
-        yield Finding(
-            f"colcon does not see {nested.name}: it lies in {_outer(package)}; {_way_out(package, between)}",
-            nested.name_span,
-            nested.name,
-            confidence=Confidence.HIGH if lost else Confidence.MEDIUM,
-        )
+    inside = [nested for nested in package.nested if not nested.problems]
+    lost = [] if workspace.unread(package) else [nested for nested in inside if _is_lost(package, nested)]
+    together = lost if len(lost) > 1 and not package.type.startswith("ros.") else []
+    if together:
+        yield _all_hidden(package, together)
+    for nested in inside:
+        if nested not in together:
+            yield Finding(
+                f"colcon does not see {nested.name}: it lies in {_outer(package)}; {_way_out(package, [nested], 'it')}",
+                nested.name_span,
+                nested.name,
+                confidence=Confidence.HIGH if nested in lost else Confidence.MEDIUM,
+            )
+
+
+def _all_hidden(package: Package, lost: list[Manifest]) -> Finding:
+    """Return what to say where a script makes one plain package of a folder with several."""
+    names = few(nested.name for nested in lost)
+    return Finding(
+        f"colcon does not see {names} ({len(lost)} packages): they lie in {_outer(package)}; {_way_out(package, lost, 'them')}",
+        package.place,
+        package.name,
+        several(Related("this package", nested.name_span) for nested in lost),
+    )
+
+
+def _is_lost(package: Package, nested: Manifest) -> bool:
+    """Whether a manifest is rather a package that somebody wants to build than data, and was not left behind with ROS 1."""
+    data = any(_DATA.fullmatch(folder) for folder in _between(package, nested))
+    return not (data or package.builds_with == "catkin" or _is_of_ros_1(nested))
+
+
+def _between(package: Package, nested: Manifest) -> list[str]:
+    """Return the folders from that of a package down to that of a nested manifest."""
+    return nested.path.removeprefix(f"{package.path}/").split("/")[:-1]
 
 
 def _is_of_ros_1(manifest: Manifest) -> bool:
@@ -69,11 +92,11 @@ def _outer(package: Package) -> str:
     return f"{package.path or 'a folder'}, which is the plain package {package.name} because of its {script}"
 
 
-def _way_out(package: Package, between: list[str]) -> str:
-    """Return what to do. A root with a script of its own may be meant: then packages are sought in a folder below it."""
-    if package.path or not between:
-        return "move it out, or mark it with COLCON_IGNORE"
-    return f"build with --base-paths {between[0]}, move it out, or mark it with COLCON_IGNORE"
+def _way_out(package: Package, inside: list[Manifest], it: str) -> str:
+    """Return what to do. A root with a script of its own may be meant: then packages are sought in folders below it."""
+    folders = dict.fromkeys(folder for nested in inside for folder in _between(package, nested)[:1])
+    ways = f"move {it} out, or mark {it} with COLCON_IGNORE"
+    return ways if package.path or not folders else f"build with --base-paths {' '.join(folders)}, {ways}"
 
 
 RULE = Rule(
