@@ -80,7 +80,8 @@ def _of_setup(package: Package) -> Iterator[Finding]:
     for file in package.built.files:
         if file.run is not None and file.main:
             yield Finding(
-                f"{file.path} is a program, and setup.py does not install it, so ros2 run does not find it; add an entry point",
+                f"{file.path} is a program, and setup.py makes no executable of it, so ros2 run does not find it; "
+                "add an entry point",
                 place_of(package, file.path),
                 file.path,
                 (Related("it is started here", file.run),),
