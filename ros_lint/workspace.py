@@ -11,7 +11,7 @@ from ros_lint.facts.build import NOTHING_BUILT, BuildScript, LeftBehind
 from ros_lint.facts.launch import LaunchFile, LaunchReference
 from ros_lint.facts.manifest import ColconDepend, Depend, Manifest, Role
 from ros_lint.facts.sight import Facet, Opaque
-from ros_lint.facts.sources import LookUp, ParameterFile, PluginLoader, Registration, Use
+from ros_lint.facts.sources import ImportedType, LookUp, ParameterFile, PluginLoader, Registration, Use
 from ros_lint.report import NotChecked, Target
 from ros_lint.text import Span, beginning
 from ros_lint.tree import join
@@ -78,6 +78,8 @@ class Package(NamedTuple):
     """What its C++ sources load plugins by."""
     left_behind: tuple[LeftBehind, ...] = ()
     """What its programs in Python import and that is not installed beside them."""
+    imported_types: tuple[ImportedType, ...] = ()
+    """Messages, services and actions that its Python files import by name."""
 
     @property
     def place(self) -> Span:

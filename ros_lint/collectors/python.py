@@ -11,14 +11,18 @@ from ros_lint.collectors.python_imports import added_folders, scan
 from ros_lint.collectors.python_look_ups import Found, in_excerpt, literals, look_ups
 from ros_lint.collectors.python_syntax import NotPythonError, parse
 from ros_lint.facts.sight import Facet, Opaque
-from ros_lint.facts.sources import FileFacts, Mention
+from ros_lint.facts.sources import FileFacts, ImportedType, Mention
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
-    from ros_lint.text import Text
+    from ros_lint.text import Span, Text
 
 _IMPORT_LINE = re.compile(r"^[ \t]*(?:from|import)[ \t]+([A-Za-z_][\w.]*)", re.MULTILINE)
+_TYPES = re.compile(r"[^\W\d]\w*\.(?:msg|srv|action)")
+_IMPORTED = re.compile(r"[ \t]+import[ \t]*(?:\(([^()]*)\)|((?:[^\n#;\\(]|\\\r?\n)*))")
+_ONE = re.compile(r"(?:\A|,)[\s\\]*([^\W\d]\w*)(?:[\s\\]+as[\s\\]+\w+)?[\s\\]*(?=,|\Z)")
+_COMMENT = re.compile("#[^\n]*")
 _PROGRAM = re.compile(r"""\.py['"]""")
 _NAME = re.compile(r"[\w.-]+\Z")
 _LONGEST_NAME = 100
@@ -61,6 +65,7 @@ def collect(source: Text, *, launch: bool = False) -> FileFacts:
         added=added,
         sets_path="sys.path" in source.text,
         programs=_programs(source.text),
+        types=tuple(_types(source, zip(named, spans, strict=True))),
     )
 
 
@@ -75,6 +80,19 @@ def _found(source: Text, launch: bool) -> tuple[list[Import], Found]:
         return found, looked_up
     tree = parse(source)
     return walk(source, tree) if found is None else found, look_ups(source, tree) if looked_up is None else looked_up
+
+
+def _types(source: Text, imports: Iterable[tuple[Import, Span]]) -> Iterator[ImportedType]:
+    """Yield what is imported by name from modules of generated interfaces."""
+    for item, module in imports:
+        match = _IMPORTED.match(source.text, item.start + len(item.module)) if _TYPES.fullmatch(item.module) else None
+        if match is None:
+            continue
+        group = 1 if match[1] is not None else 2
+        found = list(_ONE.finditer(_COMMENT.sub(lambda comment: " " * len(comment[0]), match[group])))
+        start = match.start(group)
+        for one, span in zip(found, source.spans([(start + one.start(1), start + one.end(1)) for one in found]), strict=True):
+            yield ImportedType(f"{item.module.replace('.', '/')}/{one[1]}", span, module)
 
 
 def _programs(text: str) -> tuple[str, ...]:

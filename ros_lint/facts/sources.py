@@ -62,6 +62,16 @@ class LookUp(NamedTuple):
     span: Span
 
 
+class ImportedType(NamedTuple):
+    """A message, service or action by its name in an import of Python: ``from robot.msg import State``."""
+
+    name: str
+    """As ``robot/msg/State``."""
+    span: Span
+    module: Span
+    """Of the module as written, where the package has a use of the other one."""
+
+
 class ParameterFile(NamedTuple):
     """A YAML file, as far as it is one of parameters (rcl_yaml_param_parser)."""
 
@@ -114,3 +124,5 @@ class FileFacts(NamedTuple):
     sets_path: bool = False
     """Whether it speaks of ``sys.path``, so that modules may be sought in more folders."""
     loaders: tuple[PluginLoader, ...] = ()
+    types: tuple[ImportedType, ...] = ()
+    """Messages, services and actions that it imports by name."""

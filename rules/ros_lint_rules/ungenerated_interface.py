@@ -3,7 +3,8 @@
 
 Messages, services and actions in `msg/`, `srv/` and `action/` of a package that `rosidl_generate_interfaces()` is not given,
 while it is given others. And those of an `ament_python` package that says in `package.xml` that it generates interfaces:
-nothing is generated from them at all.
+nothing is generated from them at all. And, in other packages of the workspace, what includes, imports by name or has in an
+interface of its own one that the package it should be from does not generate, and has no file of.
 
 ## Why it matters
 
@@ -14,19 +15,22 @@ No code is generated from such a file: "fatal error: robot/msg/state.hpp: No suc
 
 Add the file to the call, or remove it. The fix adds it below another of the same folder, where these are written out. rosidl
 refuses names like `motor_state.msg`: such a file has to be called `MotorState.msg` first. What an `ament_python` package
-defines has to move to one of `ament_cmake`.
+defines has to move to one of `ament_cmake`. Of what is used and not there, correct the name, or add the file.
 
 ## When it keeps silent
 
 For packages that generate nothing, for files in other folders, and where the list of files cannot be followed. So it does of
 copies that were left lying, such as `State copy.msg` or `State.old.msg`, and of what a comment in a CMake file has where a list
-had it: it was set aside. A call that stands under a condition is told of with medium confidence.
+had it: it was set aside. A call that stands under a condition is told of with medium confidence. Of uses it does not speak in
+files that may be dead, where the import or include is optional, where any folder of the package offers what is named in another
+way, or two packages of the workspace have the name, and in packages with a file that cannot be read.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
 
 from ros_lint.api import (
     Call,
@@ -39,10 +43,13 @@ from ros_lint.api import (
     Related,
     Rule,
     Severity,
+    Span,
     Workspace,
     called,
+    did_you_mean,
     place_of,
     several,
+    similar,
 )
 
 _GENERATE = "rosidl_generate_interfaces"
@@ -51,12 +58,17 @@ _KINDS = {"msg": ("msg", "idl"), "srv": ("srv", "idl"), "action": ("action", "id
 _SAYS_SO = ("rosidl_interface_packages", "rosidl_default_generators")
 _NAME = re.compile(r"[A-Z][A-Za-z0-9]*")
 """What rosidl takes for the name of a message; it asks nothing of those of files in IDL."""
+_HEADER = re.compile(r"(?P<maker>\w+)/(?P<kind>msg|srv|action)/(?P<name>(?!rosidl_)(?!\w*__)\w+)(?P<end>\.h(?:pp)?)")
+"""The header of an interface, and none that it is made of."""
+_BEFORE_WORD = re.compile("(.)([A-Z][a-z]+)")
+_BEFORE_CAPITAL = re.compile("([a-z0-9])([A-Z])")
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if package.builds_with == "ament_python":
         yield from _of_python(package)
+    yield from _of_users(package, workspace)
     if script is None or package.builds_with != "ament_cmake" or package.hidden(Facet.INTERFACES):
         return
     calls = list(called(package, _GENERATE, anywhere=True))
@@ -88,6 +100,102 @@ def _of_python(package: Package) -> Iterator[Finding]:
         found[0],
         several(_here(package, file) for file in found),
     )
+
+
+class _Used(NamedTuple):
+    """An interface of another package in a place that needs it."""
+
+    maker: str
+    kind: str
+    """msg, srv or action; "" where that does not show."""
+    name: str
+    """As written, without the end of a header."""
+    header: str
+    """How the name of a header ends, "" for others."""
+    place: Span
+
+
+def _of_users(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    """Speak of what a package uses of others that generate interfaces, and not these ones."""
+    if not package.builds_with.startswith("ament_") or workspace.unread(package):
+        return
+    told: dict[tuple[str, str, str, str], list[Span]] = {}
+    for used in _used(package):
+        told.setdefault(used[:-1], []).append(used.place)
+    for what, places in told.items():
+        used = _Used(*what, places[0])
+        makers = workspace.by_name.get(used.maker, ())
+        if len(makers) != 1 or (wrong := _wrong(used, makers[0])) is None:
+            continue
+        made = next(called(makers[0], _GENERATE, anywhere=True), None)
+        yield Finding(
+            wrong,
+            places[0],
+            f"{used.maker}/{used.kind or 'msg'}/{used.name}",
+            several(
+                [
+                    *([Related("what is generated", made.place)] if made else ()),
+                    *(Related("here, too", place) for place in places[1:]),
+                ]
+            ),
+            severity=Severity.ERROR,
+        )
+
+
+def _used(package: Package) -> Iterator[_Used]:
+    """Yield what a package surely uses that others should generate."""
+    needed = [use for use in package.uses if use.sure and not use.optional]
+    for use in needed:
+        if use.via == "interface":
+            yield _Used(use.package, "", use.name.rpartition("/")[2], "", use.span)
+        elif use.via == "include" and (match := _HEADER.fullmatch(use.name)) and match["maker"] == use.package:
+            yield _Used(use.package, match["kind"], match["name"], match["end"], use.span)
+    modules = {use.span: use.package for use in needed if use.via == "import"}
+    for imported in package.imported_types:
+        maker, kind, name = imported.name.split("/")
+        if modules.get(imported.module) == maker and name[0].isupper():
+            yield _Used(maker, kind, name, "", imported.span)
+
+
+def _wrong(used: _Used, maker: Package) -> str | None:
+    """Return what is wrong about a use, None if nothing is, or nobody can tell."""
+    generated = maker.built.interfaces
+    if not generated or maker.builds_with != "ament_cmake" or maker.hidden(Facet.INTERFACES):
+        return None
+    by_hand = f"{used.maker}/{used.kind}/{used.name}{used.header}" if used.header else f"{used.kind}/__init__.py"
+    if any(f"/{file}".endswith(f"/{by_hand}") for file in maker.files):
+        return None
+    left_over = [each for file in maker.files if (each := _interface(file)) and each not in maker.built.set_aside]
+    form = _snake if used.header else str
+    of_kind = [each for each in (*generated, *left_over) if each.startswith(used.kind)]
+    there = {form(each.partition("/")[2]) for each in of_kind}
+    if used.name in there or (not used.header and any(used.name.startswith(f"{name}_") for name in there)):
+        return None
+    named = f"{used.kind or 'msg'}/{used.name}{used.header}"
+    elsewhere = next((each for each in generated if _form(each, form).endswith(f"/{used.name}")), "")
+    if elsewhere:
+        return f"{used.maker} generates no {named}; there is {_form(elsewhere, form)}{used.header}"
+    near = similar(used.name, sorted(there))
+    way_out = did_you_mean([f"{each}{used.header}" for each in near]) or "; correct the name, or add the file"
+    return f"{used.maker} generates no {named}{way_out}"
+
+
+def _form(interface: str, form: Callable[[str], str]) -> str:
+    kind, _, name = interface.partition("/")
+    return f"{kind}/{form(name)}"
+
+
+def _interface(file: str) -> str:
+    """Return the interface that a file has in it, as ``msg/Name``, "" if it has none."""
+    folder, _, name = file.rpartition("/")
+    stem, _, suffix = name.rpartition(".")
+    kind = folder.rpartition("/")[2]
+    return f"{kind}/{stem}" if suffix in _KINDS.get(kind, ()) else ""
+
+
+def _snake(name: str) -> str:
+    """Return a name as rosidl writes it in those of headers."""
+    return _BEFORE_CAPITAL.sub(r"\1_\2", _BEFORE_WORD.sub(r"\1_\2", name)).lower()
 
 
 def _here(package: Package, file: str) -> Related:
