@@ -61,15 +61,16 @@ from ros_lint.api import (
 )
 
 _AT_RUN_TIME = Role.EXEC | Role.EXPORT
-_ORDER = ("node", "component", "include", "command", "file", "package")
-_SAYS = {
-    "node": "{what} is started here",
-    "component": "{what} is loaded here",
-    "include": "{what} is included here",
-    "command": "{what} is run here",
-    "file": "{what} is used here",
-    "package": "{what} is looked up here",
+_DONE = {
+    "node": "started",
+    "component": "loaded",
+    "include": "included",
+    "command": "run",
+    "file": "used",
+    "package": "looked up",
 }
+"""What is done with what a launch file refers to, by the kind of the reference: what shows a need best comes first."""
+_ORDER = tuple(_DONE)
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -80,14 +81,13 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     sighted = not workspace.unread(package)  # a file that cannot be read may be the script that runs these as tests
     for name, references in lacking:
         best, *others = sorted(references, key=lambda r: (r.package_by_default, r.conditional, _ORDER.index(r.kind), r.span))
-        what = best.name if best.name in ("", name) else f"{best.name} of {name}"
-        says = _SAYS[best.kind].format(what=what or name, name=best.name)
+        what = name if best.name in ("", name) else f"{best.name} of {name}"
         only = ", if only under a condition" if best.conditional else ""
         only = ", by the default of an argument" if best.package_by_default else only
         way_out = advice(package, workspace, name, Role.EXEC)
         certain = sighted and way_out.certain and not may_bring(unknown, name, workspace)
         yield Finding(
-            f"{says}{only}, but {package.name} does not depend on it{way_out.ending}",
+            f"{what} is {_DONE[best.kind]} here{only}, but {package.name} does not depend on it{way_out.ending}",
             best.package_span,
             name,
             several(Related("also needed here", span) for span in _elsewhere(best.package_span, others)),
