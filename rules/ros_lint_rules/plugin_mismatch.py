@@ -105,7 +105,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _is_of_ros_1(made: Registration) -> bool:
     """Whether a class is loadable by what ROS 2 does not have. Sources for both lie in one package, and are not built here."""
-    return made.base.strip().removeprefix("::").startswith("nodelet::")
+    return made.base.startswith("nodelet::")
 
 
 @per_workspace
