@@ -97,8 +97,7 @@ def _missing(owner: str, name: str, workspace: Workspace) -> _Missing | None:
             return None
         if name in found.elsewhere:
             path = found.elsewhere[name]
-            script = one.script
-            where = tuple(Related("installed here", p.span) for p in script.provides if p.path == path) if script else ()
+            where = tuple(Related("installed here", p.span) for p in one.built.provides if p.path == path)
             return _Missing(f" in lib/{owner}, but {path}, where launch does not look; install it there", "", where)
         names |= found.names
         if lying := _lying(one, name):
@@ -110,9 +109,7 @@ def _missing(owner: str, name: str, workspace: Workspace) -> _Missing | None:
 
 def _lying(package: Package, name: str) -> _Missing | None:
     """Return what to say of a script of the name that is not among the programs of a package, under another name either."""
-    script = package.script
-    if script is None:
-        return None
+    script = package.built
     own = f"lib/{package.name}/"
     programs_of = {provided.source for provided in script.provides if provided.path.startswith(own)}
     files = (file.path for file in script.files if file.path.rpartition("/")[2] == name)

@@ -142,7 +142,7 @@ def _for_nobody(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _builds_libraries(package: Package) -> bool:
-    return package.script is not None and any(target.kind == "library" and target.sources for target in package.script.targets)
+    return any(target.kind == "library" and target.sources for target in package.built.targets)
 
 
 _READ_BY_RQT = frozenset({"rqt_gui", "qt_gui"})

@@ -125,8 +125,8 @@ def _handed_on(package: Package) -> Iterator[tuple[str, Span]]:
         words = call.texts
         if not call.blocks and "EXPORT" in words[:-1] and words[words.index("EXPORT") + 1] in sets:
             exported.update(evaluated_name(package, words[index]) for index in installed_targets(call))
-    targets = package.script.targets if package.script else ()
-    libraries = {target.name for target in targets if target.name in exported and target.kind in ("library", "interface")}
+    kinds = ("library", "interface")
+    libraries = {target.name for target in package.built.targets if target.name in exported and target.kind in kinds}
     for call in called(package, "target_link_libraries"):
         if not call.args or call.blocks or evaluated_name(package, call.texts[0]) not in libraries:
             continue

@@ -143,7 +143,7 @@ def _unknown(stranger: Stranger, workspace: Workspace) -> Finding:
 def _is_named(stranger: Stranger) -> bool:
     """Whether anything but the manifest names it, so that there may be such a package after all."""
     package, name = stranger.package, stranger.name
-    mentions = {mention.name.partition("::")[0] for mention in package.script.mentions} if package.script else set()
+    mentions = {mention.name.partition("::")[0] for mention in package.built.mentions}
     return name in mentions or name in package.traces or any(name in use.providers for use in package.uses)
 
 
