@@ -23,6 +23,9 @@ _PAGES = (".md", ".rst", ".txt", ".sh", ".bash")
 _TELLS = (*_PAGES, ".py", ".yaml", ".yml")
 """Texts that may say how a program is started."""
 
+_Texts = Sequence[tuple[str, bytes]]
+"""Files of a package that can name resources, by their path in the tree, with what they hold."""
+
 
 def with_files(tree: Tree, found: Found, commands: Mapping[str, Parsed], script: BuildScript) -> BuildScript:
     """Return a script with what is known of other files of its package: plugin descriptions, scripts, resources.
@@ -49,11 +52,12 @@ def with_files(tree: Tree, found: Found, commands: Mapping[str, Parsed], script:
     missing = {} if script.hides(Facet.SHARE) else resource_files.uninstalled(found.files, provided)
     if not (plugins or files or missing):
         return script
+    naming = list(contents(tree, found.path, filter(resource_files.may_name, found.files))) if missing else []
     return script._replace(
         plugins=plugins,
         files=tuple(files),
-        named=tuple(_named(tree, found, missing)),
-        inputs=(*_inputs(commands, missing, [file.path for file in files]), *_read_in_sources(tree, found, missing)),
+        named=tuple(_named(tree, found, missing, naming)),
+        inputs=(*_inputs(commands, missing, [file.path for file in files]), *_read_in_sources(found, missing, naming)),
     )
 
 
@@ -73,14 +77,14 @@ def _inputs(scripts: Mapping[str, Parsed], missing: Mapping[str, Sequence[str]],
     yield from (file for file in programs if re.search(rf"(?<![\w.-]){re.escape(file)}(?![\w.-])", text))
 
 
-def _read_in_sources(tree: Tree, found: Found, missing: Mapping[str, Sequence[str]]) -> Iterator[str]:
+def _read_in_sources(found: Found, missing: Mapping[str, Sequence[str]], naming: _Texts) -> Iterator[str]:
     """Yield the folders of resources that a text names where they lie on some machine, as ``/home/me/src/robot/maps/hall``."""
     if not missing:
         return
     top = found.path.rpartition("/")[2] or found.name
     folders = b"|".join([re.escape(folder.encode()) for folder in missing])
     place = re.compile(rb"(?<=[\w.~}-])(?<!\bshare)/%s/(%s)(?![\w.-])" % (re.escape(top.encode()), folders))
-    for path, data in contents(tree, found.path, filter(resource_files.may_name, found.files)):
+    for path, data in naming:
         yield from (f"{hit[1].decode()}/" for hit in place.finditer(data) if not _is_remark(path, data, hit.start()))
 
 
@@ -91,7 +95,7 @@ def _may_be_read(path: str, entered: Sequence[str]) -> bool:
     return name != "CMakeLists.txt" or not folder or any("$" in text or text.endswith(inner) for text in entered)
 
 
-def _named(tree: Tree, found: Found, missing: Mapping[str, Sequence[str]]) -> Iterator[tuple[str, Span]]:
+def _named(tree: Tree, found: Found, missing: Mapping[str, Sequence[str]], naming: _Texts) -> Iterator[tuple[str, Span]]:
     """Yield the resources that are not installed and that a text of the package names, with the first place."""
     left: dict[str, tuple[bytes, bytes]] = {}
     for file in (file for files in missing.values() for file in files[:_MOST_RESOURCES]):
@@ -100,7 +104,7 @@ def _named(tree: Tree, found: Found, missing: Mapping[str, Sequence[str]]) -> It
     if any(map(_is_picture, left)):  # most pictures are there for the documentation
         for _, page in contents(tree, found.path, (file for file in found.files if file.endswith(".md"))):
             left = {file: inner for file, inner in left.items() if not (_is_picture(file) and inner[1] in page)}
-    for path, data in contents(tree, found.path, filter(resource_files.may_name, found.files if left else ())):
+    for path, data in naming if left else ():
         folders = {folder for folder in {folder for folder, _ in left.values()} if folder in data}
         for resource, (folder, name) in list(left.items()) if folders else ():
             if folder not in folders or name not in data or join(found.path, resource) == path:
