@@ -79,7 +79,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         config if there else nodes[0].span,
         "setup.cfg",
         several(Related("this entry point", entry.span) for entry in nodes[0 if there else 1 :]),
-        Fix(f"{'complete' if there else 'add'} setup.cfg", edits) if edits else None,
+        Fix.of(f"{'complete' if there else 'add'} setup.cfg", *edits),
         Confidence.HIGH if sure else Confidence.MEDIUM,
     )
 

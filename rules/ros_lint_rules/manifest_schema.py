@@ -56,8 +56,7 @@ def _order(manifest: Manifest) -> Iterator[Finding]:
     highest = children[0]
     for child in children:
         if manifest_edits.schema_rank(child.tag) < manifest_edits.schema_rank(highest.tag):
-            edits = manifest_edits.sort(manifest)
-            fix = Fix("sort the elements", edits) if edits else None
+            fix = Fix.of("sort the elements", *manifest_edits.sort(manifest))
             message = f"<{child.tag}> stands after <{highest.tag}>, which the schema does not allow; move it before"
             yield _finding(message, child.span, "order")._replace(fix=fix)
             return

@@ -77,8 +77,7 @@ def _build_type(stranger: Stranger) -> Finding:
     if package.builds_with != "ament_cmake" or script is None or "ament_python_install_package" not in script.calls:
         return _needless(stranger, why)
     way_out = f"write {_PYTHON_IN_CMAKE}"
-    edits = _rename(stranger, _PYTHON_IN_CMAKE)
-    fix = Fix(way_out, edits) if edits else None
+    fix = Fix.of(way_out, *_rename(stranger, _PYTHON_IN_CMAKE))
     return Finding(f"{name} {why}: {way_out}", stranger.declared.depend.span, name, fix=fix, package=package.name)
 
 
@@ -116,20 +115,18 @@ def _unknown(stranger: Stranger, workspace: Workspace) -> Finding:
         if len(lacking) == 1:
             hint = f"write {lacking[0]}, which is used and not declared"
             sure = Confidence.HIGH
-            edits = _rename(stranger, lacking[0])
-            fix = Fix(f"write {lacking[0]} for {name}", edits) if edits else None
+            fix = Fix.of(f"write {lacking[0]} for {name}", *_rename(stranger, lacking[0]))
         message = f"{what}: {hint}"
     else:
         caller = _caller(meant.by, meant.name)
         why = f", but what {caller} calls it" if caller else ""
         again = stranger.package.declares(meant.name)
         message = f"{what}{why}: " + (f"remove it, {meant.name} is declared, too" if again else f"write {meant.name}")
-        edits = _rename(stranger, meant.name)
         title = f"remove {name}" if again else f"write {meant.name} for {name}"
         alone = meant.by == "cmake" and _is_found_as_declared(stranger.package, name)
         if alone:
             message += f", and find_package({name}), which nothing but {_FINDS_DECLARED}() does"
-        fix = Fix(title, edits, safe=sure == Confidence.HIGH and not alone) if edits else None
+        fix = Fix.of(title, *_rename(stranger, meant.name), safe=sure == Confidence.HIGH and not alone)
     return Finding(
         message,
         stranger.declared.depend.name_span,
