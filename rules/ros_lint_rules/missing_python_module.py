@@ -71,7 +71,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     beside = {provided.source.rpartition("/")[0] for provided in script.provides if provided.source.endswith(".py")}
     told: set[str] = set()
     left = _left_behind(package, workspace)
-    for lack in chain(_left_out(package, script, beside), _of_entry_points(script), _imported(left, beside)):
+    for lack in chain(_left_out(package, script, slot, beside), _of_entry_points(script), _imported(left, beside)):
         if lack.name not in told:
             told.add(lack.name)
             way = _way(package, lack.folder, lack.name, slot)
@@ -94,10 +94,9 @@ class _Lack(NamedTuple):
     sure: bool = True
 
 
-def _left_out(package: Package, script: BuildScript, beside: Container[str]) -> Iterator[_Lack]:
+def _left_out(package: Package, script: BuildScript, slot: Slot | None, beside: Container[str]) -> Iterator[_Lack]:
     """Yield the packages below one that is installed. Modules ``beside`` others that data_files has are put elsewhere."""
     installed = script.python_packages
-    slot = setup_edits.slot(script, "packages")
     place = slot.end if slot else (script.name_span or beginning(script.path))
     for name, folder in _packages(package):
         inside = name.rpartition(".")[0] in installed and f"{folder}/__init__.py" in package.files
