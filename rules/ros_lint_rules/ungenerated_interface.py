@@ -76,12 +76,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     listed = {*script.interfaces, *script.set_aside}
     for file in package.files:
-        folder, _, name = file.partition("/")
-        stem, _, suffix = name.rpartition(".")
-        if suffix not in _KINDS.get(folder, ()) or "/" in name or f"{folder}/{stem}" in listed:
-            continue
-        if stem.isidentifier():
-            yield _finding(package, calls, file, "" if suffix == "idl" or _NAME.fullmatch(stem) else _camel(stem))
+        interface = _interface(file) if file.count("/") == 1 else ""
+        name = interface.partition("/")[2]
+        if interface not in listed and name.isidentifier():
+            yield _finding(package, calls, file, "" if file.endswith(".idl") or _NAME.fullmatch(name) else _camel(name))
 
 
 def _of_python(package: Package) -> Iterator[Finding]:
