@@ -44,7 +44,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             yield Finding(message, call.span(0), "catkin")
     for element in package.manifest.exports:
         if element.tag in _EXPORTS and not element.get("condition"):
-            done = package.script is not None and EXPORTING_PLUGINS in package.script.calls
+            done = EXPORTING_PLUGINS in package.built.calls
             way = "remove it" if done else _EXPORTS[element.tag]
             yield Finding(
                 f"<{element.tag}> in the exports does nothing in ROS 2; {way}",

@@ -132,8 +132,7 @@ def _no_bit(package: Package, span: Span, provided: list[Provided], files: dict[
 
 def _confidence(package: Package, call: Call | None) -> Confidence:
     """A script that CMake code of the package starts for others needs no permission to be run."""
-    script = package.script
-    generator = script is not None and script.extras and call is not None and call.texts[0] == "FILES"
+    generator = package.built.extras and call is not None and call.texts[0] == "FILES"
     return Confidence.MEDIUM if generator else Confidence.HIGH
 
 

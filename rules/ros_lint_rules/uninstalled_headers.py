@@ -125,7 +125,7 @@ def _tells(package: Package) -> bool:
 def _is_read(package: Package, call: Call) -> bool:
     """Whether a command can be part of the build: not if it is in the CMakeLists.txt of a folder that nobody enters."""
     folder, _, name = relative(package, call.path).rpartition("/")
-    return not folder or name != "CMakeLists.txt" or (package.script is not None and folder in package.script.entered)
+    return not folder or name != "CMakeLists.txt" or folder in package.built.entered
 
 
 def _included_here(wanted: list[tuple[Package, Use]]) -> tuple[Related, ...]:

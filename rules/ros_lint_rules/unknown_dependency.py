@@ -73,8 +73,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
 def _build_type(stranger: Stranger) -> Finding:
     package, name = stranger.package, stranger.name
     why = "is a build type and no package, so rosdep cannot resolve it"
-    script = package.script
-    if package.builds_with != "ament_cmake" or script is None or "ament_python_install_package" not in script.calls:
+    if package.builds_with != "ament_cmake" or "ament_python_install_package" not in package.built.calls:
         return _needless(stranger, why)
     way_out = f"write {_PYTHON_IN_CMAKE}"
     fix = Fix.of(way_out, *_rename(stranger, _PYTHON_IN_CMAKE))
