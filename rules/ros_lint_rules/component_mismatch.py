@@ -82,16 +82,18 @@ def _lost(script: BuildScript) -> Iterator[Finding]:
     """Speak of components that are registered where ament_package() does not see it, all at once."""
     seen = {component.name for component in script.components if not component.lost}
     lost = {component.name: component for component in script.components if component.name not in seen}
-    for first, *others in [list(lost.values())] if lost else []:
-        more = f" and {len(others)} more" if others else ""
-        yield Finding(
-            f"{first.name}{more}: registered in a function or a subfolder, which ament_package() does not see, so nobody finds "
-            "the component; register it in CMakeLists.txt of the package itself",
-            first.span,
-            first.name,
-            several(Related("also this one", other.span) for other in others),
-            confidence=Confidence.MEDIUM if first.conditional else Confidence.HIGH,
-        )
+    if not lost:
+        return
+    first, *others = lost.values()
+    more = f" and {len(others)} more" if others else ""
+    yield Finding(
+        f"{first.name}{more}: registered in a function or a subfolder, which ament_package() does not see, so nobody finds "
+        "the component; register it in CMakeLists.txt of the package itself",
+        first.span,
+        first.name,
+        several(Related("also this one", other.span) for other in others),
+        confidence=Confidence.MEDIUM if first.conditional else Confidence.HIGH,
+    )
 
 
 def _alike(component: Component, left: list[Registration]) -> list[Registration]:
