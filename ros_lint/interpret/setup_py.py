@@ -112,6 +112,8 @@ def _failing(program: Program, tree: ast.Module, source: Text) -> Iterator[Probl
     """Yield what Python stops at, where nothing catches that."""
     for name in unbound(tree, program.strange):
         yield Problem("undefined-name", f"{name.id} is not defined", span_of(source, name))
+    if not program.no_functions:
+        return
     caught = {node for statement in ast.walk(tree) if isinstance(statement, ast.Try) for node in tried(statement)}
     for call, value in program.no_functions:
         if call not in caught:
