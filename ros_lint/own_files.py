@@ -180,7 +180,7 @@ def _unlisted(files: Sequence[str], script: BuildScript, facts: Mapping[str, Fil
         return
     packages = frozenset(script.python_packages)
     started = {module.path for module in script.modules}
-    inside = {file.rpartition("/")[0]: file for file in files if file.endswith(".py")}
+    folders = {file.rpartition("/")[0] for file in files if file.endswith(".py")}
     known = frozenset(files)
     for path, each in facts.items():
         folder = path.rpartition("/")[0]
@@ -194,7 +194,7 @@ def _unlisted(files: Sequence[str], script: BuildScript, facts: Mapping[str, Fil
             if f"{top}{name.replace('.', '/')}.py" in known:
                 name = name.rpartition(".")[0]
             source = f"{top}{name.replace('.', '/')}"
-            if name not in packages and name.rpartition(".")[0] and name.partition(".")[0] in packages and source in inside:
+            if name not in packages and name.partition(".")[0] in packages and source in folders:
                 yield LeftBehind(path, name, f"{source}/", mention.span, path in started)
 
 
