@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
-from ros_lint.commands.spoken import label
+from ros_lint.commands.spoken import label, where
 from ros_lint.graph_cut import knots
 
 if TYPE_CHECKING:
@@ -103,14 +103,7 @@ def _json(graph: Graph, figures: Mapping[str, Metrics]) -> str:
                 "test_only": is_test_only(graph, edge),
                 "certain": edge[1] in graph.certain_arcs[edge[0]],
                 "reasons": [
-                    {
-                        "tag": reason.tag,
-                        "categories": reason.categories,
-                        "path": reason.span.path,
-                        "line": reason.span.line,
-                        "column": reason.span.column,
-                    }
-                    for reason in graph.reasons(edge)
+                    {"tag": reason.tag, "categories": reason.categories, **where(reason.span)} for reason in graph.reasons(edge)
                 ],
             }
             for edge in graph.edges

@@ -12,6 +12,7 @@ from ros_lint.launch_links import Links, Takes, everything, values
 from ros_lint.opening import UsageError
 from ros_lint.slips import did_you_mean, similar
 from ros_lint.text import read
+from ros_lint.tree import join, within
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -106,10 +107,9 @@ class LookUp:
 
     def _no_file(self, packages: Sequence[Package], package: str, name: str, paths: Sequence[str]) -> str:
         for one in packages:
-            base = f"{one.path}/" if one.path else ""
             source = next((file.path for file in one.launch if file.path.rpartition("/")[2] == name), "")
             if source:
-                return f"{package} has {source.removeprefix(base)}, but does not install it; ros-lint launch {source} reads it"
+                return f"{package} has {within(one.path, source)}, but does not install it; ros-lint launch {source} reads it"
         names = sorted({path.rpartition("/")[2] for path in paths if "launch" in path})
         hint = did_you_mean(similar(name, names)) or f"; it installs {', '.join(names) or 'none'}"
         return f"{package} installs no launch file {name}{hint}"
@@ -140,7 +140,7 @@ class LookUp:
                 if provided.path == path:
                     if not provided.source:
                         return Absent("it is made when the package is built", surely=False)
-                    source = f"{one.path}/{provided.source}" if one.path else provided.source
+                    source = join(one.path, provided.source)
                     return self._sources.get(source) or self._read(source)
         if packages:
             if any(one.script is None or one.hidden(Facet.SHARE, path) for one in packages):
