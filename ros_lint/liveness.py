@@ -159,7 +159,7 @@ class Liveness:
 
     def _is_beside_script(self, path: str) -> bool:
         """Whether a file lies at the top of a package that CMake builds: what works on the sources does, to release them, say."""
-        return "/" not in path and self._script.path.endswith("CMakeLists.txt")
+        return "/" not in path and self._script.of_cmake
 
     def _is_run(self, path: str) -> bool:
         """Whether a file in Python is run as a test, or lies beside one."""
@@ -211,7 +211,7 @@ class Liveness:
     @cached_property
     def _runs_python_tests(self) -> bool:
         """Whether anything runs tests written in Python: always in a Python package, and in others where CMake says so."""
-        return self._script.runs_tests or not self._script.path.endswith("CMakeLists.txt")
+        return self._script.runs_tests or not self._script.of_cmake
 
     @cached_property
     def _tests_nothing(self) -> bool:

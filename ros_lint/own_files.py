@@ -176,7 +176,7 @@ def _unlisted(files: Sequence[str], script: BuildScript, facts: Mapping[str, Fil
 
     What an entry point names is sure to be started.
     """
-    if not script.python_packages or script.path.endswith("CMakeLists.txt"):
+    if not script.python_packages or script.of_cmake:
         return
     packages = frozenset(script.python_packages)
     started = {module.path for module in script.modules}

@@ -40,7 +40,7 @@ def with_files(tree: Tree, found: Found, commands: Mapping[str, Parsed], script:
     started = (f"lib/{found.name}/", "bin/")
     sources = dict.fromkeys([p.source for p in script.provides if p.source and p.path.startswith(started)])
     folders = {file.rpartition("/")[0] for file in sources}
-    if script.path.endswith(".txt") and not any(p.source.startswith(f"{found.name}/") for p in script.provides):
+    if script.of_cmake and not any(p.source.startswith(f"{found.name}/") for p in script.provides):
         folders.add(found.name)  # a Python package that CMake does not install
     sources.update(dict.fromkeys(_programs(found.files, folders)))
     executables = Executables(tree, found)
@@ -123,7 +123,7 @@ def _with_runs(tree: Tree, found: Found, script: BuildScript, files: list[Script
 
     CMake installs what lies among scripts; setup.py also makes programs of the modules that its entry points name.
     """
-    if script.path.endswith(".txt"):
+    if script.of_cmake:
         kept = {provided.source for provided in script.provides}
         lost = [file.path for file in files if file.path not in kept and file.shebang and file.main]
         run = _run(tree, found, lost, _TELLS) if lost else {}

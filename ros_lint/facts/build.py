@@ -178,6 +178,11 @@ class BuildScript(NamedTuple):
     set_aside: tuple[str, ...] = ()
     """Interfaces that stand in comments of its CMake files, as ``msg/Name``: somebody took them off a list."""
 
+    @property
+    def of_cmake(self) -> bool:
+        """Whether it is a CMake script, and none of Python."""
+        return self.path.endswith("CMakeLists.txt")
+
     def hides(self, facet: Facet) -> bool:
         """Whether the script cannot be seen through as to a facet. What code computes when it runs is no matter here."""
         return any(opaque.hides & facet for opaque in self.opaque)

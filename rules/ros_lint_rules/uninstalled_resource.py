@@ -231,7 +231,7 @@ _MOST_LISTED = 12
 def _fix(package: Package, script: BuildScript, unit: str) -> Fix | None:
     folder, _, name = unit.rpartition("/")
     edit = None
-    if script.path.endswith("CMakeLists.txt"):
+    if script.of_cmake:
         edit = cmake_edits.install_files(script, [unit], folder) if name else cmake_edits.install_folder(package, folder)
     elif slot := setup_edits.slot(script, "data_files"):
         paths = [unit] if name else [file for file in package.files if file.startswith(unit)]
