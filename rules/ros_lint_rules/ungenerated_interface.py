@@ -20,8 +20,8 @@ defines has to move to one of `ament_cmake`. Of what is used and not there, corr
 ## When it keeps silent
 
 For packages that generate nothing, for files in other folders, and where the list of files cannot be followed. So it does of
-copies that were left lying, such as `State copy.msg` or `State.old.msg`, and of what a comment in a CMake file has where a list
-had it: it was set aside. A call that stands under a condition is told of with medium confidence. Of uses it does not speak in
+copies that were left lying, such as `State copy.msg` or `State.old.msg`. What a comment in a CMake file has where a list had it
+was set aside, and is told of with medium confidence, as is a call that stands under a condition. Of uses it does not speak in
 files that may be dead, where the import or include is optional, where any folder of the package offers what is named in another
 way, or two packages of the workspace have the name, and in packages with a file that cannot be read.
 """
@@ -74,12 +74,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     calls = list(called(package, _GENERATE, anywhere=True))
     if not calls or not script.interfaces:
         return
-    listed = {*script.interfaces, *script.set_aside}
     for file in package.files:
         interface = _interface(file) if file.count("/") == 1 else ""
         name = interface.partition("/")[2]
-        if interface not in listed and name.isidentifier():
-            yield _finding(package, calls, file, "" if file.endswith(".idl") or _NAME.fullmatch(name) else _camel(name))
+        if interface not in script.interfaces and name.isidentifier():
+            wanted = "" if file.endswith(".idl") or _NAME.fullmatch(name) else _camel(name)
+            yield _finding(package, calls, file, wanted, aside=interface in script.set_aside)
 
 
 def _of_python(package: Package) -> Iterator[Finding]:
@@ -205,16 +205,19 @@ def _camel(stem: str) -> str:
     return "".join(word[:1].upper() + word[1:] for word in stem.split("_"))
 
 
-def _finding(package: Package, calls: list[Call], file: str, wanted: str) -> Finding:
-    """``wanted``: what the file has to be called before anything can be generated from it, "" if it is."""
+def _finding(package: Package, calls: list[Call], file: str, wanted: str, *, aside: bool) -> Finding:
+    """``wanted``: what the file has to be called before anything can be generated from it, "" if it is.
+
+    ``aside``: a comment has it where a list had it, which is mostly meant so.
+    """
     way_out = f"rosidl wants it to be called {wanted}" if wanted else "add it, or remove it"
     return Finding(
         f"{file} is not given to {_GENERATE}(), so nothing is generated from it; {way_out}",
         calls[0].place,
         file,
         (_here(package, file),),
-        None if wanted else _fix(calls, file),
-        Confidence.MEDIUM if calls[0].blocks else Confidence.HIGH,
+        None if wanted or aside else _fix(calls, file),
+        Confidence.MEDIUM if aside or calls[0].blocks else Confidence.HIGH,
     )
 
 
