@@ -12,7 +12,8 @@ those for whom the condition holds.
 
 ## How to fix it
 
-Add `find_package(package REQUIRED)`, before the first use.
+Add `find_package(package REQUIRED)`, before the first use. The fix corrects what is given to `ament_target_dependencies()` and
+is a slip for a package that is found.
 
 ## When it keeps silent
 
@@ -97,14 +98,14 @@ def _no_packages(package: Package, found: frozenset[str], workspace: Workspace) 
         for index, name in enumerate(call.texts[1:], 1):
             if "$" in name or name in _WORDS or name.lower() in spelt or workspace.world.is_package(name):
                 continue
-            near = similar(name, sorted(found), 1, 0.9)
+            fix = None
             if name in targets:
                 way_out = "is a target of this package and no package: link it with target_link_libraries()"
-            elif near:
+            elif near := similar(name, sorted(found), 1, 0.9):
                 way_out = f"is no package that is found; is {near[0]} meant?"
+                fix = Fix.of(f"write {near[0]}", cmake_edits.write(call, index, near[0]), safe=False)
             else:
                 continue
-            fix = Fix.of(f"write {near[0]}", cmake_edits.write(call, index, near[0]), safe=False) if near else None
             yield Finding(f"ament_target_dependencies() takes packages, and {name} {way_out}", call.span(index), name, fix=fix)
 
 
@@ -120,5 +121,6 @@ RULE = Rule(
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,
+    fixable=True,
     package=check,
 )
