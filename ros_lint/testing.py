@@ -127,6 +127,8 @@ def differences(case: Case, rule: Rule) -> Iterator[str]:
     changed = fixed(tree, issues)
     if case.diff is not None and (got := _diff(tree, changed)) != case.diff:
         yield f"the fix is\n{got}"
+    if changed and not rule.fixable:
+        yield "the rule has a fix, and is not marked as fixable"
     if changed:
         after = OverlayTree(tree, {path: text.encode() for path, text in changed.items()})
         again = issues_of(after, case, rule)
