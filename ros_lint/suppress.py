@@ -7,6 +7,9 @@ and speaks for the file. docs/suppressions.md has the whole of it.
 
 from __future__ import annotations
 
+import math
+from bisect import bisect_left, bisect_right
+from itertools import accumulate
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.rule import Edit
@@ -48,13 +51,12 @@ class Suppression(NamedTuple):
 
     def covers(self, issue: Issue) -> bool:
         """Whether it speaks for the place of an issue, if not for its rule. Any line of the issue's place will do."""
-        span = issue.finding.span
-        if self.problem or span.path != self.span.path:
+        if self.problem or issue.finding.span.path != self.span.path:
             return False
         if self.lines is None:
             return True
-        last = span.end_line - 1 if span.end_column == 1 and span.end_line > span.line else span.end_line
-        return span.line <= self.lines[1] and self.lines[0] <= last
+        first, last = _lines(issue.finding.span)
+        return first <= self.lines[1] and self.lines[0] <= last
 
     def without(self, names: Iterable[Name]) -> Edit:
         """Return the edit that takes some of the names out, and the whole suppression when none would be left."""
@@ -110,27 +112,25 @@ def apply(
     """
     names = {key.lower(): rule.name for rule in known for key in (rule.name, rule.code)}
     judging = {rule.name for rule in known if rule.suppressions}  # they speak later, so what they need is not known
-    in_file: dict[str, list[Suppression]] = {}
-    for suppression in suppressions:
-        in_file.setdefault(suppression.span.path, []).append(suppression)
+    ordered = sorted(suppressions, key=lambda each: each.span.path)
+    whole = [(each, [(name, names.get(name.text.lower())) for name in each.names]) for each in ordered if not each.problem]
+    about: dict[tuple[str, str], list[tuple[Suppression, Name]]] = {}
+    for each, means in whole:
+        for name, rule in means:
+            if rule is not None:
+                about.setdefault((each.span.path, rule), []).append((each, name))
+    heard = {key: _Heard(entries) for key, entries in about.items()}
     used: set[tuple[Suppression, Name]] = set()
     kept: list[Issue] = []
     suppressed: list[tuple[Issue, Suppression]] = []
     for issue in issues:
-        hits = [
-            (suppression, name)
-            for suppression in in_file.get(issue.finding.span.path, ())
-            if suppression.covers(issue)
-            for name in suppression.names
-            if names.get(name.text.lower()) == issue.rule.name
-        ]
+        spoken = heard.get((issue.finding.span.path, issue.rule.name))
+        hits = spoken.about(issue) if spoken else []
         used.update(hits)
         if hits:
             suppressed.append((issue, hits[0][0]))
         else:
             kept.append(issue)
-    ordered = [each for path in sorted(in_file) for each in in_file[path]]
-    whole = [(each, [(name, names.get(name.text.lower())) for name in each.names]) for each in ordered if not each.problem]
     idle = [
         (each, tuple([name for name, rule in means if rule in ran and rule not in judging and (each, name) not in used]))
         for each, means in whole
@@ -143,6 +143,32 @@ def apply(
         tuple(unknown),
         tuple([each for each in ordered if each.problem]),
     )
+
+
+class _Heard:
+    """What suppresses one rule in one file, by the lines that it speaks for: there can be thousands of it."""
+
+    def __init__(self, entries: Iterable[tuple[Suppression, Name]]) -> None:
+        self._entries = sorted(entries, key=_first_line)
+        self._firsts = [_first_line(entry) for entry in self._entries]
+        # Up to the last line that each of them, or one before it, speaks for.
+        self._reach = list(accumulate([math.inf if each.lines is None else each.lines[1] for each, _ in self._entries], max))
+
+    def about(self, issue: Issue) -> list[tuple[Suppression, Name]]:
+        """Return what speaks for the place of an issue."""
+        first, last = _lines(issue.finding.span)
+        near = self._entries[bisect_left(self._reach, first) : bisect_right(self._firsts, last)]
+        return [entry for entry in near if entry[0].covers(issue)]
+
+
+def _first_line(entry: tuple[Suppression, Name]) -> int:
+    lines = entry[0].lines
+    return lines[0] if lines else 0
+
+
+def _lines(span: Span) -> tuple[int, int]:
+    """Return the first and the last line of a place: one that ends before the first column has nothing of its last line."""
+    return span.line, span.end_line - 1 if span.end_column == 1 and span.end_line > span.line else span.end_line
 
 
 def _nearest(word: str, names: Iterable[str]) -> str:

@@ -32,17 +32,16 @@ def read(text: Text) -> Iterator[Suppression]:
     lines = {start: (text.position(start)[0], text.position(end)[0]) for start, end in ranges}
     alone = {start for start, end in ranges if _is_alone(whole, start, end)}
     own_lines = {line for start in alone for line in range(lines[start][0], lines[start][1] + 1)}
+    below: dict[int, int] = {}  # a line that a comment has to itself -> the next that none has
+    for line in sorted(own_lines, reverse=True):
+        below[line] = below.get(line + 1, line + 1)
     leading = True
     before = 0
     for start, end in ranges:
         leading = leading and _says_nothing(whole[before:start])
         before = end
         first, last = lines[start]
-        if start in alone:
-            last += 1
-            while last in own_lines:
-                last += 1
-        yield from _in_comment(text, start, end, (first, last), leading)
+        yield from _in_comment(text, start, end, (first, below[last] if start in alone else last), leading)
 
 
 def _in_comment(text: Text, start: int, end: int, lines: tuple[int, int], leading: bool) -> Iterator[Suppression]:

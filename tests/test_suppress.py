@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from xml.parsers import expat
 
 import pytest
@@ -311,6 +312,32 @@ def test_what_is_said_about_a_suppression_can_be_suppressed() -> None:
         assert [[name.text for name in unused.names] for unused in outcome.unused] == [["ROS201"]]
         about = [Issue(judge, "p", Finding("", unused.names[0].span, "")) for unused in outcome.unused]
         assert apply(about, found, known, names).kept == ()
+
+
+LINES = st.sampled_from(
+    ["x\n", f"x  # {MARK}\n", f"# {MARK}\n", "# so\n", "x  # ros-lint: ignore[ROS301]\n", "# ros-lint: ignore-file[ROS204]\n"]
+)
+
+
+@given(st.lists(LINES, max_size=12))
+def test_what_stays_is_what_no_suppression_covers(lines: list[str]) -> None:
+    found = collect(Text("a.py", "".join(lines)))
+    ends = [(first, last) for first in range(1, len(lines) + 2) for last in (first, first + 2)]
+    issues = [issue("unused-dependency", "a.py", first, last) for first, last in ends]
+    covering = [each for each in found if any(name.text == "ROS204" for name in each.names)]
+    kept = tuple([each for each in issues if not any(one.covers(each) for one in covering)])
+    outcome = apply(issues, found, RULES, NAMES)
+    assert outcome.kept == kept
+    idle = {each.suppression for each in outcome.unused if each.names[0].text == "ROS204"}
+    assert idle == {each for each in covering if not each.problem and not any(map(each.covers, issues))}
+
+
+@pytest.mark.parametrize("lines", ["x  # {mark}\n" * 4000, "# {mark}\n" * 4000, "# {mark}\n" + "# so\n" * 20000])
+def test_thousands_of_comments_take_linear_time(lines: str) -> None:
+    started = time.process_time()
+    found = collect(Text("a.py", lines.format(mark=MARK)))
+    apply([issue("missing-file", "a.py", line) for line in range(4000)], found, RULES, NAMES)
+    assert time.process_time() - started < 5
 
 
 # --- fixes ---------------------------------------------------------------------------------------------------------
