@@ -35,13 +35,13 @@ def called(package: Package, *names: str, anywhere: bool = False) -> Iterator[Ca
         yield from (call for call in found if call.path == top)
 
 
-def installed_targets(call: Call) -> range:
+def installed_targets(call: Call) -> tuple[int, ...]:
     """Return the indexes of the arguments that are names of targets, in a call of install(TARGETS) and in no other."""
     texts = call.texts
     if texts[:1] != ("TARGETS",):
-        return range(0)
+        return ()
     words = (at for at, text in enumerate(texts) if text in INSTALL_ARTIFACTS or text in INSTALL_TARGETS_WORDS)
-    return range(1, next(words, len(texts)))
+    return tuple([at for at in range(1, next(words, len(texts))) if texts[at] != "TARGETS"])
 
 
 ENDS = ("ament_package", "ament_auto_package")

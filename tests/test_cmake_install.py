@@ -86,6 +86,8 @@ def _rule(choice: random.Random, number: int) -> str:
         if choice.random() < 0.2:
             words[1] += " missing.txt" if not any("RENAME" in word for word in words) else ""
             words.append("OPTIONAL")
+        if choice.random() < 0.1:
+            words.insert(1, words[0])  # which CMake reads like one
         return f"install({' '.join(words)})"
     words = ["DIRECTORY", " ".join(choice.sample(_FOLDERS, choice.randint(1, 2))), destination]
     words.append(

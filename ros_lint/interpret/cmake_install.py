@@ -71,7 +71,7 @@ def _install(run: Run, args: list[str]) -> None:
     if mode == "TARGETS":
         _install_targets(run, args[1:])
     elif mode in ("FILES", "PROGRAMS"):
-        _install_files(run, args[1:], mode == "PROGRAMS")
+        _install_files(run, [arg for arg in args[1:] if arg != mode], mode == "PROGRAMS")
     elif mode == "DIRECTORY":
         _install_directories(run, args[1:])
     elif mode == "SCRIPT" or (mode == "CODE" and any(not is_fixed(arg) or _WRITES.search(arg) for arg in args[1:])):
@@ -97,6 +97,8 @@ def _install_targets(run: Run, args: list[str]) -> None:
             artifact, keyword = arg, arg
         elif arg in INSTALL_TARGETS_WORDS:
             keyword, room = arg, INSTALL_TARGETS_WORDS[arg]
+        elif arg == "TARGETS":
+            keyword = ""  # said again, which CMake allows; likewise with files
         elif not keyword:
             names.append(arg)
         elif keyword == "DESTINATION" and room:
