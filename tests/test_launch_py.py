@@ -99,6 +99,8 @@ def test_what_it_is_for(text: str, test: bool, helper: bool) -> None:
         ),
         ("m = MoveItConfigsBuilder('a')\nreturn []", ["package a_moveit_config"]),
         ("m = MoveItConfigsBuilder('a', package_name='b').to_moveit_configs()\nreturn []", ["package b"]),
+        ("m = MoveItConfigsBuilder('a', 'robot_description_left')\nreturn []", ["package a_moveit_config"]),
+        ("m = MoveItConfigsBuilder('a', 'robot_description', 'b')\nreturn []", ["package b"]),
     ],
 )
 def test_programs(body: str, wanted: list[str]) -> None:

@@ -87,8 +87,8 @@ def _note_command(call: Call, made: Made) -> None:
 
 
 def _note_builder(call: Call, made: Made) -> None:
-    """MoveIt's builders look a package up at once (reference, section G2.7)."""
-    position = 1 if made.name == "MoveItConfigsBuilder" else 0
+    """MoveIt's builders look a package up at once (reference, section G2.7): one of them by the name of a robot, unless told."""
+    position = 2 if made.name == "MoveItConfigsBuilder" else 0
     given = made.get(position, "package_name")
     if given is not None:
         _note(call, given, made.written(position, "package_name"), eager=True)
