@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, NoReturn
 
 from ros_lint.options import BY_NAME, COMMANDS, OPTIONS, Option
-from ros_lint.slips import similar
+from ros_lint.slips import did_you_mean, similar
 
 _COMMON = ("distro", "underlay", "config", "isolated", "jobs", "cache", "exclude", "progress")
 _AROUND = "workspace (default: the one that the current folder lies in)"
@@ -25,8 +25,8 @@ class _Parser(argparse.ArgumentParser):
     def refuse(self, strange: Sequence[str]) -> NoReturn:
         """End because of arguments that mean nothing."""
         known = [text for action in self._actions for text in action.option_strings]
-        close = similar(strange[0].partition("=")[0], known)
-        self.error(f"unrecognized arguments: {' '.join(strange)}" + (f", did you mean {close[0]}?" if close else ""))
+        hint = did_you_mean(similar(strange[0].partition("=")[0], known), ", ")
+        self.error(f"unrecognized arguments: {' '.join(strange)}{hint}")
 
     def error(self, message: str) -> NoReturn:
         print(f"ros-lint: {message} (ros-lint --help lists what there is)", file=sys.stderr)

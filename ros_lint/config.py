@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 from ros_lint.options import BY_NAME, OPTIONS, Option
 from ros_lint.report import RefusalError
-from ros_lint.slips import similar
+from ros_lint.slips import did_you_mean, similar
 from ros_lint.tree import upwards
 
 
@@ -129,8 +129,7 @@ def _checked(path: str, text: str, name: str, value: Any) -> Any:
         known = [option.name for option in OPTIONS if option.in_file]
         if option is not None:
             raise ConfigError(f"{_place(path, text, name)}: {name} can be said on the command line only")
-        close = similar(name.replace("_", "-"), known)
-        hint = f", did you mean {close[0]}?" if close else f"; there are {', '.join(known)}"
+        hint = did_you_mean(similar(name.replace("_", "-"), known), ", ") or f"; there are {', '.join(known)}"
         raise ConfigError(f"{_place(path, text, name)}: unknown setting {name}{hint}")
     if complaint := _complaint(option, value):
         raise ConfigError(f"{_place(path, text, name)}: {name} {complaint}")
@@ -163,8 +162,7 @@ def _word_complaint(option: Option, value: Any) -> str:
     if not isinstance(value, str):
         return "must be a string"
     if option.choices and value not in option.choices:
-        close = similar(value, option.choices)
-        hint = f", did you mean {close[0]}?" if close else ""
+        hint = did_you_mean(similar(value, option.choices), ", ")
         return f"must be one of {', '.join(option.choices)}, not {value!r}{hint}"
     return ""
 

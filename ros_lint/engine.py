@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from ros_lint import suppress
 from ros_lint.knowledge.store import KnowledgeError
-from ros_lint.registry import matching, suggest
+from ros_lint.registry import matching, no_rule
 from ros_lint.report import Crash, Hidden, Issue, RefusalError
 from ros_lint.rule import Confidence, Rule, Severity
 from ros_lint.suppress import Suppression
@@ -170,5 +170,4 @@ def owner(workspace: Workspace, path: str) -> str:
 def _matching(rules: Sequence[Rule], selector: str) -> tuple[Rule, ...]:
     if found := matching(rules, selector):
         return found
-    close = suggest(rules, selector)
-    raise SelectionError(f"there is no rule {selector}" + (f", did you mean {close}?" if close else ""))
+    raise SelectionError(no_rule(rules, selector))

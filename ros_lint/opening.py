@@ -13,7 +13,7 @@ from ros_lint.knowledge.store import user_directory
 from ros_lint.options import COMMANDS, OPTIONS
 from ros_lint.registry import BUILTIN
 from ros_lint.report import RefusalError, Target
-from ros_lint.slips import similar
+from ros_lint.slips import did_you_mean, similar
 from ros_lint.tree import DiskTree, upwards
 
 if TYPE_CHECKING:
@@ -179,8 +179,7 @@ _MOST_SKIPPED = 3
 
 def _command(written: str) -> str:
     """Return what to say of a path that is not there, and may be meant for a command."""
-    close = similar(written, COMMANDS)
-    return f"; did you mean the command {close[0]}?" if close else ""
+    return did_you_mean([f"the command {command}" for command in similar(written, COMMANDS)])
 
 
 def _base(paths: Sequence[str]) -> str:
@@ -208,10 +207,7 @@ def _target(settings: Settings, places: Sequence[str]) -> tuple[Target, tuple[st
         return Target(distro, "ROS_DISTRO"), (f"nothing is known of ROS_DISTRO {distro}; there are {', '.join(known)}",)
     from ros_lint.knowledge.names import has_ended  # noqa: PLC0415
 
-    close = similar(distro, known)
-    hint = f", did you mean {close[0]}?" if close else ""
-    if has_ended(distro):
-        hint = ", which is no longer supported"
+    hint = ", which is no longer supported" if has_ended(distro) else did_you_mean(similar(distro, known), ", ")
     raise UsageError(f"{settings.origin('distro')}: nothing is known of {distro}{hint} (there are {', '.join(known)})")
 
 

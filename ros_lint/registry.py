@@ -15,7 +15,7 @@ from types import ModuleType
 
 from ros_lint.report import RefusalError
 from ros_lint.rule import Rule
-from ros_lint.slips import similar
+from ros_lint.slips import did_you_mean, similar
 
 GROUP = "ros_lint.rules"
 BUILTIN = "ros_lint_rules"
@@ -79,8 +79,7 @@ def matching(rules: Sequence[Rule], selector: str) -> tuple[Rule, ...]:
     return tuple(rule for rule in rules if rule.code.startswith(selector))
 
 
-def suggest(rules: Sequence[Rule], selector: str) -> str:
-    """Return the name or code nearest to a selector that means nothing, or ""."""
+def no_rule(rules: Sequence[Rule], selector: str) -> str:
+    """Return what to say of a selector that means nothing."""
     words = [word for rule in rules for word in (rule.name, rule.code)]
-    close = similar(selector, [*words, "all", "default"])
-    return close[0] if close else ""
+    return f"there is no rule {selector}{did_you_mean(similar(selector, [*words, 'all', 'default']), ', ')}"

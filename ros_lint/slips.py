@@ -12,6 +12,6 @@ def similar(name: str, names: Iterable[str], most: int = 1, least: float = 0.6) 
     return get_close_matches(name, list(names), most, least)
 
 
-def did_you_mean(names: Sequence[str]) -> str:
-    """Return how a message goes on that names what may be meant, "" if nothing is."""
-    return f"; did you mean {' or '.join(names)}?" if names else ""
+def did_you_mean(names: Sequence[str], after: str = "; ") -> str:
+    """Return how a message goes on, ``after`` what it has said, that asks for what may be meant; "" if nothing is."""
+    return f"{after}did you mean {' or '.join(names)}?" if names else ""

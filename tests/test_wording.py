@@ -21,3 +21,4 @@ def test_what_may_be_meant() -> None:
     assert similar("jazy", ["humble", "jazzy"], 1, 0.95) == []
     assert did_you_mean([]) == ""
     assert did_you_mean(["a", "b"]) == "; did you mean a or b?"
+    assert did_you_mean(["a"], ", ") == ", did you mean a?"

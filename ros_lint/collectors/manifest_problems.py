@@ -8,7 +8,7 @@ from typing import Final
 
 from ros_lint.collectors.manifest_xml import Document, Fault, Node, attribute, children, value
 from ros_lint.facts.manifest import Depend, Element
-from ros_lint.slips import similar
+from ros_lint.slips import did_you_mean, similar
 
 _Elements = Sequence[tuple[Node, Element]]
 _Depends = Sequence[tuple[Node, Depend]]
@@ -173,8 +173,8 @@ def _unknown_tag(node: Node, form: int) -> Fault:
     elif newer:
         way_out = f'raise the format to "{newer}"'
     else:
-        close = similar(tag, ALLOWED[form], 1, 0.75)
-        way_out = f"did you mean <{close[0]}>?" if close else "remove it, or move it into <export>"
+        near = [f"<{known}>" for known in similar(tag, ALLOWED[form], 1, 0.75)]
+        way_out = did_you_mean(near, "") or "remove it, or move it into <export>"
     return Fault("unknown-tag", f"there is no <{tag}> in format {form} of package.xml; {way_out}", node.start, node.end, newer)
 
 

@@ -33,8 +33,7 @@ def _rule(name: str, form: str) -> int:
     rules = registry.load()
     found = [rule for rule in rules if name.lower() in (rule.name, rule.code.lower())]
     if not found:
-        close = registry.suggest(rules, name)
-        print(f"ros-lint: there is no rule {name}" + (f", did you mean {close}?" if close else ""), file=sys.stderr)
+        print(f"ros-lint: {registry.no_rule(rules, name)}", file=sys.stderr)
         return 2
     print(docs.as_json(found) if form == "json" else docs.page(found[0]), end="")
     return 0

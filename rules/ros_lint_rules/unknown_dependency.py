@@ -42,6 +42,7 @@ from ros_lint.api import (
     Workspace,
     called,
     declared_names,
+    did_you_mean,
     is_near_tool,
     may_be_package,
     programs,
@@ -110,7 +111,7 @@ def _unknown(stranger: Stranger, workspace: Workspace) -> Finding:
     elif meant is None:
         near = world.suggest(name, python=stranger.runs_python)
         lacking = [] if _is_named(stranger) else [other for other in near if _is_lacking(stranger.package, other)]
-        hint = f"did you mean {' or '.join(near)}?" if near else "correct it, or add what provides it"
+        hint = did_you_mean(near, "") or "correct it, or add what provides it"
         if len(lacking) == 1:
             hint = f"write {lacking[0]}, which is used and not declared"
             sure = Confidence.HIGH

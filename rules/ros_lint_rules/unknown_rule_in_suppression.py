@@ -23,7 +23,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ros_lint.api import Finding, Rule, Severity
+from ros_lint.api import Finding, Rule, Severity, did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -35,8 +35,8 @@ def check(outcome: Outcome) -> Iterator[Finding]:
     for suppression in outcome.broken:
         yield Finding(suppression.problem, suppression.span, ", ".join(name.text for name in suppression.names))
     for _, name, suggestion in outcome.unknown:
-        hint = f"did you mean {suggestion}?" if suggestion else "ros-lint rules lists what there is"
-        yield Finding(f"there is no rule {name.text}, {hint}", name.span, name.text)
+        hint = did_you_mean([suggestion] if suggestion else [], ", ") or ", ros-lint rules lists what there is"
+        yield Finding(f"there is no rule {name.text}{hint}", name.span, name.text)
 
 
 RULE = Rule(
