@@ -20,7 +20,8 @@ stop: "exports the library 'x' which couldn't be found".
 ## When it keeps silent
 
 For libraries of tests, for static libraries that are not exported (they become part of what links them), and where something
-that cannot be followed may install the library.
+that cannot be followed may install the library. Of a library that is made of nothing but headers, what links it takes nothing:
+on Ubuntu the linker leaves it out (`--as-needed`), so that it is told with medium confidence unless it is exported.
 """
 
 from __future__ import annotations
@@ -28,6 +29,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros_lint.api import (
+    HEADERS,
     REGISTERING,
     BuildScript,
     BuildTarget,
@@ -73,8 +75,10 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             continue
         shared = _is_shared(package, target.name)
         loaded = any(relative(package, made.span.path) in target.sources for made in package.registrations)
-        lone = _is_lone(package, target, loaded=loaded)
-        users = [(name, span) for name, span in _linked_by(script, target.name) if name in installed] if shared else []
+        hollow = all(source.endswith(HEADERS) for source in target.sources)
+        lone = not hollow and _is_lone(package, target, loaded=loaded)
+        users = [(name, span) for name, span in _linked_by(script, target.name) if name in installed]
+        users = users if shared and not hollow else []
         exported = _exported(package, target.name)
         related = several(Related(f"{name} links it here", span) for name, span in users)
         if exported is not None:
