@@ -19,8 +19,8 @@ Add what the message names. The fix does this for package.xml.
 - The interfaces are not installed, so that nobody but the package itself uses them.
 - The script cannot be followed everywhere.
 - The other package comes along with one that is listed.
-- The run-time package comes along with another declared dependency, or may do so: then nothing fails, the severity is info and
-  the confidence medium.
+- The run-time package comes along with another declared dependency, or may do so, or all that it brings does: then nothing
+  fails, the severity is info and the confidence medium.
 - The script names the run-time package, too, as in `ament_export_dependencies(rosidl_default_runtime)`: then
   `undeclared-dependency` tells of it, once.
 
@@ -108,7 +108,9 @@ def _runtime(package: Package, workspace: Workspace, place: Span, sure: Confiden
     if not {_RUNTIME, _CORE}.isdisjoint(starts) or _RUNTIME in told:
         return
     closure = workspace.world.closure(starts)
-    along = _RUNTIME in closure or bool(closure.unknown)
+    needed = workspace.world.closure([_RUNTIME])
+    all_else = len(needed) > 1 and set(needed.less(closure)) == {_RUNTIME}
+    along = _RUNTIME in closure or bool(closure.unknown) or all_else
     tag = "run_depend" if package.manifest and package.manifest.format == 1 else "exec_depend"
     yield Finding(
         f"what is generated here needs {_RUNTIME} at run time: add <{tag}>{_RUNTIME}</{tag}>",
