@@ -61,7 +61,7 @@ from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchFile, Lau
 from ros_lint.facts.manifest import Depend, Element, Manifest, Role
 from ros_lint.facts.setup_py import EntryPoint, PythonModule, Slot
 from ros_lint.facts.sight import ANYTHING, Facet, Opaque, Problem
-from ros_lint.facts.sources import Mention, PluginLoader, Registration, Use
+from ros_lint.facts.sources import MachinePath, Mention, PluginLoader, Registration, Use
 from ros_lint.graph import Edge, Graph, Reason
 from ros_lint.graph_cut import Knot, knots
 from ros_lint.knowledge.spelling import may_be_package, near_names
@@ -136,6 +136,7 @@ __all__ = [
     "Launchable",
     "LeftBehind",
     "Links",
+    "MachinePath",
     "Manifest",
     "Meant",
     "Mention",

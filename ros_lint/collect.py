@@ -12,10 +12,11 @@ from typing import Literal, NamedTuple
 
 from ros_lint import suppress
 from ros_lint.cache import Cache
+from ros_lint.collectors import machine_paths
 from ros_lint.collectors.cmake_syntax import Parsed
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.sight import ANYTHING, Facet, Opaque
-from ros_lint.facts.sources import FileFacts
+from ros_lint.facts.sources import FileFacts, MachinePath
 from ros_lint.text import Text, beginning, read
 from ros_lint.tree import DiskTree, RecordedTree, Tree
 
@@ -57,6 +58,7 @@ class Collected(NamedTuple):
     launch: LaunchFile | None = None
     commands: Parsed | None = None
     suppressions: tuple[suppress.Suppression, ...] = ()
+    machine_paths: tuple[MachinePath, ...] = ()
     unreadable: str = ""
     """Why the file was not read, or ""."""
 
@@ -114,7 +116,9 @@ def collect(text: Text, kind: Kind) -> Collected:
         from ros_lint.collectors import resources  # noqa: PLC0415
 
         facts = resources.collect(text)
-    return Collected(facts, launch, commands, suppress.collect(text))
+    # Comments of MATLAB are not told from its code.
+    paths = machine_paths.collect(text) if kind != "matlab" else ()
+    return Collected(facts, launch, commands, suppress.collect(text), paths)
 
 
 def collect_all(tree: Tree, paths: Sequence[str], jobs: int, cache: Cache, tick: Callable[[int], None]) -> dict[str, Collected]:

@@ -27,7 +27,7 @@ from ros_lint.discover import Found, Skipped, discover
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.manifest import ROLES, Manifest, Role
-from ros_lint.facts.sources import FileFacts
+from ros_lint.facts.sources import FileFacts, MachinePath
 from ros_lint.knowledge import Knowledge
 from ros_lint.knowledge.index import TAG_KINDS
 from ros_lint.providers import offered
@@ -53,6 +53,7 @@ class _Read(NamedTuple):
     script: BuildScript | None
     facts: Mapping[str, FileFacts]
     launch: tuple[LaunchFile, ...]
+    machine_paths: tuple[MachinePath, ...] = ()
 
 
 class Loader:
@@ -172,12 +173,13 @@ class Loader:
                 script,
                 {file: c.facts for file, c in files.items() if c.facts is not None},
                 followed,
+                tuple([each for c in files.values() for each in c.machine_paths]),
             )
             for found, declared, script, files, followed in zip(founds, declared_by, built, of_package, launch, strict=True)
         ]
 
     def _members(self, reads: Sequence[_Read], rejected: Sequence[Manifest]) -> Iterator[Member]:
-        for found, declared, script, _, _ in reads:
+        for found, declared, script, *_ in reads:
             modules = offered(script.python_packages, found.files) if script else ()
             yield _member(found.name, found.manifest, declared)._replace(modules=modules)
         for manifest in rejected:
@@ -221,6 +223,7 @@ class Loader:
                 look_ups=tuple([look_up for facts in done.facts.values() for look_up in facts.look_ups]),
                 parameter_files=tuple([f.parameters for f in done.facts.values() if f.parameters is not None]),
                 unusable_headers=public_headers.unusable(source.built, done.facts, found.files),
+                machine_paths=done.machine_paths,
                 left_behind=tuple(own_files.left_behind(found.files, source.built, done.facts)),
             )
             if package.registrations and done.script and done.script.plugins:

@@ -11,7 +11,7 @@ from ros_lint.facts.build import NOTHING_BUILT, BuildScript, LeftBehind
 from ros_lint.facts.launch import LaunchFile, LaunchReference
 from ros_lint.facts.manifest import ColconDepend, Depend, Manifest, Role
 from ros_lint.facts.sight import Facet, Opaque
-from ros_lint.facts.sources import ImportedType, LookUp, ParameterFile, PluginLoader, Registration, Use
+from ros_lint.facts.sources import ImportedType, LookUp, MachinePath, ParameterFile, PluginLoader, Registration, Use
 from ros_lint.report import NotChecked, Target
 from ros_lint.text import Span, beginning
 from ros_lint.tree import join
@@ -72,6 +72,8 @@ class Package(NamedTuple):
     """Files that its models, displays and parameters look up in packages."""
     parameter_files: tuple[ParameterFile, ...] = ()
     """Its YAML files."""
+    machine_paths: tuple[MachinePath, ...] = ()
+    """Paths below somebody's home directory that its files have."""
     unusable_headers: tuple[str, ...] = ()
     """Those installed headers, relative to it, that do not compile anywhere else: what they include is not installed."""
     loaders: tuple[PluginLoader, ...] = ()

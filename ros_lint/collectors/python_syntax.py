@@ -57,10 +57,15 @@ def start_of(source: Text, node: ast.expr | ast.stmt | ast.alias) -> int:
     return _offset(source, node.lineno, node.col_offset)
 
 
+def range_of(source: Text, node: ast.expr | ast.stmt | ast.alias) -> tuple[int, int]:
+    """Return the offsets between which a node stands."""
+    end = _offset(source, node.end_lineno or node.lineno, node.end_col_offset or node.col_offset)
+    return start_of(source, node), end
+
+
 def span_of(source: Text, node: ast.expr | ast.stmt | ast.alias) -> Span:
     """Return the place of a node."""
-    end = _offset(source, node.end_lineno or node.lineno, node.end_col_offset or node.col_offset)
-    return source.span(start_of(source, node), end)
+    return source.span(*range_of(source, node))
 
 
 def _offset(source: Text, line: int, column: int) -> int:

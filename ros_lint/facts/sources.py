@@ -62,6 +62,14 @@ class LookUp(NamedTuple):
     span: Span
 
 
+class MachinePath(NamedTuple):
+    """A path below the home directory of somebody, written out."""
+
+    path: str
+    """As ``/home/jay/ros2_ws/src/robot/config/robot.yaml``, without a slash at the end."""
+    span: Span
+
+
 class ImportedType(NamedTuple):
     """A message, service or action by its name in an import of Python: ``from robot.msg import State``."""
 

@@ -1,0 +1,48 @@
+"""Paths below somebody's home directory, written out in a file: they are there on one machine only."""
+
+from __future__ import annotations
+
+import re
+
+from ros_lint.comments import comments
+from ros_lint.facts.sources import MachinePath
+from ros_lint.text import Text
+
+_ROOTS = ("/home/", "/Users/")
+_PATH = re.compile(r"(?<![\w.$}~)*/-])(?:file://)?(?P<path>/(?:home|Users)/[\w.+-]+/[^\s\"'`<>|;:,()\[\]{}&$\\*?#]+)")
+
+
+def collect(text: Text) -> tuple[MachinePath, ...]:
+    """Return the paths of a file that lie in a home directory, comments and docstrings left out.
+
+    A path ends where something is filled in. One that is put together (``"/home/" + user``) is none, nor are the folders of
+    all users.
+    """
+    if not any(root in text.text for root in _ROOTS):
+        return ()
+    hits = list(_PATH.finditer(text.text))
+    if not hits:
+        return ()
+    beside = [*comments(text), *(_docstrings(text) if text.path.endswith(".py") else ())]
+    said = [hit for hit in hits if not any(start <= hit.start() < end for start, end in beside)]
+    return tuple([_found(text, hit) for hit in said])
+
+
+def _found(text: Text, hit: re.Match[str]) -> MachinePath:
+    path = hit["path"].rstrip("./")
+    start = hit.start("path")
+    return MachinePath(path, text.span(start, start + len(path)))
+
+
+def _docstrings(text: Text) -> list[tuple[int, int]]:
+    """Return the ranges of strings that stand alone: documentation, and code that is set aside."""
+    import ast  # noqa: PLC0415
+
+    from ros_lint.collectors.python_syntax import NotPythonError, parse, range_of  # noqa: PLC0415
+
+    try:
+        tree = parse(text)
+    except NotPythonError:
+        return []
+    alone = (node.value for node in ast.walk(tree) if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant))
+    return [range_of(text, node) for node in alone if isinstance(node.value, str)]

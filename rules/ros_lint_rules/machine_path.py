@@ -1,0 +1,142 @@
+"""
+## What it finds
+
+A path below somebody's home directory (`/home/jay/ros2_ws/src/robot/config/robot.yaml`), written out in a launch file, a
+program, a model, parameters or a build script.
+
+## Why it matters
+
+It is there on one machine only. On the next one, in a container and on the robot the launch stops, or a node starts without
+its parameters; and where the path leads into the sources, it passes by what is installed.
+
+## How to fix it
+
+A file of a package is found by the package: `get_package_share_directory('robot')` and `FindPackageShare` in Python,
+`$(find-pkg-share robot)` in XML and YAML launch files, `package://robot/` in models. What belongs to the machine, such as data
+or a device, becomes a launch argument or a parameter without such a default.
+
+## When it keeps silent
+
+- In comments and docstrings, in tests, examples and documentation, in CMake files that are no part of the build.
+- Of paths that are put together, such as `'/home/' + user`, and of `~`: these are meant for whoever runs it.
+- The confidence is high where the path leads to a file of this workspace, or into a folder of its sources, and the file that
+  names it is used: installed, built or launched. It is medium for other paths, which may be right on the machine that the
+  package is made for, for a workspace beside the homes of users (`/home/ws/src`), which is one of a container, and where
+  nothing is seen to use the file.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import NamedTuple
+
+from ros_lint.api import (
+    Confidence,
+    Finding,
+    MachinePath,
+    Package,
+    Related,
+    Rule,
+    Severity,
+    Workspace,
+    folders_of,
+    is_apart,
+    launchable,
+    per_workspace,
+    relative,
+    several,
+)
+
+
+class _Inside(NamedTuple):
+    """Where in the workspace a path of somebody's machine leads."""
+
+    package: str
+    rest: str
+    """What the package has there, below its folder; "" where it has nothing, or the folder itself is meant."""
+
+
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    if not package.machine_paths:
+        return
+    used = _used(package)
+    by_file: dict[tuple[str, str], list[tuple[MachinePath, _Inside | None]]] = {}
+    for each in package.machine_paths:
+        file = relative(package, each.span.path)
+        if not is_apart(file) and (file in used or not file.endswith(".cmake")):  # builds leave such files behind
+            inside = _inside(each.path, workspace)
+            by_file.setdefault((file, inside.package if inside else ""), []).append((each, inside))
+    for (file, _), found in by_file.items():
+        (first, inside), *others = found
+        yield Finding(
+            f"{first.path} is there on one machine only: {_way_out(inside)}",
+            first.span,
+            first.path,
+            several(Related(f"and {other.path}", other.span) for other, _ in others),
+            confidence=Confidence.HIGH if inside and file in used and not _is_of_container(first.path) else Confidence.MEDIUM,
+        )
+
+
+def _way_out(inside: _Inside | None) -> str:
+    if inside is None:
+        return "make it an argument, or a file of a package"
+    if not inside.rest:
+        return f"it leads into the sources of {inside.package}; make it an argument"
+    return f"it is {inside.rest} of {inside.package}; look it up in the share directory of {inside.package}"
+
+
+def _is_of_container(path: str) -> bool:
+    """Whether a path lies in a workspace that is no user's home, but beside those: ``/home/ws/src/robot``."""
+    return path.split("/")[3] in ("src", "install")
+
+
+def _used(package: Package) -> frozenset[str]:
+    """Return the files of a package that are seen to be installed, built, launched or part of its build script."""
+    script = package.built
+    modules = tuple([f"{module.replace('.', '/')}/" for module in script.python_packages])
+    files = {provided.source for provided in script.provides if provided.source}
+    files.update(source for target in script.targets if not target.test for source in target.sources)
+    files.update(launch.path for launch in launchable(package))
+    files.update(call.path for call in script.written)
+    return frozenset(files).union([file for file in package.files if file.startswith(modules)])
+
+
+def _inside(path: str, workspace: Workspace) -> _Inside | None:
+    """Return where in the workspace a path leads: below a folder that is called as a package, to what that package has.
+
+    Below ``src`` it need not have it: what is to be written there is a path into its sources, too.
+    """
+    folders = _folders(workspace)
+    parts = path.split("/")
+    for at in range(len(parts) - 1, 2, -1):
+        package = folders.get(parts[at])
+        if package is None:
+            continue
+        rest = "/".join(parts[at + 1 :])
+        has = _has(package, rest)
+        if has or "src" in parts[3:at]:
+            return _Inside(package.name, rest if has else "")
+    return None
+
+
+def _has(package: Package, path: str) -> bool:
+    """Whether a package has a file, a folder, or files of which a program is told but the beginning (``maps/hall``)."""
+    return path in package.files or any(file.startswith(f"{path}.") or path in folders_of(file) for file in package.files)
+
+
+@per_workspace
+def _folders(workspace: Workspace) -> Mapping[str, Package]:
+    """Return the packages by the names of their folders, and by their own."""
+    found = {package.path.rpartition("/")[2]: package for package in workspace.packages if package.path}
+    return found | {package.name: package for package in workspace.packages}
+
+
+RULE = Rule(
+    name="machine-path",
+    code="ROS418",
+    summary="a path must not lead into the home directory of one machine",
+    severity=Severity.WARNING,
+    since="0.1",
+    doc=__doc__,
+    package=check,
+)
