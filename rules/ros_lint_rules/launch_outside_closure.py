@@ -87,13 +87,19 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         way_out = advice(package, workspace, name, Role.EXEC)
         certain = sighted and way_out.certain and not may_bring(unknown, name, workspace)
         yield Finding(
-            f"{what} is {_DONE[best.kind]} here{only}, but {package.name} does not depend on it{way_out.ending}",
+            f"{what} is {_DONE[best.kind]} here{only}, but {package.name} {_says(package, name)}{way_out.ending}",
             best.package_span,
             name,
             several(Related("also needed here", span) for span in _elsewhere(best.package_span, others)),
             way_out.fix,
             Confidence.HIGH if certain and not _needs(workspace, name, package) else Confidence.MEDIUM,
         )
+
+
+def _says(package: Package, name: str) -> str:
+    """Return how a package declares a name, which is not for running if it does."""
+    tags = dict.fromkeys(f"<{declared.depend.tag}>" for declared in package.declared if declared.name == name)
+    return f"declares it as {' and '.join(tags)} only" if tags else "does not depend on it"
 
 
 def _lacking(package: Package, workspace: Workspace) -> Iterator[tuple[str, list[LaunchReference]]]:
