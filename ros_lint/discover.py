@@ -6,7 +6,6 @@ Which folders are packages is what ``colcon list`` says: the crawl of colcon-rec
 
 from __future__ import annotations
 
-import posixpath
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.collectors import manifest as manifests
@@ -23,7 +22,7 @@ from ros_lint.identify import (
 )
 from ros_lint.report import NotChecked
 from ros_lint.text import beginning, read
-from ros_lint.tree import join, parent
+from ros_lint.tree import join, parent, seen_from
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -186,7 +185,7 @@ class _Walk:
             by_name.update(meta.by_name)
             folder = parent(meta.path)
             for path, values in meta.by_path:
-                by_identity[self._tree.identity(posixpath.normpath(join(folder, path)))] = values
+                by_identity[self._tree.identity(seen_from(folder, path))] = values
         return Settings(by_name, by_identity)
 
     def _meta(self, place: str) -> ColconMeta | None:

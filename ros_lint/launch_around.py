@@ -6,7 +6,6 @@ has what is wanted, it is followed again with this at hand.
 
 from __future__ import annotations
 
-import posixpath
 from collections.abc import Collection, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -15,7 +14,7 @@ from ros_lint.facts.build import BuildScript
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.launch_links import everything
 from ros_lint.text import Text, read
-from ros_lint.tree import Tree, join, parent, within
+from ros_lint.tree import Tree, join, parent, seen_from, within
 
 if TYPE_CHECKING:
     from ros_lint.collectors.launch_py_objects import Module
@@ -142,8 +141,8 @@ class _Places:
         provided = self._provided(package)
         own = next((place for place, source in provided.items() if source == file.path), "")
         if own:
-            return provided.get(posixpath.normpath(join(parent(own), path)), "")
-        source = posixpath.normpath(join(parent(file.path), path))
+            return provided.get(seen_from(parent(own), path), "")
+        source = seen_from(parent(file.path), path)
         return source if within(package.path, source) in package.files else ""
 
     def _provided(self, package: Around) -> dict[str, str]:

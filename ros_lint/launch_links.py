@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import posixpath
 from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple, TypeVar
 
@@ -10,7 +9,7 @@ from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, fill, installed
 from ros_lint.facts.launch import LaunchAction, LaunchFile, LaunchValue
 from ros_lint.facts.sources import ParameterFile
 from ros_lint.text import Span
-from ros_lint.tree import within
+from ros_lint.tree import parent, seen_from, within
 from ros_lint.workspace import Package
 
 File = TypeVar("File", LaunchFile, ParameterFile)
@@ -97,8 +96,7 @@ class Links:
             own = self._places.get(source.path)
             if own is None:
                 return None
-            folder = own.path.rpartition("/")[0]
-            return own.package.name, posixpath.normpath(posixpath.join(folder, text[len(OWN_FOLDER) + 1 :]))
+            return own.package.name, seen_from(parent(own.path), text[len(OWN_FOLDER) + 1 :])
         place = installed_place(text)
         return (place.package, place.share) if place is not None and place.share else None
 

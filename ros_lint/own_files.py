@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import posixpath
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 
 from ros_lint.facts.build import BuildScript, LeftBehind, Provided
 from ros_lint.facts.sources import FileFacts
 from ros_lint.text import Span
+from ros_lint.tree import join, seen_from
 
 _SHADOWED = frozenset({"launch"})
 """Folders of packages that are called like a module everybody imports: without __init__.py they do not hide it (PEP 420)."""
@@ -45,6 +45,24 @@ class OwnFiles:
         here, _, name = importer.rpartition("/")
         beside = here in folders and name != f"{module}.py"
         return beside or module in self._installed_modules or not folders <= self._python_packages
+
+    def forgone(self, importers: Iterable[str]) -> frozenset[str]:
+        """Return the files in Python that some of the package's import from beside them and go on without, as far as is known.
+
+        Those that a file imports by their whole names, and not so, are none of them.
+        """
+        found: set[str] = set()
+        for path in importers:
+            for name in self.facts[path].caught:
+                module = name.lstrip(".")
+                if module != name:
+                    folders = path.split("/")[: len(module) - len(name)]
+                    file = "/".join([*folders, module.replace(".", "/")])
+                    found.update([f"{file}.py", f"{file}/__init__.py"])
+        if not found:
+            return frozenset()
+        needed = {m.name for facts in self.facts.values() for m in facts.mentions if m.via == "import" and not m.optional}
+        return frozenset([file for file in found if _module(file) not in needed])
 
     def reached(self, roots: Iterable[str]) -> frozenset[str]:
         """Return those of some files that are of the package, and all that they include of it, by way of others or not."""
@@ -87,9 +105,7 @@ class OwnFiles:
         end = f"/{header}"
         if len(candidates) == 1 and f"/{candidates[0]}".endswith(end):
             return candidates
-        beside = f"{folder}/{header}" if folder else header
-        if "." in header[:2]:
-            beside = posixpath.normpath(beside)
+        beside = seen_from(folder, header) if "." in header[:2] else join(folder, header)
         if beside in candidates:
             return (beside,)
         return tuple([file for file in candidates if file == header or file.endswith(end)])
@@ -136,6 +152,11 @@ class OwnFiles:
     def _installed_modules(self) -> frozenset[str]:
         names = self.script.python_packages if self.script else ()
         return frozenset([name.partition(".")[0] for name in names])
+
+
+def _module(path: str) -> str:
+    """Return the name by which others import a file in Python."""
+    return path.removeprefix("src/").removesuffix(".py").removesuffix("/__init__").replace("/", ".")
 
 
 def left_behind(files: Sequence[str], script: BuildScript, facts: Mapping[str, FileFacts]) -> Iterator[LeftBehind]:

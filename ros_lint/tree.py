@@ -7,6 +7,7 @@ Paths are relative to the base of the tree, with forward slashes; the base itsel
 from __future__ import annotations
 
 import os
+import posixpath
 from collections.abc import Iterable, Iterator, Mapping
 from operator import itemgetter
 from typing import Literal, NamedTuple, Protocol
@@ -58,6 +59,11 @@ class Tree(Protocol):
 def join(directory: str, name: str) -> str:
     """Return the path of a name in a directory."""
     return f"{directory}/{name}" if directory else name
+
+
+def seen_from(directory: str, path: str) -> str:
+    """Return the path that a relative one, which may lead upwards, means from a directory."""
+    return posixpath.normpath(join(directory, path))
 
 
 def within(directory: str, path: str) -> str:
