@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
-from ros_lint.commands.spoken import label, where
+from ros_lint.commands.output import label, where
 from ros_lint.graph_cut import knots
 
 if TYPE_CHECKING:

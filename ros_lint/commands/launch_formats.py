@@ -19,7 +19,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros_lint.collectors.launch_text import UNKNOWN, readable
-from ros_lint.commands.spoken import label, where
+from ros_lint.commands.output import label, where
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence

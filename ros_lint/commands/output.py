@@ -1,4 +1,4 @@
-"""What several commands write alike: places in JSON, and texts in flow charts."""
+"""What several commands write alike: a place in JSON, a text in a flow chart of Mermaid."""
 
 from __future__ import annotations
 
