@@ -37,6 +37,8 @@ def uninstalled(files: Iterable[str], sources: Iterable[str]) -> dict[str, list[
             continue
         if not (_FILES.search(file) or file.endswith(".launch")) or file.endswith("/CMakeLists.txt") or is_apart(file):
             continue
+        if "/." in file:  # hidden: kept by an editor or a tool for itself
+            continue
         free = [folder for folder in folders_of(file) if folder not in occupied]
         if free:
             found.setdefault(free[-1], []).append(file)

@@ -23,12 +23,13 @@ where `data_files` is written out and the files are not too many.
 - Launch files themselves: see `uninstalled-launch`.
 - What a command of the build names, such as the file that `generate_parameter_library()` reads, is taken for its input.
 - Pictures in `images/` and `media/` that nothing names: they are there for the documentation.
-- A folder that nothing in the package names has medium confidence: it may serve documentation, or be left over. Not so if
-  other folders of the kind are installed and its files serve at run time alone: displays, maps, models, textures, parameters;
-  nor if the package builds, installs and tests nothing, so that it is there for these files; nor if they are parameters of
-  nodes (`ros__parameters`), and the package has nodes. Where a text names the folder as it lies on some machine
-  (`/home/me/src/robot/maps/hall`), it is found there: the confidence is medium. A launch file that looks a file of the name
-  up in another package names that one, and what lies here may be a copy.
+- Hidden folders and what lies in them, such as the history that an editor keeps.
+- A folder that nothing in the package names has medium confidence: it may serve documentation, be opened by hand from the
+  sources, or be left over. Not so if it lies in a folder that is installed (`worlds/textures/`), and its files serve at run
+  time alone: displays, maps, models, textures, parameters; nor if the package builds, installs and tests nothing, so that
+  it is there for these files; nor if they are parameters of nodes (`ros__parameters`), and the package has nodes. Where a
+  text names the folder as it lies on some machine (`/home/me/src/robot/maps/hall`), it is found there: the confidence is
+  medium. A launch file that looks a file of the name up in another package names that one, and what lies here may be a copy.
 """
 
 from __future__ import annotations
@@ -64,9 +65,6 @@ _PLAIN = frozenset({"py", "sh", "txt", "md"})
 _DOCUMENTS = frozenset({"images", "media", "data"})
 _PICTURES = frozenset({"images", "media"})
 _PICTURE = (".png", ".jpg", ".jpeg")
-_FOR_RUN_TIME = frozenset(
-    {"config", "configs", "launch", "maps", "meshes", "models", "param", "params", "rviz", "urdf", "worlds", "world"}
-)
 _RUN_TIME = (
     ".dae", ".obj", ".pgm", ".rviz", ".sdf", ".srdf", ".stl", ".urdf", ".wbt", ".world", ".xacro", ".yaml", ".yml",
 )  # fmt: skip
@@ -159,7 +157,7 @@ class _Forgotten:
         self._package = package
         self._script = script
         self._places = places
-        self._shared = _shares(package, script) or _makes_nothing(package, script)
+        self._made_of_them = _makes_nothing(package, script)
         self._of_nodes = _of_nodes(package, script)
         self._elsewhere = _looked_up_elsewhere(package)
 
@@ -189,7 +187,7 @@ class _Forgotten:
         if any(file in self._of_nodes for file in files):
             return Confidence.HIGH
         for_run_time = any(file.endswith(_RUN_TIME) or "/textures/" in file for file in files)
-        meant = self._shared and not copied and f"{folder}/" not in self._script.inputs
+        meant = ("/" in folder or self._made_of_them) and not copied and f"{folder}/" not in self._script.inputs
         return Confidence.HIGH if meant and for_run_time else Confidence.MEDIUM
 
 
@@ -198,14 +196,6 @@ def _looked_up_elsewhere(package: Package) -> frozenset[tuple[str, str]]:
     files = [each for launch in package.launch for each in launch.references if each.kind in ("file", "include")]
     own = {(each.span.path, _name(each.name)) for each in files if each.package == package.name}
     return frozenset([(each.span.path, _name(each.name)) for each in files]) - own
-
-
-def _shares(package: Package, script: BuildScript) -> bool:
-    """Whether a package installs other folders of files for run time, so that this one is forgotten."""
-    share = f"share/{package.name}/"
-    return any(
-        provided.path.startswith(share) and provided.source.partition("/")[0] in _FOR_RUN_TIME for provided in script.provides
-    )
 
 
 def _makes_nothing(package: Package, script: BuildScript) -> bool:
