@@ -183,6 +183,7 @@ def resolve(source: Source, resolver: Resolver) -> tuple[Use, ...]:
     own = OwnFiles(source.name, source.files, source.script, source.facts)
     alive = Liveness(own, launched)
     uses = _Uses(source, own, alive, resolver)
+    forgone = own.forgone(_lenient(source, alive))
     _add_script(source, uses)
     for path, facts in source.facts.items():
         if not facts.mentions or alive.is_foreign(path):
@@ -190,7 +191,7 @@ def resolve(source: Source, resolver: Resolver) -> tuple[Use, ...]:
         role, sure = alive.place(path)
         role = _TEST if path in tests else role
         mentions = list(facts.mentions)
-        if alive.is_optional(path):
+        if alive.is_optional(path) or (path in forgone and not alive.is_started(path)):
             mentions = [mention._replace(optional=True) for mention in mentions]
         if path in launched:  # the launch collector has the packages, too
             mentions = [mention for mention in mentions if mention.via != "package"]
@@ -231,7 +232,7 @@ class _Uses:
         self._own = own
         self._alive = alive
         self._absent = source.absent
-        self._caught = _caught(source, alive)
+        self._caught = frozenset([name for path in _lenient(source, alive) for name in source.facts[path].caught])
         self._added = frozenset([span for facts in source.facts.values() for span in facts.added])
         script = source.built
         self._reaches_out = script.reaches_out
@@ -304,13 +305,9 @@ class _Uses:
         return self._own.has_module(top, path) or (top in _BUILD_MODULES and path.endswith("setup.py"))
 
 
-def _caught(source: Source, alive: Liveness) -> frozenset[str]:
-    """Return the modules that a file of the package imports and goes on without, tests aside."""
-    found: set[str] = set()
-    for path, facts in source.facts.items():
-        if facts.caught and alive.place(path)[0] is not _TEST:
-            found.update(facts.caught)
-    return frozenset(found)
+def _lenient(source: Source, alive: Liveness) -> list[str]:
+    """Return the files of the package that import something and go on without, tests aside."""
+    return [path for path, facts in source.facts.items() if facts.caught and alive.place(path)[0] is not _TEST]
 
 
 def _unspoken(source: Source, uses: _Uses) -> None:

@@ -96,6 +96,10 @@ class Liveness:
         """Return whether only some builds compile a file, going by a condition that need not be true."""
         return path in self._optional and (path not in self._public or _stem(path) in self._optional_stems)
 
+    def is_started(self, path: str) -> bool:
+        """Return whether people start a file: a launch file, or a program that is always installed."""
+        return path in self._started
+
     def serves_tests(self, path: str) -> bool:
         """Return whether a header is there for tests: nothing that is built and no test takes it, unless by including it."""
         return path not in self._production

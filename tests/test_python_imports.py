@@ -70,7 +70,7 @@ def test_the_tree_is_walked_whole() -> None:
                 else []
             )
         )
-        found = walk(source, tree)
+        found = [item for item in walk(source, tree) if not item.module.startswith(".")]
         assert sorted(item.module for item in found) == plain
         assert all(source.text.startswith(item.module, item.start) for item in found)
 
@@ -163,6 +163,30 @@ def test_scan_and_tree_agree(seed: int) -> None:
             agreed += bool(found)
             assert found == walk(source, tree), source.text
     assert agreed > 30
+
+
+@pytest.mark.parametrize(
+    ("text", "caught"),
+    [
+        ("try:\n    from .a import b\n    from ..c.d import e\nexcept ImportError:\n    b = None\n", (".a", "..c.d")),
+        ("try:\n    from . import a, b\nexcept ImportError as error:\n    a = b = None\n", (".a", ".b")),
+        ("with suppress(ImportError):\n    from .a import b\n", (".a",)),
+        ("try:\n    from .a import b\n    import c\nexcept ImportError:\n    pass\n", (".a", "c")),
+        # The other branch may import the same file by another way.
+        ("try:\n    from .a import b\nexcept ImportError:\n    from a import b\n", ()),
+        ("try:\n    from .a import b\nexcept ImportError:\n    from robot.a import b\n", ("robot.a",)),
+        ("try:\n    from .a import b\nexcept ImportError:\n    raise\n", ()),
+        ("try:\n    from .a import b\nexcept Exception:\n    b = None\n", ()),
+        ("if TYPE_CHECKING:\n    from .a import b\n", ()),
+        ("from .a import b\ntry:\n    pass\nexcept ImportError:\n    pass\n", ()),
+    ],
+)
+def test_files_of_the_package_that_a_file_goes_on_without(text: str, caught: tuple[str, ...]) -> None:
+    source = Text("a.py", text)
+    facts = python.collect(source)
+    assert facts.caught == caught
+    assert [mention.name for mention in facts.mentions if mention.name.startswith(".")] == []
+    assert tuple(item.module for item in walk(source, parse(source)) if item.caught) == caught
 
 
 @given(st.text(alphabet="import from as.x,\n\t \"'#\\();:", max_size=60))

@@ -42,7 +42,7 @@ def collect(source: Text, *, launch: bool = False) -> FileFacts:
         found, looked_up = _found(source, launch)
     except NotPythonError as error:
         return _unreadable(source, error)
-    named = [item for item in found if item.module]
+    named = [item for item in found if item.module and item.module[0] != "."]
     spans = list(source.spans([(item.start, item.start + len(item.module)) for item in named]))
     folders = added_folders(source.text) if "sys.path" in source.text else ()
     added = tuple([span for item, span in zip(named, spans, strict=True) if not item.caught and _is_added(item, folders)])
@@ -61,7 +61,7 @@ def collect(source: Text, *, launch: bool = False) -> FileFacts:
         tuple(mentions),
         (*opaque, *looked_up.opaque),
         look_ups=looked_up.files,
-        caught=tuple([item.module for item in named if item.caught]),
+        caught=tuple([item.module for item in found if item.caught]),
         added=added,
         sets_path="sys.path" in source.text,
         programs=_programs(source.text),

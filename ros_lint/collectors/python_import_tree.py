@@ -15,12 +15,12 @@ if TYPE_CHECKING:
 
 
 class Import(NamedTuple):
-    """An absolute import."""
+    """An absolute import, or a relative one that the program does without."""
 
     start: int
     """Offset of the module as written."""
     module: str
-    """Dotted, "" when it is computed."""
+    """Dotted, "" when it is computed. A relative one begins with its dots: ``.a`` for ``from . import a``, too."""
     optional: bool
     """Whether the program does without: for type checkers only, never as it is written, or with the error caught."""
     caught: bool = False
@@ -51,6 +51,7 @@ def walk(source: Text, tree: ast.Module) -> list[Import]:
     found = [
         Import(start, module, bool(optional), optional == _CAUGHT)
         for statement, optional in walker.imports(tree.body, inside=False)
+        if optional == _CAUGHT or not _is_relative(statement)
         for start, module in _modules(source, statement)
     ]
     if any(name in source.text for name in _DYNAMIC):
@@ -171,12 +172,20 @@ def _is_off(test: ast.expr, off: frozenset[str]) -> bool:
 
 
 def _alternatives(branches: list[list[_Found]], kind: int) -> Iterator[_Found]:
-    """Yield the imports of branches one of which runs; not optional is what each needs, of that kind everything else."""
+    """Yield the imports of branches one of which runs; not optional is what each needs, of that kind everything else.
+
+    A file of the package for which another branch imports something may be just what that is, by another way.
+    """
     needed = [{root for found, optional in branch if not optional for root in _roots(found)} for branch in branches]
     always = set.intersection(*needed)
+    replaced = sum(map(bool, branches)) > 1
     for branch in branches:
         for found, optional in branch:
-            yield found, optional or (0 if always.issuperset(_roots(found)) else kind)
+            yield found, optional or (0 if always.issuperset(_roots(found)) or (replaced and _is_relative(found)) else kind)
+
+
+def _is_relative(statement: ast.Import | ast.ImportFrom) -> bool:
+    return isinstance(statement, ast.ImportFrom) and bool(statement.level)
 
 
 def _roots(statement: ast.Import | ast.ImportFrom) -> set[str]:
@@ -220,7 +229,8 @@ def _modules(source: Text, statement: ast.Import | ast.ImportFrom) -> Iterator[t
     if isinstance(statement, ast.Import):
         for alias in statement.names:
             yield start_of(source, alias), alias.name
-    elif not statement.level and statement.module:
+    else:
         word = _FROM_AT.match(source.text, start_of(source, statement))
         assert word is not None
-        yield word.end(), statement.module
+        names = [statement.module] if statement.module else [alias.name for alias in statement.names]
+        yield from ((word.end(), f"{'.' * statement.level}{name}") for name in names)

@@ -53,7 +53,7 @@ def scan(text: str) -> list[Import] | None:
         names = _imported(text, match, before)
         if names is None:
             return None
-        if not names:
+        if not names and not (text[line] in " \t\f" and _RELATIVE.match(before)):
             continue
         places.append(line)
         if text[line] in " \t\f":

@@ -124,7 +124,7 @@ class FileFacts(NamedTuple):
     look_ups: tuple[LookUp, ...] = ()
     parameters: ParameterFile | None = None
     caught: tuple[str, ...] = ()
-    """Python modules that may be missing: ``try: import a`` with ``except ImportError``."""
+    """Python modules that may be missing: ``try: import a`` with ``except ImportError``. Relative ones begin with their dots."""
     added: tuple[Span, ...] = ()
     """Imports of modules after whose names the file adds a folder to those in which modules are sought."""
     programs: tuple[str, ...] = ()

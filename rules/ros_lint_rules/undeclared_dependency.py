@@ -19,8 +19,9 @@ needed at run time, `<exec_depend>` for what is needed at run time only, `<test_
 
 - The package comes with a declared one: see `transitive-dependency` for uses that hang on such a chain.
 - It is declared by a wrong name: `unknown-dependency` says so.
-- The use is optional: `find_package(QUIET)` behind `if(X_FOUND)`, `try: import`, `__has_include`. Then the confidence is
-  low, and nothing is fixed. It is silent where the package needs this one itself.
+- The use is optional: `find_package(QUIET)` behind `if(X_FOUND)`, `try: import`, also `try: from .file import` of the file
+  that has it, `__has_include`. Then the confidence is low, and nothing is fixed. It is silent where the package needs this
+  one itself.
 - It is named only in a template for other packages, by what makes the pages of the documentation, or in an editor's copy.
 - colcon rejects `package.xml`, which is to be mended first: then the confidence is medium.
 - The name belongs to no package or rosdep key that is known, or to the system. Whose messages are used is a package all the
