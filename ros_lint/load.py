@@ -180,7 +180,7 @@ class Loader:
 
     def _members(self, reads: Sequence[_Read], rejected: Sequence[Manifest]) -> Iterator[Member]:
         for found, declared, script, *_ in reads:
-            modules = offered(script.python_packages, found.files) if script else ()
+            modules = offered(script, found.files) if script else None
             yield _member(found.name, found.manifest, declared)._replace(modules=modules)
         for manifest in rejected:
             if manifest.name:

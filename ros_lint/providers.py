@@ -8,11 +8,13 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
+from ros_lint.apart import is_apart
 from ros_lint.knowledge.names import NOTHING_NEEDED
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
+    from ros_lint.facts.build import BuildScript
     from ros_lint.world import World
 
 
@@ -126,20 +128,32 @@ def _with_released(world: World, module: str, offering: tuple[str, ...]) -> tupl
     return (module, *offering) if answer == "exists" else offering if answer == "missing" else (*offering, module)
 
 
-def offered(names: Iterable[str], files: Iterable[str]) -> tuple[str, ...]:
-    """Return the modules at the top of what a package installs that are meant to be imported.
+def offered(script: BuildScript, files: Sequence[str]) -> tuple[str, ...] | None:
+    """Return the modules at the top of what a package installs that are meant to be imported, None if they are not known.
 
-    ``names`` are dotted, ``files`` those of the package. ``find_namespace_packages()`` takes any folder for a package: those
-    without Python modules and those that hold data, going by their name, are none.
+    ``files`` are those of the package. ``find_namespace_packages()`` takes any folder for a package: those without Python
+    modules and those that hold data, going by their name, are none.
     """
-    tops = dict.fromkeys(name.partition(".")[0] for name in names)
+    tops = dict.fromkeys(name.partition(".")[0] for name in script.python_packages)
     modules: dict[str, bool] = {}
     for file in files if tops else ():
         top, slash, rest = file.removeprefix("src/").partition("/")
         if slash and top in tops:
             is_module = rest == "__init__.py" or (rest.endswith(".py") and top not in _DATA)
             modules[top] = modules.get(top, False) or is_module
-    return tuple(top for top in tops if modules.get(top, True))
+    found = tuple(top for top in tops if modules.get(top, True))
+    return found if found or _has_no_module(script, files) else None
+
+
+def _has_no_module(script: BuildScript, files: Iterable[str]) -> bool:
+    """Whether a package surely offers no module: no file becomes one, and CMake finds nothing that binds other code."""
+    if any(mention.name.lower().startswith(_BINDS) for mention in script.mentions if mention.via == "cmake"):
+        return False
+    return not any(file.endswith(_MODULES) and not (is_apart(file) or ".launch." in file) for file in files)
+
+
+_BINDS = ("python", "pybind11", "nanobind", "swig")
+_MODULES = (".py", ".pyx", ".i", ".idl", ".msg", ".srv", ".action")
 
 
 _DATA = frozenset(

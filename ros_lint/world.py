@@ -44,8 +44,8 @@ class Member(NamedTuple):
     buildtool_export, x exec, s test, d doc, G groups (:data:`ros_lint.knowledge.index.TAG_KINDS`)."""
     groups: tuple[str, ...] = ()
     """That it is a member of."""
-    modules: tuple[str, ...] = ()
-    """Top-level Python modules that it offers, where known."""
+    modules: tuple[str, ...] | None = None
+    """Top-level Python modules that it offers, None where they are not known."""
 
 
 class World:
@@ -271,7 +271,7 @@ class World:
         """Return the packages of the workspace that offer a Python module: by their word, else by their name."""
         found = self._modules.get(module, ())
         member = self._members.get(module)
-        if not found and member is not None and (not member.modules or INTERFACES in member.groups):
+        if not found and member is not None and (member.modules is None or INTERFACES in member.groups):
             return (module,)
         return found
 
@@ -341,6 +341,6 @@ class World:
     def _modules(self) -> Mapping[str, tuple[str, ...]]:
         found: dict[str, tuple[str, ...]] = {}
         for member in self._members.values():
-            for module in member.modules:
+            for module in member.modules or ():
                 found[module] = (*found.get(module, ()), member.name)
         return found
