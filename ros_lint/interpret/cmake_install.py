@@ -264,12 +264,13 @@ def _install_directory(run: Run, value: str, source: str, target: str, rule: _Ru
         return
     more = unlisted(run, source, facet_of(run, target), span) if run.sources.unseen else []
     own = run.below(source)
+    top = plain.rstrip("/") if plain.startswith("/") else f"/{join_path(run.directory, plain)}".rstrip("/")
     if not own and source and not run.is_unseen(source):
-        if not rule.optional:
+        # What is not there is no folder for CMake, but a file, which it passes over where patterns leave it out.
+        if not rule.optional and _chosen(posixpath.basename(top), posixpath.dirname(top), rule)[0]:
             run.missing.append((f"{source}/", span, conditional))
         return
     skip = len(source) + 1 if source else 0
-    top = plain.rstrip("/") if plain.startswith("/") else f"/{join_path(run.directory, plain)}".rstrip("/")
     start = f"{target}/" if target else ""
     chosen = bool(rule.patterns or rule.only)
     for file in (*own, *more) if more else own:

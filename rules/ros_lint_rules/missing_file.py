@@ -19,7 +19,8 @@ Correct the path, add the file to the repository, or remove the line. A folder t
 ## When it keeps silent
 
 - Paths that cannot be evaluated, files in the build folder, and files that the build generates.
-- Under a condition that may not hold, and with `OPTIONAL`. Folders among the sources of a target, which CMake passes over.
+- Under a condition that may not hold, with `OPTIONAL`, and a folder that `FILES_MATCHING` leaves out by its own name, as
+  `PATTERN "*.h"` does: CMake passes over it. So it does over folders among the sources of a target.
 - The confidence is medium where the script runs programs that may make files or downloads them, for what git ignores or may
   be a submodule, and for what is installed where custom commands or targets work in the source folder: they may make it.
 """
