@@ -165,12 +165,7 @@ class World:
 
     def closure_without(self, names: Iterable[str], package: str, gone: Container[str]) -> Closure:
         """Return the closure of names as it would be if a package did not bring some of the others itself."""
-
-        def brings(name: str) -> tuple[str, ...] | None:
-            found = self._brings(name)
-            return tuple(each for each in found if each not in gone) if found and name == package else found
-
-        return Reach(brings).closure(names)
+        return self._reach.closure_without(names, package, gone)
 
     def path(self, starts: Iterable[str], goal: str) -> tuple[str, ...]:
         """Return a shortest chain by which a name comes along with one of others, both ends included, or ()."""

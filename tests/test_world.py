@@ -156,6 +156,12 @@ def test_circles_in_any_order_of_asking() -> None:
                 assert (path[0], path[-1]) == (name, goal)
                 assert all(b in after[a] for a, b in itertools.pairwise(path))
                 assert len(path) == 1 + nx.shortest_path_length(graph, int(name), int(goal))
+        changed, *gone = chance.choices(asked, k=4)
+        left = {**after, changed: tuple([name for name in after[changed] if name not in gone])}
+        other = Reach(lambda name, after=left, dark=dark: None if name in dark else after[name])
+        for names in ([name, asked[0]] for name in asked):
+            found, expected = reach.closure_without(names, changed, gone), other.closure(names)
+            assert (found.names, found.unknown) == (expected.names, expected.unknown)
 
 
 def test_what_propagates_and_what_does_not() -> None:

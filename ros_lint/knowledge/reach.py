@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Container, Iterable, Iterator
 
 
 class Closure:
@@ -70,6 +70,28 @@ class Reach:
         for name in names:
             found = self._bits.get(name)
             bits |= self._explore(name) if found is None else found
+        return Closure(self, bits)
+
+    def closure_without(self, names: Iterable[str], changed: str, gone: Container[str]) -> Closure:
+        """Return the closure of names as it would be if one name did not bring some of the others itself.
+
+        What does not lead to that one brings what it always does.
+        """
+        waiting = list(names)
+        whole = self.closure(waiting)
+        if changed not in whole:
+            return whole
+        number = self.numbers[changed]
+        bits = 0
+        seen: set[str] = set()
+        while waiting:
+            name = waiting.pop()
+            if not self._bits[name] >> number & 1:
+                bits |= self._bits[name]
+            elif name not in seen:
+                seen.add(name)
+                bits |= 1 << self.numbers[name]
+                waiting += [each for each in self._next[name] if name != changed or each not in gone]
         return Closure(self, bits)
 
     def path(self, starts: Iterable[str], goal: str) -> tuple[str, ...]:
