@@ -94,7 +94,7 @@ from ros_lint.text import Span, beginning
 from ros_lint.tree import folders_of
 from ros_lint.unknowns import may_bring
 from ros_lint.wording import few, several
-from ros_lint.workspace import Declared, Package, Workspace, per_workspace
+from ros_lint.workspace import Declared, Package, Workspace, per_package, per_workspace
 
 if TYPE_CHECKING:  # made only where it is asked for
     from ros_lint.interpret.launch_expand import Started as Started  # noqa: PLC0414
@@ -234,6 +234,7 @@ __all__ = [
     "needs",
     "node_targets",
     "passed_files",
+    "per_package",
     "per_workspace",
     "place_of",
     "programs",

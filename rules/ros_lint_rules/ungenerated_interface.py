@@ -29,7 +29,7 @@ way, or two packages of the workspace have the name, and in packages with a file
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from typing import NamedTuple
 
 from ros_lint.api import (
@@ -47,6 +47,7 @@ from ros_lint.api import (
     Workspace,
     called,
     did_you_mean,
+    per_package,
     place_of,
     several,
     similar,
@@ -123,7 +124,7 @@ def _of_users(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for what, places in told.items():
         used = _Used(*what, places[0])
         makers = workspace.by_name.get(used.maker, ())
-        if len(makers) != 1 or (wrong := _wrong(used, makers[0])) is None:
+        if len(makers) != 1 or (wrong := _wrong(used, makers[0], workspace)) is None:
             continue
         made = next(called(makers[0], _GENERATE, anywhere=True), None)
         yield Finding(
@@ -155,19 +156,17 @@ def _used(package: Package) -> Iterator[_Used]:
             yield _Used(maker, kind, name, "", imported.span)
 
 
-def _wrong(used: _Used, maker: Package) -> str | None:
+def _wrong(used: _Used, maker: Package, workspace: Workspace) -> str | None:
     """Return what is wrong about a use, None if nothing is, or nobody can tell."""
     generated = maker.built.interfaces
     if not generated or maker.builds_with != "ament_cmake" or maker.hidden(Facet.INTERFACES):
         return None
+    form = _snake if used.header else str
+    there = _there(maker, workspace)[used.kind, bool(used.header)]
+    if used.name in there or (not used.header and any(used.name.startswith(f"{name}_") for name in there)):
+        return None
     by_hand = f"{used.maker}/{used.kind}/{used.name}{used.header}" if used.header else f"{used.kind}/__init__.py"
     if any(f"/{file}".endswith(f"/{by_hand}") for file in maker.files):
-        return None
-    left_over = [each for file in maker.files if (each := _interface(file)) and each not in maker.built.set_aside]
-    form = _snake if used.header else str
-    of_kind = [each for each in (*generated, *left_over) if each.startswith(used.kind)]
-    there = {form(each.partition("/")[2]) for each in of_kind}
-    if used.name in there or (not used.header and any(used.name.startswith(f"{name}_") for name in there)):
         return None
     named = f"{used.kind or 'msg'}/{used.name}{used.header}"
     elsewhere = next((each for each in generated if _form(each, form).endswith(f"/{used.name}")), "")
@@ -176,6 +175,22 @@ def _wrong(used: _Used, maker: Package) -> str | None:
     near = similar(used.name, sorted(there))
     way_out = did_you_mean([f"{each}{used.header}" for each in near]) or "; correct the name, or add the file"
     return f"{used.maker} generates no {named}{way_out}"
+
+
+@per_package
+def _there(maker: Package, workspace: Workspace) -> Mapping[tuple[str, bool], frozenset[str]]:
+    """Return the interfaces of a package by their kind, "" for any, and by whether they are written as in headers.
+
+    Those of files from which nothing is generated count, too: another finding speaks of them.
+    """
+    left_over = [each for file in maker.files if (each := _interface(file)) and each not in maker.built.set_aside]
+    everything = dict.fromkeys([*maker.built.interfaces, *left_over])
+    names = {kind: [each.partition("/")[2] for each in everything if each.startswith(kind)] for kind in ("", *_KINDS)}
+    return {
+        (kind, header): frozenset(map(_snake, plain) if header else plain)
+        for kind, plain in names.items()
+        for header in (False, True)
+    }
 
 
 def _form(interface: str, form: Callable[[str], str]) -> str:
