@@ -28,7 +28,6 @@ _CHAIN = re.compile(rb"(?:\w+\s*::\s*)+\Z")
 _NEAR = 120
 """How many bytes before a name are looked at."""
 _NO_CODE = re.compile(rb'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
-_WITHIN_LINES = re.compile(rb"[^\n]")
 _SHORTEST = 4
 """Of shorter names too many mean something else."""
 
@@ -56,7 +55,11 @@ def namespaces(text: bytes) -> frozenset[bytes]:
 
 def code(text: bytes) -> bytes:
     """Return C++ code with blanks for comments and strings, each character at its offset."""
-    return _NO_CODE.sub(lambda match: _WITHIN_LINES.sub(b" ", match[0]), text)
+    return _NO_CODE.sub(_blank, text)
+
+
+def _blank(match: re.Match[bytes]) -> bytes:
+    return b"\n".join([b" " * len(line) for line in match[0].split(b"\n")])
 
 
 def first(texts: Iterable[tuple[str, bytes]], name: bytes, spaces: Container[bytes]) -> Span | None:
