@@ -19,8 +19,7 @@ def explain(package: Package, workspace: Workspace, name: str) -> Iterator[str]:
     """Yield lines: where the dependency is used, how it is declared, and why each rule is silent, if it is."""
     uses = [use for use in package.uses if name in use.providers]
     yield from used_in(uses)
-    tags = [each.depend for each in package.declared if each.name == name]
-    for depend in tags:
+    for depend in [each.depend for each in package.tags(name)]:
         condition = f" if {depend.condition}" if depend.condition else ""
         yield f"{depend.span}: <{depend.tag}>{depend.name}</{depend.tag}>{condition}"
     yield f"undeclared-dependency: {_not_undeclared(package, workspace, name, uses)}"
@@ -78,7 +77,8 @@ def _not_undeclared(package: Package, workspace: Workspace, name: str, uses: lis
 
 
 def _not_unused(package: Package, workspace: Workspace, name: str, uses: list[Use]) -> str:
-    tags = [each.depend for each in package.declared if each.name == name]
+    declared = package.tags(name)
+    tags = [each.depend for each in declared]
     if not tags:
         return "silent, for it is not declared"
     if all(depend.condition for depend in tags):
@@ -98,7 +98,7 @@ def _not_unused(package: Package, workspace: Workspace, name: str, uses: list[Us
         return "silent, for it may do its work without being named"
     if not any(depend.tag in ("depend", "build_depend") for depend in tags):
         return "silent unless it is declared for tests and there are none: this tag says that it leaves no trace"
-    carried = carriers(package, workspace, [each for each in package.declared if each.name == name]).get(name)
+    carried = carriers(package, workspace, declared).get(name)
     if carried:
         whom = "" if carried.package == package.name else f" to {carried.package}"
         return f"less than certain, for it alone brings {carried.name}{whom}; shown with --pedantic"

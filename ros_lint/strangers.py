@@ -64,7 +64,7 @@ def declared_names(workspace: Workspace) -> Mapping[str, Sequence[Package]]:
 def strangers(name: str, packages: Iterable[Package]) -> Iterator[Stranger]:
     """Yield a name once for each package that surely declares it: under no condition that nobody can evaluate."""
     for package in packages:
-        tags = [declared for declared in package.declared if declared.name == name]
+        tags = package.tags(name)
         first = next((declared for declared in tags if declared.certain), None)
         if first is not None:
             yield Stranger(package, first, tuple(declared.depend for declared in tags))

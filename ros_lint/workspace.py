@@ -110,10 +110,13 @@ class Package(NamedTuple):
     def declares(self, name: str) -> Role:
         """Return everything that the package declares a name for, conditions that may be false included."""
         role = Role(0)
-        for declared in self.declared:
-            if declared.depend.name == name:
-                role |= declared.role
+        for declared in self.tags(name):
+            role |= declared.role
         return role
+
+    def tags(self, name: str) -> list[Declared]:
+        """Return the tags that declare a name, conditions that may be false included."""
+        return [declared for declared in self.declared if declared.depend.name == name]
 
 
 class Workspace:

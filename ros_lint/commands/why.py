@@ -134,7 +134,7 @@ def _tag(tag: str) -> str:
 def _is_known(workspace: Workspace, name: str) -> bool:
     if name in workspace.by_name or workspace.world.is_package(name) or workspace.world.is_key(name):
         return True
-    return any(declared.name == name for package in workspace.packages for declared in package.declared)
+    return any(package.tags(name) for package in workspace.packages)
 
 
 def _no_such(workspace: Workspace, name: str) -> str:

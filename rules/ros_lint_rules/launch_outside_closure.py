@@ -98,7 +98,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _says(package: Package, name: str) -> str:
     """Return how a package declares a name, which is not for running if it does."""
-    tags = dict.fromkeys(f"<{declared.depend.tag}>" for declared in package.declared if declared.name == name)
+    tags = dict.fromkeys(f"<{declared.depend.tag}>" for declared in package.tags(name))
     return f"declares it as {' and '.join(tags)} only" if tags else "does not depend on it"
 
 

@@ -116,7 +116,7 @@ def _undeclared(name: str, package: Package, workspace: Workspace) -> str:
 def _never_comes(name: str, package: Package, workspace: Workspace) -> bool:
     """Whether nothing that is declared is a package of some name, or may bring it along."""
     manifest = package.manifest
-    if manifest is None or manifest.problems or any(declared.name == name for declared in package.declared):
+    if manifest is None or manifest.problems or package.tags(name):
         return False
     closure = declared_closure(package, workspace, Role.EXEC | Role.EXPORT)
     return name not in closure and not may_bring(closure.unknown, name, workspace)

@@ -179,8 +179,7 @@ def _removal(stranger: Stranger) -> tuple[Edit, ...]:
 def _rename(stranger: Stranger, name: str) -> tuple[Edit, ...]:
     """Return the edits that put another name into every tag. None where tags would then repeat each other."""
     package = stranger.package
-    if any(declared.name == name for declared in package.declared):
-        have = {declared.depend.tag for declared in package.declared if declared.name == name}
+    if have := {declared.depend.tag for declared in package.tags(name)}:
         if have <= {"depend"} or have == {tag.tag for tag in stranger.tags}:
             return _removal(stranger)
         return ()
