@@ -8,7 +8,7 @@ from posixpath import normpath
 from types import MappingProxyType
 
 from ros_lint.collectors import launch_text
-from ros_lint.collectors.launch_expression import evaluate
+from ros_lint.collectors.launch_expression import evaluate, means_true
 from ros_lint.collectors.launch_held import held
 from ros_lint.collectors.launch_text import (
     UNKNOWN,
@@ -19,6 +19,7 @@ from ros_lint.collectors.launch_text import (
     installed,
     is_plain,
     is_settled,
+    named_in,
     names_places,
     runs_xacro,
     share,
@@ -59,7 +60,10 @@ class References:
         before, narrowed, known = self._optional, self._narrowed, self._known
         if action.conditions:
             conditional = True
-            self._optional = before or asks_first(action.conditions)
+            optional = _optional_under(action.conditions)
+            if optional is None:
+                return
+            self._optional = before or optional
             self._narrow(action.conditions)
         match action.kind:
             case "node" | "component":
@@ -218,8 +222,10 @@ class References:
         if not is_plain(package):
             self.hide("the package that is looked up is computed", value.span)
             return
+        optional = _optional_under(conditions)
+        if optional is None:
+            return
         if not any(reference.package == package and reference.conditional <= bool(conditions) for reference in self.found):
-            optional = asks_first(conditions)
             self.found[
                 LaunchReference(
                     "package", package, "", value.span, value.span, bool(conditions), value.exact, value.exact, optional
@@ -228,7 +234,10 @@ class References:
 
     def opens(self, value: LaunchValue, conditions: Sequence[LaunchCondition]) -> None:
         """Note a file that is read when the launch file is."""
-        before, self._optional = self._optional, asks_first(conditions)
+        optional = _optional_under(conditions)
+        if optional is None:
+            return
+        before, self._optional = self._optional, optional
         self._paths(value, None, bool(conditions))
         self._optional = before
 
@@ -287,6 +296,29 @@ class References:
 def asks_first(conditions: Iterable[LaunchCondition]) -> bool:
     """Return whether conditions ask if something is installed: what is under them is done without, whatever its name."""
     return any(condition.wanted and asked_for(text) for condition in conditions for text in condition.texts)
+
+
+_DISTRIBUTIONS = ("humble", "jazzy", "kilted", "lyrical", "rolling")
+"""The distributions that are still maintained: what a launch file does for older ones alone is none of our business."""
+_ASKED = "$ROS_DISTRO"
+
+
+def _optional_under(conditions: Sequence[LaunchCondition]) -> bool | None:
+    """Return whether what is under conditions is done without somewhere, None if no distribution comes to it."""
+    holds = {_holds_in(distro, conditions) for distro in _DISTRIBUTIONS}
+    return None if holds == {False} else False in holds or asks_first(conditions)
+
+
+def _holds_in(distro: str, conditions: Iterable[LaunchCondition]) -> bool:
+    """Return whether conditions can hold in a distribution, as far as they ask for nothing but which one runs."""
+    for (text, *others), equals, wanted in conditions:
+        if others or set(named_in(text) or ()) != {_ASKED}:
+            continue
+        texts = fill(text, lambda _: (distro,), evaluate)
+        answers = {means_true(one) if equals is None else one == equals for one in texts if is_settled(one)}
+        if answers == {not wanted}:
+            return False
+    return True
 
 
 _Reads = Callable[[str], str]

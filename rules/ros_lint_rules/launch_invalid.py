@@ -27,6 +27,8 @@ The message names what is wrong. See the launch format of your distribution for 
 - Launch files of ROS 1 as a whole.
 - Tags that packages add to the format.
 - Launch files of tests, examples and templates.
+- A launch file that is called after a distribution which takes the removed keywords (`dashing_start.py`) is kept for that:
+  the confidence is medium.
 - What is newer than the distribution, where nobody said which one is meant.
 - A substitution is taken for a text, or a number given for one, where errors are caught, or only in what people read, such as
   `print()`. A substitution is tested in a function that it was given to: that may ask whether it is there at all.
@@ -34,6 +36,7 @@ The message names what is wrong. See the launch format of your distribution for 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 
 from ros_lint.api import (
@@ -50,6 +53,8 @@ from ros_lint.api import (
     several,
 )
 
+_FOR_OLD = re.compile(r"(?:^|[_.-])(?:crystal|dashing|el[eo]quent|foxy)(?:[_.-]|$)")
+"""In the name of a launch file: distributions that take the keywords which are gone since Galactic."""
 _MAY_BE_NEWER = frozenset({"unknown-tag", "unexpected-attribute", "unexpected-child", "unexpected-keyword"})
 
 
@@ -64,7 +69,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             first.span,
             launch.path,
             several(Related(_also(first, other), other.span) for other in others),
-            confidence=max(_confidence(problem, workspace) for problem in problems),
+            confidence=max(_confidence(problem, launch.path, workspace) for problem in problems),
             severity=Severity.WARNING if all(problem.kind == "substitution-as-text" for problem in problems) else None,
         )
 
@@ -86,7 +91,9 @@ def _message(problem: Problem) -> str:
     return f"{problem.message}; ROS 2 has {problem.instead}" if problem.instead else problem.message
 
 
-def _confidence(problem: Problem, workspace: Workspace) -> Confidence:
+def _confidence(problem: Problem, path: str, workspace: Workspace) -> Confidence:
+    if problem.kind == "removed-keyword" and _FOR_OLD.search(path.rpartition("/")[2]):
+        return Confidence.MEDIUM
     # A package or a newer release may have added what is not known here.
     if problem.instead or problem.kind not in _MAY_BE_NEWER:
         return Confidence.HIGH
