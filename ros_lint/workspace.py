@@ -18,6 +18,7 @@ from ros_lint.tree import join
 
 if TYPE_CHECKING:
     from ros_lint.graph import Graph
+    from ros_lint.knowledge.provides import Offer
     from ros_lint.launch_links import Links
     from ros_lint.world import World
 
@@ -154,6 +155,14 @@ class Workspace:
         for package in self.packages:
             found[package.name] = (*found.get(package.name, ()), package)
         return found
+
+    def surely_lacks(self, owner: str, offer: Offer, wanted: str) -> bool:
+        """Whether it is beyond doubt that a package does not offer what was not found in it.
+
+        Packages of the workspace were looked through. A released one must be known to lack it: in every distribution, where
+        nobody said which one is meant.
+        """
+        return owner in self.by_name or self.world.lacks(owner, offer, wanted, everywhere=not self.target.told)
 
     def unread(self, package: Package | None = None) -> bool:
         """Whether a file of a package, or any at all, could not be read: what nobody says in sight may stand there."""

@@ -81,10 +81,7 @@ def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if not written and not twin:
             continue
         meant = written or _is_left_over(twin, owner, others_there, workspace)
-        everywhere = not workspace.target.told
-        sure = meant and (
-            bool(workspace.by_name.get(owner)) or workspace.world.lacks(owner, "launch", path, everywhere=everywhere)
-        )
+        sure = meant and workspace.surely_lacks(owner, "launch", path)
         yield Finding(
             f"{owner} has no {path}{_hint(path, others_there)}",
             best.span,

@@ -51,9 +51,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         meant = [other for other in names if other.lower() == name.lower()]
         near = meant or similar(name, names, 2, 0.75)
         hint = did_you_mean(near) if names else ", and no other either"
-        everywhere = not workspace.target.told
         only = meant[0] if len(meant) == 1 else ""
-        sure = bool(workspace.by_name.get(owner)) or workspace.world.lacks(owner, "components", name, everywhere=everywhere)
+        sure = workspace.surely_lacks(owner, "components", name)
         yield Finding(
             f"{owner} registers no component {name}{hint}",
             best.span,
