@@ -27,8 +27,8 @@ class Linked(NamedTuple):
 class Takes(NamedTuple):
     """What a launch file and those that it includes do with launch configurations."""
 
-    required: tuple[str, ...]
-    """Arguments without default that the file itself declares, whatever else is so."""
+    required: Mapping[str, Span]
+    """Arguments without default that the file itself declares, whatever else is so, with where it does."""
     known: frozenset[str]
     """Names that are declared, set or used."""
     complete: bool
@@ -38,7 +38,7 @@ class Takes(NamedTuple):
 class _Own(NamedTuple):
     """The same of one file, and the files that it includes."""
 
-    required: tuple[str, ...]
+    required: Mapping[str, Span]
     known: set[str]
     complete: bool
     includes: list[LaunchFile]
@@ -149,7 +149,7 @@ class Links:
                 inner = self.target(action.target, file)
                 complete = complete and inner is not None
                 includes += [inner.file] if inner is not None else []
-        own = self._owns[file.path] = _Own(tuple(dict.fromkeys(_required(file.actions))), known, complete, includes)
+        own = self._owns[file.path] = _Own(dict(_required(file.actions)), known, complete, includes)
         return own
 
 
@@ -210,8 +210,8 @@ def filled(value: LaunchValue | None, defaults: Mapping[str, tuple[str, ...]]) -
     return tuple(dict.fromkeys(texts))
 
 
-def _required(actions: Iterable[LaunchAction]) -> Iterator[str]:
-    """Yield the arguments that must be given: declared at the top, without default, under no condition."""
+def _required(actions: Iterable[LaunchAction]) -> Iterator[tuple[str, Span]]:
+    """Yield the arguments that must be given, each with its place: declared at the top, without default, under no condition."""
     for action in actions:
         if action.kind == "argument" and action.value is None and not action.conditions and action.target is not None:
-            yield from (text for text in action.target.texts if is_plain(text))
+            yield from ((text, action.span) for text in action.target.texts if is_plain(text))

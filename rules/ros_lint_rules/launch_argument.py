@@ -253,19 +253,13 @@ def _of_include(
     takes = links.takes(target.file)
     file = f"{target.package.name}/{target.path}"
     span = action.target.span if action.target is not None else action.span
-    declared = {
-        name: one.span
-        for one in everything(target.file.actions)
-        if one.kind == "argument" and one.target is not None
-        for name in one.target.texts
-    }
-    for name in takes.required:
+    for name, declared in takes.required.items():
         if name not in given:
             yield Finding(
                 f"{file} requires the argument {name}, which is not given here",
                 span,
                 f"{file}:{name}",
-                (Related("declared here, without default", declared[name]),) if name in declared else (),
+                (Related("declared here, without default", declared),),
                 severity=Severity.ERROR,
             )
     left = takes.known - given.keys()
