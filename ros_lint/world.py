@@ -51,12 +51,20 @@ class Member(NamedTuple):
 class World:
     """Answers questions about names. Reads data files and underlays when first asked; may then raise KnowledgeError.
 
-    Of two members with one name the first counts; of two underlays that have a package, the first.
+    Of two members with one name the first counts; of two underlays that have a package, the first. ``absent`` are the names
+    of the folders of git submodules that are not cloned: mostly those of the packages in them.
     """
 
-    def __init__(self, members: Iterable[Member], underlays: Sequence[Underlay], knowledge: Knowledge) -> None:
+    def __init__(
+        self,
+        members: Iterable[Member],
+        underlays: Sequence[Underlay],
+        knowledge: Knowledge,
+        absent: frozenset[str] = frozenset(),
+    ) -> None:
         self.underlays = tuple(underlays)
         self.knowledge = knowledge
+        self._absent = absent
         self._members: dict[str, Member] = {}
         for member in members:
             self._members.setdefault(member.name, member)
@@ -99,7 +107,7 @@ class World:
         """Return what a declared name is."""
         if self.is_package(name) or self.is_key(name):
             return "known"
-        if not self.knowledge.covered:
+        if not self.knowledge.covered or name in self._absent:
             return "unknowable"
         if self.knowledge.elsewhere(name):
             return "elsewhere"

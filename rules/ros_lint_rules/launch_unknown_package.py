@@ -23,6 +23,7 @@ elsewhere, check with the workspace that holds it as `--underlay`.
 - Nobody said which distribution is meant, and another one has the package.
 - The launch file asks first if the package is there.
 - The name has a dollar in it: it stands in a template.
+- A git submodule that is not cloned has a folder of the name.
 - The name is that of a default which an argument can replace: then the confidence is medium.
 - The name is merely unknown: that may be a driver that its vendor does not release. Then the confidence is medium, unless
   the package is started under no condition and `package.xml` does not declare it either: wherever it comes from, whoever
@@ -139,8 +140,8 @@ def _unknown(package: Package, workspace: Workspace) -> Mapping[str, list[_Place
         idle = not (launch.installed or hidden)
         for reference in launch.file.references:
             name = reference.package
-            if "$" in name:
-                continue  # a template, for whoever fills it in
+            if "$" in name or workspace.world.standing(name) == "unknowable":
+                continue  # a template, for whoever fills it in; a submodule that is not cloned
             if not workspace.world.is_package(name) and name != package.name and not reference.optional:
                 place = _Place(not launch.run, reference.by_default, idle, reference.conditional, reference.span, reference)
                 found.setdefault(name, []).append(place)
