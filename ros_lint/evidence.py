@@ -10,7 +10,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
-from ros_lint.facts.build import NOTHING_BUILT, BuildScript
+from ros_lint.facts.build import NOTHING_BUILT, REPOSITORIES, BuildScript
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sight import Opaque
@@ -88,8 +88,6 @@ _INTERFACES = re.compile(r"[a-z][a-z0-9_]*[./](?:msg|srv|action)(?:[./]|\Z)")
 """Headers and modules of messages: only packages of ROS have them, whoever has the package."""
 _OF_TESTS = ("gtest/", "gmock/")
 """Headers that a header without a source of its own can include for nobody but tests."""
-_ELSEWHERE: Mapping[str, str] = {"gtest": "googletest", "gmock": "googletest"}
-"""The repository that folders of headers come from, where that has another name: whoever brings it along calls it so."""
 
 
 class Resolver:
@@ -282,7 +280,7 @@ class _Uses:
 
     def _is_here(self, name: str, best: str) -> bool:
         """Whether no submodule that is not cloned may bring a header or a library."""
-        if _ELSEWHERE.get(name.partition("/")[0]) in self._absent:
+        if REPOSITORIES.get(name.partition("/")[0]) in self._absent:
             return False
         return self.resolver.names.is_package(best) or self._absent.isdisjoint(_WORD.findall(name))
 
@@ -298,7 +296,7 @@ class _Uses:
             return False
         path = header.lower()
         folder = path.partition("/")[0]
-        return not self._bundled.isdisjoint((folder, _ELSEWHERE.get(folder, folder), path.rpartition(".")[0]))
+        return not self._bundled.isdisjoint((folder, REPOSITORIES.get(folder, folder), path.rpartition(".")[0]))
 
     def _is_own_module(self, name: str, path: str) -> bool:
         top = name.partition(".")[0]

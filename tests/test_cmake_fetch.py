@@ -48,6 +48,13 @@ def test_what_is_not_fetched_is_a_need(lines: str) -> None:
     assert uses(load(lines)) == {"nlohmann-json-dev"}
 
 
+def test_the_targets_of_a_project_can_have_another_name_than_its_repository() -> None:
+    linked = "\ntarget_link_libraries(r GTest::gtest_main GTest::gmock_main)"
+    fetched = "FetchContent_Declare(googletest URL https://github.com/google/googletest/archive/a.zip)\n"
+    assert "gtest" in str(uses(load(LINKED + linked, "")))
+    assert uses(load(f"{fetched}FetchContent_MakeAvailable(googletest)\n{LINKED}{linked}", "")) == {"nlohmann-json-dev"}
+
+
 def test_what_lies_among_the_sources_is_no_need() -> None:
     found = "find_package(nlohmann_json REQUIRED)"
     beside = "set(nlohmann_json_DIR ${CMAKE_CURRENT_SOURCE_DIR}/../json/cmake)\n"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Final, NamedTuple
 
 from ros_lint.facts.cmake import Call, Target
@@ -104,6 +105,10 @@ class LeftBehind(NamedTuple):
     span: Span
     sure: bool
     """Whether the program leaves alone where modules are sought."""
+
+
+REPOSITORIES: Final[Mapping[str, str]] = {"gtest": "googletest", "gmock": "googletest"}
+"""What a project is called by whoever brings it along, where its targets and the folders of its headers have another name."""
 
 
 class BuildScript(NamedTuple):

@@ -8,7 +8,7 @@ from functools import lru_cache
 from typing import Final, NamedTuple
 
 from ros_lint.collectors.cmake_syntax import LITERAL, OPEN, PLAIN, QUOTED, UNQUOTED, Argument, Command
-from ros_lint.facts.build import Component, Provided
+from ros_lint.facts.build import REPOSITORIES, Component, Provided
 from ros_lint.facts.sight import Facet, Opaque, Problem
 from ros_lint.facts.sources import Mention, Purpose, Via
 from ros_lint.interpret.cmake_expand import ExpansionError, expand, template, templates
@@ -330,7 +330,10 @@ class Run(Paths):
 
     def is_bundled(self, name: str) -> bool:
         """Return whether a project of a name is built along with the package."""
-        return bool(self.bundled) and folded(name) in {folded(bundled) for bundled in self.bundled}
+        if not self.bundled:
+            return False
+        name = folded(name)
+        return not {folded(bundled) for bundled in self.bundled}.isdisjoint((name, REPOSITORIES.get(name, name)))
 
     @property
     def conditional(self) -> bool:
