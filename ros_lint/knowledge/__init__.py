@@ -121,7 +121,7 @@ class Knowledge:
         if not having or not (name in self.rosdep or any(other in having for other in self._where(name))):
             return None
         if package not in self._elsewhere:
-            found = set().union(*(other.brought((package,)) for other in having))
+            found = set().union(*(other.brought((package,)).names for other in having))
             queue = list(found)
             for each in queue:  # a key brings keys
                 new = [key for key in self.names.brought(each) if key not in found]

@@ -12,6 +12,7 @@ from collections import defaultdict
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
+from ros_lint.knowledge.reach import Closure, Reach
 from ros_lint.knowledge.store import Entries, KnowledgeError, Store, Table
 
 if TYPE_CHECKING:
@@ -137,7 +138,7 @@ class Index(Entries[Released]):
         said = dict(_HEAD.findall(head))
         self.date = said.get("date", "")
         self.commit = said.get("rosdistro", "")
-        self._brings: dict[str, tuple[str, ...]] = {}
+        self._reach = Reach(self.runtime)
 
     def members(self, group: str) -> Iterator[str]:
         """Yield the members of a group, sorted."""
@@ -188,19 +189,9 @@ class Index(Entries[Released]):
                 found[name].append(row[0])
         return found
 
-    def brought(self, names: Iterable[str]) -> set[str]:
+    def brought(self, names: Iterable[str]) -> Closure:
         """Return all that comes along with packages, at any distance, and these."""
-        found = set(names)
-        queue = list(found)
-        known = self._brings
-        for each in queue:
-            brings = known.get(each)
-            if brings is None:
-                brings = known[each] = self.runtime(each) or ()
-            new = [other for other in brings if other not in found]
-            found.update(new)
-            queue += new
-        return found
+        return self._reach.closure(names)
 
     def runtime(self, name: str) -> tuple[str, ...] | None:
         """Return what comes along with a package, without names of groups: None when that is not known.
