@@ -17,17 +17,19 @@ not `gz_sim_vendor`. The fix does this; it needs `--unsafe-fixes`, for whoever f
 
 ## When it keeps silent
 
-- `ament_auto_package()` does the exporting, or `rosidl_generate_interfaces()` that of its `DEPENDENCIES`.
+- `ament_auto_package()` does the exporting, `rosidl_generate_interfaces()` that of its `DEPENDENCIES`, or a file of
+  `CONFIG_EXTRAS` searches the other package itself.
 - The header is not installed, or perhaps not, or the script cannot be followed everywhere.
 - The script does not find the other package: that is another mistake.
 - Targets are handed on in functions or under conditions, or are those of a package that comes along with one that is exported.
 - What the header includes comes with the tools that tests are built with, such as `ament_cmake_gtest`.
 
 The confidence is medium when the other package comes along, or may come along, with one that is exported, when the package
-exports no include directories, so that its headers may be there for itself, when an exported target has the include
-directories of the other one written out, and when the package builds programs and no library, and the header belongs to one
-of the sources of a program: what it declares can be linked nowhere else. It is low when the header compiles nowhere else,
-because it includes a file that is not installed, or a package that only ROS 1 has.
+exports no include directories, so that its headers may be there for itself, when an exported target or
+`ament_export_include_directories()` has the include directories of the other one written out, and when the package builds
+programs and no library, and the header belongs to one of the sources of a program: what it declares can be linked nowhere
+else. It is low when the header compiles nowhere else, because it includes a file that is not installed, or a package that
+only ROS 1 has.
 """
 
 from __future__ import annotations
@@ -87,13 +89,19 @@ def _is_seen(package: Package) -> bool:
     return not (script.hides(Facet.USES) or _EXPORTS_ALL.intersection(script.calls))
 
 
+def _exported(script: BuildScript) -> set[str]:
+    """Return what whoever finds the package finds along with it, by what find_package() calls it."""
+    given = {mention.name for mention in given_for(script, "export", "interfaces")}
+    return given.union(mention.name for mention, _ in script.handed_on)
+
+
 def _linked(package: Package, workspace: Workspace, told: Container[str]) -> Iterator[Finding]:
     """Yield the packages that exported libraries hand on as targets, and that whoever finds this package does not find."""
     script = package.script
     if script is None or not _is_seen(package):
         return
     found = found_names(package, script)
-    exported = {mention.name for mention in given_for(script, "export", "interfaces")}
+    exported = _exported(script)
     along = found_along(workspace, exported)
     places: dict[str, list[Span]] = {}
     for name, span in _handed_on(package):
@@ -147,7 +155,7 @@ def _included(package: Package, workspace: Workspace) -> Iterator[tuple[str, Fin
     if script is None or not _is_seen(package):
         return
     by_cmake = workspace.world.by_cmake
-    exported = {mention.name for mention in given_for(script, "export", "interfaces")}
+    exported = _exported(script)
     exported_packages = exported.union(*(by_cmake(name).names for name in exported))
     finds = sorted(found_names(package, script))
     usable = _usable(package, workspace, script)
@@ -183,7 +191,7 @@ def _confidence(package: Package, workspace: Workspace, name: str, exported: set
         return Confidence.MEDIUM
     if _of_programs(script).issuperset([stem(use.span.path) for use in uses]):
         return Confidence.MEDIUM
-    sure = _EXPORTS.intersection(script.calls) and not _is_written_out(package, name)
+    sure = _EXPORTS.intersection(script.calls) and not _is_written_out(package, workspace, name)
     return Confidence.HIGH if sure else Confidence.MEDIUM
 
 
@@ -199,11 +207,15 @@ def _of_programs(script: BuildScript) -> frozenset[str]:
     return frozenset([stem(source) for sources in parts if len(sources) > 1 for source in sources])
 
 
-def _is_written_out(package: Package, name: str) -> bool:
-    """Whether a target hands on the include directories of a package as they are on this machine."""
-    directories = f"${{{name}_INCLUDE_DIRS}}"
-    calls = called(package, "target_include_directories", anywhere=True)
-    return any(directories in call.texts and "PRIVATE" not in call.texts for call in calls)
+def _is_written_out(package: Package, workspace: Workspace, name: str) -> bool:
+    """Whether the include directories of a package are handed on as they are on this machine."""
+    calls = called(package, "target_include_directories", "ament_export_include_directories", anywhere=True)
+    words = [word for call in calls if "PRIVATE" not in call.texts for word in call.texts]
+    found = [match[1] for word in words if (match := _DIRECTORIES.fullmatch(word))]
+    return any(each.lower() == name.lower() or name in workspace.world.by_cmake(each).names for each in found)
+
+
+_DIRECTORIES = re.compile(r"\$\{(\w+?)_INCLUDE_DIRS?\}")
 
 
 def _public(package: Package, workspace: Workspace, script: BuildScript) -> dict[str, list[Use]]:
