@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from ros_lint import cmake_edits, conditions, manifest_edits, setup_edits
+from ros_lint import cmake_edits, conditions, interface_names, manifest_edits, setup_edits
 from ros_lint.advice import Advice, advice, lacks_rule
 from ros_lint.apart import is_apart, is_for_tests
 from ros_lint.build_scripts import (
@@ -14,6 +14,7 @@ from ros_lint.build_scripts import (
     evaluated_name,
     forgotten_nodes,
     from_base,
+    generated_from,
     has_header,
     hidden,
     installed_targets,
@@ -65,7 +66,17 @@ from ros_lint.facts.sources import MachinePath, Mention, PluginLoader, Registrat
 from ros_lint.graph import Edge, Graph, Reason
 from ros_lint.graph_cut import Knot, knots
 from ros_lint.knowledge.spelling import may_be_package, near_names
-from ros_lint.launch_files import Launchable, Programs, corrected, launchable, programs, referred
+from ros_lint.launch_files import (
+    Launchable,
+    Programs,
+    corrected,
+    is_kept_back,
+    launch_suffix,
+    launchable,
+    programs,
+    referred,
+    started,
+)
 from ros_lint.launch_links import Links, defaults_of, everything, filled, texts_of
 from ros_lint.launch_names import Families, needed
 from ros_lint.launch_parameters import Given, ParameterFiles
@@ -198,14 +209,17 @@ __all__ = [
     "found_for_nothing",
     "found_names",
     "from_base",
+    "generated_from",
     "given_for",
     "has_header",
     "hidden",
     "installed_targets",
     "installs_built",
+    "interface_names",
     "is_apart",
     "is_built_in_sight",
     "is_for_tests",
+    "is_kept_back",
     "is_library",
     "is_mostly_run",
     "is_near_tool",
@@ -217,6 +231,7 @@ __all__ = [
     "is_unseen_by_name",
     "knots",
     "lacks_rule",
+    "launch_suffix",
     "launchable",
     "launched",
     "leaves_trace",
@@ -247,6 +262,7 @@ __all__ = [
     "setup_edits",
     "several",
     "similar",
+    "started",
     "stem",
     "stranded",
     "strangers",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from collections import Counter
 from collections.abc import Container, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
@@ -90,14 +92,41 @@ def programs(package: Package) -> Programs | None:
     return Programs(frozenset(names), elsewhere)
 
 
-def started(packages: Iterable[Package]) -> dict[str, dict[str, list[LaunchReference]]]:
-    """Return the places where launch files start executables, by package and name; those of tests count, too."""
+_SUFFIX = re.compile(r"(?:[._-]?launch\.(?:py|xml|ya?ml)|\.launch)$")
+
+
+def launch_suffix(path: str) -> str:
+    """Return that by which a name is one of a launch file, "" if nothing is."""
+    found = _SUFFIX.search(path.rpartition("/")[2])
+    return found[0] if found else ""
+
+
+def is_kept_back(package: Package, path: str) -> bool:
+    """Whether a launch file that is not installed is so on purpose: a rule that installs its like leaves it out."""
+    folder, suffix, provides = path.rpartition("/")[0], launch_suffix(path), package.built.provides
+    if not suffix:
+        return False
+    together = Counter(provided.span for provided in provides)
+    return any(
+        together[provided.span] > 1 and provided.source.rpartition("/")[0] == folder and provided.source.endswith(suffix)
+        for provided in provides
+    )
+
+
+def started(packages: Iterable[Package], *, kept_back: bool = False) -> dict[str, dict[str, list[LaunchReference]]]:
+    """Return the places where launch files start executables, by package and name; those of tests count, too.
+
+    Either of launch files that are installed, or may have been forgotten, or of those which are ``kept_back``.
+    """
     found: dict[str, dict[str, list[LaunchReference]]] = {}
     for package in packages:
+        installed = {provided.source for provided in package.built.provides} if package.launch else ()
         for launch in package.launch:
-            for reference in launch.references:
-                if reference.kind == "node":
-                    found.setdefault(reference.package, {}).setdefault(reference.name, []).append(reference)
+            path = within(package.path, launch.path)
+            if (path not in installed and is_kept_back(package, path)) is not kept_back:
+                continue
+            for reference in [reference for reference in launch.references if reference.kind == "node"]:
+                found.setdefault(reference.package, {}).setdefault(reference.name, []).append(reference)
     return found
 
 

@@ -22,7 +22,8 @@ the destination is right for other programs, and wrong for nodes.
 
 For tests, examples and what measures; for targets that are also installed to `lib/<package>`; with
 `ament_auto_package(INSTALL_TO_PATH)`. Where something that cannot be followed may install the target, the confidence is
-medium, or nothing is said.
+medium, or nothing is said. So it is where only a launch file starts it that is kept back itself, by a rule that installs its
+like and leaves it out (`PATTERN x EXCLUDE`).
 """
 
 from __future__ import annotations
@@ -51,6 +52,7 @@ from ros_lint.api import (
     node_targets,
     programs_built,
     several,
+    started,
     with_client,
 )
 
@@ -72,12 +74,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     nodes = node_targets(package)
     forgotten = forgotten_nodes(package)
     left_out = left_out_nodes(package)
-    started = workspace.started.get(package.name, {})
+    by_launch_files = workspace.started.get(package.name, {})
     for target in programs_built(script):
         found = places.get(target.name, [])
         if any(folder.partition("/")[0] != "bin" for folder, _, _ in found):
             continue
-        launched = started.get(found[0][1] if found else target.name, ())
+        launched = by_launch_files.get(found[0][1] if found else target.name, ())
         related = several(Related("a launch file starts it here", reference.span) for reference in launched)
         sure = bool(launched or target.name in nodes)
         if found and (sure or any(file.startswith("include/") for file in with_client(package))):
@@ -97,7 +99,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             yield _left(package, script, target, ", but nothing that the package builds is installed")
         elif target.name in left_out:
             says = " and, unlike other nodes of the package, not installed"
-            yield _left(package, script, target, says)._replace(severity=Severity.WARNING)
+            on_purpose = target.name in started([package], kept_back=True).get(package.name, {})
+            confidence = Confidence.MEDIUM if on_purpose else Confidence.HIGH
+            yield _left(package, script, target, says)._replace(severity=Severity.WARNING, confidence=confidence)
 
 
 def _left(package: Package, script: BuildScript, target: BuildTarget, says: str) -> Finding:

@@ -28,8 +28,6 @@ written out.
 
 from __future__ import annotations
 
-import re
-from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from ros_lint.api import (
@@ -45,13 +43,13 @@ from ros_lint.api import (
     few,
     folders_of,
     is_for_tests,
+    is_kept_back,
+    launch_suffix,
     launchable,
     place_of,
     setup_edits,
     several,
 )
-
-_SUFFIX = re.compile(r"(?:[._-]?launch\.(?:py|xml|ya?ml)|\.launch)$")
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -71,23 +69,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             missing.setdefault(folder, []).append(launch.path)
     for folder, paths in _together(missing, kept).items():
         whole = folder not in kept and folder != ""
-        forgotten = paths if whole else [path for path in paths if not _is_left_out(package, path)]
+        forgotten = paths if whole else [path for path in paths if launch_suffix(path) and not is_kept_back(package, path)]
         if forgotten:
             yield _finding(package, folder, forgotten, whole=whole)
-
-
-def _is_left_out(package: Package, path: str) -> bool:
-    """Whether a file is left out on purpose: its name is not that of a launch file, or a rule that takes its like skips it."""
-    folder, _, name = path.rpartition("/")
-    suffix = _SUFFIX.search(name)
-    if suffix is None:
-        return True
-    provides = package.built.provides
-    together = Counter(provided.span for provided in provides)
-    return any(
-        together[provided.span] > 1 and provided.source.rpartition("/")[0] == folder and provided.source.endswith(suffix[0])
-        for provided in provides
-    )
 
 
 def _together(missing: Mapping[str, list[str]], kept: set[str]) -> dict[str, list[str]]:
