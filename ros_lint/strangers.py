@@ -20,6 +20,8 @@ class Stranger(NamedTuple):
     """The first tag with the name."""
     tags: tuple[Depend, ...]
     """All tags with the name."""
+    called_so: tuple[Use, ...]
+    """Where something is used that is called so, or that is in what is called so."""
 
     @property
     def name(self) -> str:
@@ -34,11 +36,6 @@ class Stranger(NamedTuple):
         if not self.package.declares(self.name) & (Role.BUILD | Role.EXPORT | Role.TOOL):
             return not called_so or "import" in called_so
         return called_so == {"import"}
-
-    @property
-    def called_so(self) -> list[Use]:
-        """Return where something is used that is called so, or that is in what is called so."""
-        return [use for use in self.package.uses if use.name.partition(".")[0] == self.name]
 
 
 @per_workspace
@@ -67,7 +64,8 @@ def strangers(name: str, packages: Iterable[Package]) -> Iterator[Stranger]:
         tags = package.tags(name)
         first = next((declared for declared in tags if declared.certain), None)
         if first is not None:
-            yield Stranger(package, first, tuple(declared.depend for declared in tags))
+            uses = [use for use in package.uses if use.name.startswith(name) and use.name.partition(".")[0] == name]
+            yield Stranger(package, first, tuple([declared.depend for declared in tags]), tuple(uses))
 
 
 def is_near_tool(name: str, workspace: Workspace) -> bool:
