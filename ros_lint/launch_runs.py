@@ -101,17 +101,27 @@ class Broken(NamedTuple):
 
 def broken_expressions(file: LaunchFile) -> Iterator[Broken]:
     """Yield the expressions of a launch file that fail, for the defaults in them, when it is launched without arguments."""
-    defaults = defaults_of(file)
+    asked = list(_with_expressions(file))
+    defaults = defaults_of(file) if asked else {}
+    for text, span, conditional in asked:
+        for argument, expression, name in _broken(text, defaults):
+            yield Broken(argument, readable(expression), name, span, conditional)
+
+
+def _with_expressions(file: LaunchFile) -> Iterator[tuple[str, Span, bool]]:
+    """Yield the texts with expressions, each with its place and whether it lies in something done only under a condition."""
     waiting = [(action, False) for action in reversed(file.actions)]
     while waiting:
         action, conditional = waiting.pop()
         inner = conditional or bool(action.conditions) or action.kind == "later"
-        waiting += [(child, inner) for child in reversed(action.children)]
-        asked = [(text, action.span, conditional) for one in action.conditions for text in one.texts if has_expression(text)]
-        asked += [(text, value.span, inner) for value in values(action) for text in value.texts if has_expression(text)]
-        for text, span, unsure in asked:
-            for argument, expression, name in _broken(text, defaults):
-                yield Broken(argument, readable(expression), name, span, unsure)
+        if action.children:
+            waiting += [(child, inner) for child in reversed(action.children)]
+        for condition in action.conditions:
+            yield from ((text, action.span, conditional) for text in condition.texts if has_expression(text))
+        for value in values(action):
+            for text in value.texts:
+                if has_expression(text):
+                    yield text, value.span, inner
 
 
 def _broken(text: str, defaults: Mapping[str, tuple[str, ...]]) -> Iterator[tuple[str, str, str]]:
