@@ -12,8 +12,8 @@ from ros_lint.collectors.cmake_syntax import Parsed
 from ros_lint.discover import Found
 from ros_lint.facts.build import BuildScript, ScriptFile
 from ros_lint.facts.sight import Facet
-from ros_lint.text import Span, Text, span_in
-from ros_lint.tree import Tree, contents, folders_of, join, text_of
+from ros_lint.text import Span, Text, from_raw, raw, span_in
+from ros_lint.tree import Tree, contents, folders_of, join, parent, text_of
 
 _PLUGIN_FILE = re.compile(r"plugin.*\.xml\Z", re.IGNORECASE)
 _SCRIPTS = re.compile(r"(?:scripts|nodes|bin|script)/[^/]+\Z")
@@ -82,13 +82,13 @@ def _read_in_sources(found: Found, missing: Mapping[str, Sequence[str]], naming:
     if not missing:
         return
     top = found.path.rpartition("/")[2] or found.name
-    folders = b"|".join([re.escape(folder.encode()) for folder in missing])
-    place = re.compile(rb"(?<=[\w.~}-])(?<!\bshare)/%s/(%s)(?![\w.-])" % (re.escape(top.encode()), folders))
-    below = b"/%s/" % top.encode()
+    folders = b"|".join([re.escape(raw(folder)) for folder in missing])
+    place = re.compile(rb"(?<=[\w.~}-])(?<!\bshare)/%s/(%s)(?![\w.-])" % (re.escape(raw(top)), folders))
+    below = b"/%s/" % raw(top)
     for path, data in naming:
         if below not in data:  # the pattern takes a hundred times as long
             continue
-        yield from (f"{hit[1].decode()}/" for hit in place.finditer(data) if not _is_remark(path, data, hit.start()))
+        yield from (f"{from_raw(hit[1])}/" for hit in place.finditer(data) if not _is_remark(path, data, hit.start()))
 
 
 def _may_be_read(path: str, entered: Sequence[str]) -> bool:
@@ -102,7 +102,7 @@ def _named(tree: Tree, found: Found, missing: Mapping[str, Sequence[str]], namin
     """Yield the resources that are not installed and that a text of the package names, with the first place."""
     left: dict[str, tuple[bytes, bytes]] = {}
     for file in (file for files in missing.values() for file in files[:_MOST_RESOURCES]):
-        folder, _, name = file.encode().rpartition(b"/")
+        folder, _, name = raw(file).rpartition(b"/")
         left[file] = folder.rpartition(b"/")[2], name
     if any(map(_is_picture, left)):  # most pictures are there for the documentation
         for _, page in contents(tree, found.path, (file for file in found.files if file.endswith(".md"))):
@@ -113,12 +113,28 @@ def _named(tree: Tree, found: Found, missing: Mapping[str, Sequence[str]], namin
             if folder not in folders or name not in data or join(found.path, resource) == path:
                 continue
             hits = resource_files.pattern_of(resource).finditer(data)
-            hit = next((one for one in hits if not _is_remark(path, data, one.start(1))), None)
+            hit = next((one for one in hits if _looks_up(path, data, resource, one)), None)
             if hit:
                 yield resource, span_in(path, data, *hit.span(1))
                 del left[resource]
         if not left:
             return
+
+
+_WORKING_FOLDER = re.compile(rb"\b(?:current_path|getcwd|cwd)\s*\(")
+_BEFORE = re.compile(rb"[\"']([\w.-]+)[\"']\s*,\s*[\"']\Z")
+"""The part of a path that stands before another one, each in quotes."""
+
+
+def _looks_up(path: str, data: bytes, resource: str, hit: re.Match[bytes]) -> bool:
+    """Whether a text that names a resource may look it up where it would be installed."""
+    if _is_remark(path, data, hit.start(1)):
+        return False
+    if b"share" not in data and _WORKING_FOLDER.search(data):
+        return False  # it is sought where the program is started
+    above = parent(parent(resource)).rpartition("/")[2].encode()
+    before = _BEFORE.search(data, max(hit.start() - 80, 0), hit.start()) if above else None
+    return before is None or before[1] == above
 
 
 def _with_runs(tree: Tree, found: Found, script: BuildScript, files: list[ScriptFile]) -> list[ScriptFile]:
@@ -161,14 +177,14 @@ def _run(tree: Tree, found: Found, programs: Sequence[str], endings: tuple[str, 
     """
     names = {program.rpartition("/")[2]: program for program in programs}
     names = {**{name.removesuffix(".py"): program for name, program in names.items()}, **names}
-    words = b"|".join([re.escape(name.encode()) for name in names])
+    words = b"|".join([re.escape(raw(name)) for name in names])
     command = re.compile(rb"\bros2 run +%s +(%s)(?![\w-]|\.\w)" % (re.escape(found.name.encode()), words))
     above = [join(folder, "README.md") for folder in (*folders_of(found.path), "")] if found.path else []
     told = [file for file in found.files if file.endswith(endings) and not file.startswith("CHANGELOG")]
     places: dict[str, Span] = {}
     for path, data in (*contents(tree, found.path, told), *contents(tree, "", above)):
         for hit in command.finditer(data) if b"ros2 run" in data else ():
-            places.setdefault(names[hit[1].decode()], span_in(path, data, *hit.span(1)))
+            places.setdefault(names[from_raw(hit[1])], span_in(path, data, *hit.span(1)))
     return places
 
 

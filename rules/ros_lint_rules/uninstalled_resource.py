@@ -29,7 +29,8 @@ where `data_files` is written out and the files are not too many.
   time alone: displays, maps, models, textures, parameters; nor if the package builds, installs and tests nothing, so that
   it is there for these files; nor if they are parameters of nodes (`ros__parameters`), and the package has nodes. Where a
   text names the folder as it lies on some machine (`/home/me/src/robot/maps/hall`), it is found there: the confidence is
-  medium. A launch file that looks a file of the name up in another package names that one, and what lies here may be a copy.
+  medium. It is so where a program seeks its files in the folder that it is started from. A launch file that looks a file of
+  the name up in another package names that one, and what lies here may be a copy.
 """
 
 from __future__ import annotations
