@@ -121,3 +121,9 @@ def keep_permissions(call: Call) -> Edit:
 def write(call: Call, index: int, text: str) -> Edit:
     """Put another argument in the place of one."""
     return Edit(call.span(index), text)
+
+
+def drop(call: Call, first: int, last: int) -> Edit:
+    """Remove the arguments from ``first`` to ``last``, and what separates them from the one before, which must be there."""
+    gap, span = call.span(first - 1).end(), call.span(last)
+    return Edit(gap._replace(end_line=span.end_line, end_column=span.end_column), "")

@@ -3,7 +3,9 @@
 
 Components that cannot be loaded: CMake registers a class that no source makes loadable under this name with
 `RCLCPP_COMPONENTS_REGISTER_NODE`; a source does so and CMake does not register the class, or does so in a function or in the
-`CMakeLists.txt` of a subfolder; the library of a component is not installed, or not to `lib`.
+`CMakeLists.txt` of a subfolder; the library of a component is not installed, or not to `lib`. Also
+`rclcpp_components_register_nodes(library PLUGIN "robot::Talker" EXECUTABLE talker)`: this command takes names of classes
+and nothing else, so `PLUGIN`, `EXECUTABLE` and `talker` become components, and no executable is built.
 
 ## Why it matters
 
@@ -14,8 +16,9 @@ find requested resource in ament index", or "Failed to find class with the reque
 
 ## How to fix it
 
-Write the same name, with its namespaces, into both. Install the library to `lib`. Register components in the
-`CMakeLists.txt` of the package, or in a macro instead of a function.
+Write the same name, with its namespaces, into both. Take the words out that belong to `rclcpp_components_register_node()`, or
+call that, with an `EXECUTABLE` that is called otherwise than the library. Install the library to `lib`. Register components
+in the `CMakeLists.txt` of the package, or in a macro instead of a function.
 
 ## When it keeps silent
 
@@ -26,11 +29,12 @@ file of the workspace loads the component.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from ros_lint.api import (
     REGISTERING,
     BuildScript,
+    Call,
     Component,
     Confidence,
     Edit,
@@ -61,21 +65,48 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_cmake" or package.hidden(Facet.COMPONENTS):
         return
+    strays = [(call, found) for call in called(package, "rclcpp_components_register_nodes") if (found := _strays(call))]
+    yield from (_confused(call, found) for call, found in strays)
+    places = [call.span(at) for call, found in strays for first, last in found for at in range(first, last + 1)]
+    components = [component for component in script.components if component.span not in places]
     made = [one for one in package.registrations if one.kind == "component" and not is_apart(relative(package, one.span.path))]
     names = {one.name for one in made}
-    registered = {component.name.removeprefix("::") for component in script.components}
+    registered = {component.name.removeprefix("::") for component in components}
     left = [one for one in made if one.name not in registered]
-    if made:
-        for component in script.components:
-            if component.name.removeprefix("::") not in names:
-                alike = _alike(component, left)
-                left = [one for one in left if one not in alike]
-                yield _unmade(component, alike)
+    unmade = [component for component in components if component.name.removeprefix("::") not in names] if made else []
+    # The only class that nobody makes is the only one that nobody registers, whatever the names.
+    only = left if len(unmade) == len(left) == 1 else []
+    for component in unmade:
+        alike = only or _alike(component, left)
+        left = [one for one in left if one not in alike]
+        yield _unmade(component, alike)
     yield from _lost(script)
     for one in left:
         yield _unregistered(package, one, started=one.name in workspace.loaded.get(package.name, ()))
     if not package.hidden(Facet.LIBRARIES):
         yield from _libraries(package)
+
+
+_WORDS = {"PLUGIN": 0, "NO_UNDEFINED_SYMBOLS": 0, "EXECUTABLE": 1, "EXECUTOR": 1}
+"""What rclcpp_components_register_node() takes, with how many names that are no class stand after each word."""
+
+
+def _strays(call: Call) -> list[tuple[int, int]]:
+    """Return the first and last argument of what is taken for names of classes in a call, and belongs to the other command."""
+    words = ((at, _WORDS[text]) for at, text in enumerate(call.texts) if at and text in _WORDS)
+    return [(at, min(at + more, len(call.args) - 1)) for at, more in words]
+
+
+def _confused(call: Call, strays: Sequence[tuple[int, int]]) -> Finding:
+    words = " and ".join([call.texts[first] for first, _ in strays])
+    return Finding(
+        f"rclcpp_components_register_nodes() takes names of classes only, and makes components of {words}, too; leave them "
+        "out, or call rclcpp_components_register_node()",
+        call.span(strays[0][0]),
+        call.texts[0],
+        fix=Fix("leave them out", tuple([cmake_edits.drop(call, *stray) for stray in strays])),
+        severity=Severity.WARNING,
+    )
 
 
 def _lost(script: BuildScript) -> Iterator[Finding]:
