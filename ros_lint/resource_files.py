@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable
 
 from ros_lint.apart import is_apart
+from ros_lint.text import raw
 from ros_lint.tree import folders_of, parent
 
 _FOLDERS = frozenset(
@@ -64,5 +65,5 @@ def pattern_of(file: str) -> re.Pattern[bytes]:
     """
     folder, _, name = file.rpartition("/")
     inner = folder.rpartition("/")[2]
-    words = (re.escape(inner.encode()), re.escape(name.encode()))
+    words = (re.escape(raw(inner)), re.escape(raw(name)))
     return re.compile(rb"(?<![\w-])(?<![\w.~-]/)%s[\"'/, \t\r\n)(]{1,24}(%s)(?![\w-])" % words)

@@ -135,7 +135,7 @@ class Text:
         Raises UnicodeEncodeError when the encoding has no such character.
         """
         if self.codec == "utf-8":
-            return text.encode("utf-8", "surrogateescape")
+            return raw(text)
         return text.encode(self.codec)
 
     def _line_starts(self) -> list[int]:
@@ -190,7 +190,7 @@ def decode(data: bytes) -> tuple[str, str]:
                 return text, codec
         except (LookupError, UnicodeError):
             pass
-    return data.decode("utf-8", "surrogateescape"), "utf-8"
+    return from_raw(data), "utf-8"
 
 
 def span_in(path: str, data: bytes, start: int, end: int) -> Span:
@@ -199,6 +199,16 @@ def span_in(path: str, data: bytes, start: int, end: int) -> Span:
     line = data.count(b"\n", 0, start) + 1
     column, width = (len(part.decode("utf-8", "replace")) for part in (data[line_start:start], data[start:end]))
     return Span(path, line, column + 1, line, column + 1 + width)
+
+
+def raw(text: str) -> bytes:
+    """Return a piece of a text, or a path, as the bytes that it is on the disk: what is no UTF-8 there stays as it is."""
+    return text.encode("utf-8", "surrogateescape")
+
+
+def from_raw(data: bytes) -> str:
+    """Return the piece of a text, or the path, that :func:`raw` made bytes of."""
+    return data.decode("utf-8", "surrogateescape")
 
 
 def read(path: str, data: bytes) -> Text:
