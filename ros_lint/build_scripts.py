@@ -86,6 +86,15 @@ def evaluated_name(package: Package, text: str) -> str | None:
     return None if "$" in name or not name else name
 
 
+def generated_from(package: Package) -> frozenset[str]:
+    """Return the interface files, relative to the package, that code is generated from in every build, and installed with it."""
+    script = package.built
+    if package.builds_with != "ament_cmake" or "rosidl_generate_interfaces" not in script.calls:
+        return frozenset()
+    ends = tuple([f"/{interface}.{interface.partition('/')[0]}" for interface in script.interfaces])
+    return frozenset([p.source for p in script.provides if p.source and p.path.endswith(ends) and not p.conditional])
+
+
 _TEST_COMMANDS = {
     "ament_add_gtest": "ament_cmake_gtest",
     "ament_add_gmock": "ament_cmake_gmock",

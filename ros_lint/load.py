@@ -220,6 +220,7 @@ class Loader:
                 registrations=tuple([made for facts in done.facts.values() for made in facts.registrations]),
                 loaders=tuple([loader for facts in done.facts.values() for loader in facts.loaders]),
                 imported_types=tuple([each for facts in done.facts.values() for each in facts.types]),
+                interface_files=tuple([f.interface for f in done.facts.values() if f.interface is not None]),
                 look_ups=tuple([look_up for facts in done.facts.values() for look_up in facts.look_ups]),
                 parameter_files=tuple([f.parameters for f in done.facts.values() if f.parameters is not None]),
                 unusable_headers=public_headers.unusable(source.built, done.facts, found.files),

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from ros_lint import ignored
 from ros_lint.facts.build import NOTHING_BUILT, BuildScript, LeftBehind
+from ros_lint.facts.interfaces import InterfaceFile
 from ros_lint.facts.launch import LaunchFile, LaunchReference
 from ros_lint.facts.manifest import ColconDepend, Depend, Manifest, Role
 from ros_lint.facts.sight import Facet, Opaque
@@ -83,6 +84,8 @@ class Package(NamedTuple):
     """What its programs in Python import and that is not installed beside them."""
     imported_types: tuple[ImportedType, ...] = ()
     """Messages, services and actions that its Python files import by name."""
+    interface_files: tuple[InterfaceFile, ...] = ()
+    """Its definitions of interfaces, but for those in IDL."""
 
     @property
     def place(self) -> Span:

@@ -217,6 +217,18 @@ class World:
         """Return the names in bin."""
         return self._known(name, "programs")
 
+    def interfaces(self, name: str, *, everywhere: bool) -> tuple[str, ...]:
+        """Return all that a package may have of interfaces, as msg/Name, with ``everywhere`` in any distribution that has it.
+
+        Empty where nobody knows them all.
+        """
+        known = [self._known(name, "interfaces")]
+        if everywhere:
+            known += self.knowledge.known_elsewhere(name, "interfaces")
+        if not all(one.complete and one.names for one in known):
+            return ()
+        return tuple(dict.fromkeys([each for one in known for each in (*one.names, *one.maybe)]))
+
     def python_modules(self, name: str) -> Known:
         """Return the top-level Python modules. Interface packages have one of their own name."""
         known = self._known(name, "modules")

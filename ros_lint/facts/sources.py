@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Literal, NamedTuple
 
+from ros_lint.facts.interfaces import InterfaceFile
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sight import Opaque
 from ros_lint.text import Span
@@ -134,3 +135,5 @@ class FileFacts(NamedTuple):
     loaders: tuple[PluginLoader, ...] = ()
     types: tuple[ImportedType, ...] = ()
     """Messages, services and actions that it imports by name."""
+    interface: InterfaceFile | None = None
+    """What a definition of an interface says, but for one in IDL."""

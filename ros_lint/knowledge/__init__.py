@@ -19,7 +19,7 @@ from ros_lint.knowledge.store import Store
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
 
-    from ros_lint.knowledge.provides import Offer
+    from ros_lint.knowledge.provides import Known, Offer
 
 
 class Distribution(NamedTuple):
@@ -109,8 +109,11 @@ class Knowledge:
 
     def offered_elsewhere(self, package: str, offer: Offer, name: str) -> bool:
         """Return whether a package may offer a name in one of the other distributions that have it."""
-        having = [provides.load(self._store, other.distro) for other in self._where(package)]
-        return any(one.known(package, offer).ask(name) != "missing" for one in having)
+        return any(known.ask(name) != "missing" for known in self.known_elsewhere(package, offer))
+
+    def known_elsewhere(self, package: str, offer: Offer) -> tuple[Known, ...]:
+        """Return what is known of one side of a package in each of the other distributions that have it."""
+        return tuple([provides.load(self._store, other.distro).known(package, offer) for other in self._where(package)])
 
     def brings_elsewhere(self, package: str, name: str) -> bool | None:
         """Return whether a name comes along with a package in any of the other distributions that have it.

@@ -47,6 +47,7 @@ from ros_lint.api import (
     Workspace,
     called,
     did_you_mean,
+    interface_names,
     per_package,
     place_of,
     several,
@@ -57,12 +58,8 @@ _GENERATE = "rosidl_generate_interfaces"
 _KINDS = {"msg": ("msg", "idl"), "srv": ("srv", "idl"), "action": ("action", "idl")}
 """Suffixes of interfaces, by folder."""
 _SAYS_SO = ("rosidl_interface_packages", "rosidl_default_generators")
-_NAME = re.compile(r"[A-Z][A-Za-z0-9]*")
-"""What rosidl takes for the name of a message; it asks nothing of those of files in IDL."""
 _HEADER = re.compile(r"(?P<maker>\w+)/(?P<kind>msg|srv|action)/(?P<name>(?!rosidl_)(?!\w*__)\w+)(?P<end>\.h(?:pp)?)")
 """The header of an interface, and none that it is made of."""
-_BEFORE_WORD = re.compile("(.)([A-Z][a-z]+)")
-_BEFORE_CAPITAL = re.compile("([a-z0-9])([A-Z])")
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -79,7 +76,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         interface = _interface(file) if file.count("/") == 1 else ""
         name = interface.partition("/")[2]
         if interface not in script.interfaces and name.isidentifier():
-            wanted = "" if file.endswith(".idl") or _NAME.fullmatch(name) else _camel(name)
+            wanted = "" if file.endswith(".idl") or interface_names.is_message(name) else interface_names.camel(name)
             yield _finding(package, calls, file, wanted, aside=interface in script.set_aside)
 
 
@@ -161,7 +158,7 @@ def _wrong(used: _Used, maker: Package, workspace: Workspace) -> str | None:
     generated = maker.built.interfaces
     if not generated or maker.builds_with != "ament_cmake" or maker.hidden(Facet.INTERFACES):
         return None
-    form = _snake if used.header else str
+    form = interface_names.snake if used.header else str
     there = _there(maker, workspace)[used.kind, bool(used.header)]
     if used.name in there or (not used.header and any(used.name.startswith(f"{name}_") for name in there)):
         return None
@@ -187,7 +184,7 @@ def _there(maker: Package, workspace: Workspace) -> Mapping[tuple[str, bool], fr
     everything = dict.fromkeys([*maker.built.interfaces, *left_over])
     names = {kind: [each.partition("/")[2] for each in everything if each.startswith(kind)] for kind in ("", *_KINDS)}
     return {
-        (kind, header): frozenset(map(_snake, plain) if header else plain)
+        (kind, header): frozenset(map(interface_names.snake, plain) if header else plain)
         for kind, plain in names.items()
         for header in (False, True)
     }
@@ -206,18 +203,8 @@ def _interface(file: str) -> str:
     return f"{kind}/{stem}" if suffix in _KINDS.get(kind, ()) else ""
 
 
-def _snake(name: str) -> str:
-    """Return a name as rosidl writes it in those of headers."""
-    return _BEFORE_CAPITAL.sub(r"\1_\2", _BEFORE_WORD.sub(r"\1_\2", name)).lower()
-
-
 def _here(package: Package, file: str) -> Related:
     return Related("this file", place_of(package, file))
-
-
-def _camel(stem: str) -> str:
-    """Return a name as rosidl wants it."""
-    return "".join(word[:1].upper() + word[1:] for word in stem.split("_"))
 
 
 def _finding(package: Package, calls: list[Call], file: str, wanted: str, *, aside: bool) -> Finding:
