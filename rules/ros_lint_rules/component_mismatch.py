@@ -65,15 +65,13 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_cmake" or package.hidden(Facet.COMPONENTS):
         return
-    strays = [(call, found) for call in called(package, "rclcpp_components_register_nodes") if (found := _strays(call))]
-    yield from (_confused(call, found) for call, found in strays)
-    places = [call.span(at) for call, found in strays for first, last in found for at in range(first, last + 1)]
-    components = [component for component in script.components if component.span not in places]
+    calls = called(package, "rclcpp_components_register_nodes")
+    yield from (_confused(call, strays) for call in calls if (strays := _strays(call)))
     made = [one for one in package.registrations if one.kind == "component" and not is_apart(relative(package, one.span.path))]
     names = {one.name for one in made}
-    registered = {component.name.removeprefix("::") for component in components}
+    registered = {component.name.removeprefix("::") for component in script.components}
     left = [one for one in made if one.name not in registered]
-    unmade = [component for component in components if component.name.removeprefix("::") not in names] if made else []
+    unmade = [component for component in script.components if component.name.removeprefix("::") not in names] if made else []
     # The only class that nobody makes is the only one that nobody registers, whatever the names.
     only = left if len(unmade) == len(left) == 1 else []
     for component in unmade:

@@ -519,8 +519,9 @@ macro(rclcpp_components_register_node target)
   ros_lint_provide(share/ament_index/resource_index/rclcpp_components/${PROJECT_NAME})
 endmacro()
 
+# It takes RESOURCE_INDEX alone; the words of the other command, and what is said with them, are no classes (component-mismatch).
 macro(rclcpp_components_register_nodes target)
-  cmake_parse_arguments(_ARG_COMPONENT "" "RESOURCE_INDEX" "" ${ARGN})
+  cmake_parse_arguments(_ARG_COMPONENT "PLUGIN;NO_UNDEFINED_SYMBOLS" "RESOURCE_INDEX;EXECUTABLE;EXECUTOR" "" ${ARGN})
   ros_lint_component(${_ARG_COMPONENT_UNPARSED_ARGUMENTS})
   ros_lint_provide(share/ament_index/resource_index/rclcpp_components/${PROJECT_NAME})
 endmacro()
