@@ -192,7 +192,7 @@ def test_names_that_are_no_utf_8(tmp_path: Path) -> None:
                 stream.write(
                     "#!/usr/bin/env python3\nname = '/home/ada/talker/maps/hall.yaml'\nif __name__ == '__main__':\n  pass\n"
                 )
-    for script in (None, "from setuptools import setup\nsetup(name='talker', version='1.0.0', packages=['talker'])\n"):
+    for script in (None, "from setuptools import setup\nsetup(name='talker', version='1.0.0', packages=[])\n"):
         if script:
             (folder / "setup.py").write_text(script)
             (folder / "package.xml").write_text(GOOD.format("talker").replace("ament_cmake</build", "ament_python</build"))
