@@ -15,7 +15,8 @@ that are called `a.launch.py` as well as `a_launch.py`; the fix writes this wher
 ## When it keeps silent
 
 Where the pattern cannot be evaluated, where several globs are added up, and where git ignores what the pattern names: such
-files are made or fetched. That there is nothing yet in the folder, but for a `.gitkeep`, is said with little certainty.
+files are made or fetched. That there is nothing yet in the folder, but for a `.gitkeep`, is said with little certainty; so is
+it where all that is in the folder is installed by other patterns: then this one provides for files of another kind.
 """
 
 from __future__ import annotations
@@ -30,17 +31,18 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_python":
         return
+    kept = {provided.source for provided in script.provides}
     for problem in script.problems:
         if problem.kind == "empty-glob" and not workspace.is_made(package, problem.subject):
             folder = _folder(problem.subject)
-            inside = any(_is_in(file, folder) for file in package.files) if folder else True
-            # A folder with nothing in it yet is a template for the future; files that are passed over are a mistake.
+            passed_over = any(file not in kept and _is_in(file, folder) for file in package.files) if folder else True
+            # A pattern for what may come is a template for the future; files that are passed over are a mistake.
             yield Finding(
                 problem.message,
                 problem.span,
                 problem.subject,
-                confidence=Confidence.HIGH if inside else Confidence.MEDIUM,
-                severity=None if inside else Severity.INFO,
+                confidence=Confidence.HIGH if passed_over else Confidence.MEDIUM,
+                severity=None if passed_over else Severity.INFO,
                 fix=_fix(package, problem.subject),
             )
 
