@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.cpp_includes import blanked, in_doubt
+from ros_lint.collectors.cpp_registrations import class_name
 from ros_lint.facts.sources import LookUp, Mention, PluginLoader
 
 if TYPE_CHECKING:
@@ -53,7 +54,7 @@ def loaders(source: Text, code: Sequence[int] = ()) -> tuple[PluginLoader, ...]:
     if any(in_doubt(source.text, match.start(), code) for match in matches):
         matches = list(_LOADER.finditer(blanked(source.text)))
     spans = source.spans([match.span(1) for match in matches])
-    return tuple(PluginLoader(match[1], match[2], span) for match, span in zip(matches, spans, strict=True))
+    return tuple(PluginLoader(match[1], class_name(match[2]), span) for match, span in zip(matches, spans, strict=True))
 
 
 def _tried(text: str) -> list[range]:

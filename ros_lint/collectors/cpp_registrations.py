@@ -30,7 +30,7 @@ def registrations(source: Text, code: Sequence[int] = ()) -> tuple[Registration,
         name, _, base = (part.strip() for part in match[2].partition(","))
         kind: Literal["component", "plugin"] = "component" if match[1].startswith("RCLCPP") else "plugin"
         if name and (base or kind == "component"):
-            found.append(Registration(kind, _plain(name), span, _plain(base) if kind == "plugin" else ""))
+            found.append(Registration(kind, class_name(name), span, class_name(base) if kind == "plugin" else ""))
     return tuple(found)
 
 
@@ -54,5 +54,6 @@ def _places(text: str, name: str) -> Iterator[int]:
         place = text.find(name, place + 1)
 
 
-def _plain(name: str) -> str:
-    return "".join(name.split()).removeprefix("::")
+def class_name(written: str) -> str:
+    """Return the name of a class in the one form in which names of classes are compared: no blanks, no leading ``::``."""
+    return "".join(written.split()).removeprefix("::")

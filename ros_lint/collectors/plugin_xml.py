@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from ros_lint.collectors.cpp_registrations import class_name
 from ros_lint.collectors.xml_tree import Element, XmlError, attribute_places, parse
 from ros_lint.facts.build import PluginClass, PluginFile, PluginLibrary
 
@@ -66,8 +67,9 @@ def _classes(source: Text, library: Element) -> Iterator[PluginClass]:
     for element in library.children:
         if element.tag == "class":
             get = element.attributes.get
-            kind = get("type", "")
-            yield PluginClass(get("name", kind), kind, get("base_class_type", ""), _place(source, element, "type"))
+            written = get("type", "")
+            place = _place(source, element, "type")
+            yield PluginClass(get("name", written), class_name(written), class_name(get("base_class_type", "")), place)
 
 
 def _place(source: Text, element: Element, attribute: str) -> Span:

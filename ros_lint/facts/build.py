@@ -51,6 +51,7 @@ class PluginClass(NamedTuple):
     name: str
     """By which it is looked up."""
     type: str
+    """Here and in what is said of sources: without blanks and without a leading ``::``."""
     base: str
     span: Span
     """Of the type."""

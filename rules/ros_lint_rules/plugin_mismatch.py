@@ -114,7 +114,7 @@ def _loading(workspace: Workspace) -> dict[str, list[PluginLoader]]:
     found: dict[str, list[PluginLoader]] = {}
     for package in workspace.packages:
         for loader in package.loaders:
-            found.setdefault("".join(loader.base.split()), []).append(loader)
+            found.setdefault(loader.base, []).append(loader)
     return found
 
 
@@ -127,7 +127,7 @@ def _for_nobody(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if len(call.texts) < 2 or "$" in call.texts[0] or call.texts[1] not in described:
             continue
         meant, path = call.texts[:2]
-        bases = {"".join(one.base.split()) for library in described[path].libraries for one in library.classes}
+        bases = {one.base for library in described[path].libraries for one in library.classes}
         loaders = [loader for base in sorted(bases) for loader in _loading(workspace).get(base, ())]
         asked = sorted({loader.package for loader in loaders})
         if loaders and meant not in asked and not workspace.world.is_package(meant):
@@ -219,14 +219,13 @@ def _plain(path: str) -> str:
 
 
 def _class(package: Package, plugin: PluginFile, one: PluginClass, registered: list[Registration]) -> Iterator[Finding]:
-    wanted = one.type.replace(" ", "").removeprefix("::")
-    if not wanted or not registered:
+    if not one.type or not registered:
         return
-    same = [made for made in registered if made.name == wanted]
+    same = [made for made in registered if made.name == one.type]
     if same:
         yield from _base(plugin, one, same)
         return
-    last = wanted.rpartition("::")[2]
+    last = one.type.rpartition("::")[2]
     alike = [made for made in registered if made.name.rpartition("::")[2] == last]
     hint = f"; the sources say {alike[0].name}" if alike else f"; add PLUGINLIB_EXPORT_CLASS({one.type}, {one.base}) to one"
     related = several(Related("made loadable here", made.span) for made in alike)
@@ -241,10 +240,9 @@ def _class(package: Package, plugin: PluginFile, one: PluginClass, registered: l
 
 def _base(plugin: PluginFile, one: PluginClass, made: list[Registration]) -> Iterator[Finding]:
     """Compare the class that a plugin is described as with those that it is made loadable as."""
-    base = "".join(one.base.split()).removeprefix("::")
-    if all(_differ(base, each.base) for each in made):
+    if all(_differ(one.base, each.base) for each in made):
         yield Finding(
-            f"{one.type} is described as a {base}, and made loadable as a {made[0].base}; write the same in both places",
+            f"{one.type} is described as a {one.base}, and made loadable as a {made[0].base}; write the same in both places",
             one.span,
             f"{plugin.path}#{one.type}",
             several(Related("made loadable here", each.span) for each in made),
