@@ -216,12 +216,15 @@ def _getattr(call: Call) -> Value:
 
 def _open(call: Call) -> Value:
     found, mode = call.texts(0, "file"), plain(call.get(1, "mode"))
+    if isinstance(mode, str) and not _MAKES.isdisjoint(mode):
+        call.machine.ask(found)  # it need not be there before
     if len(found) != 1 or (isinstance(mode, str) and not _WRITES.isdisjoint(mode)):
         return Unknown("a file")
     return call.machine.open_file(found[0], next(iter(call.node.args), call.node), call.frame.source)
 
 
 _WRITES = frozenset("wxa+")
+_MAKES = frozenset("wxa")
 
 
 def _parsed(call: Call) -> Value:

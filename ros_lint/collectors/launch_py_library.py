@@ -217,6 +217,16 @@ def _expanded(call: Call) -> Value:
     return _make(call, "Command") if call.arguments else unknown(call)
 
 
+def _makes(position: int) -> Rule:
+    """What writes a file, which need not be there before."""
+
+    def rule(call: Call) -> Value:
+        call.machine.ask(call.texts(position))
+        return unknown(call)
+
+    return rule
+
+
 def subscript_library(machine: Machine, owner: Value, key: Value) -> Value:
     """Return an element of something that a library has."""
     if isinstance(owner, Api):
@@ -270,6 +280,8 @@ _BY_NAME: Mapping[str, Rule] = {
     f"{INSTALLED}.get": lambda call: _is_there(call.texts(0)),
     "xacro.process_file": _expanded,
     "xacro.process": _expanded,
+    "xacro.open_output": _makes(0),
+    **dict.fromkeys(("shutil.copy", "shutil.copy2", "shutil.copyfile"), _makes(1)),
 }
 
 _BY_LAST: Mapping[str, Rule] = {

@@ -345,4 +345,6 @@ def _call_of_path(
             return machine.open_file(owner.text, node, frame.source)
         case "exists" | "is_file":
             return machine.ask((owner.text,))
+        case "write_text" | "write_bytes":
+            machine.ask((owner.text,))  # it need not be there before
     return Unknown(f"{name}() of a path")

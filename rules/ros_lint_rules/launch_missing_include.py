@@ -25,7 +25,8 @@ Correct the path; the message names files of the same name that the package does
   that nothing names.
 - For a released package: its launch files are not known whole; other files of it are not known at all. Where nobody said
   which distribution is meant, the confidence is medium as long as one of them may have the file.
-- The launch file asks first if the package is there, or the file (`os.path.exists`), unless it stops where it is not.
+- The launch file asks first if the package is there, or the file (`os.path.exists`), unless it stops where it is not; or it
+  writes the file itself (`open(path, 'w')`, `xacro.open_output(path)`).
 
 Where the name hangs on the default of an argument, which others can replace, the confidence is medium.
 """
