@@ -48,6 +48,8 @@ _FOLDERS = (
     "launch/../config",
     ".",
     "meshes",
+    "made",
+    "made/sub/",
 )
 _FILES = ("top.py", "scripts/run", "scripts/lib.py", "config/a.yaml", "launch/sub/c.launch.py", '"a b/c d.txt"', "./top.py")
 _PATTERNS = (
@@ -69,6 +71,16 @@ _PATTERNS = (
     "[!a]*.py",
 )
 _REGEXES = (".*\\\\.py$", "/sub/", "a\\\\.(yaml|launch)", "config/[^/]*$", "^/.*launch", "\\\\.xml")
+
+
+_MADE = """
+file(WRITE made/written.txt "")
+file(WRITE made/sub/written.py "")
+file(COPY config/a.yaml meshes/x.stl DESTINATION ${CMAKE_CURRENT_SOURCE_DIR}/made/sub)
+file(WRITE before.txt "")
+file(RENAME ${CMAKE_CURRENT_SOURCE_DIR}/before.txt ${CMAKE_CURRENT_SOURCE_DIR}/made/renamed.yaml)
+"""
+"""What comes into being in the sources."""
 
 
 def _rule(choice: random.Random, number: int) -> str:
@@ -122,7 +134,7 @@ except ImportError:
 def test_installed_files_are_those_of_cmake(tmp_path: Path) -> None:
     choice = random.Random(4)
     rules = [_rule(choice, number) for number in range(600)]
-    script = "cmake_minimum_required(VERSION 3.16)\nproject(p NONE)\n" + "\n".join(rules) + "\n"
+    script = "cmake_minimum_required(VERSION 3.16)\nproject(p NONE)\n" + _MADE + "\n".join(rules) + "\n"
     folder = tmp_path / "p"
     for path, executable in FILES.items():
         place = folder / path

@@ -266,7 +266,7 @@ def _missing(run: Run) -> list[Problem]:
     for path, span, unsure in run.missing:
         source = path.rstrip("/")
         # CMake takes a folder among the sources, and does nothing with it.
-        if not unsure and source not in run.generated and not run.is_folder(source):
+        if not unsure and run.generated.isdisjoint((source, path)) and not run.is_folder(source):
             empty = f"there is nothing in {path}, and git keeps no empty folder: install() stops without it"
             message = f"{source} does not exist" if source == path else empty
             found.append(Problem("missing-file", message, span, subject=source))

@@ -23,6 +23,16 @@ def _file(run: Run, args: list[str]) -> None:
         outputs = args[1:2] if mode not in ("GENERATE", "CONFIGURE") else args[args.index("OUTPUT") + 1 :][:1]
         for output in outputs:
             generate(run, output)
+    elif mode == "MAKE_DIRECTORY":
+        for made in args[1:]:
+            generate(run, made, folder=True)
+    elif mode in ("COPY_FILE", "RENAME", "CREATE_LINK") and len(args) > 2:
+        generate(run, args[2])
+        if mode == "RENAME" and not run.unsure:
+            run.generated.discard(run.source(args[1]) or "")
+    elif mode == "COPY" and "DESTINATION" in args[:-1]:
+        at = args.index("DESTINATION")
+        _copy(run, args[1:at], args[at + 1])
     elif mode in ("DOWNLOAD", "UPLOAD"):
         if mode == "DOWNLOAD":
             generate(run, args[2] if len(args) > 2 else "")
@@ -37,6 +47,13 @@ def _file(run: Run, args: list[str]) -> None:
         run.set(args[2], _absolute(args[1], run.places["CMAKE_CURRENT_SOURCE_DIR"]))
     elif mode in ("READ", "SIZE", "TIMESTAMP", "READ_SYMLINK", "MD5", "SHA1", "SHA256", "STRINGS"):
         run.set(args[2] if len(args) > 2 else "", HOLE)
+
+
+def _copy(run: Run, copied: list[str], destination: str) -> None:
+    """``file(COPY)``: a folder with its name, unless it ends with a slash. A relative destination lies in the build folder."""
+    for path in copied if destination.startswith("/") else ():
+        source = run.source(path)
+        generate(run, f"{destination}/{posixpath.basename(path)}", folder=source is not None and run.is_folder(source))
 
 
 def _glob(run: Run, args: list[str], recurse: bool) -> None:

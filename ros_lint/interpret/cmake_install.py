@@ -264,8 +264,11 @@ def _install_directory(run: Run, value: str, source: str, target: str, rule: _Ru
         return
     more = unlisted(run, source, facet_of(run, target), span) if run.sources.unseen else []
     own = run.below(source)
+    made, filled = _made(run, source)
     top = plain.rstrip("/") if plain.startswith("/") else f"/{join_path(run.directory, plain)}".rstrip("/")
-    if not own and source and not run.is_unseen(source):
+    if filled:
+        _hide(run, target, "install(DIRECTORY) of a folder that the build fills")
+    elif not (own or made) and source and not run.is_unseen(source):
         # What is not there is no folder for CMake, but a file, which it passes over where patterns leave it out.
         if not rule.optional and _chosen(posixpath.basename(top), posixpath.dirname(top), rule)[0]:
             run.missing.append((f"{source}/", span, conditional))
@@ -273,7 +276,7 @@ def _install_directory(run: Run, value: str, source: str, target: str, rule: _Ru
     skip = len(source) + 1 if source else 0
     start = f"{target}/" if target else ""
     chosen = bool(rule.patterns or rule.only)
-    for file in (*own, *more) if more else own:
+    for file in (*own, *more, *made) if more or made else own:
         program = file in run.sources.executables if rule.executable is None else rule.executable
         if chosen:
             wanted, given = _chosen(file[skip:], top, rule)
@@ -282,6 +285,13 @@ def _install_directory(run: Run, value: str, source: str, target: str, rule: _Ru
             program = program if given is None else given
         source = file if file in run.files else ""
         run.installed.append(Provided(f"{start}{file[skip:]}", source, program, conditional, span, test=run.testing))
+
+
+def _made(run: Run, folder: str) -> tuple[list[str], bool]:
+    """Return the files below a folder that come into being during the build, and whether there are more that nobody knows."""
+    below = f"{folder}/" if folder else ""
+    new = sorted(path for path in run.generated if path.startswith(below) and path not in run.files)
+    return [path for path in new if path[-1] != "/"], any(path[-1] == "/" and not run.below(path[:-1]) for path in new)
 
 
 def _install_configured(run: Run, value: str, destination: str, rule: _Rule) -> None:

@@ -176,11 +176,11 @@ def _custom_command(run: Run, args: list[str]) -> None:
             generate(run, arg)
 
 
-def generate(run: Run, path: str) -> None:
-    """Note that a file comes into being during the build."""
+def generate(run: Run, path: str, *, folder: bool = False) -> None:
+    """Note that a file, or a folder with nobody knows what in it, comes into being during the build."""
     place = run.source(path)
     if place is not None:
-        run.generated.add(place)
+        run.generated.add(f"{place}/" if folder else place)
 
 
 def _custom_target(run: Run, args: list[str]) -> None:
