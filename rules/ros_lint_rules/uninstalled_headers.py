@@ -4,8 +4,8 @@
 A package that exports its include folder (`ament_export_include_directories()`, or targets with
 `ament_export_targets()`) or a library (`ament_export_libraries()`), and does not install the headers in `include/`; also one
 of which another package of the workspace includes a header. Packages that install a library and no headers are told with
-medium confidence, so are those that export plugins or components, which nobody links; those with programs only with low
-confidence.
+medium confidence, so are those that export plugins or components, or build plugins of Gazebo, which nobody links; those with
+programs only with low confidence, unless they export a folder that is not there once they are installed.
 
 Also a package that installs its headers and exports nothing at all, while another package of the workspace finds it with
 `find_package()` and includes them.
@@ -18,8 +18,9 @@ Packages that depend on it find the library and not its headers: "fatal error: r
 
 `install(DIRECTORY include/ DESTINATION include/${PROJECT_NAME})`, with the same folder in
 `target_include_directories(... $<INSTALL_INTERFACE:include/${PROJECT_NAME}>)`. The fix installs to the folder that is
-exported. To export them: `ament_export_targets()` with an `install(TARGETS ... EXPORT ...)`, or
-`ament_export_include_directories()` and `ament_export_libraries()`.
+exported. Where there are only programs, take the export away: headers without a library serve nobody. To export them:
+`ament_export_targets()` with an `install(TARGETS ... EXPORT ...)`, or `ament_export_include_directories()` and
+`ament_export_libraries()`.
 
 ## When it keeps silent
 
@@ -29,7 +30,8 @@ if that package adds a folder outside of its own to its include directories by h
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import re
+from collections.abc import Iterator, Mapping, Sequence
 
 from ros_lint.api import (
     EXPORTING_PLUGINS,
@@ -85,7 +87,11 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     exports = _exports(package)
     library = any(path.startswith("lib/lib") for path in places)
     loaded = any(True for _ in called(package, EXPORTING_PLUGINS, *REGISTERING, anywhere=True))
+    loaded = loaded or any(_GAZEBO.match(name) for name in found_names(package, script))
     linked = library and not loaded and any(not call.blocks for call in called(package, *_LINKED))
+    if exports and not wanted and script.targets and all(target.kind == "executable" for target in script.targets):
+        yield from _for_nobody(headers, exports)
+        return
     sure = Confidence.HIGH if exports or linked or wanted else Confidence.MEDIUM if library else Confidence.LOW
     why = ", but exported" if exports else f", and {wanted[0][0].name} includes them" if wanted else ""
     yield Finding(
@@ -97,6 +103,23 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         _fix(package, exports),
         sure,
         None if (exports and library) or wanted else Severity.WARNING,
+    )
+
+
+_GAZEBO = re.compile(r"(?:gazebo|gz|ignition)(?!.*_msgs$)", re.IGNORECASE)
+"""What a package finds to build plugins of Gazebo."""
+
+
+def _for_nobody(headers: Sequence[str], exports: Sequence[Call]) -> Iterator[Finding]:
+    """Speak of a package of programs that exports a folder: who finds it is told of a folder that is not there."""
+    first, *others = exports
+    yield Finding(
+        f"the headers in include/ ({headers[0].rpartition('/')[2]} ...) are exported and not installed, and there is no library "
+        "to use them with; take the export away",
+        first.place,
+        "include/",
+        several(Related("exported here, too", call.place) for call in others),
+        severity=Severity.WARNING,
     )
 
 
