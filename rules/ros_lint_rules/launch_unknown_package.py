@@ -4,6 +4,9 @@
 A launch file that starts something from a package, includes a file of it or looks it up, while no package has that
 name: none of the workspace, none of an underlay, none that is released for the distribution.
 
+Where the package of the launch file installs what is started from the unknown one, it is taken for that package: it was
+renamed, or the launch file was copied.
+
 A name without the first word that the packages of a project share, `planner_utils` for `acme_planner_utils` in a package
 `acme_bringup`, is taken for that package where it exists.
 
@@ -37,7 +40,7 @@ elsewhere, check with the workspace that holds it as `--underlay`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from ros_lint.api import (
@@ -55,9 +58,11 @@ from ros_lint.api import (
     corrected,
     declared_closure,
     did_you_mean,
+    few,
     launchable,
     may_be_package,
     may_bring,
+    programs,
     several,
     tag_for,
 )
@@ -67,8 +72,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if not workspace.world.knowledge.covered:
         return
     declared = frozenset(one.name for one in package.declared)
-    for name, places in _unknown(package, workspace).items():
-        verdict = _verdict(name, package, workspace)
+    for name, places in _unknown(package, workspace):
+        verdict = _verdict(name, places, package, workspace)
         if verdict is None or (name in declared and not verdict.resembles):
             continue
         best, *others = sorted(places)
@@ -133,8 +138,10 @@ class _Verdict(NamedTuple):
     """Whether the hint names what does the same in ROS 2."""
 
 
-def _unknown(package: Package, workspace: Workspace) -> Mapping[str, list[_Place]]:
-    found: dict[str, list[_Place]] = {}
+def _unknown(package: Package, workspace: Workspace) -> Iterator[tuple[str, list[_Place]]]:
+    """Yield the names that are no package, where they stand; those apart that are to start what this package installs."""
+    found: dict[tuple[str, bool], list[_Place]] = {}
+    own = programs(package)
     hidden = bool(package.hidden(Facet.SHARE))
     for launch in launchable(package, apart=True):
         idle = not (launch.installed or hidden)
@@ -144,11 +151,12 @@ def _unknown(package: Package, workspace: Workspace) -> Mapping[str, list[_Place
                 continue  # a template, for whoever fills it in; a submodule that is not cloned
             if not workspace.world.is_package(name) and name != package.name and not reference.optional:
                 place = _Place(not launch.run, reference.by_default, idle, reference.conditional, reference.span, reference)
-                found.setdefault(name, []).append(place)
-    return found
+                is_own = own is not None and reference.kind == "node" and reference.name in own.names
+                found.setdefault((name, is_own), []).append(place)
+    yield from ((name, places) for (name, _), places in found.items())
 
 
-def _verdict(name: str, package: Package, workspace: Workspace) -> _Verdict | None:
+def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: Workspace) -> _Verdict | None:
     world = workspace.world
     meant = world.meant(name)
     if meant is not None and world.is_package(meant.name):
@@ -162,6 +170,10 @@ def _verdict(name: str, package: Package, workspace: Workspace) -> _Verdict | No
         if not workspace.target.told:
             return None
         return _Verdict(f" in {distro}, only in {', '.join(elsewhere)} (data of {date})", Confidence.MEDIUM, resembles=False)
+    own = programs(package)
+    wanted = dict.fromkeys(place.reference.name for place in places)
+    if own and own.names.issuperset(wanted) and places[0].reference.kind == "node":
+        return _Verdict(f": {package.name} itself installs {few(list(wanted))}", Confidence.HIGH, package.name)
     family = f"{package.name.partition('_')[0]}_{name}"
     if "_" in name and world.is_package(family):
         return _Verdict(f": {family} is meant", Confidence.HIGH, family)
