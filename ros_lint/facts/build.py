@@ -184,6 +184,10 @@ class BuildScript(NamedTuple):
     set_aside: tuple[str, ...] = ()
     """Interfaces that stand in comments of its CMake files, as ``msg/Name``: somebody took them off a list."""
 
+    refused: tuple[Problem, ...] = ()
+    """What CMake refuses in commands that are seen through all the same, so that it hides nothing: "undefined-target" of what
+    commands are given targets for, "no-package" of what they are given packages for. The subject is the name."""
+
     @property
     def of_cmake(self) -> bool:
         """Whether it is a CMake script, and none of Python."""

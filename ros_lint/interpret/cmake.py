@@ -128,6 +128,7 @@ def _result(run: Run, path: str) -> BuildScript:
         untaken=tuple(_untaken(run, taken)),
         bundled=tuple(run.bundled),
         reaches_out=run.reaches_out,
+        refused=tuple(_refused(run)),
         runs=_runs(run),
         runs_tests=any(map(_RUNS_TESTS.search, calls)),
         export_sets=tuple(dict.fromkeys([made.exported_in for made in run.installed_targets if is_known(made.exported_in)])),
@@ -281,3 +282,11 @@ def _undefined(run: Run) -> list[Problem]:
         for name, span, conditional in run.undefined
         if not conditional and "__rosidl" not in name
     ]
+
+
+def _refused(run: Run) -> Iterator[Problem]:
+    yield from run.refused
+    if not run.wild and not any(opaque.hides & Facet.LIBRARIES and not opaque.undefined for opaque in run.opaques):
+        for (name, command), span in run.given.items():
+            if name not in run.targets and "__rosidl" not in name:
+                yield Problem("undefined-target", f"{command}() of {name}, which is no target", span, subject=name)

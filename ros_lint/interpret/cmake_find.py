@@ -7,11 +7,12 @@ from collections.abc import Mapping
 from typing import Final
 
 from ros_lint.collectors.cmake_syntax import QUOTED, UNQUOTED
-from ros_lint.facts.sight import ANYTHING, Facet
+from ros_lint.facts.sight import ANYTHING, Facet, Problem
 from ros_lint.facts.sources import Purpose
 from ros_lint.interpret.cmake_include import include_foreign, include_own
 from ros_lint.interpret.cmake_run import Handler, Run, folded
 from ros_lint.interpret.cmake_values import ATOM, FOREIGN, HOLE, SOURCE, is_known, maybe, split, sure
+from ros_lint.text import Span
 
 _FOREIGN_VARIABLE = re.compile(
     r"\$\{([A-Za-z0-9_+.-]+?)_(?:TARGETS|LIBRARIES|LIBRARY|LIBS|INCLUDE_DIRS?|INCLUDES|DEFINITIONS|LDFLAGS|CFLAGS)\}"
@@ -120,13 +121,36 @@ def _uses(run: Run, args: list[str]) -> None:
             if _may_become_package(name):
                 run.hide(Facet.USES, "the name of a package is not known")
         elif is_known(name) and not run.is_bundled(name):
+            if certain:
+                _doubt(run, name, args[1].partition(" ")[0], run.where(arg))
             what = f"{args[1]} {name}" if args[1] != "-" else ""
             run.mention(name, "target", run.where(arg), what, optional=not certain, purpose=purpose)
 
 
+def _doubt(run: Run, name: str, command: str, span: Span) -> None:
+    """Note what is given for a package to a command that asks whether it is found, and can never be."""
+    own = name == run.sources.name and command == "ament_target_dependencies"
+    if "::" in name and command.startswith("ament_"):
+        what = f"and {name} is a target"
+    elif own and name not in run.packages and run.normal(f"{name}_FOUND") is None:
+        what = f"and {name} is this one: link its targets with target_link_libraries()"
+    else:
+        return
+    if not run.muted and not run.unsure:
+        run.refused[Problem("no-package", f"{command}() takes packages that are found, {what}", span, subject=name)] = None
+
+
 def _target_uses(run: Run, args: list[str]) -> None:
     """``ros_lint_target_uses(how target names...)``."""
+    _give(run, args[0].partition(" ")[0], args[1:2])
     _uses(run, ["-", args[0], *args[2:]])
+
+
+def _give(run: Run, command: str, args: list[str]) -> None:
+    """Note that a target is given something, if so for sure, and where tests are not wanted, too."""
+    name, certain = sure(args[0]) if args else ("", False)
+    if certain and not (run.muted or run.unsure or run.testing) and is_known(name) and "::" not in name:
+        run.given.setdefault((name, command), run.here())
 
 
 def _pkg_config(run: Run, args: list[str]) -> None:
@@ -178,6 +202,7 @@ def _brings(run: Run, space: str, inner: str) -> bool:
 def _link_libraries(run: Run, args: list[str]) -> None:
     """``target_link_libraries(target [PRIVATE|PUBLIC|INTERFACE] names...)``."""
     link(run, args)
+    _give(run, "target_link_libraries", args)
     if run.muted or not args or run.unsure or (run.testing and "TEST" not in run.targets.get(args[0], ())):
         return
     span = run.here()

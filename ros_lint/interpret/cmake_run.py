@@ -137,6 +137,9 @@ class Run(Paths):
         Folders have a slash at the end."""
         self.undefined: list[tuple[str, Span, bool]] = []
         """Targets that are installed and that nobody defines."""
+        self.refused: dict[Problem, None] = {}
+        self.given: dict[tuple[str, str], Span] = {}
+        """Targets that are given something for sure, each with the command that does so first."""
         self.extras: list[str] = []
         self.templates: dict[str, None] = {}
         """What files for those who find the package are made of, relative to it."""

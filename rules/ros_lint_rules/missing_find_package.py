@@ -3,7 +3,8 @@
 
 A CMake script that uses a ROS package without having found it: a target `package::library`, an argument of
 `ament_target_dependencies()`, or a macro of the package. And what `ament_target_dependencies()` is given that is no package:
-a target of the script, or nearly the name of a package that is found.
+a target, the package itself, or nearly the name of a package that is found; a target that `ament_export_dependencies()` is
+given.
 
 ## Why it matters
 
@@ -53,6 +54,8 @@ _NOT_SOUGHT = ("export", "plugins", "helper")
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
+    if script is not None and package.builds_with == "ament_cmake":
+        yield from (Finding(it.message, it.span, it.subject) for it in script.refused if it.kind == "no-package")
     if script is None or script.problems or package.builds_with != "ament_cmake" or script.hides(Facet.USES):
         return
     found = found_names(package, script)
@@ -87,7 +90,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _no_packages(package: Package, found: frozenset[str], workspace: Workspace) -> Iterator[Finding]:
-    """Yield what is given to ament_target_dependencies() and is no package for sure: a target, or a slip for what is found."""
+    """Yield what is given for a package and is none for sure: a target, this package itself, or a slip for what is found."""
     script = package.script
     assert script is not None
     targets = {target.name for target in script.targets}

@@ -17,8 +17,9 @@ Correct the name, or define the target before. Where one defined target has near
 
 ## When it keeps silent
 
-Where a command, a name or an included file cannot be followed; under conditions; in functions and loops; about libraries
-that may be the system's; where a package is found that nobody knows, which may define targets.
+Where a command, a name or an included file cannot be followed; under conditions; in functions and loops, but for what
+`target_link_libraries()` and `ament_target_dependencies()` are given there for sure; about libraries that may be the
+system's; where a package is found that nobody knows, which may define targets.
 """
 
 from __future__ import annotations
@@ -68,9 +69,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         defined.update(call.texts[:1])
         defined.add((evaluated_name(package, call.texts[0]) if call.args else None) or "")
     wrong: dict[str, list[tuple[Call, int]]] = {}
-    finds_strangers = any(
-        not workspace.world.by_cmake(call.texts[0]).known for call in called(package, "find_package", anywhere=True) if call.args
-    )
+    finds_strangers = _finds_strangers(package, workspace)
     for call in called(package, *_USERS, "install"):
         for index in installed_targets(call) if call.name == "install" else range(len(call.args[:1])):
             name = evaluated_name(package, call.texts[index])
@@ -80,8 +79,22 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 wrong.setdefault(name, []).append((call, index))
     for name, places in wrong.items():
         yield _finding(f"{places[0][0].name}() of {name}, which is no target", name, names, places)
+    for problem in script.refused:  # also of names that are put together
+        name = problem.subject
+        if problem.kind == "undefined-target" and name not in defined and name not in wrong:
+            near = similar(name, names, 1, 0.8)
+            if near or not finds_strangers or workspace.world.is_package(name):  # no target has the bare name of a package
+                yield Finding(problem.message + _hint(near), problem.span, name)
     yield from _unfilled(package)
     yield from _no_libraries(package, defined)
+
+
+def _finds_strangers(package: Package, workspace: Workspace) -> bool:
+    """Whether something is searched that nobody knows: it may define targets."""
+    written = {call.texts[0] for call in called(package, "find_package", anywhere=True) if call.args}
+    names = {name for name in written if "$" not in name}
+    names.update(mention.name for mention in package.built.mentions if mention.via == "cmake")
+    return not all(workspace.world.by_cmake(name.partition("/")[0]).known for name in names)
 
 
 def _unfilled(package: Package) -> Iterator[Finding]:
@@ -115,11 +128,15 @@ def _finding(message: str, name: str, names: Sequence[str], places: list[tuple[C
     near = similar(name, names, 1, 0.8)
     fix = None
     if near:
-        message += f"; is {near[0]} meant?"
+        message += _hint(near)
         if all(call.texts[index] == name for call, index in places):
             fix = Fix(f"write {near[0]}", tuple(cmake_edits.write(call, index, near[0]) for call, index in places), safe=False)
     first, *others = [call.span(index) for call, index in places]
     return Finding(message, first, name, several(Related("also here", span) for span in others), fix)
+
+
+def _hint(near: Sequence[str]) -> str:
+    return f"; is {near[0]} meant?" if near else ""
 
 
 RULE = Rule(
