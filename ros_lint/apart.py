@@ -1,4 +1,4 @@
-"""Files that are beside the point: tests, examples, templates."""
+"""Files that are beside the point: tests, examples, templates, and what is put aside."""
 
 from __future__ import annotations
 
@@ -8,8 +8,10 @@ TEST_FOLDERS = frozenset(
     {"test", "tests", "testing", "integration_tests", "benchmark", "benchmarks", "unit_tests", "test_data", "testdata",
      "test_resources"}
 )  # fmt: skip
-_APART = frozenset({"example", "examples", "template", "templates", "doc", "docs"})
-
+_PUT_ASIDE = frozenset({"attic", "backup", "backups", "deprecated", "legacy", "obsolete", "old", "unused"})
+_APART = frozenset({"example", "examples", "template", "templates", "doc", "docs"}) | _PUT_ASIDE
+_COPY = re.compile(r" (?:copy(?: \d+)?|\(\d+\))\.\w+\Z")
+"""What editors and file managers call the copy of a file."""
 
 _OF_TESTS = re.compile(r"(?:^|_)(?:tests?|testing)(?:_|$)")
 
@@ -20,9 +22,10 @@ def is_for_tests(package: str) -> bool:
 
 
 def is_apart(path: str) -> bool:
-    """Return whether a file serves tests, shows something, or is to be filled in, by its path."""
+    """Return whether a file serves tests, shows something, is to be filled in, or kept for later, by its path."""
     name = path.rpartition("/")[2]
-    return lies_apart(path) or name.startswith("test_") or "_test." in name or ".test." in name
+    of_tests = name.startswith("test_") or "_test." in name or ".test." in name
+    return of_tests or lies_apart(path) or (" " in name and _COPY.search(name) is not None)
 
 
 def lies_apart(path: str) -> bool:

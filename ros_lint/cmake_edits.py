@@ -33,12 +33,18 @@ def install_library(script: BuildScript, name: str) -> Edit | None:
 
 def install_program(script: BuildScript, kind: str, name: str) -> Edit | None:
     """Install one of TARGETS, PROGRAMS to lib/<package>."""
-    return at_end(script, f"install({kind} {name} DESTINATION lib/${{PROJECT_NAME}})")
+    return at_end(script, f"install({kind} {_word(name)} DESTINATION lib/${{PROJECT_NAME}})")
 
 
 def install_files(script: BuildScript, paths: Sequence[str], folder: str) -> Edit | None:
     """Install files to a folder below share/<package>, "" for that itself."""
-    return at_end(script, f"install(FILES {' '.join(paths)} DESTINATION {join('share/${PROJECT_NAME}', folder)})")
+    words = " ".join([*map(_word, paths), "DESTINATION", _word(join("share/${PROJECT_NAME}", folder))])
+    return at_end(script, f"install(FILES {words})")
+
+
+def _word(path: str) -> str:
+    """Write a path as an argument, in quotes where blanks, parentheses and their like would end it."""
+    return f'"{path}"' if re.search(r"[\s()#;]", path) else path
 
 
 def install_folder(package: Package, folder: str) -> Edit | None:
@@ -48,8 +54,8 @@ def install_folder(package: Package, folder: str) -> Edit | None:
     """
     call = _beside(package)
     if call is not None:
-        return _append(call, call.texts.index("DESTINATION") - 1, folder)
-    return at_end(package.built, f"install(DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}})")
+        return _append(call, call.texts.index("DESTINATION") - 1, _word(folder))
+    return at_end(package.built, f"install(DIRECTORY {_word(folder)} DESTINATION share/${{PROJECT_NAME}})")
 
 
 def export_dependencies(package: Package, name: str, all_names: Sequence[str]) -> Edit | None:

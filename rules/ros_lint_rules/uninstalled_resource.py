@@ -23,7 +23,7 @@ where `data_files` is written out and the files are not too many.
 - Launch files themselves: see `uninstalled-launch`.
 - What a command of the build names, such as the file that `generate_parameter_library()` reads, is taken for its input.
 - Pictures in `images/` and `media/` that nothing names: they are there for the documentation.
-- Hidden folders and what lies in them, such as the history that an editor keeps.
+- Hidden folders and what lies in them, such as the history that an editor keeps; folders for what is put aside, such as `old`.
 - A folder that nothing in the package names has medium confidence: it may serve documentation, be opened by hand from the
   sources, or be left over. Not so if it lies in a folder that is installed (`worlds/textures/`), and its files serve at run
   time alone: displays, maps, models, textures, parameters; nor if the package builds, installs and tests nothing, so that

@@ -20,8 +20,8 @@ is neither among the `scripts` nor the entry points.
 
 ## When it keeps silent
 
-For files without interpreter line or executable bit, for tests, for those that the build itself runs, for those that
-import what only ROS 1 has, and where something that cannot be followed may install them.
+For files without interpreter line or executable bit, for tests, for what is put aside (`old/`, `node copy.py`), for those that
+the build itself runs, for those that import what only ROS 1 has, and where something that cannot be followed may install them.
 """
 
 from __future__ import annotations
