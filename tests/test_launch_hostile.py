@@ -94,6 +94,10 @@ BOUNDED = {
         "return LaunchDescription([Node(package='a', executable=PythonExpression(x)) for x in (\"'%2000000000d' % 1\", "
         '"\'a\' * 10000000000", "[0] * 9999 * 9999", "str([[\'a\' * 9000] * 9000] * 90)", "\'%*d\' % (10 ** 9, 1)")])'
     ),
+    "texts that grow": _program(
+        "return LaunchDescription([Node(package='a', executable=x) for x in "
+        f"('a'.zfill(3000000000), '{'a' * 9000}'.replace('a', '{'b' * 90_000}'))])"
+    ),
     "a list in itself": _program("x = []\nx.append(x)\nreturn LaunchDescription([Node(package='a', executable=x)])"),
     "branches": _program("x = ''\n" + "".join(f"if u({i}):\n    x += '{i}'\n" for i in range(60))),
     "an expression that backtracks": _program("import re\nx = re.match('(a+)+$', 'a' * 50 + 'b')"),

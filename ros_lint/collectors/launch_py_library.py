@@ -28,6 +28,7 @@ from ros_lint.collectors.launch_py_objects import (
 from ros_lint.collectors.launch_py_operations import INSTALLED, text_of
 from ros_lint.collectors.launch_py_texts import conditions_of
 from ros_lint.collectors.launch_text import UNKNOWN, joined, presence
+from ros_lint.collectors.python_methods import ON_PATHS, PATH_SPLITS
 from ros_lint.facts.launch import LaunchCondition
 
 if TYPE_CHECKING:
@@ -253,17 +254,14 @@ _STANDARD = frozenset(
 _BY_NAME: Mapping[str, Rule] = {
     **FUNCTIONS,
     "os.path.join": _join,
-    "os.path.dirname": _on_path(posixpath.dirname),
-    "os.path.basename": _on_path(posixpath.basename),
+    **{name: _on_path(function) for name, function in ON_PATHS.items()},
+    **{name: _split(function) for name, function in PATH_SPLITS.items()},
     "os.path.abspath": _on_path(str),
     "os.path.realpath": _on_path(str),
     "os.path.expanduser": _on_path(str),
     "os.path.expandvars": _on_path(str),
-    "os.path.normpath": _on_path(posixpath.normpath),
     "os.path.exists": _exists,
     "os.path.isfile": _exists,
-    "os.path.split": _split(posixpath.split),
-    "os.path.splitext": _split(posixpath.splitext),
     "os.fspath": _on_path(str),
     "os.getenv": _variable,
     "os.environ.get": _variable,

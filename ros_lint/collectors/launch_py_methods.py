@@ -30,6 +30,7 @@ from ros_lint.collectors.launch_py_objects import (
 )
 from ros_lint.collectors.launch_py_operations import hashable, text_of, texts_made, with_format
 from ros_lint.collectors.launch_text import LONGEST, UNKNOWN, is_plain, is_settled, joined
+from ros_lint.collectors.python_methods import CONSTANTS, NUMBERS, SPLITS, STRIPS, TEXT_METHODS, TRUTHS
 
 if TYPE_CHECKING:
     import ast
@@ -39,7 +40,6 @@ if TYPE_CHECKING:
     from ros_lint.collectors.launch_py_run import Machine
 
 _MOST_ITEMS = 5_000
-_CONSTANTS = {"os.sep": "/", "os.path.sep": "/", "os.linesep": "\n", "os.name": "posix", "os.curdir": ".", "os.pardir": ".."}
 
 
 def items(machine: Machine, value: Value) -> list[Value] | None:
@@ -72,8 +72,8 @@ def attribute(machine: Machine, owner: Value, node: ast.Attribute, frame: Frame)
     name = node.attr
     if isinstance(owner, Api):
         full = f"{owner.name}.{name}"
-        if full in _CONSTANTS:
-            return _CONSTANTS[full]
+        if full in CONSTANTS:
+            return CONSTANTS[full]
         return written(UNKNOWN, node, frame.source) if full == "sys.executable" else Api(full)
     if isinstance(owner, Instance):
         return _of_instance(owner, name)
@@ -131,17 +131,9 @@ def _of_path(owner: FilePath, name: str) -> Value:
     return Method(owner, name)
 
 
-_TEXT_ANY = frozenset({"strip", "rstrip", "lstrip", "removeprefix", "removesuffix"})
-_TEXT_PARTS = frozenset({"split", "rsplit", "partition", "rpartition", "splitlines", "replace"})
-_TEXT_PLAIN = frozenset(
-    {
-        "lower", "upper", "title", "capitalize", "startswith", "endswith", "find", "rfind", "isdigit", "isalpha", "isnumeric",
-        "isalnum", "count", "index", "zfill", "casefold", "isspace", "swapcase", "islower", "isupper", "encode",
-    }
-)  # fmt: skip
-_TEXT_TRUTHS = frozenset(
-    {"startswith", "endswith", "isdigit", "isalpha", "isnumeric", "isalnum", "isspace", "islower", "isupper"}
-)
+_OF_MARKED = STRIPS | SPLITS | {"replace"}
+"""Methods that mean something for texts, too, in which something stands that is known at launch only."""
+_OF_PLAIN = TEXT_METHODS | {"zfill", "encode"}
 
 
 def call_method(
@@ -182,17 +174,27 @@ def _of_text(
     values = [plain(argument) for argument in arguments]
     known = all(isinstance(value, (str, int, tuple, type(None))) for value in values) and not keywords
     known = known and all(is_plain(value) for value in values if isinstance(value, str))
-    known = known and (is_settled(owner) or name in _TEXT_ANY)
-    possible = name in _TEXT_ANY or name in _TEXT_PARTS or (name in _TEXT_PLAIN and is_plain(owner))
+    known = known and (is_settled(owner) or name in STRIPS)
+    possible = name in _OF_MARKED or (name in _OF_PLAIN and is_plain(owner))
     if possible and known and len(owner) <= LONGEST:
+        if _grows(owner, name, values):
+            return UNKNOWN
         try:
             result = getattr(str(owner), name)(*values)
         except (TypeError, ValueError):
             raise Raised from None
         return result if not isinstance(result, str) or len(result) <= LONGEST else UNKNOWN
-    if name in _TEXT_TRUTHS or name in ("count", "find", "index", "rfind"):
+    if name in TRUTHS or name in NUMBERS:
         return Unknown(f"{name}() of a text that is not known")
-    return written(UNKNOWN, node, frame.source) if name not in _TEXT_PARTS or name == "replace" else Unknown(f"{name}()")
+    return written(UNKNOWN, node, frame.source) if name not in SPLITS else Unknown(f"{name}()")
+
+
+def _grows(text: str, name: str, values: list[Value]) -> bool:
+    """Whether a method would make a text too long."""
+    if name == "zfill":
+        return any(isinstance(width, int) and width > LONGEST for width in values)
+    old, new = values[:2] if name == "replace" and len(values) > 1 else ("", "")
+    return isinstance(old, str) and isinstance(new, str) and text.count(old) * len(new) > LONGEST
 
 
 def _formatted(owner: str, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame) -> Value:

@@ -8,6 +8,7 @@ import posixpath
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from ros_lint.collectors import python_methods
 from ros_lint.interpret import setup_py_methods, setup_py_sequences
 from ros_lint.interpret.setup_py_expressions import Expressions
 from ros_lint.interpret.setup_py_files import ROOT
@@ -18,13 +19,8 @@ if TYPE_CHECKING:
     from pathlib import PurePosixPath
 
 CONSTANTS: dict[str, Value] = {
-    "os.sep": "/",
-    "os.path.sep": "/",
-    "os.curdir": ".",
-    "os.pardir": "..",
-    "os.linesep": "\n",
+    **python_methods.CONSTANTS,
     "os.extsep": ".",
-    "os.name": "posix",
     "sys.platform": "linux",
     "sys.maxsize": 2**63 - 1,
     "sys.byteorder": "little",
@@ -160,11 +156,7 @@ def _isinstance(_: Expressions, __: ast.Call, value: Value, kinds: Value) -> boo
 FUNCTIONS: dict[str, Callable[..., Value]] = {
     **setup_py_sequences.FUNCTIONS,
     "os.path.join": _on_texts(posixpath.join),
-    "os.path.basename": _on_texts(posixpath.basename),
-    "os.path.dirname": _on_texts(posixpath.dirname),
-    "os.path.splitext": _on_texts(posixpath.splitext),
-    "os.path.split": _on_texts(posixpath.split),
-    "os.path.normpath": _on_texts(posixpath.normpath),
+    **{name: _on_texts(function) for name, function in {**python_methods.ON_PATHS, **python_methods.PATH_SPLITS}.items()},
     "os.path.isabs": _on_texts(posixpath.isabs),
     "os.path.abspath": _on_texts(lambda path: posixpath.normpath(posixpath.join(ROOT, path))),
     "os.path.relpath": _relative,

@@ -4,20 +4,14 @@ from __future__ import annotations
 
 import ast
 
+from ros_lint.collectors.python_methods import TEXT_METHODS
 from ros_lint.interpret.setup_py_expressions import Expressions
 from ros_lint.interpret.setup_py_operators import LONGEST, check_format, check_size
 from ros_lint.interpret.setup_py_sequences import in_order
 from ros_lint.interpret.setup_py_values import Native, Value, certain, located, unknown_in
 
-_PURE = frozenset(
-    {
-        "capitalize", "casefold", "count", "endswith", "find", "index", "isalpha", "isdigit", "isidentifier", "islower",
-        "isspace", "isupper", "lower", "lstrip", "partition", "removeprefix", "removesuffix", "rfind", "rindex",
-        "rpartition", "rsplit", "rstrip", "split", "splitlines", "startswith", "strip", "swapcase", "title", "upper",
-    }
-)  # fmt: skip
 _METHODS: dict[type, frozenset[str]] = {
-    str: _PURE | {"format", "join", "replace"},
+    str: TEXT_METHODS | {"format", "join", "replace"},
     list: frozenset({"append", "extend", "insert", "remove", "pop", "sort", "reverse", "copy", "clear", "index", "count"}),
     dict: frozenset({"get", "items", "keys", "values", "update", "setdefault", "pop", "copy", "clear"}),
     set: frozenset({"add", "update", "discard", "remove", "union", "difference", "intersection", "copy", "clear"}),
