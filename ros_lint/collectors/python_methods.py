@@ -1,0 +1,51 @@
+"""Methods of texts, functions on paths and constants of Python that mean the same on known values, whoever evaluates them.
+
+What they give is no longer than what they are given. What an evaluator makes of values that it does not know, and which
+further methods it follows, is its own business.
+"""
+
+from __future__ import annotations
+
+import posixpath
+from collections.abc import Callable, Mapping
+from typing import Final
+
+TRUTHS: Final = frozenset(
+    {
+        "endswith", "isalnum", "isalpha", "isdigit", "isidentifier", "islower", "isnumeric", "isspace", "isupper", "startswith",
+    }
+)  # fmt: skip
+"""Methods of texts that give a truth."""
+
+NUMBERS: Final = frozenset({"count", "find", "index", "rfind", "rindex"})
+"""Methods of texts that give a number."""
+
+SPLITS: Final = frozenset({"partition", "rpartition", "rsplit", "split", "splitlines"})
+"""Methods of texts that give several texts."""
+
+STRIPS: Final = frozenset({"lstrip", "removeprefix", "removesuffix", "rstrip", "strip"})
+"""Methods that take something off the ends of a text."""
+
+TEXT_METHODS: Final = (
+    TRUTHS | NUMBERS | SPLITS | STRIPS | {"capitalize", "casefold", "lower", "swapcase", "title", "upper"}
+)  # fmt: skip
+
+ON_PATHS: Final[Mapping[str, Callable[[str], str]]] = {
+    "os.path.basename": posixpath.basename,
+    "os.path.dirname": posixpath.dirname,
+    "os.path.normpath": posixpath.normpath,
+}
+
+PATH_SPLITS: Final[Mapping[str, Callable[[str], tuple[str, str]]]] = {
+    "os.path.split": posixpath.split,
+    "os.path.splitext": posixpath.splitext,
+}
+
+CONSTANTS: Final[Mapping[str, str]] = {
+    "os.curdir": ".",
+    "os.linesep": "\n",
+    "os.name": "posix",
+    "os.path.sep": "/",
+    "os.pardir": "..",
+    "os.sep": "/",
+}
