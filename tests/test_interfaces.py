@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from ros_lint.collectors import interfaces
-from ros_lint.text import Text
+from ros_lint.text import Text, read
 
 
 def collected(path: str, text: str) -> list[tuple[str, str]]:
@@ -61,4 +61,43 @@ def test_idl() -> None:
         ("std_msgs/Header", "own/msg/X.idl:2:11"),
         ("geometry_msgs/Point", "own/msg/X.idl:7:5"),
         ("std_msgs/Header", "own/msg/X.idl:8:14"),
+    ]
+
+
+def problems(data: bytes, path: str = "a/msg/X.msg") -> list[tuple[str, str]]:
+    interface = interfaces.collect(read(path, data)).interface
+    assert interface is not None
+    return [(f"{problem.span.line}:{problem.span.column}", problem.message.partition(":")[0]) for problem in interface.problems]
+
+
+@pytest.mark.parametrize(
+    ("data", "place", "message"),
+    [
+        (b"\xef\xbb\xbfint32 a\n", "1:1", "rosidl stops at a file that begins with a byte order mark"),
+        (b"int32 a\nint32 b # caf\xe9\n", "2:14", "rosidl stops at a file that is not in UTF-8"),
+        ("int32 a\n".encode("utf-16"), "1:1", "rosidl stops at a file that is not in UTF-8"),
+        (b"# coding: latin-1\nint32 a # caf\xe9\n", "1:1", "rosidl stops at a file that is not in UTF-8"),
+    ],
+)
+def test_a_file_that_rosidl_cannot_decode(data: bytes, place: str, message: str) -> None:
+    assert problems(data) == [(place, message)]
+
+
+@pytest.mark.parametrize("data", [b"int32 a\r\nint32 b\r\n", "int32 a # é\n".encode(), b"# encoding: ascii\nint32 a\n", b""])
+def test_a_file_that_rosidl_decodes(data: bytes) -> None:
+    assert problems(data) == []
+
+
+def test_line_ends_of_windows_divide() -> None:
+    assert problems(b"int32 a\r\n---\r\nint32 a\r\n", "a/srv/X.srv") == []
+    assert problems(b"int32 a\r\n--- \r\nint32 a\r\n", "a/srv/X.srv") == [("2:1", "only a line that is nothing but --- divides")]
+
+
+def test_the_messages_that_a_definition_is_made_of() -> None:
+    interface = interfaces.collect(Text("a/srv/X.srv", "Own[] own\nother/Thing[<=2] thing\nint32 A=1\n---\nOwn own\n")).interface
+    assert interface is not None
+    assert [(name, str(span)) for name, span in interface.types] == [
+        ("Own", "a/srv/X.srv:1:1"),
+        ("other/Thing", "a/srv/X.srv:2:1"),
+        ("Own", "a/srv/X.srv:5:1"),
     ]

@@ -87,7 +87,7 @@ class _Element(NamedTuple):
 def collect(source: Text) -> InterfaceFile:
     """Return the messages that a definition is made of, and what of it rosidl refuses."""
     path, text = source.path, source.text
-    if source.codec != "utf-8":
+    if source.codec == "utf-8-sig" or not _is_utf_8(source):
         return InterfaceFile(path, (), (_encoding(source, 0, 0),))
     if _BREAKS.search(text):
         return InterfaceFile(path)
@@ -124,6 +124,17 @@ def collect(source: Text) -> InterfaceFile:
             message = f"{element.name} is there already, on line {line}: choose another name"
             problems.append(InterfaceProblem(message, source.span(start, start + len(element.name))))
     return InterfaceFile(path, tuple(types), tuple(problems))
+
+
+def _is_utf_8(source: Text) -> bool:
+    """Whether a file can be read as UTF-8, whatever the first lines say that it is in."""
+    if source.codec == "utf-8":
+        return True
+    try:
+        source.encode(source.text).decode("utf-8")
+    except UnicodeError:
+        return False
+    return True
 
 
 def _encoding(source: Text, start: int, end: int) -> InterfaceProblem:
