@@ -56,7 +56,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
     taken: set[str] = set()
     for package in workspace.packages:
         for launch in launchable(package):
-            rewrites = any(name.startswith("nav2_common") for name, _ in launch.file.imports)
+            rewrites = any(_rewrites(name) for name, _ in launch.file.imports)
             by_file: dict[str, list[Given]] = {}
             for given in files.given(launch.file):
                 by_file.setdefault(given.file.path, []).append(given)
@@ -71,6 +71,11 @@ def check(workspace: Workspace) -> Iterator[Finding]:
             yield from (one._replace(package=package.name) for one in _flat(together))
         elif not workspace.unread() and (file.path not in taken or len({name for name, _ in file.nodes}) == 1):
             yield _of_others(together)._replace(package=package.name)
+
+
+def _rewrites(module: str) -> bool:
+    """Whether a module can put a file below the namespace of its nodes: that of nav2_common, or a copy of it."""
+    return module.startswith("nav2_common") or module.rpartition(".")[2] == "rewritten_yaml"
 
 
 def _flat(together: list[Given]) -> Iterator[Finding]:
