@@ -51,6 +51,7 @@ from ros_lint.declare import (
     is_unseen_by_name,
     leaves_trace,
     remove_dependency,
+    sounds_unseen,
     tag_for,
     works_unseen,
 )
@@ -81,7 +82,6 @@ from ros_lint.launch_links import Links, defaults_of, everything, filled, texts_
 from ros_lint.launch_names import Families, needed
 from ros_lint.launch_parameters import Given, ParameterFiles
 from ros_lint.launch_runs import Broken, PassedFile, broken_expressions, launched, passed_files
-from ros_lint.liveness import HEADERS
 from ros_lint.needs import (
     Need,
     comes_elsewhere,
@@ -262,6 +262,7 @@ __all__ = [
     "setup_edits",
     "several",
     "similar",
+    "sounds_unseen",
     "started",
     "stem",
     "stranded",

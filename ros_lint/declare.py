@@ -77,9 +77,13 @@ def remove_dependency(package: Package, depend: Depend) -> tuple[Edit, ...]:
 
 def is_unseen_by_name(world: World, name: str) -> bool:
     """Whether a name alone says that it may do its work unseen: it is no package that is known, or a linter, a generator ..."""
-    if not world.is_package(name) or world.is_key(name):
-        return True
-    return world.knowledge.names.works_unseen(name)
+    return not world.is_package(name) or world.is_key(name) or sounds_unseen(world, name)
+
+
+def sounds_unseen(world: World, name: str) -> bool:
+    """Whether a package is called like those that do their work unseen. Whether one of the workspace gives macros is seen."""
+    names = world.knowledge.names
+    return names.works_unseen(name) and not (world.layer(name) == "workspace" and names.sounds_like_macros(name))
 
 
 def is_library(world: World, name: str) -> bool:
@@ -136,11 +140,24 @@ def _offers_nothing(world: World, released: Released) -> bool:
 
 
 def is_mostly_run(workspace: Workspace, name: str) -> bool:
-    """Whether released packages mostly declare a name without building against it, so that it may well leave no trace."""
-    if name in workspace.by_name or not workspace.world.is_package(name):
+    """Whether released packages mostly declare a name without building against it, so that it may well leave no trace.
+
+    Not so of packages that give nothing but interfaces: this tells that Python code uses them, which has to name them.
+    """
+    world = workspace.world
+    if name in workspace.by_name or not world.is_package(name):
         return False
-    declared = workspace.world.knowledge.index.declared_as(name)
+    released = world.released(name)
+    if released and released.interfaces and not _runs(world, name):
+        return False
+    declared = world.knowledge.index.declared_as(name)
     return 2 * sum(count for kinds, count in declared.items() if "b" not in kinds) > sum(declared.values())
+
+
+def _runs(world: World, name: str) -> bool:
+    """Whether a package is known to have something to start or to load."""
+    offers = (world.executables, world.programs, world.launch_files, world.components, world.plugins)
+    return any(offer(name).names for offer in offers)
 
 
 def leaves_trace(package: Package, workspace: Workspace, name: str) -> bool:
@@ -149,9 +166,8 @@ def leaves_trace(package: Package, workspace: Workspace, name: str) -> bool:
     released = world.released(name)
     if released is None:
         return False
-    runs = world.executables(name).names or world.programs(name).names or world.launch_files(name).names
     no_python = not any(file.endswith(PYTHON_LIKE) for file in package.files)
-    return bool(released.interfaces) or (no_python and not runs and bool(world.python_modules(name).names))
+    return bool(released.interfaces) or (no_python and not _runs(world, name) and bool(world.python_modules(name).names))
 
 
 PYTHON_LIKE = (".py", ".py.in", ".launch", ".launch.xml", ".launch.yaml")
@@ -190,7 +206,10 @@ def makes_something(package: Package) -> bool:
 def builds_something(package: Package) -> bool:
     """Whether a package has code: a package with launch files and data only may declare what these need in their own way."""
     script = package.script
-    return bool(script and (script.targets or script.interfaces or script.python_packages or script.components))
+    if script is None:
+        return False
+    made = script.targets or script.interfaces or script.python_packages or script.components
+    return bool(made) or any(provided.path.startswith("include/") for provided in script.provides)
 
 
 def _gives_macros(package: Package) -> bool:

@@ -9,7 +9,7 @@ from itertools import accumulate
 from typing import TYPE_CHECKING
 
 from ros_lint.cmake_finds import not_seen_used
-from ros_lint.declare import is_built_in_sight, is_unseen_by_name
+from ros_lint.declare import is_built_in_sight, is_unseen_by_name, sounds_unseen
 from ros_lint.evidence import Source, satisfying, used_names
 from ros_lint.facts.sources import Via
 from ros_lint.text import Span, span_in
@@ -37,7 +37,7 @@ def of_package(tree: Tree, package: Package, source: Source, world: World, types
     wanted = [
         name
         for name in dict.fromkeys(built)
-        if not (name in used or names.works_unseen(name) or (name in satisfied and is_unseen_by_name(world, name)))
+        if not (name in used or sounds_unseen(world, name) or (name in satisfied and is_unseen_by_name(world, name)))
     ]
     libraries = {name: names.called(name) for name in wanted if world.is_key(name)}
     found = mentioned(wanted, source, libraries, _may_trace) if wanted else {}

@@ -175,9 +175,18 @@ class Names:
             found = self._unseen[package] = self._unseen_pattern.match(package) is not None
         return found
 
+    def sounds_like_macros(self, package: str) -> bool:
+        """Return whether it is CMake macros by which a package does its work unseen, going by its name."""
+        return self._macros_pattern.match(package) is not None
+
     @cached_property
     def _unseen_pattern(self) -> re.Pattern[str]:
         return re.compile("|".join(fnmatch.translate(pattern) for pattern, _ in self._rows("unseen.tsv")))
+
+    @cached_property
+    def _macros_pattern(self) -> re.Pattern[str]:
+        rows = self._rows("unseen.tsv")
+        return re.compile("|".join(fnmatch.translate(pattern) for pattern, why in rows if why.endswith("gives CMake macros")))
 
     @cached_property
     def _targets(self) -> frozenset[str]:

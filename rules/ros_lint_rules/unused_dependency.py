@@ -19,10 +19,10 @@ Remove the tag. The fix does this, and needs `--unsafe-fixes` where the confiden
 Where a type of it stands in C++ code by its bare name, which a header of a third package makes possible. And
 whenever the dependency might be needed in a way that leaves no trace: linters, run-time and tool dependencies, tags
 under a condition, packages whose build scripts cannot be followed everywhere, metapackages, vendor packages and packages
-without code, and dependencies that give CMake macros or plugins. For rosdep keys of libraries, which others' headers may
-need, for packages that nobody knows, for messages and Python packages that are mostly declared to be run, where a file
-of the workspace cannot be read, and where no module is there that an entry point names, or none that imports anything, the
-confidence is medium.
+without code, and dependencies that give CMake macros or plugins. For rosdep keys of libraries, which others' headers may need,
+unless they come along with a package that is used, for packages that nobody knows, for Python packages that are mostly
+declared to be run, and such as have messages and programs, where a file of the workspace cannot be read, and where no module
+is there that an entry point names, or none that imports anything, the confidence is medium.
 
 So it is where nothing uses the dependency, but something else that is used and not declared comes along with it alone, in
 this package or in another one of the workspace. That is to be declared instead, and nothing is removed.
@@ -54,6 +54,7 @@ from ros_lint.api import (
     leaves_trace,
     remove_dependency,
     satisfying,
+    sounds_unseen,
     used_names,
     works_unseen,
 )
@@ -100,11 +101,12 @@ def _unused(package: Package, workspace: Workspace) -> Iterator[tuple[Declared, 
     world = workspace.world
     built = [each.name for each in package.declared if each.depend.tag in _TAGS and not each.depend.condition]
     used = used_names(built, package.uses)
+    along = world.closure(sorted(used))
     libraries = satisfying(package.uses)
     for declared in package.declared:
         depend = declared.depend
         name = depend.name
-        if depend.condition or name in used or world.knowledge.names.works_unseen(name):
+        if depend.condition or name in used or sounds_unseen(world, name):
             continue
         if not (whole or is_library(world, name)):
             continue
@@ -120,7 +122,9 @@ def _unused(package: Package, workspace: Workspace) -> Iterator[tuple[Declared, 
             says = "there is no test that could use it"
         else:
             continue
-        yield declared, says, Confidence.MEDIUM if unknown or mostly_run or unsure else Confidence.HIGH
+        # What headers of others need of a library is there without the tag, if it comes along with what they are from.
+        doubted = unknown and not (depend.tag in _TAGS and is_library(world, name) and name in along)
+        yield declared, says, Confidence.MEDIUM if doubted or mostly_run or unsure else Confidence.HIGH
 
 
 def _lacks_programs(package: Package, script: BuildScript) -> bool:
