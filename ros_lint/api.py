@@ -82,6 +82,7 @@ from ros_lint.launch_links import Links, defaults_of, everything, filled, texts_
 from ros_lint.launch_names import Families, needed
 from ros_lint.launch_parameters import Given, ParameterFiles
 from ros_lint.launch_runs import Broken, PassedFile, broken_expressions, launched, passed_files
+from ros_lint.liveness import HEADERS
 from ros_lint.needs import (
     Need,
     comes_elsewhere,
