@@ -16,8 +16,9 @@ from ros_lint.facts.manifest import Role
 from ros_lint.facts.sight import Opaque
 from ros_lint.facts.sources import FileFacts, Mention, Use, Via
 from ros_lint.knowledge.spelling import may_be_package
-from ros_lint.liveness import HEADERS, Liveness
+from ros_lint.liveness import Liveness
 from ros_lint.own_files import OwnFiles
+from ros_lint.suffixes import HEADERS
 from ros_lint.text import Span
 from ros_lint.tree import within
 
@@ -330,6 +331,8 @@ def _script_role(source: Source, mention: Mention) -> Role:
 def _launch_uses(launch: LaunchFile, role: Role, uses: _Uses, sure: bool) -> None:
     for reference in launch.references:
         package = reference.package
+        if reference.kind == "program":
+            continue
         answer = uses.resolver.answer("launch", package)
         if package != uses.package and answer.providers:
             what = package if reference.kind == "package" else f"{reference.kind} {reference.name}"

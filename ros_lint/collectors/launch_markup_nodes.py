@@ -19,7 +19,7 @@ def _process(reader: Reader, entity: Entity, kind: str) -> LaunchAction:
     for attribute in () if entity.lacks(_SURROUNDINGS) else _SURROUNDINGS:
         value = reader.optional(entity, attribute)
         if value is not None and attribute in ("cwd", "launch-prefix"):
-            given.append((attribute, value))
+            given.append((attribute.removeprefix("launch-"), value))
     name = reader.optional(entity, "name")
     if entity.get("on_exit") not in (None, "shutdown"):
         raise Rejected("on-exit", f"on_exit of <{entity.tag}> can only be shutdown", entity.place("on_exit"))

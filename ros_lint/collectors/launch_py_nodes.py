@@ -74,7 +74,7 @@ def started_node(walker: Walker, made: Made, conditions: Conditions) -> list[Lau
     elif made.name not in _NODES:
         children = nested(walker, made)
     node = _started("node", "executable", walker, made, conditions)._replace(
-        arguments=_given(walker, made, "arguments", "ros_arguments", "prefix", "additional_env", "env", "cwd"),
+        arguments=_given(walker, made, "arguments", "ros_arguments", "additional_env", "env"),
         children=tuple(children),
     )
     return [*_apart("executable", walker, made, node), *later(walker, made, "on_exit")]
@@ -121,7 +121,7 @@ def _process(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchA
         "process",
         place_of(made),
         target=target,
-        arguments=(*arguments, *_given(walker, made, "additional_env", "env", "cwd", "prefix")),
+        arguments=(*arguments, *_given(walker, made, "additional_env", "env")),
         package_span=next((span for _, one in arguments if (span := walker.package_span(one))), None),
         conditions=conditions,
     )
@@ -129,7 +129,7 @@ def _process(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchA
 
 
 def _given(walker: Walker, made: Made, *names: str) -> tuple[tuple[str, LaunchValue], ...]:
-    """Return texts of arguments that are lists or dictionaries of texts."""
+    """Return texts of arguments that are lists or dictionaries of texts, and of the two that are one text."""
     found: list[tuple[str, LaunchValue]] = []
     for name in names:
         if name not in made.keywords:
@@ -143,7 +143,8 @@ def _given(walker: Walker, made: Made, *names: str) -> tuple[tuple[str, LaunchVa
             pairs = [(word, value) for value in items(walker.machine, given) or [given]]
         places = _elements(node, len(pairs))
         found += [(word, walker.text(plain(value), at, made.source)) for (word, value), at in zip(pairs, places, strict=True)]
-    return tuple(found)
+    whole = [(name, value) for name in ("prefix", "cwd") if (value := walker.value(made, -1, name)) is not None]
+    return (*found, *whole)
 
 
 def _parameters(walker: Walker, made: Made) -> tuple[tuple[str, LaunchValue], ...]:

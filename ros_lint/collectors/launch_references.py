@@ -36,6 +36,10 @@ _COMMANDS: Mapping[tuple[str, ...], str] = {
 """Who brings the commands of ros2 that do not come along with ros2cli_common_extensions."""
 
 
+_PREFIXES = frozenset({"gnome-terminal", "konsole", "screen", "terminator", "tmux", "valgrind", "xterm"})
+"""Programs of the system that nodes are started with, each a rosdep key by itself."""
+
+
 class References:
     """What the actions of a launch file refer to, in the order of the file, and what is hidden."""
 
@@ -72,6 +76,9 @@ class References:
                 self._include(action, conditional)
             case "process":
                 self._process(action, conditional)
+        for name, value in action.arguments:
+            if name == "prefix":
+                self._prefix(value, conditional)
         for value, reads in _values(action):
             if not _is_dull(value.texts, self._carriers):
                 self._paths(value, action.package_span, conditional, reads)
@@ -145,6 +152,12 @@ class References:
             self._add("node", package, rest[1][0], rest[1][1], value, conditional, default or rest[1][2])
         elif "/" not in package and not package.endswith((".py", ".xml", ".yaml", ".launch")):
             self._add("package", package, "", value, value, conditional, default)
+
+    def _prefix(self, value: LaunchValue, conditional: bool) -> None:
+        """Note the program that another one is started with, as in ``xterm -e``."""
+        texts, default = self._filled(value)
+        for program in sorted(_PREFIXES.intersection([text.strip().partition(" ")[0] for text in texts])):
+            self._add("program", program, program, value, value, conditional or len(texts) > 1, default)
 
     def _paths(self, value: LaunchValue, package_span: Span | None, conditional: bool, reads: _Reads | None = None) -> None:
         """Note the places that a value mentions."""

@@ -61,8 +61,8 @@ class LaunchAction(NamedTuple):
     """Names of what is passed to an included file only if something holds of which nothing is known."""
 
 
-ReferenceKind = Literal["node", "component", "include", "command", "file", "package"]
-"""What a launch file names: what it starts or reads, or a package alone."""
+ReferenceKind = Literal["node", "component", "include", "command", "program", "file", "package"]
+"""What a launch file names: what it starts or reads, or a package alone. The package of a program is a rosdep key."""
 
 
 class LaunchReference(NamedTuple):

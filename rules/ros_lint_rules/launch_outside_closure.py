@@ -3,7 +3,8 @@
 
 A launch file that starts something from a package, includes a file of it or looks it up, while that package does not
 come along when the launch file's own package is installed: it is not in the closure of its run-time dependencies. So it is
-with commands that it runs: `xacro`, `ros2 control`, `ros2 bag`, `ros2 trace`.
+with commands that it runs: `xacro`, `ros2 control`, `ros2 bag`, `ros2 trace`; and with what it starts nodes with, such as
+`prefix="xterm -e"`.
 
 ## Why it matters
 
@@ -66,6 +67,7 @@ _DONE = {
     "component": "loaded",
     "include": "included",
     "command": "run",
+    "program": "run",
     "file": "used",
     "package": "looked up",
 }
@@ -158,7 +160,8 @@ def _named(package: Package, workspace: Workspace) -> Mapping[str, list[LaunchRe
             name = reference.package
             if is_apart(launch.path) and package.declares(name) & Role.TEST:
                 continue
-            if name != package.name and not reference.optional and is_somewhere(name, workspace):
+            there = workspace.world.is_key(name) if reference.kind == "program" else is_somewhere(name, workspace)
+            if name != package.name and not reference.optional and there:
                 found.setdefault(name, []).append(reference)
     return found
 

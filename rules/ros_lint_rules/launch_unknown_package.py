@@ -147,8 +147,8 @@ def _unknown(package: Package, workspace: Workspace) -> Iterator[tuple[str, list
         idle = not (launch.installed or hidden)
         for reference in launch.file.references:
             name = reference.package
-            if "$" in name or workspace.world.standing(name) == "unknowable":
-                continue  # a template, for whoever fills it in; a submodule that is not cloned
+            if "$" in name or reference.kind == "program" or workspace.world.standing(name) == "unknowable":
+                continue  # a template, for whoever fills it in; no package at all; a submodule that is not cloned
             if not workspace.world.is_package(name) and name != package.name and not reference.optional:
                 place = _Place(not launch.run, reference.by_default, idle, reference.conditional, reference.span, reference)
                 is_own = own is not None and reference.kind == "node" and reference.name in own.names
