@@ -23,7 +23,8 @@ sources and in `add_library()`. The fix exports a description whose base classes
 
 Where the libraries cannot be seen whole, for tests, for nodelets, which ROS 2 does not have, for descriptions that are exported
 under a condition only, and for classes in packages that register some with macros of their own. Where a source has the name of
-a class that none makes loadable, the confidence is medium.
+a class that none makes loadable, or another package makes it loadable, the confidence is medium; so it is for a library without
+classes. For components that are registered in the way of Crystal, with `rclcpp::Node` as their base: they are no plugins.
 """
 
 from __future__ import annotations
@@ -67,7 +68,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if script is None or package.builds_with != "ament_cmake" or hidden(package, _SEEN):
         return
     everything = [made for made in package.registrations if made.kind == "plugin"]
-    registered = [made for made in everything if not (is_apart(relative(package, made.span.path)) or _is_of_ros_1(made))]
+    registered = [made for made in everything if not (is_apart(relative(package, made.span.path)) or _is_no_plugin(made))]
     names = {made.name for made in registered}
     installed = {provided.source for provided in script.provides}
     exported = list(called(package, EXPORTING_PLUGINS, anywhere=True))
@@ -76,7 +77,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         # What descriptions say that nobody is told of does no harm, and many are left over from ROS 1.
         for plugin in script.plugins:
             if plugin.path in installed and not is_apart(plugin.path):
-                for finding in _libraries(package, plugin, everything):
+                for finding in _libraries(package, workspace, plugin, everything):
                     yield finding._replace(confidence=Confidence.MEDIUM)
         return
     yield from _for_nobody(package, workspace)
@@ -91,7 +92,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if is_apart(plugin.path):
             continue
         if plugin.path in installed:
-            yield from _libraries(package, plugin, everything)
+            yield from _libraries(package, workspace, plugin, everything)
         elif any(plugin.path in call.texts for call in exported):
             continue  # only under a condition
         elif exported and any(one.type in names - found for library in plugin.libraries for one in library.classes):
@@ -103,9 +104,18 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             )
 
 
-def _is_of_ros_1(made: Registration) -> bool:
-    """Whether a class is loadable by what ROS 2 does not have. Sources for both lie in one package, and are not built here."""
-    return made.base.startswith("nodelet::")
+def _is_no_plugin(made: Registration) -> bool:
+    """Whether a class is loadable by what needs no description: nodelets, which ROS 2 does not have, components of Crystal.
+
+    Sources for ROS 1 and 2 lie in one package, and those for ROS 1 are not built here.
+    """
+    return made.base.startswith("nodelet::") or made.base in ("rclcpp::Node", "rclcpp_lifecycle::LifecycleNode")
+
+
+@per_workspace
+def _made(workspace: Workspace) -> frozenset[str]:
+    """Return the classes that some package makes loadable."""
+    return frozenset([made.name for package in workspace.packages for made in package.registrations])
 
 
 @per_workspace
@@ -183,14 +193,20 @@ def _export(package: Package, plugin: PluginFile) -> Fix | None:
     return Fix.of(f"export {plugin.path}", cmake_edits.at_end(script, f"{EXPORTING_PLUGINS}({base} {plugin.path})"), safe=False)
 
 
-def _libraries(package: Package, plugin: PluginFile, registered: list[Registration]) -> Iterator[Finding]:
+def _libraries(package: Package, workspace: Workspace, plugin: PluginFile, registered: list[Registration]) -> Iterator[Finding]:
     for library in plugin.libraries:
         if not library.path:
             yield Finding("<library> without path makes pluginlib loop for ever; write one", library.span, plugin.path)
         else:
             yield from _library(package, plugin, library)
         for one in library.classes:
-            yield from _class(package, plugin, one, registered)
+            for finding in _class(package, plugin, one, registered):
+                if one.type in _made(workspace) and not any(made.name == one.type for made in registered):
+                    # In a library that this one may be linked to: then it is loaded all the same.
+                    message = f"{one.type} is made loadable in another package; describe it there"
+                    yield finding._replace(message=message, confidence=Confidence.MEDIUM)
+                else:
+                    yield finding
 
 
 def _library(package: Package, plugin: PluginFile, library: PluginLibrary) -> Iterator[Finding]:
@@ -204,11 +220,11 @@ def _library(package: Package, plugin: PluginFile, library: PluginLibrary) -> It
     if name in built:
         message = f"the library {name} is built, but not installed to lib/"
         # It may be static, or its file may have another name.
-        sure = Confidence.HIGH if is_shared_by_words(package, name) else Confidence.MEDIUM
+        sure = Confidence.HIGH if is_shared_by_words(package, name) and library.classes else Confidence.MEDIUM
     else:
         near = similar(name, sorted(installed | built), 1, 0.8)
         message = f"the package builds no library {name}" + (f"; is {near[0]} meant?" if near else "")
-        sure = Confidence.HIGH
+        sure = Confidence.HIGH if library.classes else Confidence.MEDIUM  # of one without classes nothing is loaded
     yield Finding(message, library.span, f"{plugin.path}#{library.path.rpartition('/')[2]}", confidence=sure)
 
 
