@@ -22,6 +22,10 @@ _FILES = re.compile(
 )
 
 
+_OF_EXPORTER = re.compile(r"/joint_names_[\w.-]+\.yaml\Z")
+"""What the exporter of SolidWorks writes beside a URDF, for controllers of ROS 1: nothing of ROS 2 reads it."""
+
+
 def uninstalled(files: Iterable[str], sources: Iterable[str]) -> dict[str, list[str]]:
     """Return the topmost folders of a package of which nothing is installed, with their resources.
 
@@ -38,7 +42,7 @@ def uninstalled(files: Iterable[str], sources: Iterable[str]) -> dict[str, list[
             continue
         if not (_FILES.search(file) or file.endswith(".launch")) or file.endswith("/CMakeLists.txt") or is_apart(file):
             continue
-        if "/." in file:  # hidden: kept by an editor or a tool for itself
+        if "/." in file or _OF_EXPORTER.search(file):  # hidden: kept by an editor or a tool for itself
             continue
         free = [folder for folder in folders_of(file) if folder not in occupied]
         if free:

@@ -9,6 +9,7 @@ from ros_lint import resource_files
 from ros_lint.apart import is_apart
 from ros_lint.collectors import plugin_xml
 from ros_lint.collectors.cmake_syntax import Parsed
+from ros_lint.collectors.launch import is_of_ros_1
 from ros_lint.discover import Found
 from ros_lint.facts.build import BuildScript, ScriptFile
 from ros_lint.facts.sight import Facet
@@ -52,7 +53,8 @@ def with_files(tree: Tree, found: Found, commands: Mapping[str, Parsed], script:
     missing = {} if script.hides(Facet.SHARE) else resource_files.uninstalled(found.files, provided)
     if not (plugins or files or missing):
         return script
-    naming = list(contents(tree, found.path, filter(resource_files.may_name, found.files))) if missing else []
+    texts_that_name = contents(tree, found.path, filter(resource_files.may_name, found.files)) if missing else ()
+    naming = [(path, data) for path, data in texts_that_name if not (b"<launch" in data and is_of_ros_1(from_raw(data)))]
     return script._replace(
         plugins=plugins,
         files=tuple(files),

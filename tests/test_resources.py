@@ -36,6 +36,7 @@ def names(text: str) -> dict[str, bool]:
         ("# plugin: a/B\nb: 1 # type: a/B\n", {}),
         ("<!-- package://gone/a.stl -->\n<a b='package://here/a.stl'/>", {"here": True}),
         ("image: docker://x/y\nwho: http://a/b", {}),
+        ('<launch><node pkg="a" type="b" name="c" args="$(find views)/a.rviz"/></launch>', {"views": False}),
     ],
 )
 def test_forms(text: str, wanted: dict[str, bool]) -> None:

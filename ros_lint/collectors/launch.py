@@ -88,8 +88,17 @@ def _collect(source: Text, language: Language) -> LaunchFile:
     return launch_yaml.collect(source)
 
 
+def is_of_ros_1(text: str) -> bool:
+    """Return whether a text is a launch file of ROS 1, which nothing of ROS 2 reads."""
+    return "<launch" in text and _is_launch(text) and not _is_xml(text)
+
+
+def _is_launch(text: str) -> bool:
+    return _ROOT.match(text, _after_prolog(text)) is not None
+
+
 def _is_xml(text: str) -> bool:
-    if not _ROOT.match(text, _after_prolog(text)):
+    if not _is_launch(text):
         return False
     # The plain words first: to search for the others takes as long as to read the file.
     return any(word in text for word in _ROS2_WORDS) or not _ROS1.search(text) or bool(_ROS2.search(text))

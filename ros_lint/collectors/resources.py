@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors import parameter_files
+from ros_lint.collectors.launch import is_of_ros_1
 from ros_lint.facts.sources import FileFacts, LookUp, Mention
 
 if TYPE_CHECKING:
@@ -58,12 +59,15 @@ def collect(source: Text) -> FileFacts:
 
 
 def _packages(source: Text) -> FileFacts:
-    """Return the packages that a resource file names, each once. Names by habit only are marked optional."""
+    """Return the packages that a resource file names, each once. Names by habit only are marked optional.
+
+    So are those in launch files of ROS 1: nothing looks them up.
+    """
     text = source.text
     found: dict[str, tuple[int, int]] = {}
     for pattern in _LOOK_UPS:
         _search(pattern, text, found)
-    sure = frozenset(found)
+    sure = frozenset(found) if found and not is_of_ros_1(text) else frozenset()
     for pattern in _HABITS:
         _search(pattern, text, found)
     if not found:

@@ -21,6 +21,8 @@ where `data_files` is written out and the files are not too many.
   when it is built.
 - Where the file does not exist at all: that is a matter of `launch-missing-include`.
 - Launch files themselves: see `uninstalled-launch`.
+- What only launch files of ROS 1 look up: nobody launches them. The `joint_names_*.yaml` that the exporter of SolidWorks
+  writes serves ROS 1, too.
 - What a command of the build names, such as the file that `generate_parameter_library()` reads, is taken for its input.
 - Pictures in `images/` and `media/` that nothing names: they are there for the documentation.
 - Hidden folders and what lies in them, such as the history that an editor keeps; folders for what is put aside, such as `old`.
