@@ -15,7 +15,7 @@ from ros_lint.collectors.launch import entries
 from ros_lint.collectors.launch_py_actions import LAUNCHED, walker
 from ros_lint.collectors.launch_py_names import strays
 from ros_lint.collectors.launch_py_objects import PERHAPS, Frame, Function, Modules, OutOfBudget, Raised, Source
-from ros_lint.collectors.launch_py_refused import misplaced, misused, no_texts, undefined
+from ros_lint.collectors.launch_py_refused import misplaced, misused, no_conditions, no_texts, undefined
 from ros_lint.collectors.launch_py_run import Machine
 from ros_lint.collectors.launch_py_texts import Within, texts
 from ros_lint.collectors.launch_py_walk import span_of
@@ -121,6 +121,7 @@ class _Reading:
         yield from undefined(tree, self._source, self._machine.unbound)
         yield from misused(tree, self._source, self._machine.misused)
         yield from no_texts(tree, self._source, self._machine.made)
+        yield from no_conditions(tree, self._source, self._machine.made)
         yield from strays(tree, self._source)
 
     def read(self, tree: ast.Module, helper: bool) -> None:

@@ -1,6 +1,7 @@
 """What Python and the launch libraries refuse in a launch file.
 
-At once, or when it comes to a name that nothing binds, to a substitution as a text, or to a number where texts are taken.
+At once, or when it comes to a name that nothing binds, to a substitution as a text, to a number where texts are taken, or to a
+function where conditions are.
 """
 
 from __future__ import annotations
@@ -12,7 +13,8 @@ from typing import TYPE_CHECKING
 
 from ros_lint.collectors.launch_py_misuse import are_unknown
 from ros_lint.collectors.launch_py_names import ACTIONS
-from ros_lint.collectors.launch_py_objects import Made
+from ros_lint.collectors.launch_py_objects import Function, Made
+from ros_lint.collectors.launch_py_texts import is_text
 from ros_lint.collectors.launch_py_walk import span_of
 from ros_lint.collectors.python_syntax import refusal
 from ros_lint.collectors.python_unbound import tried, unbound
@@ -63,7 +65,7 @@ def misused(tree: ast.Module, source: Source, noted: Iterable[Misused]) -> Itera
     noted = [one for one in noted if one.source is source]
     if not noted:
         return
-    spared, functions = _spared(tree), _functions(tree)
+    spared, functions, compared = _spared(tree), _functions(tree), _compared(tree)
     told: set[int] = set()
     for one in noted:
         if one.node in spared or one.node.lineno in told:
@@ -72,7 +74,7 @@ def misused(tree: ast.Module, source: Source, noted: Iterable[Misused]) -> Itera
         if one.how in ("tested", "combined") and not _same_function(one, functions):
             continue
         told.add(one.node.lineno)
-        kind, message = _SAY[one.how]
+        kind, message = _SAY["compared" if one.how == "formatted" and one.node in compared else one.how]
         yield Problem(kind, message.format(name=one.made.name), span_of(one.node, source))
 
 
@@ -85,6 +87,12 @@ def _spared(tree: ast.Module) -> set[ast.AST]:
         elif isinstance(node, ast.Call) and callee(node) in _TELLS:
             found.update(ast.walk(node))
     return found
+
+
+def _compared(tree: ast.Module) -> set[ast.AST]:
+    """Return all that goes into comparisons: what is made a text there is not to be launched."""
+    compares = (node for node in ast.walk(tree) if isinstance(node, ast.Compare))
+    return {inner for node in compares for inner in ast.walk(node)}
 
 
 def _functions(tree: ast.Module) -> list[ast.FunctionDef | ast.AsyncFunctionDef]:
@@ -135,6 +143,25 @@ def no_texts(tree: ast.Module, source: Source, made: Iterable[Made]) -> Iterator
     for message, node in found:
         if node not in spared:
             yield Problem("no-text", message, span_of(node, source))
+
+
+def no_conditions(tree: ast.Module, source: Source, made: Iterable[Made]) -> Iterator[Problem]:
+    """Yield what actions are given for a condition and cannot be asked: launch calls evaluate() of it when it comes there."""
+    found: list[tuple[str, ast.expr]] = []
+    for one in made:
+        if one.name not in ACTIONS or one.source is not source or not one.seen or are_unknown(one.conditions):
+            continue
+        given = one.get(-1, "condition")
+        if isinstance(given, Function):
+            found.append(("no function: say IfCondition(...), or Condition(predicate=...)", one.written(-1, "condition")))
+        elif isinstance(given, Made) and is_text(given):
+            found.append((f"no {given.name}: say IfCondition(...)", one.written(-1, "condition")))
+        elif isinstance(given, (bool, str)):
+            found.append((f"no {given!r}: say IfCondition('{given}')", one.written(-1, "condition")))
+    spared = _spared(tree) if found else set()
+    for message, node in found:
+        if node not in spared:
+            yield Problem("no-condition", f"condition takes {message}", span_of(node, source))
 
 
 def _odd_in(value: Value) -> bool | int | float | Made | None:

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING
 from ros_lint.collectors import launch_text
 from ros_lint.collectors.launch_py_objects import (
     Conditions,
+    Context,
     Frame,
+    Function,
     Guarded,
     Instance,
     Made,
@@ -127,6 +129,8 @@ class Walker:
         condition = made.get(-1, "condition")
         if condition is not None:
             conditions = (*conditions, *conditions_of(condition, Within(self.machine.spend)))
+        if isinstance(condition, Function):  # launch refuses it, but what it asks for is meant to be asked for
+            self.run(condition, [Context()], {}, made)
         if made.name == "LaunchDescription":
             return self._description(made, conditions)
         return self._rules.get(made.name, self._otherwise)(self, made, conditions)

@@ -7,8 +7,9 @@ exist or were removed, comes to a name that nothing defines, or takes one from a
 that came to the launch format after the distribution that was asked for.
 
 Besides, one in Python that takes a substitution for the text that it becomes once something is launched: adds it to a text,
-formats, compares or tests it; that joins conditions by `and` and `or`; or that gives numbers, truths and actions where texts
-are taken, `default_value=True`, `LaunchConfiguration(argument)`, and `launch_arguments` without `.items()`.
+formats, compares or tests it; that joins conditions by `and` and `or`, or gives a function, a substitution or a truth for one,
+`condition=lambda context: ...`; or that gives numbers, truths and actions where texts are taken, `default_value=True`,
+`LaunchConfiguration(argument)`, and `launch_arguments` without `.items()`.
 
 ## Why it matters
 
