@@ -50,7 +50,7 @@ if it resembles an argument that is not given.
 from __future__ import annotations
 
 import sys
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 
 from ros_lint.api import (
     Broken,
@@ -72,6 +72,7 @@ from ros_lint.api import (
     is_plain,
     launchable,
     needed,
+    several,
     similar,
     texts_of,
 )
@@ -150,10 +151,34 @@ def _too_early(file: LaunchFile, links: Links, above: Collection[str]) -> Iterat
         if action.kind == "argument" and action.target is not None:
             for name in action.target.texts:
                 declared.setdefault(name, (index, action.span))
+    places: dict[str, list[tuple[Span, bool]]] = {}
+    for name, span, sure in _asked_early(file, links, {name: at for name, (at, _) in declared.items()}, above):
+        places.setdefault(name, []).append((span, sure))
+    for name, found in places.items():
+        (first, _), *others = found
+        yield Finding(
+            f"{name} is asked for before it is declared, so the launch file stops where nobody gives it; declare it further up",
+            first,
+            name,
+            several(
+                [
+                    Related("declared only here", declared[name][1]),
+                    *(Related("asked for here, too", span) for span, _ in others),
+                ]
+            ),
+            confidence=Confidence.HIGH if any(sure for _, sure in found) else Confidence.MEDIUM,
+            severity=Severity.ERROR,
+        )
+
+
+def _asked_early(
+    file: LaunchFile, links: Links, declared: Mapping[str, int], above: Collection[str]
+) -> Iterator[tuple[str, Span, bool]]:
+    """Yield what is asked for before its number in ``declared`` comes, where, and whether it is surely asked for there."""
     there = set(above)
     part = bool(links.takes(file).required)
     for index, action in enumerate(file.actions):
-        late = [name for name, (at, _) in declared.items() if at > index and name not in there]
+        late = [name for name, at in declared.items() if at > index and name not in there]
         if not late:
             return
         # A condition is asked for whatever comes of it.
@@ -162,8 +187,7 @@ def _too_early(file: LaunchFile, links: Links, above: Collection[str]) -> Iterat
             for name, has_default, _ in configurations(text):
                 if name in late and not has_default:
                     late.remove(name)
-                    sure = not part and (not action.conditions or text in asking)
-                    yield _early(name, span, declared[name][1], sure=sure)
+                    yield name, span, not part and (not action.conditions or text in asking)
         for inner in everything((action,)):
             if inner.kind == "include" and (target := links.target(inner.target, file)) is not None:
                 there |= links.takes(target.file).known
@@ -172,17 +196,6 @@ def _too_early(file: LaunchFile, links: Links, above: Collection[str]) -> Iterat
             there.update(name for name, _ in inner.arguments)
             if inner.kind in ("argument", "set") and inner.target is not None:
                 there.update(inner.target.texts)
-
-
-def _early(name: str, span: Span, declared: Span, *, sure: bool) -> Finding:
-    return Finding(
-        f"{name} is asked for before it is declared, so the launch file stops where nobody gives it; declare it further up",
-        span,
-        name,
-        (Related("declared only here", declared),),
-        confidence=Confidence.HIGH if sure else Confidence.MEDIUM,
-        severity=Severity.ERROR,
-    )
 
 
 def _empty(file: LaunchFile) -> Iterator[str]:
