@@ -82,7 +82,6 @@ from ros_lint.launch_links import Links, defaults_of, everything, filled, texts_
 from ros_lint.launch_names import Families, needed
 from ros_lint.launch_parameters import Given, ParameterFiles
 from ros_lint.launch_runs import Broken, PassedFile, broken_expressions, launched, passed_files
-from ros_lint.liveness import HEADERS
 from ros_lint.needs import (
     Need,
     comes_elsewhere,
@@ -101,6 +100,7 @@ from ros_lint.resource_files import uninstalled as uninstalled_resources
 from ros_lint.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
 from ros_lint.slips import did_you_mean, similar
 from ros_lint.strangers import Stranger, declared_names, is_near_tool, meant, strangers
+from ros_lint.suffixes import HEADERS
 from ros_lint.suppress import Outcome
 from ros_lint.text import Span, beginning
 from ros_lint.tree import folders_of

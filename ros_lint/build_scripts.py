@@ -12,7 +12,7 @@ from ros_lint.facts.manifest import Role
 from ros_lint.facts.sight import Facet, Opaque
 from ros_lint.facts.sources import Registration
 from ros_lint.knowledge.cmake_commands import INSTALL_ARTIFACTS, INSTALL_TARGETS_WORDS
-from ros_lint.liveness import HEADERS
+from ros_lint.suffixes import HEADERS
 from ros_lint.text import Span, beginning
 from ros_lint.tree import join, within
 from ros_lint.workspace import Package

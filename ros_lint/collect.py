@@ -17,6 +17,7 @@ from ros_lint.collectors.cmake_syntax import Parsed
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.sight import ANYTHING, Facet, Opaque
 from ros_lint.facts.sources import FileFacts, MachinePath
+from ros_lint.suffixes import HEADERS, INTERFACES, SOURCES
 from ros_lint.text import Text, beginning, read
 from ros_lint.tree import DiskTree, RecordedTree, Tree
 
@@ -33,8 +34,8 @@ _FILES_A_PROCESS = 500
 """Below this many files a further process costs more than it saves."""
 
 _SUFFIXES: dict[str, Kind] = {"py": "python", "cmake": "cmake", "java": "java", "rs": "rust", "m": "matlab"}
-_SUFFIXES.update(dict.fromkeys(("c", "cc", "cpp", "cxx", "cu", "h", "hh", "hpp", "hxx", "inl", "ipp", "tpp", "cuh"), "cpp"))
-_SUFFIXES.update(dict.fromkeys(("msg", "srv", "action", "idl"), "interface"))
+_SUFFIXES.update((suffix[1:], "cpp") for suffix in (*HEADERS, *SOURCES))
+_SUFFIXES.update((suffix[1:], "interface") for suffix in INTERFACES)
 _SUFFIXES.update(dict.fromkeys(("xml", "launch"), "xml"))
 _SUFFIXES.update(dict.fromkeys(("yaml", "yml"), "yaml"))
 _SUFFIXES.update(dict.fromkeys(("urdf", "xacro", "sdf", "world", "rviz"), "resource"))

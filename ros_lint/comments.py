@@ -11,6 +11,8 @@ from collections.abc import Callable, Iterator
 from functools import cache
 from typing import TYPE_CHECKING
 
+from ros_lint.suffixes import HEADERS, SOURCES
+
 if TYPE_CHECKING:
     from ros_lint.text import Text
 
@@ -18,7 +20,7 @@ Ranges = Iterator[tuple[int, int]]
 """Offsets of comments, from the first character of the opening mark to the last of the closing one."""
 
 _XML = {"xml", "launch", "urdf", "xacro", "sdf", "world", "srdf", "rdf", "model", "config"}
-_CXX = {"c", "cc", "cpp", "cxx", "h", "hh", "hpp", "hxx", "ipp", "inl", "tpp", "cu", "cuh", "idl", "java", "rs"}
+_CXX = {*(suffix[1:] for suffix in (*HEADERS, *SOURCES)), "idl", "java", "rs"}
 _HASH = {"msg", "srv", "action", "toml", "sh", "bash", "ps1", "dsv"}
 _YAML = {"yaml", "yml", "rviz", "repos", "pkg", "meta"}
 _TEMPLATE = (".in", ".em", ".template")

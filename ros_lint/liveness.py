@@ -14,6 +14,7 @@ from ros_lint.facts.build import NOTHING_BUILT
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sight import Facet
 from ros_lint.own_files import OwnFiles
+from ros_lint.suffixes import HEADERS, INTERFACES, SOURCES
 from ros_lint.tree import folders_of
 
 _TEST_FOLDERS = apart.TEST_FOLDERS | {"gtest"}
@@ -22,9 +23,6 @@ _TEST_FOLDERS = apart.TEST_FOLDERS | {"gtest"}
 _IDLE_FOLDERS = frozenset({"doc", "docs", "example", "examples", "tutorial", "tutorials", "tools", "sphinx"})
 """Folders whose files are often not part of what the package builds and installs."""
 
-HEADERS = (".h", ".hh", ".hpp", ".hxx", ".inl", ".ipp", ".tpp", ".cuh")
-SOURCES = (".c", ".cc", ".cpp", ".cxx", ".cu")
-_INTERFACES = (".msg", ".srv", ".action", ".idl")
 _RESOURCES = (".urdf", ".xacro", ".sdf", ".world", ".rviz", ".yaml", ".yml", ".xml")
 
 _RECIPES = frozenset({"conanfile.py", "noxfile.py"})
@@ -115,7 +113,7 @@ class Liveness:
             return PRODUCTION, True
         if path in self._tests:
             return Role.TEST, True
-        if name.endswith(_INTERFACES):
+        if name.endswith(INTERFACES):
             return PUBLIC, self._generates is None or path in self._generates
         python = name.endswith((".py", ".py.in")) or "." not in name
         resource = name.endswith(_RESOURCES)
@@ -275,7 +273,7 @@ class Liveness:
         """Interface files that code is generated from, None where nobody knows."""
         if not self._sees_script or self._script.hides(Facet.INTERFACES):
             return None
-        files = (file for file in self._files if file.endswith(_INTERFACES))
+        files = (file for file in self._files if file.endswith(INTERFACES))
         return frozenset([file for file in files if _interface(file) in self._script.interfaces])
 
     @cached_property

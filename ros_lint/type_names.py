@@ -11,7 +11,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from ros_lint.collectors import cpp_types
-from ros_lint.liveness import HEADERS, SOURCES
+from ros_lint.suffixes import HEADERS, SOURCES
 from ros_lint.tree import contents, join
 
 if TYPE_CHECKING:
