@@ -63,3 +63,10 @@ def test_only_the_api_of_rules_hands_on_names() -> None:
         if re.search(r"^__all__\b|import (\w+) as \1\b", path.read_text("utf-8"), re.MULTILINE)
     ]
     assert hubs == ["api.py"]
+
+
+def test_the_architecture_names_every_module_at_the_top() -> None:
+    page = (ROOT / "docs" / "architecture.md").read_text("utf-8")
+    package = ROOT / "ros_lint"
+    names = [path.name for path in package.glob("[!_]*.py")] + [f"{path.parent.name}/" for path in package.glob("*/__init__.py")]
+    assert [name for name in sorted(names) if f"`{name}`" not in page] == []
