@@ -16,7 +16,8 @@ components.
 
 ## When it keeps silent
 
-In a condition, as packages for both ROS versions have them, and for `find_package(catkin)` without `REQUIRED`.
+In a condition, as packages for both ROS versions have them, and for `find_package(catkin)` without `REQUIRED`. For the exports
+of a package that a build type under a condition has built with catkin: they serve ROS 1.
 """
 
 from __future__ import annotations
@@ -42,7 +43,10 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         elif call.texts[:1] == ("catkin",) and "REQUIRED" in call.texts:
             message = "find_package(catkin) stops CMake, for there is no catkin in ROS 2; find each package by its name"
             yield Finding(message, call.span(0), "catkin")
-    for element in package.manifest.exports:
+    exports = package.manifest.exports
+    if any(element.tag == "build_type" and element.text == "catkin" for element in exports):
+        return
+    for element in exports:
         if element.tag in _EXPORTS and not element.get("condition"):
             done = EXPORTING_PLUGINS in package.built.calls
             way = "remove it" if done else _EXPORTS[element.tag]

@@ -79,7 +79,7 @@ def _is_unseen(package: Package, path: str) -> bool:
 def _confidence(package: Package, workspace: Workspace, problem: Problem) -> Confidence:
     script = package.script
     assert script is not None
-    if workspace.is_made(package, problem.subject):
+    if any(workspace.is_made(package, path) for path in (problem.subject, f"{problem.subject}/*")):  # or all that lies in it
         return Confidence.MEDIUM
     if _makes_files(package) or (_is_installed(package, problem) and _builds_in_sources(package)):
         return Confidence.MEDIUM
