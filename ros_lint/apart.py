@@ -9,7 +9,7 @@ TEST_FOLDERS = frozenset(
      "test_resources"}
 )  # fmt: skip
 _PUT_ASIDE = frozenset({"attic", "backup", "backups", "deprecated", "legacy", "obsolete", "old", "unused"})
-_APART = frozenset({"example", "examples", "template", "templates", "doc", "docs"}) | _PUT_ASIDE
+_APART = frozenset({"example", "examples", "sample", "samples", "template", "templates", "doc", "docs"}) | _PUT_ASIDE
 _COPY = re.compile(r" (?:copy(?: \d+)?|\(\d+\))\.\w+\Z")
 """What editors and file managers call the copy of a file."""
 
