@@ -9,7 +9,6 @@ import pytest
 from ros_lint import cli
 from ros_lint.commands.launch import Asked, answer, understood
 from ros_lint.commands.launch_lookup import LookUp
-from ros_lint.commands.question import around, enclosing_workspace
 from ros_lint.load import Loader
 from ros_lint.opening import UsageError
 from ros_lint.report import Target
@@ -355,34 +354,6 @@ def test_mermaid_has_every_file_and_node() -> None:
         '  n2("p x")',
         '  n1 -.->|"if #36;#40;env SIM#41;"| n2',
     ]
-
-
-def test_the_workspace_that_encloses_a_file(tmp_path: Path) -> None:
-    launch_file = tmp_path / "ws" / "src" / "repo" / "p" / "launch" / "a.launch.py"
-    launch_file.parent.mkdir(parents=True)
-    launch_file.touch()
-    package_folder = launch_file.parent.parent
-    (package_folder / "package.xml").touch()
-    assert enclosing_workspace(str(launch_file)) == str(package_folder)
-    (tmp_path / "ws" / "install").mkdir()
-    assert enclosing_workspace(str(launch_file)) == str(tmp_path / "ws")
-    (package_folder.parent / ".git").mkdir()
-    assert enclosing_workspace(str(launch_file)) == str(tmp_path / "ws")
-    (tmp_path / "ws" / "install").rmdir()
-    assert enclosing_workspace(str(launch_file)) == str(package_folder.parent)
-    (package_folder.parent / ".git").rmdir()
-    (tmp_path / "ws" / ".git").mkdir()
-    assert enclosing_workspace(str(launch_file)) == str(tmp_path / "ws")
-
-
-def test_the_workspace_around_the_current_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    package = tmp_path / "ws" / "src" / "p"
-    (package / "launch").mkdir(parents=True)
-    (package / "package.xml").touch()
-    (tmp_path / "ws" / "install").mkdir()
-    for folder, found in ((package, tmp_path / "ws"), (package / "launch", tmp_path / "ws"), (tmp_path / "ws" / "src", ".")):
-        monkeypatch.chdir(folder)
-        assert around() == str(found)
 
 
 def test_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:

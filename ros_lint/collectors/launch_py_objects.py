@@ -163,6 +163,26 @@ class Function:
         self.keyword_defaults: dict[str, Value] = {}
         self.owner: Class | None = None
 
+    def taking(self, arguments: list[Value], keywords: dict[str, Value]) -> dict[str, Value]:
+        """Return what the names of a call stand for at its beginning."""
+        spec = self.node.args
+        names = [argument.arg for argument in (*spec.posonlyargs, *spec.args)]
+        found: dict[str, Value] = dict(self.keyword_defaults)
+        if self.defaults:
+            found.update(zip(names[-len(self.defaults) :], self.defaults, strict=True))
+        found.update(zip(names, arguments, strict=False))
+        known = {*names, *(argument.arg for argument in spec.kwonlyargs)}
+        found.update({name: value for name, value in keywords.items() if name in known})
+        if spec.vararg is not None:
+            found[spec.vararg.arg] = tuple(arguments[len(names) :])
+        if spec.kwarg is not None:
+            found[spec.kwarg.arg] = {name: value for name, value in keywords.items() if name not in known}
+        for name in known:
+            found.setdefault(name, Unknown(f"the argument {name}"))
+        if self.owner is not None:
+            found.setdefault("__class__", self.owner)
+        return found
+
 
 class Bound:
     """A function with some of its arguments: a method, or a partial."""

@@ -267,7 +267,7 @@ class Machine:
         if self._depth >= _DEEPEST_CALL:
             self.lose([arguments, keywords])
             return Unknown("calls that are nested too deeply")
-        frame = Frame(function.frame.source, function.frame, self._parameters(function, arguments, keywords))
+        frame = Frame(function.frame.source, function.frame, function.taking(arguments, keywords))
         if isinstance(node, ast.Lambda):
             self._depth += 1
             try:
@@ -303,25 +303,6 @@ class Machine:
             return frame.returned[0].value
         count = len(before)
         return union(Guarded(one.value, one.conditions[count:]) for one in frame.returned)
-
-    def _parameters(self, function: Function, arguments: list[Value], keywords: dict[str, Value]) -> dict[str, Value]:
-        spec = function.node.args
-        names = [argument.arg for argument in (*spec.posonlyargs, *spec.args)]
-        found: dict[str, Value] = dict(function.keyword_defaults)
-        if function.defaults:
-            found.update(zip(names[-len(function.defaults) :], function.defaults, strict=True))
-        found.update(zip(names, arguments, strict=False))
-        known = {*names, *(argument.arg for argument in spec.kwonlyargs)}
-        found.update({name: value for name, value in keywords.items() if name in known})
-        if spec.vararg is not None:
-            found[spec.vararg.arg] = tuple(arguments[len(names) :])
-        if spec.kwarg is not None:
-            found[spec.kwarg.arg] = {name: value for name, value in keywords.items() if name not in known}
-        for name in known:
-            found.setdefault(name, Unknown(f"the argument {name}"))
-        if function.owner is not None:
-            found.setdefault("__class__", function.owner)
-        return found
 
     # --- what the library needs -----------------------------------------------------------------------------------
 

@@ -1,0 +1,35 @@
+"""Which workspace a question is about that names none."""
+
+from pathlib import Path
+
+import pytest
+
+from ros_lint.commands.question import around, enclosing_workspace
+
+
+def test_the_workspace_that_encloses_a_file(tmp_path: Path) -> None:
+    launch_file = tmp_path / "ws" / "src" / "repo" / "p" / "launch" / "a.launch.py"
+    launch_file.parent.mkdir(parents=True)
+    launch_file.touch()
+    package_folder = launch_file.parent.parent
+    (package_folder / "package.xml").touch()
+    assert enclosing_workspace(str(launch_file)) == str(package_folder)
+    (tmp_path / "ws" / "install").mkdir()
+    assert enclosing_workspace(str(launch_file)) == str(tmp_path / "ws")
+    (package_folder.parent / ".git").mkdir()
+    assert enclosing_workspace(str(launch_file)) == str(tmp_path / "ws")
+    (tmp_path / "ws" / "install").rmdir()
+    assert enclosing_workspace(str(launch_file)) == str(package_folder.parent)
+    (package_folder.parent / ".git").rmdir()
+    (tmp_path / "ws" / ".git").mkdir()
+    assert enclosing_workspace(str(launch_file)) == str(tmp_path / "ws")
+
+
+def test_the_workspace_around_the_current_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    package = tmp_path / "ws" / "src" / "p"
+    (package / "launch").mkdir(parents=True)
+    (package / "package.xml").touch()
+    (tmp_path / "ws" / "install").mkdir()
+    for folder, found in ((package, tmp_path / "ws"), (package / "launch", tmp_path / "ws"), (tmp_path / "ws" / "src", ".")):
+        monkeypatch.chdir(folder)
+        assert around() == str(found)
