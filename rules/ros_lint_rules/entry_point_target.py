@@ -11,8 +11,9 @@ glued entries neither is there.
 
 ## How to fix it
 
-Write `name = package.module:function` with names that exist. Where one module or function has nearly the same name, the
-message says so. The fix takes away the `()`, and writes the missing comma.
+Write `name = package.module:function` with names that exist. Where one module or function has nearly the same name, or the
+file has one that Python cannot import (`my-node.py`), the message says so. The fix takes away the `()`, and writes the
+missing comma.
 
 ## When it keeps silent
 
@@ -112,8 +113,10 @@ def _no_module(package: Package, entry: EntryPoint, name: str, function: str, wo
     own = name.partition(".")[0]
     hint = "; add it, or take the entry point out"
     taken = {other.target for other in script.entry_points}  # no two programs are the same one
-    files = {file[:-3].replace("/", ".") for file in package.files if file.endswith(".py") and file.partition("/")[0] in tops}
-    known = sorted(files.union(script.python_packages))  # whether they are installed is told of each folder
+    files = [file for file in package.files if file.endswith(".py") and file.partition("/")[0] in tops]
+    strange = [file for file in files if not all(map(str.isidentifier, file[:-3].split("/")))]
+    named = {file[:-3].replace("/", ".") for file in files if file not in strange}
+    known = sorted(named.union(script.python_packages))  # whether they are installed is told of each folder
     modules = [module for module in known if "." in module and taken.isdisjoint((module, f"{module}:{function}"))]
     near = similar(name, modules, 1, 0.9)
     if own not in tops and own != package.name and not similar(own, [*tops, package.name], 1, 0.85):
@@ -123,6 +126,8 @@ def _no_module(package: Package, entry: EntryPoint, name: str, function: str, wo
             return
     if near:
         hint = f"; is {near[0]} meant?"
+    elif unusable := similar(f"{name.replace('.', '/')}.py", strange, 1, 0.9):
+        hint = f"; Python cannot import {unusable[0]} by its name: call it {name.rpartition('.')[2]}.py"
     yield Finding(
         f"{entry.name}: there is no module {name}{hint}", entry.span, entry.name, fix=_fix(entry, name, near[0] if near else "")
     )
