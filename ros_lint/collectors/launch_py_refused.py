@@ -54,7 +54,7 @@ _SAY: Mapping[How, tuple[str, str]] = {
     ),
     "compared": ("substitution-as-text", "a {name} never equals a text: say EqualsSubstitution(a, b), or ask perform(context)"),
     "tested": ("substitution-as-text", "a {name} is always true: say IfCondition(a), or ask perform(context)"),
-    "combined": ("substitution-as-text", "Python takes one of two conditions here: say IfCondition(AndSubstitution(a, b))"),
+    "combined": ("substitution-as-text", "Python takes one of two conditions here: say {way}"),
 }
 _TELLS = frozenset({"print", "debug", "info", "warning", "warn", "error", "LogInfo"})
 """Calls whose texts nobody but people read."""
@@ -66,6 +66,7 @@ def misused(tree: ast.Module, source: Source, noted: Iterable[Misused]) -> Itera
     if not noted:
         return
     spared, functions, compared = _spared(tree), _functions(tree), _compared(tree)
+    combined = [node for node in ast.walk(tree) if isinstance(node, ast.BoolOp)]
     told: set[int] = set()
     for one in noted:
         if one.node in spared or one.node.lineno in told:
@@ -75,7 +76,18 @@ def misused(tree: ast.Module, source: Source, noted: Iterable[Misused]) -> Itera
             continue
         told.add(one.node.lineno)
         kind, message = _SAY["compared" if one.how == "formatted" and one.node in compared else one.how]
-        yield Problem(kind, message.format(name=one.made.name), span_of(one.node, source))
+        yield Problem(kind, message.format(name=one.made.name, way=_way(one, combined)), span_of(one.node, source))
+
+
+def _way(one: Misused, combined: Iterable[ast.BoolOp]) -> str:
+    """Return how to ask for two conditions at once: for both or either as written, or for the opposite of what both deny."""
+    both = next((node for node in combined if one.node in node.values), None)
+    kinds = [callee(value) if isinstance(value, ast.Call) else "" for value in both.values[:2]] if both else []
+    either = both is not None and isinstance(both.op, ast.Or)
+    if kinds == ["UnlessCondition"] * 2:
+        return f"UnlessCondition({'And' if either else 'Or'}Substitution(a, b))"
+    words = [f"NotSubstitution({word})" if kind == "UnlessCondition" else word for kind, word in zip(kinds, "ab", strict=False)]
+    return f"IfCondition({'Or' if either else 'And'}Substitution({', '.join(words or 'ab')}))"
 
 
 def _spared(tree: ast.Module) -> set[ast.AST]:
