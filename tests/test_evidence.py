@@ -145,6 +145,8 @@ def test_variables_of_ros_come_from_a_package() -> None:
     ]
     guarded = loaded(cmake("talker", "", f"if(DEFINED ENV{{ROS_DISTRO}})\n{lines}\nendif()"))
     assert all(use.optional for use in uses(guarded, "ros_environment"))
+    packed = loaded(cmake("talker", "", 'set(CPACK_DEBIAN_PACKAGE_DEPENDS "ros-$ENV{ROS_DISTRO}-rclcpp")'))
+    assert uses(packed, "ros_environment") == []
 
 
 def test_a_module_within_a_package_is_imported_by_its_full_name_only() -> None:

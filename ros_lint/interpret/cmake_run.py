@@ -225,7 +225,9 @@ class Run(Paths):
     def _use_of_ros(self, name: str) -> None:
         """Note a variable that is set where one package is installed, and nowhere else that can be relied on (F2)."""
         command = self.frames[-1].command
-        if command is not None and command.name != "message":
+        if command is None or command.name == "message":
+            return
+        if not (command.args and command.args[0][0].startswith("CPACK_")):  # packing is no part of the build
             self.mention("ros_environment", "package", self.here(), f"$ENV{{{name}}}", optional=f"ENV{{{name}}}" in self.tested)
 
     def is_soft(self, name: str) -> bool:
