@@ -138,11 +138,12 @@ def _folders(package: Package, script: BuildScript, kept: set[str], told: set[st
     places = dict(script.named)
     # What is installed from a place that is not known, such as one of several folders, may be any file of the name.
     chosen = frozenset([_name(provided.path) for provided in script.provides if not provided.source])
+    modules = frozenset(script.python_packages)
     forgotten = _Forgotten(package, script, places)
     for folder, found in uninstalled_resources(package.files, kept).items():
         files = [file for file in found if file not in launches and file not in script.inputs]
         top = folder.partition("/")[0]
-        if top in told or any(_name(file) in chosen for file in files):
+        if top in told or folder in modules or any(_name(file) in chosen for file in files):
             continue
         if top in _PICTURES and not any(file in places for file in files):
             files = [file for file in files if not file.lower().endswith(_PICTURE)]
