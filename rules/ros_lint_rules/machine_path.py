@@ -47,6 +47,8 @@ from ros_lint.api import (
     several,
 )
 
+_BUILDING = ("CMakeLists.txt", ".cmake", "setup.py")
+
 
 class _Inside(NamedTuple):
     """Where in the workspace a path of somebody's machine leads."""
@@ -69,7 +71,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for (file, _), found in by_file.items():
         (first, inside), *others = found
         yield Finding(
-            f"{first.path} is there on one machine only: {_way_out(inside)}",
+            f"{first.path} is there on one machine only: {_way_out(inside, file, package)}",
             first.span,
             first.path,
             several(Related(f"and {other.path}", other.span) for other, _ in others),
@@ -77,9 +79,11 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         )
 
 
-def _way_out(inside: _Inside | None) -> str:
+def _way_out(inside: _Inside | None, file: str, package: Package) -> str:
     if inside is None:
         return "make it an argument, or a file of a package"
+    if inside.rest and inside.package == package.name and file.endswith(_BUILDING):
+        return f"it is {inside.rest} of this package; write that"
     if not inside.rest:
         return f"it leads into the sources of {inside.package}; make it an argument"
     return f"it is {inside.rest} of {inside.package}; look it up in the share directory of {inside.package}"
@@ -97,7 +101,7 @@ def _used(package: Package) -> frozenset[str]:
     files = {provided.source for provided in script.provides if provided.source}
     files.update(source for target in script.targets if not target.test for source in target.sources)
     files.update(launch.path for launch in launchable(package))
-    files.update(call.path for call in script.written)
+    files.update(relative(package, path) for path in (script.path, *(call.path for call in script.written)))
     return frozenset(files).union([file for file in package.files if file.startswith(modules)])
 
 
