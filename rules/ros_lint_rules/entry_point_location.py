@@ -4,6 +4,8 @@
 Console scripts of nodes that land in `bin/`, because `setup.cfg` is missing or does not say
 `install_scripts=$base/lib/<package>`. Another name than that of the package there is a matter of `name-mismatch`.
 
+Also a `setup.cfg` that says so under `[install]` alone: `colcon build --symlink-install` asks for `script_dir` under `[develop]`.
+
 ## Why it matters
 
 `ros2 run` and launch look into `lib/<package>` only: "No executable found". Command line tools, in contrast, belong into
@@ -28,7 +30,7 @@ command `ros2`. A program that uses rclpy and defines no node of its own may be 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 
 from ros_lint.api import (
     Confidence,
@@ -53,6 +55,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if script is None or package.builds_with != "ament_python" or package.hidden(Facet.EXECUTABLES):
         return
     inside = {p.path.rpartition("/")[2] for p in script.provides if p.path.startswith(f"lib/{package.name}/")}
+    yield from _for_copies_only(package, inside)
     outside = {p.path.rpartition("/")[2] for p in script.provides if p.path.startswith("bin/")} - inside
     using = {relative(package, use.span.path) for use in package.uses if use.package == "rclpy"}
     modules = {module.name: module.path for module in script.modules}
@@ -82,6 +85,24 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         Fix.of(f"{'complete' if there else 'add'} setup.cfg", *edits),
         Confidence.HIGH if sure else Confidence.MEDIUM,
     )
+
+
+def _for_copies_only(package: Package, inside: Container[str]) -> Iterator[Finding]:
+    """Yield what is to say where programs find their place unless they are linked to the sources."""
+    script = package.built
+    folders = setup_edits.program_folders(script)
+    entries = [entry for entry in script.entry_points if entry.group == "console_scripts" and entry.name in inside]
+    if entries and "install.install_scripts" in folders and "develop.script_dir" not in folders:
+        names = [entry.name for entry in entries]
+        yield Finding(
+            f"with colcon build --symlink-install {few(names)} {'land' if len(names) > 1 else 'lands'} in bin/, where ros2 run "
+            f"does not look; say script_dir=$base/lib/{package.name} under [develop], too",
+            folders["install.install_scripts"],
+            "setup.cfg",
+            several(Related("this entry point", entry.span) for entry in entries),
+            Fix.of("complete setup.cfg", *setup_edits.programs_to(script, package.name)),
+            severity=Severity.WARNING,
+        )
 
 
 _NODES = frozenset({"Node", "LifecycleNode"})
