@@ -50,6 +50,9 @@ def find_package(run: Run, args: list[str]) -> int | None:
             run.mention(f"{name}/Development", "cmake", span, f"find_package({name} ... Development)", optional=optional)
         if not required and not run.muted:
             run.loose.setdefault(name, []).append(span)
+        if name == run.sources.name and required and certain and not (run.muted or run.unsure or run.normal(f"{name}_DIR")):
+            says = f"find_package() of {name}, which is this package: it is not there before it is built, so link its targets"
+            run.refused[Problem("no-package", says, span, subject=name)] = None
     found(run, name, required=required and certain)
     if module is not None and all(frame.file != f"{SOURCE}/{module}" for frame in run.frames):
         return include_own(run, module)

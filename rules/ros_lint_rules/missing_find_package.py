@@ -4,7 +4,7 @@
 A CMake script that uses a ROS package without having found it: a target `package::library`, an argument of
 `ament_target_dependencies()`, or a macro of the package. And what `ament_target_dependencies()` is given that is no package:
 a target, the package itself, or nearly the name of a package that is found; a target that `ament_export_dependencies()` is
-given.
+given. And a package that is to be found by its own build.
 
 ## Why it matters
 
