@@ -17,7 +17,8 @@ missing comma.
 
 ## When it keeps silent
 
-- For modules of other packages, but where this package has just that module under its own name.
+- For modules of other packages, but where this package has just that module under its own name, and where one of the
+  workspace that has that name for sure has no such module.
 - For modules that import `*`, define `__getattr__`, or cannot be read: they may have any name.
 - For modules that are made during the build, and for those that are not there where a file of the package cannot be read.
 """
@@ -122,7 +123,7 @@ def _no_module(package: Package, entry: EntryPoint, name: str, function: str, wo
     if own not in tops and own != package.name and not similar(own, [*tops, package.name], 1, 0.85):
         # The name of a package that was copied, before a module that is here.
         near = [module for module in modules if module.partition(".")[2] == name.partition(".")[2]]
-        if not near or workspace.world.by_import(own).known:
+        if not _lacks(workspace, own, name) and (not near or workspace.world.by_import(own).known):
             return
     if near:
         hint = f"; is {near[0]} meant?"
@@ -130,6 +131,19 @@ def _no_module(package: Package, entry: EntryPoint, name: str, function: str, wo
         hint = f"; Python cannot import {unusable[0]} by its name: call it {name.rpartition('.')[2]}.py"
     yield Finding(
         f"{entry.name}: there is no module {name}{hint}", entry.span, entry.name, fix=_fix(entry, name, near[0] if near else "")
+    )
+
+
+def _lacks(workspace: Workspace, top: str, name: str) -> bool:
+    """Whether a package of the workspace that is all in sight has the modules of some name, and not this one."""
+    owners = [one for one in workspace.packages if one.name == top and top in one.built.python_packages]
+    path = name.replace(".", "/")
+    return bool(owners) and not any(
+        one.hidden(Facet.PYTHON)
+        or workspace.unread(one)
+        or name in one.built.python_packages
+        or any(f"/{file}".endswith((f"/{path}.py", f"/{path}/__init__.py")) for file in one.files)
+        for one in owners
     )
 
 
