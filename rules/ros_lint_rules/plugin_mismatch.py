@@ -6,6 +6,8 @@ Plugins of pluginlib that cannot be loaded:
 - a class made loadable with `PLUGINLIB_EXPORT_CLASS`, in a package that exports no plugin description;
 - a plugin description that is not exported, so not installed either, or exported for what is no package, while a loader of
   the workspace asks for plugins of its classes for another name;
+- a class made loadable in a library none of whose classes any of the exported descriptions has; a description of plugins
+  for another package that is exported for its own one, for which nothing in the workspace loads plugins;
 - a class in the description that no source makes loadable under this very name, or as another class than it says;
 - a library that the package does not build or install, or a `<library>` without `path`.
 
@@ -30,10 +32,11 @@ classes. For components that are registered in the way of Crystal, with `rclcpp:
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from ros_lint.api import (
     EXPORTING_PLUGINS,
+    Call,
     Confidence,
     Facet,
     Finding,
@@ -81,6 +84,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                     yield finding._replace(confidence=Confidence.MEDIUM)
         return
     yield from _for_nobody(package, workspace)
+    yield from _undescribed(package, registered)
     found = {
         one.type
         for plugin in script.plugins
@@ -101,6 +105,28 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 plugin.span,
                 plugin.path,
                 fix=_export(package, plugin),
+            )
+
+
+def _undescribed(package: Package, registered: list[Registration]) -> Iterator[Finding]:
+    """Yield the classes that no description has, of those that all of them can be read, exported or not."""
+    descriptions = {plugin.path: plugin for plugin in package.built.plugins}
+    calls = list(called(package, EXPORTING_PLUGINS, anywhere=True))
+    if _reads_manifest(package) or not all(len(call.texts) > 1 and call.texts[1] in descriptions for call in calls):
+        return
+    classes = [one for plugin in descriptions.values() for library in plugin.libraries for one in library.classes]
+    known = {name.rpartition("::")[2] for one in classes for name in (one.type, one.name.replace("/", "::"))}
+    # What is beside a class that is described, or in a library for others, may be the base of some, or a copy.
+    needed = {library_of(package, made) for made in registered if made.name.rpartition("::")[2] in known}
+    needed.update(name for target in package.built.targets for name, _ in target.links)
+    for made in registered:
+        library = library_of(package, made)
+        if library and library not in needed:
+            yield Finding(
+                f"{made.name} is made loadable, but no exported plugin description has it, so nobody finds it",
+                made.span,
+                made.name,
+                several(Related("this one is exported", call.span(1)) for call in calls),
             )
 
 
@@ -140,6 +166,8 @@ def _for_nobody(package: Package, workspace: Workspace) -> Iterator[Finding]:
         bases = {one.base for library in described[path].libraries for one in library.classes}
         loaders = [loader for base in sorted(bases) for loader in _loading(workspace).get(base, ())]
         asked = sorted({loader.package for loader in loaders})
+        if meant == package.name and meant not in asked:
+            yield from _for_itself(package, call, bases, workspace)
         if loaders and meant not in asked and not workspace.world.is_package(meant):
             fix = Fix(f"export it for {asked[0]}", (cmake_edits.write(call, 0, asked[0]),), safe=False)
             yield Finding(
@@ -151,12 +179,37 @@ def _for_nobody(package: Package, workspace: Workspace) -> Iterator[Finding]:
             )
 
 
+def _for_itself(package: Package, call: Call, bases: Collection[str], workspace: Workspace) -> Iterator[Finding]:
+    """Yield what is to say of a description that is exported for its own package, for which nothing loads plugins.
+
+    All of its base classes are of one other package.
+    """
+    owners = {base.partition("::")[0] for base in bases}
+    asked = {loader.package for loaders in _loading(workspace).values() for loader in loaders}
+    if len(owners) != 1 or package.name in owners or package.name in asked:
+        return
+    owner = owners.pop()
+    if package.declares(owner) and workspace.world.is_package(owner):
+        yield Finding(
+            f"{call.texts[1]} is exported for {package.name}, and nothing loads plugins for it; their base class is of {owner}",
+            call.span(0),
+            call.texts[1],
+            fix=Fix(f"export it for {owner}", (cmake_edits.write(call, 0, owner),), safe=False),
+        )
+
+
 def _builds_libraries(package: Package) -> bool:
     return any(target.kind == "library" and target.sources for target in package.built.targets)
 
 
 _READ_BY_RQT = frozenset({"rqt_gui", "qt_gui"})
 """Exports of the manifest whose plugins are found by them. Those of other names say nothing to anybody in ROS 2."""
+
+
+def _reads_manifest(package: Package) -> bool:
+    """Whether a description is exported by the manifest, for those who read it there."""
+    exports = package.manifest.exports if package.manifest else ()
+    return any(element.tag in _READ_BY_RQT and element.get("plugin") for element in exports)
 
 
 def _unexported(package: Package, registered: list[Registration]) -> Iterator[Finding]:
@@ -167,7 +220,7 @@ def _unexported(package: Package, registered: list[Registration]) -> Iterator[Fi
     first, *others = registered
     names = {made.name for made in registered}
     plugin = next((p for p in script.plugins if any(c.type in names for lib in p.libraries for c in lib.classes)), None)
-    if package.manifest and any(element.tag in _READ_BY_RQT and element.get("plugin") for element in package.manifest.exports):
+    if _reads_manifest(package):
         return
     way = f"{EXPORTING_PLUGINS}(... {plugin.path})" if plugin else f"a plugin description and {EXPORTING_PLUGINS}()"
     yield Finding(
