@@ -27,6 +27,7 @@ Add `<exec_depend>` to `package.xml`. The fix does this.
   launch file is merely called one (`test_arm.launch.py`).
 - What a declared dependency brings along is not known, or a file of the package cannot be read, which may be the script that
   runs the launch file as a test: then the confidence is medium.
+- What nodes are started with only under a condition, mostly to find a mistake, has medium confidence.
 - The other package needs this one itself, in whatever tag, so that declaring it would close a cycle that colcon refuses: then
   the confidence is medium, too; the launch file may be at home there. So it is where neither declares what it needs of the
   other, for only one of them can.
@@ -87,7 +88,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         only = ", if only under a condition" if best.conditional else ""
         only = ", by the default of an argument" if best.package_by_default else only
         way_out = advice(package, workspace, name, Role.EXEC)
-        certain = sighted and way_out.certain and not may_bring(unknown, name, workspace)
+        wanted = best.kind != "program" or not best.conditional
+        certain = sighted and wanted and way_out.certain and not may_bring(unknown, name, workspace)
         yield Finding(
             f"{what} is {_DONE[best.kind]} here{only}, but {package.name} {_says(package, name)}{way_out.ending}",
             best.package_span,
