@@ -38,6 +38,7 @@ from ros_lint.api import (
     Severity,
     Workspace,
     conditions,
+    place_of,
     similar,
 )
 
@@ -105,7 +106,11 @@ def _without_script(package: Package, export: Element) -> Iterator[Finding]:
         fix = Fix(f"write {other}", (Edit(export.text_span, other),), safe=False)
         yield Finding(message, export.text_span, export.text, fix=fix)
     else:
-        yield Finding(f"{export.text} needs a {script}, which is not there; add it", export.text_span, export.text)
+        near = similar(script.lower(), [file.lower() for file in package.files if "/" not in file], 1, 0.85)
+        meant = next((file for file in package.files if near and file.lower() == near[0]), "")
+        way_out = f"and here is {meant}: call it {script}" if meant else "which is not there; add it"
+        related = (Related("this file", place_of(package, meant)),) if meant else ()
+        yield Finding(f"{export.text} needs a {script}, {way_out}", export.text_span, export.text, related)
 
 
 RULE = Rule(
