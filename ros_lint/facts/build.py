@@ -193,6 +193,11 @@ class BuildScript(NamedTuple):
         """Whether it is a CMake script, and none of Python."""
         return self.path.endswith("CMakeLists.txt")
 
+    @property
+    def is_empty(self) -> bool:
+        """Whether it is a CMake script without a command: empty, or all of it a comment."""
+        return self.of_cmake and not (self.calls or self.problems or self.opaque)
+
     def hides(self, facet: Facet) -> bool:
         """Whether the script cannot be seen through as to a facet. What code computes when it runs is no matter here."""
         return any(opaque.hides & facet for opaque in self.opaque)

@@ -1,7 +1,8 @@
 """
 ## What it finds
 
-A package of type `ament_cmake` whose CMakeLists.txt never calls `ament_package()` or `ament_auto_package()`.
+A package of type `ament_cmake` whose CMakeLists.txt never calls `ament_package()` or `ament_auto_package()`, or has no command
+at all.
 
 ## Why it matters
 
@@ -26,7 +27,16 @@ from ros_lint.api import ANYTHING, ENDS, Edit, Finding, Fix, Package, Rule, Seve
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
     script = package.script
-    if package.builds_with != "ament_cmake" or script is None or script.problems or "project" not in script.calls:
+    if package.builds_with != "ament_cmake" or script is None or script.problems:
+        return
+    if script.is_empty:
+        yield Finding(
+            "there is no command in CMakeLists.txt, so nothing is built or installed and the package will not be found; write "
+            "project(), what it builds, and ament_package()",
+            beginning(script.path),
+            "ament_package()",
+        )
+    if "project" not in script.calls:
         return
     if any(name in script.calls for name in ENDS) or any(call.name in ENDS for call in script.written):
         return

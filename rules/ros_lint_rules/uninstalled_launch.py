@@ -19,6 +19,7 @@ written out.
 ## When it keeps silent
 
 - A part of the build script that cannot be followed may install the files, or a file of the package cannot be read.
+- A `CMakeLists.txt` has no command at all: that is a matter of `missing-ament-package`.
 - Launch files of tests, examples and templates, those of ROS 1, and modules that only build actions for launch files;
   packages for tests, going by their names.
 - Files that are installed under a condition, and those that a rule leaves out which installs others of their kind
@@ -54,7 +55,7 @@ from ros_lint.api import (
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
-    if script is None or package.builds_with not in ("ament_cmake", "ament_python"):
+    if script is None or script.is_empty or package.builds_with not in ("ament_cmake", "ament_python"):
         return
     if package.hidden(Facet.SHARE) or workspace.unread(package) or is_for_tests(package.name):
         return
