@@ -26,7 +26,7 @@ missing comma.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from ros_lint.api import (
     BuildScript,
@@ -119,6 +119,8 @@ def _no_module(package: Package, entry: EntryPoint, name: str, function: str, wo
     named = {file[:-3].replace("/", ".") for file in files if file not in strange}
     known = sorted(named.union(script.python_packages))  # whether they are installed is told of each folder
     modules = [module for module in known if "." in module and taken.isdisjoint((module, f"{module}:{function}"))]
+    # What lies in a folder that is no Python package is put aside: setup.py never installs it.
+    modules = [module for module in modules if _is_in_package(module, name, script, package.files)]
     near = similar(name, modules, 1, 0.9)
     if own not in tops and own != package.name and not similar(own, [*tops, package.name], 1, 0.85):
         # The name of a package that was copied, before a module that is here.
@@ -132,6 +134,14 @@ def _no_module(package: Package, entry: EntryPoint, name: str, function: str, wo
     yield Finding(
         f"{entry.name}: there is no module {name}{hint}", entry.span, entry.name, fix=_fix(entry, name, near[0] if near else "")
     )
+
+
+def _is_in_package(module: str, wanted: str, script: BuildScript, files: Sequence[str]) -> bool:
+    """Whether a module lies where the one that is wanted would lie, or else in a Python package."""
+    above = module.rpartition(".")[0]
+    if above == wanted.rpartition(".")[0] or above in script.python_packages:
+        return True
+    return f"{above.replace('.', '/')}/__init__.py" in files
 
 
 def _lacks(workspace: Workspace, top: str, name: str) -> bool:
