@@ -215,7 +215,18 @@ _REGISTERED: Final = "_RCLCPP_COMPONENTS"
 _EXTRAS: Final = ("CONFIG_EXTRAS", "CONFIG_EXTRAS_POST")
 
 
+def _needed(run: Run, args: list[str]) -> None:
+    """``ros_lint_needed(files...)``: files without which ament stops (assert_file_exists)."""
+    for arg in args:
+        plain, certain = sure(arg)
+        path, span = run.source(plain), run.where(arg)
+        # It looks beside the file that has the call, and elsewhere that need not be where CMake takes paths from.
+        if path and path not in run.files and not (run.muted or run.is_unseen(path)) and span.path.endswith("CMakeLists.txt"):
+            run.missing.append((path, span, run.conditional or run.testing or not certain))
+
+
 def _extras(run: Run, name: str, files: list[str], conditional: bool) -> None:
+    _needed(run, files)
     for file in files:
         path = run.source(sure(file)[0])
         source = next((one for one in (path, f"{path}.in") if path is not None and one in run.files), None)
@@ -304,6 +315,7 @@ COMMANDS: Final[dict[str, Handler]] = {
     "ros_lint_provide": _provide,
     "ros_lint_headers": _headers,
     "ros_lint_generate": _generate,
+    "ros_lint_needed": _needed,
     "ros_lint_package": _package,
     "ros_lint_unknown": _unknown,
     "ros_lint_package_xml": _package_xml,

@@ -2,8 +2,8 @@
 ## What it finds
 
 Files and folders that a build script names and that are not there: sources of a target, interface files, subfolders,
-included CMake code, what `install()` is to install, `data_files`, `scripts` and `packages` of `setup.py`, the package that
-`ament_python_install_package()` installs. Also folders where `install(FILES)` wants a file.
+included CMake code, `CONFIG_EXTRAS` of `ament_package()`, environment hooks, what `install()` is to install, `data_files`,
+`scripts` and `packages` of `setup.py`, the package that `ament_python_install_package()` installs. Also folders where `install(FILES)` wants a file.
 
 ## Why it matters
 

@@ -69,6 +69,7 @@ function(ament_index_get_prefix_path var)
 endfunction()
 
 function(ament_environment_hooks)
+  ros_lint_needed(${ARGN})
   foreach(hook ${ARGN})
     get_filename_component(name "${hook}" NAME)
     string(REGEX REPLACE "\\.(in|em)$" "" name "${name}")
