@@ -105,7 +105,6 @@ def _unused(package: Package, workspace: Workspace) -> Iterator[tuple[Declared, 
     world = workspace.world
     built = [each.name for each in package.declared if each.depend.tag in _TAGS and not each.depend.condition]
     used = used_names(built, package.uses)
-    along = world.closure(sorted(used))
     libraries = satisfying(package.uses)
     for declared in package.declared:
         depend = declared.depend
@@ -127,7 +126,7 @@ def _unused(package: Package, workspace: Workspace) -> Iterator[tuple[Declared, 
         else:
             continue
         # What headers of others need of a library is there without the tag, if it comes along with what they are from.
-        doubted = unknown and not (depend.tag in _TAGS and is_library(world, name) and name in along)
+        doubted = unknown and not (depend.tag in _TAGS and is_library(world, name) and name in world.closure(sorted(used)))
         doubted = doubted or (world.standing(name) == "elsewhere" and _may_carry(package, workspace, name))
         yield declared, says, Confidence.MEDIUM if doubted or mostly_run or unsure else Confidence.HIGH
 
