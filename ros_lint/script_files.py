@@ -54,12 +54,20 @@ def with_files(tree: Tree, found: Found, commands: Mapping[str, Parsed], script:
     if not (plugins or files or missing):
         return script
     texts_that_name = contents(tree, found.path, filter(resource_files.may_name, found.files)) if missing else ()
-    naming = [(path, data) for path, data in texts_that_name if not (b"<launch" in data and is_of_ros_1(from_raw(data)))]
+    every = [(path, data) for path, data in texts_that_name if not (b"<launch" in data and is_of_ros_1(from_raw(data)))]
+    macros = _source_folders(commands) if missing else None
+    naming = [(path, data) for path, data in every if not (macros and macros.search(data))]
+    in_sources = [data for _, data in every if macros and macros.search(data)]
+    pages = [*contents(tree, found.path, (file for file in found.files if file.endswith(".md")))] if missing else []
     return script._replace(
         plugins=plugins,
         files=tuple(files),
         named=tuple(_named(tree, found, missing, naming)),
-        inputs=(*_inputs(commands, missing, [file.path for file in files]), *_read_in_sources(found, missing, naming)),
+        inputs=(
+            *_inputs(commands, missing, [file.path for file in files]),
+            *_read_in_sources(found, missing, [*naming, *pages]),
+            *(f"{folder}/" for folder in missing if any(b'"/%s/' % raw(folder) in data for data in in_sources)),
+        ),
     )
 
 
@@ -79,18 +87,40 @@ def _inputs(scripts: Mapping[str, Parsed], missing: Mapping[str, Sequence[str]],
     yield from (file for file in programs if re.search(rf"(?<![\w.-]){re.escape(file)}(?![\w.-])", text))
 
 
+def _source_folders(scripts: Mapping[str, Parsed]) -> re.Pattern[bytes] | None:
+    """Return what finds the macros in code that hold the folder of the sources, None if CMake defines none."""
+    commands = (command for parsed in scripts.values() for command in parsed.commands if command.name in _DEFINE)
+    found = {match[1] for command in commands for argument in command.args if (match := _HOLDS_SOURCES.match(argument[0]))}
+    return re.compile(rb"\b(?:%s)\b" % b"|".join(sorted(map(raw, found)))) if found else None
+
+
+_DEFINE = frozenset({"add_compile_definitions", "add_definitions", "target_compile_definitions"})
+_HOLDS_SOURCES = re.compile(r"(?:-D)?(\w+)=[\\\"]*\$\{\w*_SOURCE_DIR\}")
+
+
 def _read_in_sources(found: Found, missing: Mapping[str, Sequence[str]], naming: _Texts) -> Iterator[str]:
-    """Yield the folders of resources that a text names where they lie on some machine, as ``/home/me/src/robot/maps/hall``."""
+    """Yield the folders of resources that a text names where they lie in sources, as ``/home/me/src/robot/maps/hall``."""
     if not missing:
         return
     top = found.path.rpartition("/")[2] or found.name
     folders = b"|".join([re.escape(raw(folder)) for folder in missing])
     place = re.compile(rb"(?<=[\w.~}-])(?<!\bshare)/%s/(%s)(?![\w.-])" % (re.escape(raw(top)), folders))
+    part = re.compile(rb"(?<=[\"'])(%s)(?=[\"'])" % folders)
     below = b"/%s/" % raw(top)
     for path, data in naming:
-        if below not in data:  # the pattern takes a hundred times as long
-            continue
-        yield from (f"{from_raw(hit[1])}/" for hit in place.finditer(data) if not _is_remark(path, data, hit.start()))
+        if below in data:  # the pattern takes a hundred times as long
+            yield from (f"{from_raw(hit[1])}/" for hit in place.finditer(data))
+        if _OF_SOURCES.search(data) and not path.endswith(".md"):
+            yield from (f"{from_raw(hit[1])}/" for hit in part.finditer(data) if _is_below_sources(data, hit.start()))
+
+
+_OF_SOURCES = re.compile(rb"[\"']src[\"']\s*,\s*[\"']")
+_BELOW_SOURCES = re.compile(rb"[\"']src[\"']\s*,\s*[\"'](?:[\w.-]+[\"']\s*,\s*[\"'])*\Z")
+
+
+def _is_below_sources(data: bytes, start: int) -> bool:
+    """Whether the parts of a path that stand before one of them, each in quotes, have the ``src`` of a workspace among them."""
+    return _BELOW_SOURCES.search(data, max(start - 200, 0), start) is not None
 
 
 def _may_be_read(path: str, entered: Sequence[str]) -> bool:
@@ -134,6 +164,8 @@ def _looks_up(path: str, data: bytes, resource: str, hit: re.Match[bytes]) -> bo
         return False
     if b"share" not in data and _WORKING_FOLDER.search(data):
         return False  # it is sought where the program is started
+    if _is_below_sources(data, hit.start()):
+        return False
     above = parent(parent(resource)).rpartition("/")[2].encode()
     before = _BEFORE.search(data, max(hit.start() - 80, 0), hit.start()) if above else None
     return before is None or before[1] == above

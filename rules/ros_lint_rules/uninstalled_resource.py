@@ -30,9 +30,10 @@ where `data_files` is written out and the files are not too many.
   sources, or be left over. Not so if it lies in a folder that is installed (`worlds/textures/`), and its files serve at run
   time alone: displays, maps, models, textures, parameters; nor if the package builds, installs and tests nothing, so that
   it is there for these files; nor if they are parameters of nodes (`ros__parameters`), and the package has nodes. Where a
-  text names the folder as it lies on some machine (`/home/me/src/robot/maps/hall`), it is found there: the confidence is
-  medium. It is so where a program seeks its files in the folder that it is started from. A launch file that looks a file of
-  the name up in another package names that one, and what lies here may be a copy.
+  text names the folder as it lies in the sources (`/home/me/src/robot/maps/hall`, `'src', 'robot', 'maps'`), or code comes to
+  it by a macro to which CMake gives the folder of the sources, it is found there: the confidence is medium. It is so where a
+  program seeks its files in the folder that it is started from. A launch file that looks a file of the name up in another
+  package names that one, and what lies here may be a copy.
 """
 
 from __future__ import annotations
@@ -173,7 +174,7 @@ class _Forgotten:
         looked_up = [file for file in named if (places[file].path, _name(file)) not in self._elsewhere]
         examples = few(_name(file) for file in (*named, *(file for file in files if file not in places)))
         return Finding(
-            f"{folder}/ ({examples}) is not installed, so nothing finds it at run time; install it to share/{package.name}",
+            f"{folder}/ ({examples}) is not installed, so it cannot be looked up at run time; install it to share/{package.name}",
             setup_edits.place(script),
             f"{folder}/",
             several(Related(f"{_name(file)} is named here", places[file]) for file in looked_up),
@@ -188,10 +189,11 @@ class _Forgotten:
             return Confidence.LOW
         copied = not {name for _, name in self._elsewhere}.isdisjoint([_name(file) for file in files])
         files = [file for file in files if "example" not in file]
-        if any(file in self._of_nodes for file in files):
+        in_sources = f"{folder}/" in self._script.inputs
+        if any(file in self._of_nodes for file in files) and not in_sources:
             return Confidence.HIGH
         for_run_time = any(file.endswith(_RUN_TIME) or "/textures/" in file for file in files)
-        meant = ("/" in folder or self._made_of_them) and not copied and f"{folder}/" not in self._script.inputs
+        meant = ("/" in folder or self._made_of_them) and not copied and not in_sources
         return Confidence.HIGH if meant and for_run_time else Confidence.MEDIUM
 
 
