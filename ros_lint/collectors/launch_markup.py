@@ -49,7 +49,7 @@ def read(source: Text, root: Entity) -> Found:
     return Found(
         tuple(sorted(references.found, key=attrgetter("span"))),
         tuple(references.opaque),
-        tuple(reader.problems),
+        (*reader.problems, *references.problems),
         tuple(actions),
         tuple(reader.newer),
     )

@@ -12,6 +12,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.launch import entries
+from ros_lint.collectors.launch_asked import asks_first
 from ros_lint.collectors.launch_py_actions import LAUNCHED, walker
 from ros_lint.collectors.launch_py_names import strays
 from ros_lint.collectors.launch_py_objects import PERHAPS, Frame, Function, Modules, OutOfBudget, Raised, Source
@@ -19,7 +20,7 @@ from ros_lint.collectors.launch_py_refused import misplaced, misused, no_conditi
 from ros_lint.collectors.launch_py_run import Machine
 from ros_lint.collectors.launch_py_texts import Within, texts
 from ros_lint.collectors.launch_py_walk import span_of
-from ros_lint.collectors.launch_references import References, asks_first
+from ros_lint.collectors.launch_references import References
 from ros_lint.collectors.launch_text import UNKNOWN
 from ros_lint.collectors.python_syntax import refusal
 from ros_lint.facts.launch import LaunchAction, LaunchFile
@@ -69,7 +70,7 @@ def collect(
         "python",
         tuple(sorted(references.found, key=lambda reference: reference.span)),
         tuple(references.opaque),
-        tuple(dict.fromkeys(reading.problems)),
+        tuple(dict.fromkeys([*reading.problems, *references.problems])),
         test,
         helper,
         tuple(reading.actions),

@@ -8,24 +8,24 @@ from posixpath import normpath
 from types import MappingProxyType
 
 from ros_lint.collectors import launch_text
-from ros_lint.collectors.launch_expression import evaluate, means_true
+from ros_lint.collectors.launch_asked import optional_under
+from ros_lint.collectors.launch_expression import evaluate
 from ros_lint.collectors.launch_held import held
 from ros_lint.collectors.launch_text import (
     UNKNOWN,
-    asked_for,
+    Installed,
     carriers_of_places,
     configurations,
     fill,
     installed,
     is_plain,
     is_settled,
-    named_in,
     names_places,
     runs_xacro,
     share,
 )
 from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchReference, LaunchValue, ReferenceKind
-from ros_lint.facts.sight import Facet, Opaque
+from ros_lint.facts.sight import Facet, Opaque, Problem
 from ros_lint.text import Span
 
 _COMMANDS: Mapping[tuple[str, ...], str] = {
@@ -47,6 +47,7 @@ class References:
         """Read actions. ``places`` are where packages are looked up, by their names or the texts of these."""
         self.found: dict[LaunchReference, None] = {}
         self.opaque: dict[Opaque, None] = {}
+        self.problems: dict[Problem, None] = {}
         self._places = {package: span for package, span in places.items() if is_settled(package)}
         actions = tuple(actions)
         self._held = held(actions)
@@ -64,7 +65,7 @@ class References:
         before, narrowed, known = self._optional, self._narrowed, self._known
         if action.conditions:
             conditional = True
-            optional = _optional_under(action.conditions)
+            optional = optional_under(action.conditions)
             if optional is None:
                 return
             self._optional = before or optional
@@ -116,6 +117,7 @@ class References:
         texts, default = self._filled(target)
         for text in texts:
             places = [place for place in installed(text) if place.known]
+            self._run_on(places, target)
             conditional = conditional or len(texts) > 1
             for place in places:
                 span = self._place(place.package, target, action.package_span)
@@ -162,6 +164,8 @@ class References:
     def _paths(self, value: LaunchValue, package_span: Span | None, conditional: bool, reads: _Reads | None = None) -> None:
         """Note the places that a value mentions."""
         texts, default = self._filled(value)
+        # What is written out stays the same, whatever else is in the text: a command has more words than the file.
+        fixed = {place for text in value.texts for place in installed(text) if place.share is not None} if default else set()
         for text in texts:
             if text.isascii() and not runs_xacro(text):
                 continue
@@ -170,18 +174,28 @@ class References:
                 if not place.known:
                     self.hide("the package that is looked up is computed", value.span)
                     continue
+                self._run_on([place], value)
                 package = LaunchValue((place.package,), self._place(place.package, value, package_span))
                 several = conditional or len(texts) > 1
                 path = place.share
-                made = default and self._is_made(place.package, value)
+                hangs = default and place not in fixed
+                made = hangs and self._is_made(place.package, value)
                 if path:
-                    self._add("file", place.package, path, value, package, several, default, made, place in read)
+                    self._add("file", place.package, path, value, package, several, hangs, made, place in read)
                 elif place.executable:
-                    self._add("node", place.package, place.executable, value, package, several, default, made)
+                    self._add("node", place.package, place.executable, value, package, several, hangs, made)
                 else:
-                    self._add("package", place.package, "", package, package, several, default, made)
+                    self._add("package", place.package, "", package, package, several, hangs, made)
             if runs_xacro(text):
                 self._runs("xacro", value, conditional)
+
+    def _run_on(self, places: Iterable[Installed], value: LaunchValue) -> None:
+        """Note paths that are put behind the share folder of a package with nothing between the two."""
+        for package, path in places:
+            rest = path.removeprefix(f"share/{package}")
+            if rest != path and is_plain(path) and rest[:1].isalpha() and ("." in rest or "/" in rest):
+                says = f"the path of {package} runs into {rest}: put a slash between them, or join the two"
+                self.problems[Problem("no-slash", says, value.span)] = None
 
     def _place(self, package: str, value: LaunchValue, package_span: Span | None) -> Span:
         """Return where a package is named that a path lies in, at best where it is looked up."""
@@ -235,7 +249,7 @@ class References:
         if not is_plain(package):
             self.hide("the package that is looked up is computed", value.span)
             return
-        optional = _optional_under(conditions)
+        optional = optional_under(conditions)
         if optional is None:
             return
         if not any(reference.package == package and reference.conditional <= bool(conditions) for reference in self.found):
@@ -247,7 +261,7 @@ class References:
 
     def opens(self, value: LaunchValue, conditions: Sequence[LaunchCondition]) -> None:
         """Note a file that is read when the launch file is."""
-        optional = _optional_under(conditions)
+        optional = optional_under(conditions)
         if optional is None:
             return
         before, self._optional = self._optional, optional
@@ -304,34 +318,6 @@ class References:
     def hide(self, reason: str, span: Span) -> None:
         """Note that something hides which packages are used."""
         self.opaque[Opaque(Facet.USES, reason, span)] = None
-
-
-def asks_first(conditions: Iterable[LaunchCondition]) -> bool:
-    """Return whether conditions ask if something is installed: what is under them is done without, whatever its name."""
-    return any(condition.wanted and asked_for(text) for condition in conditions for text in condition.texts)
-
-
-_DISTRIBUTIONS = ("humble", "jazzy", "kilted", "lyrical", "rolling")
-"""The distributions that are still maintained: what a launch file does for older ones alone is none of our business."""
-_ASKED = "$ROS_DISTRO"
-
-
-def _optional_under(conditions: Sequence[LaunchCondition]) -> bool | None:
-    """Return whether what is under conditions is done without somewhere, None if no distribution comes to it."""
-    holds = {_holds_in(distro, conditions) for distro in _DISTRIBUTIONS}
-    return None if holds == {False} else False in holds or asks_first(conditions)
-
-
-def _holds_in(distro: str, conditions: Iterable[LaunchCondition]) -> bool:
-    """Return whether conditions can hold in a distribution, as far as they ask for nothing but which one runs."""
-    for (text, *others), equals, wanted in conditions:
-        if others or set(named_in(text) or ()) != {_ASKED}:
-            continue
-        texts = fill(text, lambda _: (distro,), evaluate)
-        answers = {means_true(one) if equals is None else one == equals for one in texts if is_settled(one)}
-        if answers == {not wanted}:
-            return False
-    return True
 
 
 _Reads = Callable[[str], str]

@@ -6,6 +6,9 @@ exist, misses one that is needed, or holds a value of another type; one in Pytho
 exist or were removed, comes to a name that nothing defines, or takes one from a module that has none; or one with something
 that came to the launch format after the distribution that was asked for.
 
+Also one with a path that begins right behind the share folder of a package, `[FindPackageShare('robot'), 'config', 'a.yaml']`
+where nothing joins the parts: that is `.../share/robotconfiga.yaml`.
+
 Besides, one in Python that takes a substitution for the text that it becomes once something is launched: adds it to a text,
 formats, compares or tests it; that joins conditions by `and` and `or`, or gives a function, a substitution or a truth for one,
 `condition=lambda context: ...`; or that gives numbers, truths and actions where texts are taken, `default_value=True`,

@@ -1,0 +1,37 @@
+"""What launch files ask for before they do something: whether it is there, and which distribution runs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from ros_lint.collectors.launch_expression import evaluate, means_true
+from ros_lint.collectors.launch_text import asked_for, fill, is_settled, named_in
+from ros_lint.facts.launch import LaunchCondition
+
+
+def asks_first(conditions: Iterable[LaunchCondition]) -> bool:
+    """Return whether conditions ask if something is installed: what is under them is done without, whatever its name."""
+    return any(condition.wanted and asked_for(text) for condition in conditions for text in condition.texts)
+
+
+_DISTRIBUTIONS = ("humble", "jazzy", "kilted", "lyrical", "rolling")
+"""The distributions that are still maintained: what a launch file does for older ones alone is none of our business."""
+_ASKED = "$ROS_DISTRO"
+
+
+def optional_under(conditions: Sequence[LaunchCondition]) -> bool | None:
+    """Return whether what is under conditions is done without somewhere, None if no distribution comes to it."""
+    holds = {_holds_in(distro, conditions) for distro in _DISTRIBUTIONS}
+    return None if holds == {False} else False in holds or asks_first(conditions)
+
+
+def _holds_in(distro: str, conditions: Iterable[LaunchCondition]) -> bool:
+    """Return whether conditions can hold in a distribution, as far as they ask for nothing but which one runs."""
+    for (text, *others), equals, wanted in conditions:
+        if others or set(named_in(text) or ()) != {_ASKED}:
+            continue
+        texts = fill(text, lambda _: (distro,), evaluate)
+        answers = {means_true(one) if equals is None else one == equals for one in texts if is_settled(one)}
+        if answers == {not wanted}:
+            return False
+    return True
