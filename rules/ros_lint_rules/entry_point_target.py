@@ -2,12 +2,12 @@
 ## What it finds
 
 Entry points that cannot work: the module does not exist in the package, it has no such function, the target ends with `()`,
-it has no `:function`, or two entries are glued to one because a comma is missing between them.
+it has no `:function`, or two entries are glued to one because a comma is missing between them. And two programs of one name.
 
 ## Why it matters
 
 The build succeeds. The program is installed and stops when it is started, with ModuleNotFoundError or ImportError; of two
-glued entries neither is there.
+glued entries neither is there. For two programs of one name setuptools stops the build: "Duplicate entry point".
 
 ## How to fix it
 
@@ -58,9 +58,24 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             yield _malformed(script, entry)
         else:
             yield from _lacking(package, script, entry, target[1], target[2], workspace)
+    yield from _doubled(script)
     for problem in script.problems:
         if problem.kind == "entry-point-form":
             yield Finding(problem.message, problem.span, problem.subject)
+
+
+def _doubled(script: BuildScript) -> Iterator[Finding]:
+    """Speak of programs that are there twice in every build."""
+    always = {(p.path.rpartition("/")[2], p.span) for p in script.provides if p.program and not p.conditional}
+    first: dict[tuple[str, str], EntryPoint] = {}
+    for entry in script.entry_points:
+        if (entry.name, entry.span) not in always:
+            continue
+        other = first.setdefault((entry.group, entry.name), entry)
+        if other.span != entry.span:
+            way_out = "take one out" if other.target == entry.target else "give one another name"
+            message = f"there is {entry.name} = {other.target} already, and setuptools stops at a second {entry.name}: {way_out}"
+            yield Finding(message, entry.span, entry.name, (Related("the other one", other.span),))
 
 
 def _malformed(script: BuildScript, entry: EntryPoint) -> Finding:

@@ -3,7 +3,8 @@
 
 Files and folders that a build script names and that are not there: sources of a target, interface files, subfolders,
 included CMake code, `CONFIG_EXTRAS` of `ament_package()`, environment hooks, what `install()` is to install, `data_files`,
-`scripts` and `packages` of `setup.py`, the package that `ament_python_install_package()` installs. Also folders where `install(FILES)` wants a file.
+`scripts` and `packages` of `setup.py`, the package that `ament_python_install_package()` installs. Also folders where
+`install(FILES)` wants a file.
 
 ## Why it matters
 
