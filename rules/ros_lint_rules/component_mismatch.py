@@ -72,8 +72,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     registered = {component.name.removeprefix("::") for component in script.components}
     left = [one for one in made if one.name not in registered]
     unmade = [component for component in script.components if component.name.removeprefix("::") not in names] if made else []
-    # The only class that nobody makes is the only one that nobody registers, whatever the names.
-    only = left if len(unmade) == len(left) == 1 else []
+    # The only class that nobody makes is the only one that is compiled and that nobody registers, whatever the names.
+    only = left if len(unmade) == len(left) == 1 and library_of(package, left[0]) else []
     for component in unmade:
         alike = only or _alike(component, left)
         left = [one for one in left if one not in alike]
