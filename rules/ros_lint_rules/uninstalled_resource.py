@@ -21,6 +21,7 @@ where `data_files` is written out and the files are not too many.
   when it is built.
 - Where the file does not exist at all: that is a matter of `launch-missing-include`.
 - Launch files themselves: see `uninstalled-launch`.
+- A `CMakeLists.txt` has no command at all: that is a matter of `missing-ament-package`.
 - What only launch files of ROS 1 look up: nobody launches them. The `joint_names_*.yaml` that the exporter of SolidWorks
   writes serves ROS 1, too.
 - What a command of the build names, such as the file that `generate_parameter_library()` reads, is taken for its input.
@@ -77,7 +78,7 @@ _RUN_TIME = (
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
-    if script is None or package.builds_with not in ("ament_cmake", "ament_python"):
+    if script is None or script.is_empty or package.builds_with not in ("ament_cmake", "ament_python"):
         return
     installed = _with_folders(provided.path for provided in script.provides)
     kept = _with_folders(provided.source for provided in script.provides if provided.source)
