@@ -11,8 +11,9 @@ The package was not ported to the end. `rosdep install` stops at the name, and s
 ## How to fix it
 
 Depend on what took its place in ROS 2, which the message names where there is one, or drop the dependency: where that is
-declared already, or where nothing is generated that would need it. Where a module in Python of that name is imported, such as
-`serial`, the rosdep key of the module is meant, and the message names it.
+declared already, or where nothing is generated that would need it. In a package for ROS 1 and ROS 2 write
+`condition="$ROS_VERSION == 1"` into the tag. Where a module in Python of that name is imported, such as `serial`, the
+rosdep key of the module is meant, and the message names it.
 
 ## When it keeps silent
 
@@ -23,6 +24,7 @@ package without releasing it.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from ros_lint.api import Confidence, Facet, Finding, Package, Rule, Severity, Stranger, Workspace, declared_names, strangers
@@ -55,6 +57,8 @@ def _imported(stranger: Stranger, workspace: Workspace) -> str:
 
 
 def _way_out(package: Package, successor: str) -> str:
+    if package.manifest is not None and any(_OF_ROS_1.search(depend.condition) for depend in package.manifest.depends):
+        return 'write condition="$ROS_VERSION == 1" into the tag, as in others here'
     if not successor:
         return "replace it, or add its sources to the workspace"
     if package.declares(successor):
@@ -64,6 +68,8 @@ def _way_out(package: Package, successor: str) -> str:
     return f"use {successor}"
 
 
+_OF_ROS_1 = re.compile(r"\$ROS_VERSION\s*==\s*[\"']?1\b")
+"""The condition of what a package for ROS 1 and ROS 2 needs in ROS 1."""
 _FOR_INTERFACES = "rosidl_default_"
 
 
