@@ -15,6 +15,7 @@ FILES = {
 <depend>rclcpp</depend>
 <depend>sensor_msgs</depend>
 <depend>tf2_msgs</depend>
+<depend>eigen</depend>
 <build_depend condition="$X == 1">shape_msgs</build_depend>
 <export><build_type>ament_cmake</build_type></export></package>
 """,
@@ -24,7 +25,8 @@ find_package(std_msgs REQUIRED)
 find_package(nav_msgs REQUIRED)
 find_package(map_msgs QUIET)
 find_package(visualization_msgs QUIET)
-if(map_msgs_FOUND)
+find_package(builtin_interfaces QUIET)
+if(map_msgs_FOUND OR builtin_interfaces_FOUND)
 endif()
 add_executable(talker talker.cpp)
 ament_package()
@@ -52,6 +54,8 @@ def workspace() -> Workspace:
         ("sensor_msgs", "silent, for it is declared", "silent, for its name stands here: talker/notes.txt:1"),
         ("shape_msgs", "silent, for it is declared", "silent, for it is declared under a condition"),
         ("tf2_msgs", "silent, for it is declared", "reported"),
+        ("eigen", "silent, for it is declared", "less than certain, for it may do its work without being named"),
+        ("builtin_interfaces", "silent, for it comes along: rclcpp > builtin_interfaces", "silent, for it is not declared"),
         ("joy", "silent, for nothing that is seen uses it", "silent, for it is not declared"),
     ],
 )

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
-from ros_lint.silence import explain
-from ros_lint.workspace import Workspace
+from collections.abc import Mapping
+
+from ros_lint import registry
+from ros_lint.rule import Confidence
+from ros_lint.silence import RULES, explain
+from ros_lint.workspace import Package, Workspace
 
 
 def run(workspace: Workspace, name: str, other: str) -> tuple[str, str, int]:
@@ -11,5 +15,15 @@ def run(workspace: Workspace, name: str, other: str) -> tuple[str, str, int]:
     packages = workspace.by_name.get(name, ())
     if not packages:
         return "", f"ros-lint: no package of the workspace is called {name}\n", 2
-    lines = [line for package in packages for line in explain(package, workspace, other)]
+    lines = [line for package in packages for line in explain(package, workspace, other, _told(package, workspace, other))]
     return "".join(f"{line}\n" for line in lines), "", 0
+
+
+def _told(package: Package, workspace: Workspace, name: str) -> Mapping[str, Confidence]:
+    """Return how sure the rules are that say something of a dependency, by their names."""
+    found: dict[str, Confidence] = {}
+    for rule in registry.load():
+        if rule.name in RULES and rule.package is not None:
+            sure = [finding.confidence for finding in rule.package(package, workspace) if finding.subject == name]
+            found.update({rule.name: max(sure)} if sure else {})
+    return found
