@@ -79,7 +79,7 @@ from ros_lint.launch_files import (
     started,
 )
 from ros_lint.launch_links import Links, defaults_of, everything, filled, texts_of
-from ros_lint.launch_names import Families, needed
+from ros_lint.launch_names import Families, asked_at, needed
 from ros_lint.launch_parameters import Given, ParameterFiles
 from ros_lint.launch_runs import Broken, PassedFile, broken_expressions, launched, passed_files
 from ros_lint.needs import (
@@ -182,6 +182,7 @@ __all__ = [
     "add_dependency",
     "advice",
     "agree",
+    "asked_at",
     "astray",
     "beginning",
     "broken_expressions",

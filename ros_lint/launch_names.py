@@ -45,12 +45,17 @@ def names_of(file: LaunchFile) -> Names:
 
 def needed(file: LaunchFile, names: frozenset[str]) -> dict[str, Span]:
     """Return those names that must be there, since the file has no default where it asks for them."""
-    found: dict[str, Span] = {}
+    return {name: span for (name, has_default), span in asked_at(file, names).items() if not has_default}
+
+
+def asked_at(file: LaunchFile, names: frozenset[str]) -> dict[tuple[str, bool], Span]:
+    """Return where a file first asks for names, for each with and without a default."""
+    found: dict[tuple[str, bool], Span] = {}
     for action in everything(file.actions):
         for text, span in texts_of(action):
             for name, has_default, _ in configurations(text):
-                if name in names and not has_default:
-                    found.setdefault(name, span)
+                if name in names:
+                    found.setdefault((name, bool(has_default)), span)
     return found
 
 
@@ -61,6 +66,8 @@ class Families:
         self._names = {file.path: names_of(file) for file in files}
         self._includers: dict[str, set[str]] = {}
         self._included: dict[str, set[str]] = {}
+        self.made = frozenset().union(*(names.made for names in self._names.values()))
+        """What any of the files sets, or passes to another one."""
         self._filling = {path for path, names in self._names.items() if names.fills}
         self._filled: dict[str, bool] = {}
         for file in files:
