@@ -76,7 +76,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         verdict = _verdict(name, places, package, workspace)
         if verdict is None or (name in declared and not verdict.resembles):
             continue
-        best, *others = sorted(places)
+        best, *_ = ordered = sorted(places)
+        spans = list(dict.fromkeys([place.reference.package_span for place in ordered]))  # what is made of a path names it again
         wanted = not (best.apart or best.by_default)
         left_out = (
             wanted
@@ -89,7 +90,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"there is no package {name}{verdict.hint}{told}",
             best.reference.package_span,
             name,
-            several(Related("also named here", other.reference.package_span) for other in others),
+            several(Related("also named here", span) for span in spans[1:]),
             corrected(
                 f"say {verdict.meant} instead of {name}",
                 verdict.meant,
