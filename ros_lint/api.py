@@ -98,7 +98,7 @@ from ros_lint.providers import Meant
 from ros_lint.report import Target
 from ros_lint.resource_files import uninstalled as uninstalled_resources
 from ros_lint.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
-from ros_lint.slips import did_you_mean, similar
+from ros_lint.slips import did_you_mean, is_meant, similar
 from ros_lint.strangers import Stranger, declared_names, is_near_tool, meant, strangers
 from ros_lint.suffixes import HEADERS
 from ros_lint.suppress import Outcome
@@ -223,6 +223,7 @@ __all__ = [
     "is_for_tests",
     "is_kept_back",
     "is_library",
+    "is_meant",
     "is_mostly_run",
     "is_near_tool",
     "is_on_request",

@@ -15,3 +15,8 @@ def similar(name: str, names: Iterable[str], most: int = 1, least: float = 0.6) 
 def did_you_mean(names: Sequence[str], after: str = "; ") -> str:
     """Return how a message goes on, ``after`` what it has said, that asks for what may be meant; "" if nothing is."""
     return f"{after}did you mean {' or '.join(names)}?" if names else ""
+
+
+def is_meant(names: Sequence[str]) -> str:
+    """Return how a message goes on that asks for the first of some names alone, as it can hardly be another one."""
+    return f"; is {names[0]} meant?" if names else ""

@@ -1,5 +1,5 @@
 from ros_lint.rule import Related
-from ros_lint.slips import did_you_mean, similar
+from ros_lint.slips import did_you_mean, is_meant, similar
 from ros_lint.text import Span
 from ros_lint.wording import few, several
 
@@ -19,6 +19,7 @@ def test_of_many_places_the_first_are_shown() -> None:
 def test_what_may_be_meant() -> None:
     assert similar("jazy", ["humble", "jazzy"]) == ["jazzy"]
     assert similar("jazy", ["humble", "jazzy"], 1, 0.95) == []
-    assert did_you_mean([]) == ""
+    assert did_you_mean([]) == is_meant([]) == ""
+    assert is_meant(["a", "b"]) == "; is a meant?"
     assert did_you_mean(["a", "b"]) == "; did you mean a or b?"
     assert did_you_mean(["a"], ", ") == ", did you mean a?"

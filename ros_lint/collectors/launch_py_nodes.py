@@ -15,7 +15,7 @@ from ros_lint.collectors.launch_text import UNKNOWN, named_in
 from ros_lint.collectors.python_values import callee
 from ros_lint.facts.launch import LaunchAction, LaunchValue
 from ros_lint.facts.sight import Problem
-from ros_lint.slips import similar
+from ros_lint.slips import is_meant, similar
 
 _REMOVED = {
     "node_executable": "executable",
@@ -55,7 +55,7 @@ def _note_refused(walker: Walker, made: Made, conditions: Conditions, known: Col
         elif not itself:  # of a package, or of the file's own, that has keywords of its own
             continue
         elif near := _near(name, known):
-            kind, message = "misspelt-keyword", f"{made.name} takes no {name}=; is {near}= meant?"
+            kind, message = "misspelt-keyword", f"{made.name} takes no {name}={is_meant([f'{near}='])}"
         else:
             kind, message = "unexpected-keyword", f"{made.name} takes no {name}="
         walker.problems.append(Problem(kind, message, span_of(keyword, made.source)))

@@ -40,6 +40,7 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
+    is_meant,
     place_of,
     similar,
 )
@@ -111,7 +112,7 @@ def _lacking(
     first = attribute.partition(".")[0]
     if not module.open and first not in module.names and f"{name}.{first}" not in script.python_packages:
         near = similar(first, module.names, 1, 0.7)
-        hint = f"; is {near[0]} meant?" if near else "; define it, or take the entry point out"
+        hint = is_meant(near) or "; define it, or take the entry point out"
         yield Finding(
             f"{entry.name}: {module.path} has no {first}{hint}",
             entry.span,
@@ -143,7 +144,7 @@ def _no_module(package: Package, entry: EntryPoint, name: str, function: str, wo
         if not _lacks(workspace, own, name) and (not near or workspace.world.by_import(own).known):
             return
     if near:
-        hint = f"; is {near[0]} meant?"
+        hint = is_meant(near)
     elif unusable := similar(f"{name.replace('.', '/')}.py", strange, 1, 0.9):
         hint = f"; Python cannot import {unusable[0]} by its name: call it {name.rpartition('.')[2]}.py"
     yield Finding(

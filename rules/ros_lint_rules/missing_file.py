@@ -41,6 +41,7 @@ from ros_lint.api import (
     Workspace,
     called,
     evaluated_name,
+    is_meant,
     similar,
 )
 
@@ -131,10 +132,9 @@ def _hint(package: Package, path: str) -> str:
     folder, _, name = path.rpartition("/")
     same = [file for file in package.files if file.rpartition("/")[2] == name]
     if len(same) == 1:
-        return f"; is {same[0]} meant?"
+        return is_meant(same)
     beside = [file.rpartition("/")[2] for file in package.files if file.rpartition("/")[0] == folder]
-    near = similar(name, beside, 1, 0.8)
-    return f"; is {folder + '/' if folder else ''}{near[0]} meant?" if near else ""
+    return is_meant([f"{folder}/{near}".lstrip("/") for near in similar(name, beside, 1, 0.8)])
 
 
 def _python_packages(package: Package) -> Iterator[Finding]:

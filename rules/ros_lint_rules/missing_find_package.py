@@ -44,6 +44,7 @@ from ros_lint.api import (
     cmake_edits,
     come_along,
     found_names,
+    is_meant,
     several,
     similar,
 )
@@ -105,7 +106,7 @@ def _no_packages(package: Package, found: frozenset[str], workspace: Workspace) 
             if name in targets:
                 way_out = "is a target of this package and no package: link it with target_link_libraries()"
             elif near := similar(name, sorted(found), 1, 0.9):
-                way_out = f"is no package that is found; is {near[0]} meant?"
+                way_out = f"is no package that is found{is_meant(near)}"
                 fix = Fix.of(f"write {near[0]}", cmake_edits.write(call, index, near[0]), safe=False)
             else:
                 continue

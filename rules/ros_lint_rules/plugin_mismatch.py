@@ -55,6 +55,7 @@ from ros_lint.api import (
     cmake_edits,
     hidden,
     is_apart,
+    is_meant,
     is_shared_by_words,
     library_of,
     per_workspace,
@@ -276,7 +277,7 @@ def _library(package: Package, plugin: PluginFile, library: PluginLibrary) -> It
         sure = Confidence.HIGH if is_shared_by_words(package, name) and library.classes else Confidence.MEDIUM
     else:
         near = similar(name, sorted(installed | built), 1, 0.8)
-        message = f"the package builds no library {name}" + (f"; is {near[0]} meant?" if near else "")
+        message = f"the package builds no library {name}{is_meant(near)}"
         sure = Confidence.HIGH if library.classes else Confidence.MEDIUM  # of one without classes nothing is loaded
     yield Finding(message, library.span, f"{plugin.path}#{library.path.rpartition('/')[2]}", confidence=sure)
 

@@ -41,6 +41,7 @@ from ros_lint.api import (
     evaluated_name,
     hidden,
     installed_targets,
+    is_meant,
     several,
     similar,
 )
@@ -84,7 +85,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if problem.kind == "undefined-target" and name not in defined and name not in wrong:
             near = similar(name, names, 1, 0.8)
             if near or not finds_strangers or workspace.world.is_package(name):  # no target has the bare name of a package
-                yield Finding(problem.message + _hint(near), problem.span, name)
+                yield Finding(problem.message + is_meant(near), problem.span, name)
     yield from _unfilled(package)
     yield from _no_libraries(package, defined)
 
@@ -128,15 +129,11 @@ def _finding(message: str, name: str, names: Sequence[str], places: list[tuple[C
     near = similar(name, names, 1, 0.8)
     fix = None
     if near:
-        message += _hint(near)
+        message += is_meant(near)
         if all(call.texts[index] == name for call, index in places):
             fix = Fix(f"write {near[0]}", tuple(cmake_edits.write(call, index, near[0]) for call, index in places), safe=False)
     first, *others = [call.span(index) for call, index in places]
     return Finding(message, first, name, several(Related("also here", span) for span in others), fix)
-
-
-def _hint(near: Sequence[str]) -> str:
-    return f"; is {near[0]} meant?" if near else ""
 
 
 RULE = Rule(
