@@ -283,6 +283,11 @@ def test_what_plugins_are_loaded_for(text: str, expected: list[tuple[str, str]])
     assert [(loader.package, loader.base) for loader in facts.loaders] == expected
     assert all(source.slice(loader.span) == loader.package for loader in facts.loaders)
     assert not cpp.collect(Text("a.cpp", text)).loaders
+    # The header that declares the loader is mostly the one of the source's own name.
+    facts = cpp.collect(Text("src/chain.cpp", '#include "robot/chain.hpp"\n' + text))
+    assert [(loader.package, loader.base) for loader in facts.loaders] == expected
+    assert not cpp.collect(Text("src/chain.cpp", '#include "robot/chain_links.hpp"\n' + text)).loaders
+    assert not cpp.collect(Text("include/chain.hpp", '#include "robot/chain.hpp"\n' + text)).loaders
 
 
 def test_computed_include_is_opaque() -> None:

@@ -11,8 +11,11 @@ from ros_lint.collectors.cpp_registrations import registrations
 from ros_lint.collectors.cpp_symbols import symbols
 from ros_lint.facts.sight import Facet, Opaque
 from ros_lint.facts.sources import FileFacts, Mention
+from ros_lint.suffixes import SOURCES
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from ros_lint.text import Text
 
 _LOADERS = ("pluginlib", "class_loader")
@@ -30,7 +33,7 @@ def collect(source: Text) -> FileFacts:
     included, code = found.mentions, found.code
     known = {mention[0].partition("/")[0] for mention in included}  # by index: there are ten thousands
     packages, files = look_ups(source, code)
-    loading = () if known.isdisjoint(_LOADERS) else loaders(source, code)
+    loading = loaders(source, code) if not known.isdisjoint(_LOADERS) or _implements(source.path, included) else ()
     packages += [
         Mention(loader.package, "package", loader.span, f'"{loader.package}", "{loader.base}"')
         for loader in loading
@@ -42,6 +45,13 @@ def collect(source: Text) -> FileFacts:
         included.sort(key=_place)
     opaque = _opaque(source, found.computed) if found.computed else ()
     return FileFacts(tuple(included), opaque, registrations(source, code), files, loaders=loading)
+
+
+def _implements(path: str, included: Iterable[Mention]) -> bool:
+    """Whether a source includes the header of its own name, which may declare what the source loads plugins with."""
+    name = path.rpartition("/")[2]
+    stem = name[: name.rfind(".") + 1]
+    return name.endswith(SOURCES) and any(header[header.rfind("/") + 1 :].startswith(stem) for header, *_ in included)
 
 
 def _opaque(source: Text, computed: list[Include]) -> tuple[Opaque, ...]:
