@@ -70,21 +70,21 @@ def of_found(tree: Tree, package: Package, source: Source, world: World, types: 
 
 
 def unwritten(tree: Tree, package: Package) -> frozenset[str]:
-    """Return the classes in plugin descriptions of a package, as they are written there, whose name stands in no source of it.
+    """Return the classes in plugin descriptions of a package whose name stands in no source of it.
 
     None where names are put together, so that they need not stand there.
     """
     made = {registration.name for registration in package.registrations}
     plugins = package.built.plugins
     described = [one.type for plugin in plugins for library in plugin.libraries for one in library.classes]
-    wanted = [name for name in dict.fromkeys(described) if name.replace(" ", "").removeprefix("::") not in made]
+    wanted = [name for name in dict.fromkeys(described) if name not in made]
     if not wanted:
         return frozenset()
     sources = [file for file in package.files if file.endswith(_OF_CODE) or file.endswith(_OF_BUILD)]
     data = b"\n".join([content for _, content in contents(tree, package.path, sources)])
     if _PUT_TOGETHER.search(data):
         return frozenset()
-    words = {name: name.rpartition("::")[2].strip().encode() for name in wanted}
+    words = {name: name.rpartition("::")[2].encode() for name in wanted}
     return frozenset([name for name, word in words.items() if word and not re.search(rb"\b%s\b" % re.escape(word), data)])
 
 
