@@ -24,8 +24,7 @@ class Advice(NamedTuple):
     circular: bool
     """Whether the obstacle is that it needs the package itself."""
     certain: bool = True
-    """Whether the need is as certain as its evidence: not where it is circular, what is needed is no package of ROS, or colcon
-    rejects the manifest."""
+    """Whether the need is as certain as its evidence: not where it is circular or colcon rejects the manifest."""
 
     @property
     def ending(self) -> str:
@@ -42,8 +41,8 @@ def advice(package: Package, workspace: Workspace, name: str, role: Role) -> Adv
         return Advice(written, None, f"it needs this package itself{between}", circular=True, certain=False)
     usable = not (package.manifest and package.manifest.problems)
     if (bare := workspace.by_name.get(name)) and all(each.manifest is None for each in bare):
-        obstacle = f"{bare[0].path or name} has no package.xml, so rosdep does not know it; give it one"
-        return Advice(written, None, obstacle, circular=False, certain=False)
+        obstacle = f"{bare[0].path} has no package.xml, so rosdep does not know it; give it one"
+        return Advice(written, None, obstacle, circular=False, certain=usable)
     if lacks_rule(workspace, name):
         obstacle = f"rosdep has no rule for it{_where(workspace, name)}"
         return Advice(written, None, obstacle, circular=False, certain=usable)

@@ -33,9 +33,8 @@ needed at run time, `<exec_depend>` for what is needed at run time only, `<test_
   then the confidence is medium.
 - All evidence is in files that are perhaps not built or installed: then, too, the confidence is medium.
 - The package needs this one itself, in whatever tag, so that declaring it would close a cycle that colcon refuses: then,
-  too, the confidence is medium, and nothing is fixed. Nor is it where no key resolves for the distribution.
-- What is used is a project of the workspace without `package.xml`, which colcon builds and rosdep does not know: then, too,
-  the confidence is medium, and nothing is fixed.
+  too, the confidence is medium, and nothing is fixed. Nor is it where no key resolves for the distribution, and for a project of
+  the workspace without `package.xml`, which colcon builds and rosdep does not know.
 - Of `launch`, the confidence is medium where `launch_ros` is missing as well, which brings it.
 - Modules of launch itself that only launch files import come with `ros2 launch`: then the severity is info.
 - Only launch files that are no tests name it, for what they start, include or look up: that is the business of
