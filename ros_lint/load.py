@@ -104,7 +104,8 @@ class Loader:
             else [_Read(found, self._declared(found.manifest), None, {}, ()) for found in founds]
         )
         absent = frozenset(folder.rpartition("/")[2] for folder in submodules)
-        world = World(tuple(self._members(reads, discovery.rejected)), self._underlays, self._knowledge, absent)
+        fetched = absent | source_lists.repositories(tree, lists)
+        world = World(tuple(self._members(reads, discovery.rejected)), self._underlays, self._knowledge, fetched)
         packages = tuple(self._join(tree, reads, world, absent, sources))
         unusable = tuple(self._unusable(manifest) for manifest in discovery.rejected if not self._exclude(manifest.path))
         not_checked = dict.fromkeys((*discovery.not_checked, *_unreadable(collected), *_failed(reads)))

@@ -46,6 +46,16 @@ def submodules(tree: Tree, lists: Iterable[str]) -> tuple[str, ...]:
     return tuple(sorted(found))
 
 
+_REPOSITORY = re.compile(r"^[ \t]+['\"]?([\w./+-]+?)['\"]?[ \t]*:[ \t\r]*$|\blocal-name:[ \t]*['\"]?([\w./+-]+)", re.MULTILINE)
+
+
+def repositories(tree: Tree, lists: Iterable[str]) -> frozenset[str]:
+    """Return how the folders are called into which ``*.repos`` and ``*.rosinstall`` have repositories fetched."""
+    texts = [text.text for path in lists if not path.endswith(".gitmodules") and (text := text_of(tree, path))]
+    found = (match[1] or match[2] for text in texts for match in _REPOSITORY.finditer(text))
+    return frozenset([folder.rstrip("/").rpartition("/")[2] for folder in found])
+
+
 def _has_entries(tree: Tree, folder: str) -> bool:
     try:
         return bool(tree.list(folder))

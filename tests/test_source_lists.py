@@ -13,3 +13,11 @@ def test_lists_of_sources_are_found_near_the_top_and_in_packages() -> None:
         ".gitmodules", "a.repos", "src/arm/arm.rosinstall", "src/deep/er/z.repos", "src/deps.repos"
     )  # fmt: skip
     assert source_lists.find(MemoryTree({}), ["nowhere"], []) == ()
+
+
+def test_the_folders_of_repositories() -> None:
+    repos = "repositories:\n  laser_tools:\n    type: git\n    url: https://example.com/x.git\n  'core/arm':\n    version: main\n"
+    install = "- git: {local-name: src/camera, uri: 'https://example.com/y.git'}\n- git:\n    local-name: 'base'\n"
+    tree = MemoryTree({"a.repos": repos, "b.rosinstall": install, ".gitmodules": "[submodule]\n  path = z\n"})
+    found = source_lists.repositories(tree, ["a.repos", "b.rosinstall", ".gitmodules", "gone.repos"])
+    assert found == {"laser_tools", "arm", "camera", "base"}

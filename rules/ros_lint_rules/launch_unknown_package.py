@@ -26,7 +26,7 @@ elsewhere, check with the workspace that holds it as `--underlay`.
 - Nobody said which distribution is meant, and another one has the package.
 - The launch file asks first if the package is there.
 - The name has a dollar in it: it stands in a template.
-- A git submodule that is not cloned has a folder of the name.
+- A git submodule that is not cloned has a folder of the name, or a `*.repos` or `*.rosinstall` has a repository of it fetched.
 - The name is that of a default which an argument can replace: then the confidence is medium.
 - The name is merely unknown: that may be a driver that its vendor does not release. Then the confidence is medium, unless
   the package is started under no condition and `package.xml` does not declare it either: wherever it comes from, whoever
