@@ -21,7 +21,8 @@ _ASKED = "$ROS_DISTRO"
 
 def optional_under(conditions: Sequence[LaunchCondition]) -> bool | None:
     """Return whether what is under conditions is done without somewhere, None if no distribution comes to it."""
-    holds = {_holds_in(distro, conditions) for distro in _DISTRIBUTIONS}
+    asking = [condition for condition in conditions if any(_ASKED in text for text in condition.texts)]
+    holds = {_holds_in(distro, asking) for distro in _DISTRIBUTIONS} if asking else {True}
     return None if holds == {False} else False in holds or asks_first(conditions)
 
 
