@@ -30,14 +30,18 @@ _DECIDES = re.compile(
 )
 
 
-_SWITCH = re.compile(r"^([^\W\d]\w*)[ \t]*(?::[^=\n]*)?=[ \t]*(?:False|None|0|''|\"\")[ \t]*(?:#.*)?\r?$", re.MULTILINE)
+# The sign is looked for fast, and what it gives a value to only where it gives this one.
+_OFF = re.compile(r"=[ \t]*(?:False|None|0|''|\"\")[ \t]*(?:#.*)?\r?$", re.MULTILINE)
+_NAMED = re.compile(r"([^\W\d]\w*)[ \t]*(?::[^=\n]*)?")
 
 
 def scan(text: str) -> list[Import] | None:
     """Return the imports of a source, or None when only a parser can tell."""
     if "\r" in text and text.count("\r") != text.count("\r\n"):
         return None
-    switches = {match[1] for match in _SWITCH.finditer(text)}
+    off = [match.start() for match in _OFF.finditer(text)]
+    named = [_NAMED.fullmatch(text, text.rfind("\n", 0, start) + 1, start) for start in off]
+    switches = {match[1] for match in named if match}
     if switches and re.search(rf"^[ \t]*(?:el)?if\b[^\n]*\b(?:{'|'.join(switches)})\b", text, re.MULTILINE):
         return None
     found: list[Import] = []
