@@ -76,11 +76,8 @@ def remove_dependency(package: Package, depend: Depend) -> tuple[Edit, ...]:
 
 
 def is_unseen_by_name(world: World, name: str) -> bool:
-    """Whether a name alone says that it may do its work unseen: it is no package that is known, or a linter, a generator ...
-
-    What only other distributions have is known from there.
-    """
-    return not world.home(name).is_package(name) or world.is_key(name) or sounds_unseen(world, name)
+    """Whether a name alone says that it may do its work unseen: it is no package that is known, or a linter, a generator ..."""
+    return not world.is_package(name) or world.is_key(name) or sounds_unseen(world, name)
 
 
 def sounds_unseen(world: World, name: str) -> bool:
@@ -100,9 +97,9 @@ def works_unseen(package: Package, workspace: Workspace, name: str) -> bool:
     True for what is no package that is known; for packages that bring others, give macros or plugins; for those whose name
     says that they stand for something else; and for what generated interfaces need. See :func:`is_mostly_run`, too.
     """
+    world = workspace.world
     if is_unseen_by_name(workspace.world, name):
         return True
-    world = workspace.world.home(name)
     if package.script and package.script.interfaces and name in _IN_INTERFACES:
         return True
     if world.plugins(name).names:
@@ -147,7 +144,7 @@ def is_mostly_run(workspace: Workspace, name: str) -> bool:
 
     Not so of packages that give nothing but interfaces: this tells that Python code uses them, which has to name them.
     """
-    world = workspace.world.home(name)
+    world = workspace.world
     if name in workspace.by_name or not world.is_package(name):
         return False
     released = world.released(name)
@@ -165,7 +162,7 @@ def _runs(world: World, name: str) -> bool:
 
 def leaves_trace(package: Package, workspace: Workspace, name: str) -> bool:
     """Whether a dependency leaves a trace if it is of any use: messages, and modules where no Python code could import them."""
-    world = workspace.world.home(name)
+    world = workspace.world
     released = world.released(name)
     if released is None:
         return False

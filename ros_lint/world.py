@@ -76,7 +76,6 @@ class World:
         self._meant: dict[tuple[str, bool], Meant | None] = {}
         self._near: dict[tuple[str, bool], tuple[str, ...]] = {}
         self._is: dict[str, tuple[bool, bool]] = {}
-        self._homes: dict[str, World] = {}
         self._reach = Reach(self._brings)
 
     # --- packages -------------------------------------------------------------------------------------------------
@@ -113,16 +112,6 @@ class World:
         if self.knowledge.elsewhere(name):
             return "elsewhere"
         return "end-of-life" if self.knowledge.names.end_of_life(name) else "unknown"
-
-    def home(self, name: str) -> World:
-        """Return the world in which a package is: that of another distribution, if nothing is known of it here.
-
-        What a package is and gives hardly changes from one to the next.
-        """
-        if self.standing(name) != "elsewhere":
-            return self
-        knowledge = self.knowledge.home(name)
-        return self._homes.setdefault(knowledge.distro, World((), (), knowledge))
 
     def successor(self, name: str) -> str:
         """Return what does here what a package did in ROS 1, or ""."""

@@ -123,7 +123,6 @@ def test_a_package_as_the_index_has_it() -> None:
     assert "rmw_fastrtps_cpp" in set(known.index.members("rmw_implementation_packages"))
     assert known.date == "2026-08-22"
     assert known.elsewhere("gazebo_ros") == ("humble",)
-    assert known.home("gazebo_ros").distro == "humble"
 
 
 def test_three_answers() -> None:

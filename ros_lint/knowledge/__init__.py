@@ -101,16 +101,6 @@ class Knowledge:
         """Return the other distributions that have a package, oldest first."""
         return tuple(other.distro for other in self._where(name))
 
-    def home(self, name: str) -> Knowledge:
-        """Return what is known, seen from another distribution that has a package.
-
-        That is the newest long-term release that has it, of which more is known, or else the newest.
-        """
-        places = self._store.places
-        lasting = {distro.name for distro in distros(places) if distro.long_term}
-        having = self.elsewhere(name)
-        return Knowledge([each for each in having if each in lasting or lasting.isdisjoint(having)][-1], places)
-
     def _where(self, name: str) -> tuple[Index, ...]:
         having = self._having.get(name)
         if having is None:

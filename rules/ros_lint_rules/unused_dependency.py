@@ -20,10 +20,9 @@ Where a type of it stands in C++ code by its bare name, which a header of a thir
 whenever the dependency might be needed in a way that leaves no trace: linters, run-time and tool dependencies, tags
 under a condition, packages whose build scripts cannot be followed everywhere, metapackages, vendor packages and packages
 without code, and dependencies that give CMake macros or plugins. For rosdep keys of libraries, which others' headers may need,
-unless they come along with a package that is used, for packages that nobody knows, or that only other distributions have
-where they bring there what is used here and not declared, for Python packages that are mostly declared to be run, and such as
-have messages and programs, where a file of the workspace cannot be read, and where no module is there that an entry point
-names, or none that imports anything, the confidence is medium.
+unless they come along with a package that is used, for packages that nobody knows, for Python packages that are mostly
+declared to be run, and such as have messages and programs, where a file of the workspace cannot be read, and where no module
+is there that an entry point names, or none that imports anything, the confidence is medium.
 
 So it is where nothing uses the dependency, but something else that is used and not declared comes along with it alone, in
 this package or in another one of the workspace. That is to be declared instead, and nothing is removed.
@@ -47,14 +46,12 @@ from ros_lint.api import (
     Severity,
     Workspace,
     carriers,
-    declared_closure,
     is_built_in_sight,
     is_library,
     is_mostly_run,
     is_seen_whole,
     is_unseen_by_name,
     leaves_trace,
-    needs,
     remove_dependency,
     satisfying,
     sounds_unseen,
@@ -63,7 +60,6 @@ from ros_lint.api import (
 )
 
 _TAGS = ("depend", "build_depend")
-_FOR_USERS = Role.BUILD | Role.EXEC | Role.EXPORT
 _NO_TEST = ("enable_testing", "ament_lint_auto_find_test_dependencies", "ament_auto_find_test_dependencies")
 
 
@@ -127,22 +123,7 @@ def _unused(package: Package, workspace: Workspace) -> Iterator[tuple[Declared, 
             continue
         # What headers of others need of a library is there without the tag, if it comes along with what they are from.
         doubted = unknown and not (depend.tag in _TAGS and is_library(world, name) and name in world.closure(sorted(used)))
-        doubted = doubted or (world.standing(name) == "elsewhere" and _may_carry(package, workspace, name))
         yield declared, says, Confidence.MEDIUM if doubted or mostly_run or unsure else Confidence.HIGH
-
-
-def _may_carry(package: Package, workspace: Workspace, name: str) -> bool:
-    """Whether a package that only other distributions have may bring what is used and not declared, here or by users."""
-    brings = workspace.world.knowledge.brings_elsewhere
-    return any(
-        brings(name, provider)
-        for other in workspace.packages
-        if other is package or package.name in declared_closure(other, workspace, _FOR_USERS)
-        for need in needs(other, workspace)
-        if not (need.declared or need.brought)
-        for use in need.uses
-        for provider in use.providers
-    )
 
 
 def _lacks_programs(package: Package, script: BuildScript) -> bool:
