@@ -52,7 +52,8 @@ class World:
     """Answers questions about names. Reads data files and underlays when first asked; may then raise KnowledgeError.
 
     Of two members with one name the first counts; of two underlays that have a package, the first. ``absent`` are the names
-    of the folders of git submodules that are not cloned: mostly those of the packages in them.
+    of the folders of git submodules that are not cloned, and of those into which lists of sources have repositories fetched:
+    mostly those of the packages in them.
     """
 
     def __init__(
@@ -73,6 +74,7 @@ class World:
             for name, installed in underlay.packages.items():
                 self._installed.setdefault(name, installed)
         self._remembered: dict[tuple[str, str], Providers] = {}
+        self._interfaces: dict[tuple[str, bool], frozenset[str]] = {}
         self._meant: dict[tuple[str, bool], Meant | None] = {}
         self._near: dict[tuple[str, bool], tuple[str, ...]] = {}
         self._is: dict[str, tuple[bool, bool]] = {}
@@ -217,17 +219,21 @@ class World:
         """Return the names in bin."""
         return self._known(name, "programs")
 
-    def interfaces(self, name: str, *, everywhere: bool) -> tuple[str, ...]:
+    def interfaces(self, name: str, *, everywhere: bool) -> frozenset[str]:
         """Return all that a package may have of interfaces, as msg/Name, with ``everywhere`` in any distribution that has it.
 
         Empty where nobody knows them all.
         """
-        known = [self._known(name, "interfaces")]
-        if everywhere:
-            known += self.knowledge.known_elsewhere(name, "interfaces")
-        if not all(one.complete and one.names for one in known):
-            return ()
-        return tuple(dict.fromkeys([each for one in known for each in (*one.names, *one.maybe)]))
+        key = (name, everywhere)
+        if key not in self._interfaces:
+            known = [self._known(name, "interfaces")]
+            if everywhere:
+                known += self.knowledge.known_elsewhere(name, "interfaces")
+            whole = all(one.complete and one.names for one in known)
+            self._interfaces[key] = (
+                frozenset([each for one in known for each in (*one.names, *one.maybe)]) if whole else frozenset()
+            )
+        return self._interfaces[key]
 
     def python_modules(self, name: str) -> Known:
         """Return the top-level Python modules. Interface packages have one of their own name."""

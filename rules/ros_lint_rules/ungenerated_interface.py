@@ -3,8 +3,11 @@
 
 Messages, services and actions in `msg/`, `srv/` and `action/` of a package that `rosidl_generate_interfaces()` is not given,
 while it is given others. And those of an `ament_python` package that says in `package.xml` that it generates interfaces:
-nothing is generated from them at all. And, in other packages of the workspace, what includes, imports by name or has in an
-interface of its own one that the package it should be from does not generate, and has no file of.
+nothing is generated from them at all.
+
+And the reverse: what a package includes, imports by name or has in an interface of its own, and the package that it should be
+from does not have: itself, another one of the workspace, or one that is released. `Header header` in a definition means a
+`Header` of the same package, and not that of `std_msgs`.
 
 ## Why it matters
 
@@ -24,12 +27,17 @@ copies that were left lying, such as `State copy.msg` or `State.old.msg`. What a
 was set aside, and is told of with medium confidence, as is a call that stands under a condition. Of uses it does not speak in
 files that may be dead, where the import or include is optional, where any folder of the package offers what is named in another
 way, or two packages of the workspace have the name, and in packages with a file that cannot be read.
+
+Of a released package only where all of its interfaces are known. Where nobody said which distribution is meant, none that has
+it may have the interface. The confidence is medium where the workspace lists further repositories, which may bring a package of
+the same name.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from functools import cache
 from typing import NamedTuple
 
 from ros_lint.api import (
@@ -47,9 +55,11 @@ from ros_lint.api import (
     Workspace,
     called,
     did_you_mean,
+    generated_from,
     interface_names,
     per_package,
     place_of,
+    relative,
     several,
     similar,
 )
@@ -60,6 +70,8 @@ _KINDS = {"msg": ("msg", "idl"), "srv": ("srv", "idl"), "action": ("action", "id
 _SAYS_SO = ("rosidl_interface_packages", "rosidl_default_generators")
 _HEADER = re.compile(r"(?P<maker>\w+)/(?P<kind>msg|srv|action)/(?P<name>(?!rosidl_)(?!\w*__)\w+)(?P<end>\.h(?:pp)?)")
 """The header of an interface, and none that it is made of."""
+_USUAL = ("std_msgs", "geometry_msgs", "sensor_msgs", "builtin_interfaces", "nav_msgs")
+"""Packages with messages that others are made of."""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -99,7 +111,7 @@ def _of_python(package: Package) -> Iterator[Finding]:
 
 
 class _Used(NamedTuple):
-    """An interface of another package in a place that needs it."""
+    """An interface in a place that needs it."""
 
     maker: str
     kind: str
@@ -108,22 +120,28 @@ class _Used(NamedTuple):
     """As written, without the end of a header."""
     header: str
     """How the name of a header ends, "" for others."""
+    bare: bool
+    """Whether it is written without a package, for one of its own."""
     place: Span
 
 
 def _of_users(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    """Speak of what a package uses of others that generate interfaces, and not these ones."""
+    """Speak of what a package uses of those that generate interfaces, and not these ones."""
     if not package.builds_with.startswith("ament_") or workspace.unread(package):
         return
-    told: dict[tuple[str, str, str, str], list[Span]] = {}
+    told: dict[tuple[str, str, str, str, bool], list[Span]] = {}
     for used in _used(package):
         told.setdefault(used[:-1], []).append(used.place)
     for what, places in told.items():
         used = _Used(*what, places[0])
         makers = workspace.by_name.get(used.maker, ())
-        if len(makers) != 1 or (wrong := _wrong(used, makers[0], workspace)) is None:
+        maker = makers[0] if len(makers) == 1 else None
+        wrong = _lacking(used, package, workspace) if not makers else _wrong(used, maker, workspace) if maker else None
+        if wrong is None:
             continue
-        made = next(called(makers[0], _GENERATE, anywhere=True), None)
+        if used.bare:
+            wrong = _qualified(used, package, workspace) or wrong
+        made = next(called(maker, _GENERATE, anywhere=True), None) if maker else None
         yield Finding(
             wrong,
             places[0],
@@ -134,44 +152,88 @@ def _of_users(package: Package, workspace: Workspace) -> Iterator[Finding]:
                     *(Related("here, too", place) for place in places[1:]),
                 ]
             ),
+            confidence=Confidence.MEDIUM if not makers and workspace.source_lists else Confidence.HIGH,
             severity=Severity.ERROR,
         )
 
 
 def _used(package: Package) -> Iterator[_Used]:
-    """Yield what a package surely uses that others should generate."""
+    """Yield what a package surely uses that others should generate, or it itself."""
     needed = [use for use in package.uses if use.sure and not use.optional]
     for use in needed:
         if use.via == "interface":
-            yield _Used(use.package, "", use.name.rpartition("/")[2], "", use.span)
+            kind = "" if use.span.path.endswith(".idl") else "msg"
+            yield _Used(use.package, kind, use.name.rpartition("/")[2], "", False, use.span)
         elif use.via == "include" and (match := _HEADER.fullmatch(use.name)) and match["maker"] == use.package:
-            yield _Used(use.package, match["kind"], match["name"], match["end"], use.span)
+            yield _Used(use.package, match["kind"], match["name"], match["end"], False, use.span)
     modules = {use.span: use.package for use in needed if use.via == "import"}
     for imported in package.imported_types:
         maker, kind, name = imported.name.split("/")
         if modules.get(imported.module) == maker and name[0].isupper():
-            yield _Used(maker, kind, name, "", imported.span)
+            yield _Used(maker, kind, name, "", False, imported.span)
+    given = generated_from(package) if package.interface_files else ()
+    for file in package.interface_files:
+        for type_, span in file.types if relative(package, file.path) in given else ():
+            maker, _, name = type_.rpartition("/")
+            if maker in ("", package.name):
+                yield _Used(package.name, "msg", name, "", not maker, span)
 
 
 def _wrong(used: _Used, maker: Package, workspace: Workspace) -> str | None:
-    """Return what is wrong about a use, None if nothing is, or nobody can tell."""
+    """Return what is wrong about a use of a package of the workspace, None if nothing is, or nobody can tell."""
     generated = maker.built.interfaces
     if not generated or maker.builds_with != "ament_cmake" or maker.hidden(Facet.INTERFACES):
         return None
-    form = interface_names.snake if used.header else str
     there = _there(maker, workspace)[used.kind, bool(used.header)]
     if used.name in there or (not used.header and any(used.name.startswith(f"{name}_") for name in there)):
         return None
     by_hand = f"{used.maker}/{used.kind}/{used.name}{used.header}" if used.header else f"{used.kind}/__init__.py"
     if any(f"/{file}".endswith(f"/{by_hand}") for file in maker.files):
         return None
+    return _says(used, generated, there, "generates", "; correct the name, or add the file")
+
+
+def _lacking(used: _Used, package: Package, workspace: Workspace) -> str | None:
+    """Return what is wrong about a use of a package that is released, or below the workspace, None as above."""
+    known = workspace.world.interfaces(used.maker, everywhere=not workspace.target.told)
+    there = _names(known, used.kind, bool(used.header))
+    if not known or used.name in there or (not used.header and any(used.name.startswith(f"{name}_") for name in there)):
+        return None
+    by_hand = f"/{used.maker}/{used.kind}/{used.name}{used.header}"
+    if any(f"/{file}".endswith(by_hand) for file in package.files if used.header):
+        return None
+    return _says(used, sorted(known), there, "has", "; correct the name")
+
+
+def _says(used: _Used, interfaces: Sequence[str], there: Collection[str], does: str, way_out: str) -> str:
+    """Return what a message says of a use, by all that there is, and by what of it is of the same kind."""
+    form = _form(used.header)
     named = f"{used.kind or 'msg'}/{used.name}{used.header}"
-    elsewhere = next((each for each in generated if _form(each, form).endswith(f"/{used.name}")), "")
+    of_others = ((each.partition("/")[0], form(each.partition("/")[2])) for each in interfaces)
+    elsewhere = next((f"{kind}/{name}{used.header}" for kind, name in of_others if name == used.name), "")
     if elsewhere:
-        return f"{used.maker} generates no {named}; there is {_form(elsewhere, form)}{used.header}"
+        return f"{used.maker} {does} no {named}; there is {elsewhere}"
     near = similar(used.name, sorted(there))
-    way_out = did_you_mean([f"{each}{used.header}" for each in near]) or "; correct the name, or add the file"
-    return f"{used.maker} generates no {named}{way_out}"
+    return f"{used.maker} {does} no {named}{did_you_mean([f'{each}{used.header}' for each in near]) or way_out}"
+
+
+def _qualified(used: _Used, package: Package, workspace: Workspace) -> str:
+    """Return what a message says of a type without its package that another one has, "" if none is known that has it."""
+    names = dict.fromkeys([*(declared.name for declared in package.declared), *_USUAL])
+    world, everywhere = workspace.world, not workspace.target.told
+    having = [
+        f"{name}/{used.name}"
+        for name in names
+        if f"{used.kind}/{used.name}" in (world.interfaces(name, everywhere=everywhere) or _made(name, workspace))
+    ]
+    if not having:
+        return ""
+    return f"{used.maker} generates no {used.name}, and a type without a package is of the same one{did_you_mean(having[:2])}"
+
+
+def _made(name: str, workspace: Workspace) -> tuple[str, ...]:
+    """Return what a package of the workspace generates."""
+    return next((package.built.interfaces for package in workspace.by_name.get(name, ())), ())
 
 
 @per_package
@@ -181,18 +243,20 @@ def _there(maker: Package, workspace: Workspace) -> Mapping[tuple[str, bool], fr
     Those of files from which nothing is generated count, too: another finding speaks of them.
     """
     left_over = [each for file in maker.files if (each := _interface(file)) and each not in maker.built.set_aside]
-    everything = dict.fromkeys([*maker.built.interfaces, *left_over])
-    names = {kind: [each.partition("/")[2] for each in everything if each.startswith(kind)] for kind in ("", *_KINDS)}
-    return {
-        (kind, header): frozenset(map(interface_names.snake, plain) if header else plain)
-        for kind, plain in names.items()
-        for header in (False, True)
-    }
+    everything = frozenset([*maker.built.interfaces, *left_over])
+    return {(kind, header): _names(everything, kind, header) for kind in ("", *_KINDS) for header in (False, True)}
 
 
-def _form(interface: str, form: Callable[[str], str]) -> str:
-    kind, _, name = interface.partition("/")
-    return f"{kind}/{form(name)}"
+@cache
+def _names(interfaces: frozenset[str], kind: str, header: bool) -> frozenset[str]:
+    """Return the names of those of a kind, "" for any, as they are written, in headers or elsewhere."""
+    form = _form(header)
+    return frozenset([form(each.partition("/")[2]) for each in interfaces if each.startswith(kind)])
+
+
+def _form(header: object) -> Callable[[str], str]:
+    """Return how the name of an interface is written, in that of a header or elsewhere."""
+    return interface_names.snake if header else str
 
 
 def _interface(file: str) -> str:
