@@ -8,13 +8,14 @@
 - An argument whose default is none of its choices, or one that makes an expression fail: with `false` or `fast` for
   `$(var x)`, `$(eval 'not $(var x)')` and `$(eval '$(var x) == 0')` are no Python that can be evaluated.
 - An argument that is declared and never used.
+- A configuration that is asked for with a default, while an argument of nearly the same name is declared.
 
 ## Why it matters
 
 Without a required argument, and with a default that is no choice, the launch file stops: `Included launch description
 missing required argument`. So it does when a configuration is asked for that nobody set: `launch configuration 'x' does
 not exist`. An argument that nobody takes does nothing, silently: it was renamed or removed, and what it used to change has
-its default again.
+its default again. So it is with one that is asked for by another name than it is declared by: the default there counts.
 
 ## How to fix it
 
@@ -37,6 +38,8 @@ Give the argument, or give it a default where it is declared; correct the name, 
 - A file of the workspace cannot be read: it may include this one and give it anything. What is asked for and declared
   nowhere, and what is declared and never used, is not told of then, and of an expression that fails the confidence is medium.
 - A file has nothing but arguments: it sets them for whoever includes it.
+- What is asked for with a default, and looks like an argument, is set or passed on by any launch file of the workspace, or the
+  two differ in a number. If the argument is used, too, the confidence is medium.
 - What is asked for before it is declared is declared or set by a file that includes this one, or perhaps by one that it
   includes before. Where it is asked for under a condition, or the file requires other arguments, so that it is a part of
   others, the confidence is medium.
@@ -49,6 +52,7 @@ if it resembles an argument that is not given.
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Collection, Iterator, Mapping
 
@@ -65,6 +69,7 @@ from ros_lint.api import (
     Severity,
     Span,
     Workspace,
+    asked_at,
     broken_expressions,
     configurations,
     did_you_mean,
@@ -82,6 +87,9 @@ _MOST_MISSING = 2
 
 _QUIET = frozenset({"launch", "launch_ros", "launch_xml", "launch_yaml", "ament_index_python", "nav2_common", "xacro", "yaml"})
 """Modules of launch files besides those of Python."""
+
+
+_DIGITS = re.compile(r"\d+")
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
@@ -125,20 +133,39 @@ def _of_file(
     missing = needed(file, strange) if strange else {}
     for name, span in missing.items() if len(missing) <= _MOST_MISSING else ():
         yield _undeclared(name, span, sorted(names.declared), sure=not above)
+    unused = names.declared.keys() - names.asked.union(inside, *(one.asked for one in above))
+    slips = dict(_slips(file, strange - missing.keys() - families.made, names.declared))
+    for name, (meant, span) in slips.items():
+        yield Finding(
+            f"{name} is asked for, and nothing declares it; {meant} is declared{', and not used' if meant in unused else ''}: "
+            f"write {meant}, or else the default here counts whatever is given",
+            span,
+            name,
+            (Related("declared here", names.declared[meant]),),
+            confidence=Confidence.HIGH if meant in unused else Confidence.MEDIUM,
+        )
     if file.language == "python" and not (file.imports and all(_is_of_launch(name) for name, _ in file.imports)):
         return
     if families.fill(file) or all(action.kind in ("argument", "set") for action in file.actions):
         return
-    asked = names.asked.union(inside, *(one.asked for one in above))
-    taken = {name for name in _empty(file) if name in beside}
+    taken = {name for name in _empty(file) if name in beside}.union(meant for meant, _ in slips.values())
     for name, span in names.declared.items():
-        if name not in asked and name not in taken:
+        if name in unused and name not in taken:
             yield Finding(
                 f"the argument {name} is declared and never used: it does nothing; use it, or take it out",
                 span,
                 name,
                 severity=Severity.INFO,
             )
+
+
+def _slips(file: LaunchFile, names: frozenset[str], declared: Mapping[str, Span]) -> Iterator[tuple[str, tuple[str, Span]]]:
+    """Yield those of some names that are asked for with a default, each with what is declared and looks like it."""
+    for (name, has_default), span in asked_at(file, names).items() if names else ():
+        digits = _DIGITS.findall(name)
+        near = similar(name, [each for each in declared if _DIGITS.findall(each) == digits], 1, 0.85)
+        if has_default and near:
+            yield name, (near[0], span)
 
 
 def _too_early(file: LaunchFile, links: Links, above: Collection[str]) -> Iterator[Finding]:
