@@ -94,7 +94,7 @@ def _files(source: Text) -> Iterator[LookUp]:
     places: dict[tuple[str, str], tuple[int, int]] = {}
     for match in _FILE.finditer(source.text):
         key = (match[1] or match[2], match[3])
-        if key not in places and not _in_comment(source.text, match.start()):
+        if key not in places and not _in_comment(source.text, match.start()) and not _is_spared(source.text, match.start()):
             places[key] = match.span()
     for match in _TREE.finditer(source.text):
         path = _TREE_PATH.search(match[0])
@@ -104,6 +104,15 @@ def _files(source: Text) -> Iterator[LookUp]:
     names = sorted(places, key=lambda name: places[name])
     spans = source.spans([places[name] for name in names])
     yield from (LookUp(package, path, span) for (package, path), span in zip(names, spans, strict=True))
+
+
+def _is_spared(text: str, at: int) -> bool:
+    """Whether a place lies in a tag that does without the file: ``<xacro:include filename="..." optional="true"/>``."""
+    opening = text.rfind("<", 0, at)
+    return opening >= 0 and _OPTIONAL.match(text, opening) is not None
+
+
+_OPTIONAL = re.compile(r"""<xacro:include\s[^<>]*\boptional\s*=""")
 
 
 def _search(pattern: re.Pattern[str], text: str, found: dict[str, tuple[int, int]]) -> None:

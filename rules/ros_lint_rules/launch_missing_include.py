@@ -2,14 +2,16 @@
 ## What it finds
 
 A launch file that includes a launch file, or names a parameter, model, map or display file, which its package does not
-have: neither installed there nor in its sources.
+have: neither installed there nor in its sources. Likewise an installed model, display or parameter file, URDF and xacro among
+them, that looks up a mesh or another file in a package of the workspace.
 
 A file that an included launch file names with what it is passed, `$(var folder)/robot.yaml`, is looked for as it is when
 one is launched that includes it, itself or by way of others.
 
 ## Why it matters
 
-The launch file stops, or the node comes up without its parameters.
+The launch file stops, or the node comes up without its parameters. xacro stops at a file to include that is not there; of a
+mesh that is not there, RViz and Gazebo show nothing.
 
 ## How to fix it
 
@@ -27,6 +29,7 @@ Correct the path; the message names files of the same name that the package does
   which distribution is meant, the confidence is medium as long as one of them may have the file.
 - The launch file asks first if the package is there, or the file (`os.path.exists`), unless it stops where it is not; or it
   writes the file itself (`open(path, 'w')`, `xacro.open_output(path)`).
+- Models, displays and parameters that are not installed, or not in every build, and what xacro includes as `optional`.
 
 Where the name hangs on the default of an argument, which others can replace, the confidence is medium.
 """
@@ -48,23 +51,52 @@ from ros_lint.api import (
     Span,
     Workspace,
     did_you_mean,
+    is_apart,
     launchable,
     near_names,
     passed_files,
     referred,
+    relative,
     several,
     similar,
 )
 
 _WRITTEN = (".yaml", ".yml", ".rviz", ".urdf", ".xacro", ".srdf", ".sdf", ".world", ".wbt", ".lua", ".launch", ".py", ".xml")
 """Kinds of files that people write and keep with the package."""
+_MODELS = (".urdf", ".xacro", ".srdf", ".sdf", ".world", ".rviz", ".yaml", ".yml", ".xml")
+"""Kinds of files that look up others in packages and are no programs."""
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
     for package in workspace.packages:
         for finding in _named(package, workspace):
             yield finding._replace(package=package.name)
+        for finding in _modelled(package, workspace):
+            yield finding._replace(package=package.name)
     yield from _passed(workspace)
+
+
+def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    """Yield what is missing of the files that installed models, displays and parameters look up in packages of the workspace."""
+    if not package.look_ups:
+        return
+    installed = {provided.source for provided in package.built.provides if not provided.conditional}
+    found: dict[tuple[str, str], list[Span]] = {}
+    for look_up in package.look_ups:
+        file = relative(package, look_up.span.path)
+        if file.endswith(_MODELS) and file in installed and look_up.package in workspace.by_name and not is_apart(file):
+            found.setdefault((look_up.package, look_up.path), []).append(look_up.span)
+    for (owner, path), places in found.items():
+        others_there = _files_without(owner, path, "file", workspace)
+        if others_there is not None:
+            yield Finding(
+                f"{owner} has no {path}{_hint(path, others_there)}",
+                places[0],
+                path,
+                several(Related("also named here", place) for place in places[1:]),
+                confidence=Confidence.MEDIUM if _is_made(owner, path, workspace) else Confidence.HIGH,
+                severity=Severity.WARNING,
+            )
 
 
 def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
