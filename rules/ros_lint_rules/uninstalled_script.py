@@ -3,8 +3,8 @@
 
 A script with an interpreter line, in `scripts/`, beside scripts that are installed, or in the folder of a Python package that is
 not installed, that an `ament_cmake` package does not install. The confidence is high where a page or a script of the package
-starts it with `ros2 run`, and for an executable node beside nodes that are installed (both import `rclpy`). Else it is medium
-or low: it may be a tool for the sources only.
+starts it with `ros2 run`, and for an executable node beside nodes that are installed (both import `rclpy`), unless those are
+fewer than the ones that are not. Else it is medium or low: it may be a tool for the sources only.
 
 Also a script or a module of an `ament_python` package that a page or a script of the package starts with `ros2 run`, and that
 is neither among the `scripts` nor the entry points.
@@ -26,6 +26,7 @@ the build itself runs, for those that import what only ROS 1 has, and where some
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 
 from ros_lint.api import (
@@ -59,12 +60,13 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     standing = workspace.world.standing
     left = installed.union(script.inputs)
     left |= {relative(package, use.span.path) for use in package.uses if standing(use.package) == "end-of-life"}
-    with_nodes = {file.rpartition("/")[0] for file in nodes & installed}
-    for file in script.files:
-        if file.path in left or not (file.shebang and file.main) or is_apart(file.path):
-            continue
-        forgotten = file.path in nodes and file.path.rpartition("/")[0] in with_nodes
-        sure = file.run is not None or (forgotten and file.executable)
+    with_nodes = Counter([file.rpartition("/")[0] for file in nodes & installed])
+    lost = [file for file in script.files if file.path not in left and file.shebang and file.main and not is_apart(file.path)]
+    alike = Counter([file.path.rpartition("/")[0] for file in lost if file.executable and file.path in nodes])
+    for file in lost:
+        folder = file.path.rpartition("/")[0]
+        forgotten = file.path in nodes and with_nodes[folder] > 0
+        sure = file.run is not None or (forgotten and file.executable and alike[folder] <= with_nodes[folder])
         yield Finding(
             f"{file.path} is a script, and is not installed, so ros2 run does not find it; install it to lib/{package.name}",
             place_of(package, file.path),
