@@ -244,7 +244,10 @@ def _install_directories(run: Run, args: list[str]) -> None:
         plain = sure(value)[0]
         source = run.source(plain)
         if destination is None or HOLE in plain:
-            _hide(run, destination, "install(DIRECTORY) of a folder or to a place that is not known")
+            name = posixpath.basename(plain)  # that of the folder is kept, wherever it lies
+            known = destination is not None and name not in ("", ".", "..") and HOLE not in name
+            place = join_path(destination or "", name) if known else destination
+            _hide(run, place, "install(DIRECTORY) of a folder or to a place that is not known")
         elif source is None:
             _hide(run, destination, "install(DIRECTORY) of a folder that is not in the sources")
             _install_configured(run, value, destination, rule)
