@@ -26,10 +26,10 @@ not `gz_sim_vendor`. The fix does this; it needs `--unsafe-fixes`, for whoever f
 
 The confidence is medium when the other package comes along, or may come along, with one that is exported, when the package
 exports no include directories, so that its headers may be there for itself, when an exported target or
-`ament_export_include_directories()` has the include directories of the other one written out, and when the package builds
-programs and no library, and the header belongs to one of the sources of a program: what it declares can be linked nowhere
-else. It is low when the header compiles nowhere else, because it includes a file that is not installed, or a package that
-only ROS 1 has.
+`ament_export_include_directories()` has the include directories of the other one written out, and when the package exports
+no library that it builds, and the header belongs to one of the sources of a program or of a library, such as a plugin: what
+it declares can be linked nowhere else. It is low when the header compiles nowhere else, because it includes a file that is
+not installed, or a package that only ROS 1 has.
 """
 
 from __future__ import annotations
@@ -125,14 +125,20 @@ def _linked(package: Package, workspace: Workspace, told: Container[str]) -> Ite
         )
 
 
-def _handed_on(package: Package) -> Iterator[tuple[str, Span]]:
-    """Yield the packages whose targets an exported library hands on to those who link it."""
+def _exported_targets(package: Package) -> frozenset[str | None]:
+    """Return the targets that ament_export_targets() exports, None among them for those whose names are not known."""
     sets = {text for call in called(package, "ament_export_targets", "ament_export_interfaces") for text in call.texts}
     exported: set[str | None] = set()
     for call in called(package, "install"):
         words = call.texts
         if not call.blocks and "EXPORT" in words[:-1] and words[words.index("EXPORT") + 1] in sets:
             exported.update(evaluated_name(package, words[index]) for index in installed_targets(call))
+    return frozenset(exported)
+
+
+def _handed_on(package: Package) -> Iterator[tuple[str, Span]]:
+    """Yield the packages whose targets an exported library hands on to those who link it."""
+    exported = _exported_targets(package)
     kinds = ("library", "interface")
     libraries = {target.name for target in package.built.targets if target.name in exported and target.kind in kinds}
     for call in called(package, "target_link_libraries"):
@@ -189,22 +195,33 @@ def _confidence(package: Package, workspace: Workspace, name: str, exported: set
     along = found_along(workspace, exported)
     if name in along or (not along.complete and may_bring(along.unknown, name, workspace)):
         return Confidence.MEDIUM
-    if _of_programs(script).issuperset([stem(use.span.path) for use in uses]):
+    if _kept(package, script).issuperset([stem(use.span.path) for use in uses]):
         return Confidence.MEDIUM
     sure = _EXPORTS.intersection(script.calls) and not _is_written_out(package, workspace, name)
     return Confidence.HIGH if sure else Confidence.MEDIUM
 
 
-def _of_programs(script: BuildScript) -> frozenset[str]:
-    """Return how the sources of programs are called, without folder and suffix, in a package that builds no library.
+def _kept(package: Package, script: BuildScript) -> frozenset[str]:
+    """Return how the sources of programs and of libraries that are not exported are called, without folder and suffix.
 
-    A program of a single source may have all but that in headers, which are there for others, too.
+    A program of a single source may have all but that in headers, which are there for others, too; so may all that is built
+    in a package of programs and libraries that are exported.
     """
     built = [target for target in script.targets if not target.test]
-    if any(target.kind in ("library", "interface") for target in built) or not all(target.whole for target in built):
+    words = [text for call in called(package, "ament_export_libraries", anywhere=True) for text in call.texts]
+    handed_on = _exported_targets(package).union(evaluated_name(package, word) for word in words)
+    if None in handed_on:
         return frozenset()
-    parts = [[source for source in target.sources if not source.endswith(HEADERS)] for target in built]
-    return frozenset([stem(source) for sources in parts if len(sources) > 1 for source in sources])
+    inner = [target for target in built if target.kind == "executable" or target.name not in handed_on]
+    outer = [target for target in built if target not in inner]
+    if any(target.sources for target in outer) or not all(target.whole for target in built):
+        return frozenset()
+    found: set[str] = set()
+    for target in inner:
+        sources = [source for source in target.sources if not source.endswith(HEADERS)]
+        if len(sources) > 1 or target.kind == "library":
+            found.update(map(stem, sources))
+    return frozenset(found)
 
 
 def _is_written_out(package: Package, workspace: Workspace, name: str) -> bool:
