@@ -6,6 +6,8 @@ A CMake script that uses a ROS package without having found it: a target `packag
 a target, the package itself, or nearly the name of a package that is found; a target that `ament_export_dependencies()` is
 given. And a package that is to be found by its own build.
 
+A package whose headers a compiled source includes, and which is declared, counts as used, too.
+
 ## Why it matters
 
 CMake stops: the target, the package or the command is not known. Where it happens under a condition, it stops for
@@ -39,12 +41,14 @@ from ros_lint.api import (
     Related,
     Rule,
     Severity,
+    Use,
     Workspace,
     called,
     cmake_edits,
     come_along,
     found_names,
     is_meant,
+    relative,
     several,
     similar,
 )
@@ -88,6 +92,31 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             confidence=Confidence.HIGH if sure else Confidence.MEDIUM,
             severity=None if sure else Severity.INFO,
         )
+    yield from (finding for finding in _included(package, along, workspace) if finding.subject not in missing)
+
+
+def _included(package: Package, along: frozenset[str] | None, workspace: Workspace) -> Iterator[Finding]:
+    """Yield the declared packages whose headers compiled sources include, and that are certainly not found."""
+    if along is None:
+        return
+    world = workspace.world
+    targets = package.built.targets
+    compiled = {source for target in targets for source in target.sources if source not in target.optional}
+    places: dict[str, list[Use]] = {}
+    for use in package.uses:
+        if use.via == "include" and not use.optional and relative(package, use.span.path) in compiled:
+            places.setdefault(use.package, []).append(use)
+    for name, uses in places.items():
+        providers = {provider for use in uses for provider in use.providers}
+        if package.declares(name) and world.is_package(name) and providers.isdisjoint(along) and name != package.name:
+            first, *others = uses
+            yield Finding(
+                f"{first.what} needs {name}, which is declared and which nothing finds: add find_package({name} REQUIRED), and "
+                "link it where it is included",
+                first.span,
+                name,
+                several(Related(f"also included here: {use.what}", use.span) for use in others),
+            )
 
 
 def _no_packages(package: Package, found: frozenset[str], workspace: Workspace) -> Iterator[Finding]:
