@@ -84,11 +84,12 @@ def link_to_targets(calls: Iterable[Call], workspace: Workspace) -> Iterator[Edi
         yield Edit(call.place, "target_link_libraries")
         for index, text in enumerate(call.texts[1:], 1):
             if text not in ("PUBLIC", "INTERFACE"):
-                known = _NAME.fullmatch(text) and _exports_targets(text, workspace)
+                known = _NAME.fullmatch(text) and exports_targets(text, workspace)
                 yield Edit(call.span(index), f"${{{text}_TARGETS}}") if known else None
 
 
-def _exports_targets(name: str, workspace: Workspace) -> bool:
+def exports_targets(name: str, workspace: Workspace) -> bool:
+    """Return whether a package is known to export targets, which ament_target_dependencies() then links."""
     own = workspace.by_name.get(name)
     if own is None:
         return workspace.world.exports_targets(name)

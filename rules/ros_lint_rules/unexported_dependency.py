@@ -2,7 +2,8 @@
 ## What it finds
 
 Installed headers that include another package which `ament_export_dependencies()` does not name, and exported libraries that
-hand on targets of one: what `target_link_libraries()` is given without `PRIVATE`.
+hand on targets of one: what `target_link_libraries()` is given without `PRIVATE`, and `ament_target_dependencies()` of packages
+that are known to export targets.
 
 ## Why it matters
 
@@ -104,7 +105,7 @@ def _linked(package: Package, workspace: Workspace, told: Container[str]) -> Ite
     exported = _exported(script)
     along = found_along(workspace, exported)
     places: dict[str, list[Span]] = {}
-    for name, span in _handed_on(package):
+    for name, span in _handed_on(package, workspace):
         if name in found and name not in exported and name not in told and workspace.world.is_package(name):
             places.setdefault(name, []).append(span)
     names = [name for name in places if name != package.name and name not in along]
@@ -136,7 +137,7 @@ def _exported_targets(package: Package) -> frozenset[str | None]:
     return frozenset(exported)
 
 
-def _handed_on(package: Package) -> Iterator[tuple[str, Span]]:
+def _handed_on(package: Package, workspace: Workspace) -> Iterator[tuple[str, Span]]:
     """Yield the packages whose targets an exported library hands on to those who link it."""
     exported = _exported_targets(package)
     kinds = ("library", "interface")
@@ -150,6 +151,12 @@ def _handed_on(package: Package) -> Iterator[tuple[str, Span]]:
                 handed = word != "PRIVATE"
             elif handed and (match := _TARGET.match(word)):
                 yield match[1] or match[2], call.span(index)
+    for call in called(package, "ament_target_dependencies"):
+        if not call.args or call.blocks or evaluated_name(package, call.texts[0]) not in libraries or "PRIVATE" in call.texts:
+            continue
+        for index, word in enumerate(call.texts[1:], 1):
+            if cmake_edits.exports_targets(word, workspace):
+                yield word, call.span(index)
 
 
 _TARGET = re.compile(r"([\w-]+)::[\w:-]+\Z|\$\{(\w+)_TARGETS\}\Z")
