@@ -57,8 +57,6 @@ _SEPARATORS: Final = {"msg": 0, "srv": 1, "action": 2}
 _SEPARATES = re.compile(r"^---(?=\r?$)", re.MULTILINE)
 _NEARLY_SEPARATES = re.compile(r"^[ \t]*[-_=]{2,}[ \t]*(?=#|\r?$)", re.MULTILINE)
 _LINE = re.compile(r"^[^#\r\n]+", re.MULTILINE)
-_BREAKS = re.compile("\r(?!\n)|[\v\f\x1c-\x1e\x85\u2028\u2029]")
-"""What else Python splits lines at."""
 _NO_UTF_8 = re.compile("[\udc80-\udcff]+")
 _SCOPED = re.compile(r"([a-z]\w*)(?:/|::|\.)msg(?:/|::|\.)([A-Z]\w*)")
 
@@ -89,8 +87,8 @@ def collect(source: Text) -> InterfaceFile:
     path, text = source.path, source.text
     if source.codec == "utf-8-sig" or not _is_utf_8(source):
         return InterfaceFile(path, (), (_encoding(source, 0, 0),))
-    if _BREAKS.search(text):
-        return InterfaceFile(path)
+    if len(text.splitlines()) != text.count("\n") + (text[-1:] not in ("", "\n")):
+        return InterfaceFile(path)  # Python splits lines at more than ends them for editors, and so does rosidl
     if not text.isascii() and (foreign := _NO_UTF_8.search(text)):
         return InterfaceFile(path, (), (_encoding(source, *foreign.span()),))
     name, _, suffix = path.rpartition("/")[2].rpartition(".")
@@ -172,9 +170,9 @@ def _element(line: str) -> _Element | None:
     if not rest:
         raise _WrongError(f"a type and a name make a field, and here is only {kind}", 0, kind)
     start = len(line) - len(rest)
-    name, equals, value = (part.strip() for part in rest.partition("="))
+    name, equals, value = rest.partition("=")
     if equals:
-        return _constant(kind, name, value, start, len(line) - len(value))
+        return _constant(kind, name.rstrip(), value.lstrip(), start, len(line) - len(value.lstrip()))
     name, _, value = rest.partition(" ")
     return _field(kind, name, value.lstrip(), start, len(line) - len(value.lstrip()))
 
