@@ -29,7 +29,8 @@ Correct the path; the message names files of the same name that the package does
   which distribution is meant, the confidence is medium as long as one of them may have the file.
 - The launch file asks first if the package is there, or the file (`os.path.exists`), unless it stops where it is not; or it
   writes the file itself (`open(path, 'w')`, `xacro.open_output(path)`).
-- Models, displays and parameters that are not installed, or not in every build, and what xacro includes as `optional`.
+- Models, displays and parameters that are not installed, or not in every build, and what xacro includes as `optional`. Where
+  no launch file and no model is seen to look them up themselves, nobody may read them, and the confidence is medium.
 
 Where the name hangs on the default of an argument, which others can replace, the confidence is medium.
 """
@@ -80,21 +81,24 @@ def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
     """Yield what is missing of the files that installed models, displays and parameters look up in packages of the workspace."""
     if not package.look_ups:
         return
-    installed = {provided.source for provided in package.built.provides if not provided.conditional}
-    found: dict[tuple[str, str], list[Span]] = {}
+    share = f"share/{package.name}/"
+    installed = {p.source: p.path.removeprefix(share) for p in package.built.provides if p.source and not p.conditional}
+    taken = {look_up.path for look_up in workspace.looked_up.get(package.name, ())}
+    found: dict[tuple[str, str], list[tuple[bool, Span]]] = {}
     for look_up in package.look_ups:
         file = relative(package, look_up.span.path)
         if file.endswith(_MODELS) and file in installed and look_up.package in workspace.by_name and not is_apart(file):
-            found.setdefault((look_up.package, look_up.path), []).append(look_up.span)
-    for (owner, path), places in found.items():
+            found.setdefault((look_up.package, look_up.path), []).append((installed[file] not in taken, look_up.span))
+    for (owner, path), named in found.items():
         others_there = _files_without(owner, path, "file", workspace)
         if others_there is not None:
+            (idle, best), *others = sorted(named)
             yield Finding(
                 f"{owner} has no {path}{_hint(path, others_there)}",
-                places[0],
+                best,
                 path,
-                several(Related("also named here", place) for place in places[1:]),
-                confidence=Confidence.MEDIUM if _is_made(owner, path, workspace) else Confidence.HIGH,
+                several(Related("also named here", place) for _, place in others),
+                confidence=Confidence.MEDIUM if idle or _is_made(owner, path, workspace) else Confidence.HIGH,
                 severity=Severity.WARNING,
             )
 
