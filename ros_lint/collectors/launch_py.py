@@ -62,7 +62,7 @@ def collect(
         reading.read(tree, helper)
     except (OutOfBudget, RecursionError, MemoryError):
         reading.stopped("following the file takes too many steps")
-    reading.problems.extend((*misplaced(tree, source), *reading.refused(tree)))
+    reading.problems.extend(reading.refused(tree))
     references = References(reading.actions, reading.places())
     reading.add_to(references)
     return LaunchFile(
@@ -70,7 +70,7 @@ def collect(
         "python",
         tuple(sorted(references.found, key=lambda reference: reference.span)),
         tuple(references.opaque),
-        tuple(dict.fromkeys([*reading.problems, *references.problems])),
+        tuple(dict.fromkeys([*misplaced(tree, source)] or [*reading.problems, *references.problems])),
         test,
         helper,
         tuple(reading.actions),
