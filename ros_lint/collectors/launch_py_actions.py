@@ -78,7 +78,9 @@ def _perhaps(passed: Sequence[_Passed]) -> tuple[str, ...]:
 
 
 def _declare(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
-    choices = items(walker.machine, made.get(-1, "choices")) if made.get(-1, "choices") is not None else None
+    given = made.get(-1, "choices")
+    # In a text, launch looks for the value as a part of it.
+    choices = items(walker.machine, given) if given is not None and not isinstance(plain(given), str) else None
     default = walker.value(made, 1, "default_value")
     return [
         LaunchAction(
