@@ -30,7 +30,7 @@ way, or two packages of the workspace have the name, and in packages with a file
 
 Of a released package only where all of its interfaces are known. Where nobody said which distribution is meant, none that has
 it may have the interface. The confidence is medium where the workspace lists further repositories, which may bring a package of
-the same name.
+the same name, and where no other interface is called nearly so: a newer version may have it.
 """
 
 from __future__ import annotations
@@ -152,7 +152,7 @@ def _of_users(package: Package, workspace: Workspace) -> Iterator[Finding]:
                     *(Related("here, too", place) for place in places[1:]),
                 ]
             ),
-            confidence=Confidence.MEDIUM if not makers and workspace.source_lists else Confidence.HIGH,
+            confidence=Confidence.HIGH if makers or _is_slip(used, workspace) else Confidence.MEDIUM,
             severity=Severity.ERROR,
         )
 
@@ -203,6 +203,15 @@ def _lacking(used: _Used, package: Package, workspace: Workspace) -> str | None:
     if any(f"/{file}".endswith(by_hand) for file in package.files if used.header):
         return None
     return _says(used, sorted(known), there, "has", "; correct the name")
+
+
+def _is_slip(used: _Used, workspace: Workspace) -> bool:
+    """Whether what a released package lacks is surely no interface of a newer version: another one is called nearly so."""
+    if workspace.source_lists:
+        return False
+    known = workspace.world.interfaces(used.maker, everywhere=not workspace.target.told)
+    of_any = _names(known, "", bool(used.header))
+    return used.name in of_any or bool(similar(used.name, _names(known, used.kind, bool(used.header)), 1, 0.88))
 
 
 def _says(used: _Used, interfaces: Sequence[str], there: Collection[str], does: str, way_out: str) -> str:
