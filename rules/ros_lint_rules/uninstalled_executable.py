@@ -23,12 +23,12 @@ the destination is right for other programs, and wrong for nodes.
 For tests, examples and what measures; for targets that are also installed to `lib/<package>`; with
 `ament_auto_package(INSTALL_TO_PATH)`. Where something that cannot be followed may install the target, the confidence is
 medium, or nothing is said. So it is where only a launch file starts it that is kept back itself, by a rule that installs its
-like and leaves it out (`PATTERN x EXCLUDE`).
+like and leaves it out (`PATTERN x EXCLUDE`), or such a one and a copy in another package that is not installed either.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from ros_lint.api import (
     BuildScript,
@@ -37,6 +37,7 @@ from ros_lint.api import (
     Facet,
     Finding,
     Fix,
+    LaunchReference,
     Package,
     Related,
     Rule,
@@ -48,6 +49,7 @@ from ros_lint.api import (
     forgotten_nodes,
     hidden,
     installed_targets,
+    launchable,
     left_out_nodes,
     node_targets,
     programs_built,
@@ -94,14 +96,24 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 Confidence.MEDIUM if not sure or any(opaque.reaches(own) for opaque in unseen) else Confidence.HIGH,
             )
         elif not found and launched and not unseen:
-            yield _left(package, script, target, ", but not installed, so launch does not find it")._replace(related=related)
+            says = ", but not installed, so launch does not find it"
+            confidence = Confidence.MEDIUM if _kept_back(package, target.name, launched, workspace) else Confidence.HIGH
+            yield _left(package, script, target, says)._replace(related=related, confidence=confidence)
         elif target.name in forgotten:
             yield _left(package, script, target, ", but nothing that the package builds is installed")
         elif target.name in left_out:
             says = " and, unlike other nodes of the package, not installed"
-            on_purpose = target.name in started([package], kept_back=True).get(package.name, {})
-            confidence = Confidence.MEDIUM if on_purpose else Confidence.HIGH
+            confidence = Confidence.MEDIUM if _kept_back(package, target.name, (), workspace) else Confidence.HIGH
             yield _left(package, script, target, says)._replace(severity=Severity.WARNING, confidence=confidence)
+
+
+def _kept_back(package: Package, name: str, launched: Sequence[LaunchReference], workspace: Workspace) -> bool:
+    """Whether the package leaves out a launch file that starts the program, and all others are installed no more than that."""
+    if name not in started([package], kept_back=True).get(package.name, {}):
+        return False
+    paths = {reference.span.path for reference in launched}
+    files = (launch for owner in workspace.packages for launch in launchable(owner) if launch.installed) if paths else ()
+    return not any(launch.file.path in paths for launch in files)
 
 
 def _left(package: Package, script: BuildScript, target: BuildTarget, says: str) -> Finding:
