@@ -104,13 +104,13 @@ class Loader:
             else [_Read(found, self._declared(found.manifest), None, {}, ()) for found in founds]
         )
         absent = frozenset(folder.rpartition("/")[2] for folder in submodules)
-        fetched = absent | source_lists.repositories(tree, lists)
-        world = World(tuple(self._members(reads, discovery.rejected)), self._underlays, self._knowledge, fetched)
+        world = World(tuple(self._members(reads, discovery.rejected)), self._underlays, self._knowledge, absent)
         packages = tuple(self._join(tree, reads, world, absent, sources))
         unusable = tuple(self._unusable(manifest) for manifest in discovery.rejected if not self._exclude(manifest.path))
         not_checked = dict.fromkeys((*discovery.not_checked, *_unreadable(collected), *_failed(reads)))
         ignores = ignored.find(tree, ((found.path, found.files) for found in founds))
-        return Workspace(packages, unusable, world, self.target, tuple(not_checked), lists, ignores)
+        fetched = source_lists.repositories(tree, lists)
+        return Workspace(packages, unusable, world, self.target, tuple(not_checked), lists, ignores, fetched)
 
     def text(self, path: str) -> Text | None:
         """Return the text of a file, None if it cannot be read."""

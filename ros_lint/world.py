@@ -52,8 +52,7 @@ class World:
     """Answers questions about names. Reads data files and underlays when first asked; may then raise KnowledgeError.
 
     Of two members with one name the first counts; of two underlays that have a package, the first. ``absent`` are the names
-    of the folders of git submodules that are not cloned, and of those into which lists of sources have repositories fetched:
-    mostly those of the packages in them.
+    of the folders of git submodules that are not cloned: mostly those of the packages in them.
     """
 
     def __init__(
@@ -222,17 +221,17 @@ class World:
     def interfaces(self, name: str, *, everywhere: bool) -> frozenset[str]:
         """Return all that a package may have of interfaces, as msg/Name, with ``everywhere`` in any distribution that has it.
 
-        Empty where nobody knows them all.
+        So it is, too, where nothing is known of the distribution itself. Of one that nothing is known of, the newest one and
+        those before tell: what was added to it is still there. Empty where nobody knows them all.
         """
         key = (name, everywhere)
         if key not in self._interfaces:
-            known = [self._known(name, "interfaces")]
-            if everywhere:
+            own = self._known(name, "interfaces")
+            known = [own]
+            if name not in self._members and (everywhere or own == NOTHING_KNOWN):
                 known += self.knowledge.known_elsewhere(name, "interfaces")
-            whole = all(one.complete and one.names for one in known)
-            self._interfaces[key] = (
-                frozenset([each for one in known for each in (*one.names, *one.maybe)]) if whole else frozenset()
-            )
+            whole = known[-1].complete and all(one.complete and one.names for one in known if one != NOTHING_KNOWN)
+            self._interfaces[key] = frozenset([each for one in known for each in (*one.names, *one.maybe)]) if whole else frozenset()
         return self._interfaces[key]
 
     def python_modules(self, name: str) -> Known:

@@ -26,7 +26,8 @@ elsewhere, check with the workspace that holds it as `--underlay`.
 - Nobody said which distribution is meant, and another one has the package.
 - The launch file asks first if the package is there.
 - The name has a dollar in it: it stands in a template.
-- A git submodule that is not cloned has a folder of the name, or a `*.repos` or `*.rosinstall` has a repository of it fetched.
+- A git submodule that is not cloned has a folder of the name. Where a `*.repos` or `*.rosinstall` has a repository of the name
+  fetched, the confidence is medium.
 - The name is that of a default which an argument can replace: then the confidence is medium.
 - The name is merely unknown: that may be a driver that its vendor does not release. Then the confidence is medium, unless
   the package is started under no condition and `package.xml` does not declare it either: wherever it comes from, whoever
@@ -82,7 +83,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         left_out = (
             wanted
             and verdict.confidence is not Confidence.HIGH
-            and not (best.idle or best.conditional)
+            and not (best.idle or best.conditional or name in workspace.fetched)
             and _never_comes(name, package, workspace)
         )
         told = _undeclared(name, package, workspace) if left_out and not verdict.known else ""
