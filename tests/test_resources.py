@@ -50,6 +50,12 @@ def test_each_package_once_and_the_certain_form_wins() -> None:
     assert (mention.name, mention.optional, mention.span.line) == ("tools", False, 2)
 
 
+def test_paths_that_are_written_in_another_way() -> None:
+    text = "$(find arm)//urdf/a.xacro package://arm/meshes/../b.stl package://arm/../hand/c.stl $(find arm)/urdf/./a.xacro"
+    found = resources.collect(Text("r", text)).look_ups
+    assert [(each.package, each.path) for each in found] == [("arm", "urdf/a.xacro"), ("arm", "b.stl")]
+
+
 def test_trees_that_are_included() -> None:
     text = """<root BTCPP_format="4">
   <include ros_pkg="trees" path="trees/grasp.xml"/>

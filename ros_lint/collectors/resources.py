@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from posixpath import normpath
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors import parameter_files
@@ -93,7 +94,9 @@ def _files(source: Text) -> Iterator[LookUp]:
     """Yield the files that are looked up in packages, each once."""
     places: dict[tuple[str, str], tuple[int, int]] = {}
     for match in _FILE.finditer(source.text):
-        key = (match[1] or match[2], match[3])
+        key = (match[1] or match[2], normpath(match[3].lstrip("/")))
+        if key[1].startswith("../"):  # it leads out of the package
+            continue
         if key not in places and not _in_comment(source.text, match.start()) and not _is_spared(source.text, match.start()):
             places[key] = match.span()
     for match in _TREE.finditer(source.text):
