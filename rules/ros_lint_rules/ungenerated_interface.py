@@ -29,8 +29,8 @@ files that may be dead, where the import or include is optional, where any folde
 way, or two packages of the workspace have the name, and in packages with a file that cannot be read.
 
 Of a released package only where all of its interfaces are known. Where nobody said which distribution is meant, none that has
-it may have the interface. The confidence is medium where the workspace lists further repositories, which may bring a package of
-the same name, and where no other interface is called nearly so: a newer version may have it.
+it may have the interface, and another one is called nearly so: else a newer version may have it. The confidence is medium
+where the workspace lists further repositories, which may bring a package of the same name.
 """
 
 from __future__ import annotations
@@ -152,7 +152,7 @@ def _of_users(package: Package, workspace: Workspace) -> Iterator[Finding]:
                     *(Related("here, too", place) for place in places[1:]),
                 ]
             ),
-            confidence=Confidence.HIGH if makers or _is_slip(used, workspace) else Confidence.MEDIUM,
+            confidence=Confidence.MEDIUM if not makers and workspace.source_lists else Confidence.HIGH,
             severity=Severity.ERROR,
         )
 
@@ -202,16 +202,9 @@ def _lacking(used: _Used, package: Package, workspace: Workspace) -> str | None:
     by_hand = f"/{used.maker}/{used.kind}/{used.name}{used.header}"
     if any(f"/{file}".endswith(by_hand) for file in package.files if used.header):
         return None
+    if used.name not in _names(known, "", bool(used.header)) and not similar(used.name, there, 1, 0.88):
+        return None  # no slip, and a newer version may have more than is known
     return _says(used, sorted(known), there, "has", "; correct the name")
-
-
-def _is_slip(used: _Used, workspace: Workspace) -> bool:
-    """Whether what a released package lacks is surely no interface of a newer version: another one is called nearly so."""
-    if workspace.source_lists:
-        return False
-    known = workspace.world.interfaces(used.maker, everywhere=not workspace.target.told)
-    of_any = _names(known, "", bool(used.header))
-    return used.name in of_any or bool(similar(used.name, _names(known, used.kind, bool(used.header)), 1, 0.88))
 
 
 def _says(used: _Used, interfaces: Sequence[str], there: Collection[str], does: str, way_out: str) -> str:
