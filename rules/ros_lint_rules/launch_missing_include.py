@@ -86,21 +86,34 @@ def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
     taken = {look_up.path for look_up in workspace.looked_up.get(package.name, ())}
     found: dict[tuple[str, str], list[tuple[bool, Span]]] = {}
     for look_up in package.look_ups:
-        file = relative(package, look_up.span.path)
+        file, path = relative(package, look_up.span.path), look_up.path.lstrip("/")
         if file.endswith(_MODELS) and file in installed and look_up.package in workspace.by_name and not is_apart(file):
-            found.setdefault((look_up.package, look_up.path), []).append((installed[file] not in taken, look_up.span))
+            found.setdefault((look_up.package, path), []).append((installed[file] not in taken, look_up.span))
+    alike: dict[tuple[str, str, bool], list[tuple[str, Span, list[Span]]]] = {}
     for (owner, path), named in found.items():
-        others_there = _files_without(owner, path, "file", workspace)
+        others_there = _files_without(owner, path, "file", workspace) if ".." not in path else None
         if others_there is not None:
             (idle, best), *others = sorted(named)
-            yield Finding(
-                f"{owner} has no {path}{_hint(path, others_there)}",
-                best,
-                path,
-                several(Related("also named here", place) for _, place in others),
-                confidence=Confidence.MEDIUM if idle or _is_made(owner, path, workspace) else Confidence.HIGH,
-                severity=Severity.WARNING,
-            )
+            sure = not (idle or _is_made(owner, path, workspace))
+            hint = _hint(path, others_there)
+            # A folder of meshes that is not there is one mistake.
+            key = (owner, path if hint else f"{path.rpartition('/')[0]} {best.path}", sure)
+            alike.setdefault(key, []).append((f"{path}{hint}", best, [place for _, place in others]))
+    for (owner, _, sure), lacking in alike.items():
+        (what, first, beside), *more = lacking
+        yield Finding(
+            f"{owner} has no {what}{f', and {len(more)} more of the folder that are named here are not there' if more else ''}",
+            first,
+            what.partition(";")[0],
+            several(
+                [
+                    *(Related("also named here", place) for place in beside),
+                    *(Related(f"{name} is not there either", place) for name, place, _ in more),
+                ]
+            ),
+            confidence=Confidence.HIGH if sure else Confidence.MEDIUM,
+            severity=Severity.WARNING,
+        )
 
 
 def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
