@@ -231,7 +231,9 @@ class World:
             if name not in self._members and (everywhere or own == NOTHING_KNOWN):
                 known += self.knowledge.known_elsewhere(name, "interfaces")
             whole = known[-1].complete and all(one.complete and one.names for one in known if one != NOTHING_KNOWN)
-            self._interfaces[key] = frozenset([each for one in known for each in (*one.names, *one.maybe)]) if whole else frozenset()
+            self._interfaces[key] = (
+                frozenset([each for one in known for each in (*one.names, *one.maybe)]) if whole else frozenset()
+            )
         return self._interfaces[key]
 
     def python_modules(self, name: str) -> Known:
