@@ -6,7 +6,8 @@ A CMake script that uses a ROS package without having found it: a target `packag
 a target, the package itself, or nearly the name of a package that is found; a target that `ament_export_dependencies()` is
 given. And a package that is to be found by its own build.
 
-A package whose headers a compiled source includes, and which is declared, counts as used, too.
+A package whose headers a compiled source includes, and which is declared, counts as used, too; unless the script adds a folder
+outside the package to those that headers are sought in.
 
 ## Why it matters
 
@@ -55,6 +56,7 @@ from ros_lint.api import (
 
 _NOT_SOUGHT = ("export", "plugins", "helper")
 """What names packages without asking whether they have been found here."""
+_INCLUDING = ("include_directories", "target_include_directories")
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -99,6 +101,9 @@ def _included(package: Package, along: frozenset[str] | None, workspace: Workspa
     """Yield the declared packages whose headers compiled sources include, and that are certainly not found."""
     if along is None:
         return
+    folders = (text for call in called(package, *_INCLUDING, anywhere=True) for text in call.texts)
+    if any(text.startswith("/") or ".." in text for text in folders):
+        return  # headers are taken from sources of others, or from where they are installed
     world = workspace.world
     targets = package.built.targets
     compiled = {source for target in targets for source in target.sources if source not in target.optional}
