@@ -9,6 +9,7 @@ _LOWER = re.compile(r"(?!\w*__)[a-z](?:[a-z0-9_]*[a-z0-9])?")
 _CONSTANT = re.compile(r"[A-Z](?:_?[A-Z0-9])*")
 _MADE = ("_Request", "_Response", "_Goal", "_Result", "_Feedback")
 """How the names of messages end that services and actions are made of."""
+_BETWEEN_WORDS = re.compile("[^A-Za-z0-9]+")
 _BEFORE_WORD = re.compile("(.)([A-Z][a-z]+)")
 _BEFORE_CAPITAL = re.compile("([a-z0-9])([A-Z])")
 
@@ -38,4 +39,4 @@ def snake(name: str) -> str:
 
 def camel(name: str) -> str:
     """Return a name as rosidl wants it for an interface."""
-    return "".join(word[:1].upper() + word[1:] for word in name.split("_"))
+    return "".join(word[:1].upper() + word[1:] for word in _BETWEEN_WORDS.split(name))

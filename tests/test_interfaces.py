@@ -101,3 +101,12 @@ def test_the_messages_that_a_definition_is_made_of() -> None:
         ("other/Thing", "a/srv/X.srv:2:1"),
         ("Own", "a/srv/X.srv:5:1"),
     ]
+
+
+@pytest.mark.parametrize(("name", "better"), [("motor_state", "MotorState"), ("Motor copy", "MotorCopy"), ("servoJ", "ServoJ")])
+def test_a_name_that_rosidl_does_not_take(name: str, better: str) -> None:
+    interface = interfaces.collect(Text(f"a/msg/{name}.msg", "")).interface
+    assert interface is not None
+    assert [problem.message for problem in interface.problems] == [
+        f"rosidl takes no interface called {name}: call the file {better}.msg"
+    ]
