@@ -12,8 +12,8 @@ its parameters; and where the path leads into the sources, it passes by what is 
 ## How to fix it
 
 A file of a package is found by the package: `get_package_share_directory('robot')` and `FindPackageShare` in Python,
-`$(find-pkg-share robot)` in XML and YAML launch files, `package://robot/` in models. What belongs to the machine, such as data
-or a device, becomes a launch argument or a parameter without such a default.
+`$(find-pkg-share robot)` in XML and YAML launch files, `package://robot/` in models, `${prefix}/` in what `package.xml`
+exports. What belongs to the machine, such as data or a device, becomes a launch argument or a parameter without such a default.
 
 ## When it keeps silent
 
@@ -84,6 +84,8 @@ def _way_out(inside: _Inside | None, file: str, package: Package) -> str:
         return "make it an argument, or a file of a package"
     if inside.rest and inside.package == package.name and file.endswith(_BUILDING):
         return f"it is {inside.rest} of this package; write that"
+    if inside.rest and file == "package.xml":
+        return f"it is {inside.rest} of {inside.package}; say ${{prefix}}/{inside.rest}"
     if not inside.rest:
         return f"it leads into the sources of {inside.package}; make it an argument"
     return f"it is {inside.rest} of {inside.package}; look it up in the share directory of {inside.package}"
