@@ -89,7 +89,7 @@ def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
         file, path = relative(package, look_up.span.path), look_up.path.lstrip("/")
         if file.endswith(_MODELS) and file in installed and look_up.package in workspace.by_name and not is_apart(file):
             found.setdefault((look_up.package, path), []).append((installed[file] not in taken, look_up.span))
-    alike: dict[tuple[str, str, bool], list[tuple[str, Span, list[Span]]]] = {}
+    alike: dict[tuple[str, str, bool], list[tuple[str, str, Span, list[Span]]]] = {}
     for (owner, path), named in found.items():
         others_there = _files_without(owner, path, "file", workspace) if ".." not in path else None
         if others_there is not None:
@@ -97,18 +97,19 @@ def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
             sure = not (idle or _is_made(owner, path, workspace))
             hint = _hint(path, others_there)
             # A folder of meshes that is not there is one mistake.
-            key = (owner, path if hint else f"{path.rpartition('/')[0]} {best.path}", sure)
-            alike.setdefault(key, []).append((f"{path}{hint}", best, [place for _, place in others]))
+            folder, _, name = path.rpartition("/")
+            key = (owner, f"{folder} {best.path}" if not hint or hint.endswith(f"/{name}?") else path, sure)
+            alike.setdefault(key, []).append((path, hint, best, [place for _, place in others]))
     for (owner, _, sure), lacking in alike.items():
-        (what, first, beside), *more = lacking
+        (path, hint, first, beside), *more = lacking
         yield Finding(
-            f"{owner} has no {what}{f', and {len(more)} more of the folder that are named here are not there' if more else ''}",
+            f"{owner} has no {path}{f', nor {len(more)} more of the folder that are named here' if more else ''}{hint}",
             first,
-            what.partition(";")[0],
+            path,
             several(
                 [
                     *(Related("also named here", place) for place in beside),
-                    *(Related(f"{name} is not there either", place) for name, place, _ in more),
+                    *(Related(f"{name} is not there either", place) for name, _, place, _ in more),
                 ]
             ),
             confidence=Confidence.HIGH if sure else Confidence.MEDIUM,
