@@ -29,7 +29,8 @@ The confidence is medium when the other package comes along, or may come along, 
 exports no include directories, so that its headers may be there for itself, when an exported target or
 `ament_export_include_directories()` has the include directories of the other one written out, and when the package exports
 no library that it builds, and the header belongs to one of the sources of a program or of a library, such as a plugin: what
-it declares can be linked nowhere else. It is low when the header compiles nowhere else, because it includes a file that is
+it declares can be linked nowhere else. So it is of targets that are handed on by a package that installs no headers: its
+libraries are plugins, and nobody finds it by CMake. It is low when the header compiles nowhere else, because it includes a file that is
 not installed, or a package that only ROS 1 has.
 """
 
@@ -110,7 +111,8 @@ def _linked(package: Package, workspace: Workspace, told: Container[str]) -> Ite
             places.setdefault(name, []).append(span)
     names = [name for name in places if name != package.name and name not in along]
     sure = [name for name in names if along.complete or not may_bring(along.unknown, name, workspace)]
-    for some, confidence in ((sure, Confidence.HIGH), ([name for name in names if name not in sure], Confidence.MEDIUM)):
+    usable = Confidence.HIGH if _has_headers(script) else Confidence.MEDIUM
+    for some, confidence in ((sure, usable), ([name for name in names if name not in sure], Confidence.MEDIUM)):
         if not some:
             continue
         first, *others = [span for name in some for span in places[name]]
@@ -124,6 +126,11 @@ def _linked(package: Package, workspace: Workspace, told: Container[str]) -> Ite
             Fix.of(f"export {few(some)}", edit, safe=False),
             confidence,
         )
+
+
+def _has_headers(script: BuildScript) -> bool:
+    """Whether a package installs headers: libraries without are plugins, which nobody links and nobody finds by CMake."""
+    return script.hides(Facet.SHARE) or any(provided.path.endswith(HEADERS) for provided in script.provides)
 
 
 def _exported_targets(package: Package) -> frozenset[str | None]:
