@@ -64,7 +64,7 @@ class World:
     ) -> None:
         self.underlays = tuple(underlays)
         self.knowledge = knowledge
-        self._absent = absent
+        self.absent = absent
         self._members: dict[str, Member] = {}
         for member in members:
             self._members.setdefault(member.name, member)
@@ -108,10 +108,12 @@ class World:
         """Return what a declared name is."""
         if self.is_package(name) or self.is_key(name):
             return "known"
-        if not self.knowledge.covered or name in self._absent:
+        if not self.knowledge.covered:
             return "unknowable"
         if self.knowledge.elsewhere(name):
             return "elsewhere"
+        if name in self.absent:
+            return "unknowable"
         return "end-of-life" if self.knowledge.names.end_of_life(name) else "unknown"
 
     def successor(self, name: str) -> str:

@@ -149,7 +149,8 @@ def _unknown(package: Package, workspace: Workspace) -> Iterator[tuple[str, list
         idle = not (launch.installed or hidden)
         for reference in launch.file.references:
             name = reference.package
-            if "$" in name or reference.kind == "program" or workspace.world.standing(name) == "unknowable":
+            unknowable = workspace.world.standing(name) == "unknowable" or name in workspace.world.absent
+            if "$" in name or reference.kind == "program" or unknowable:
                 continue  # a template, for whoever fills it in; no package at all; a submodule that is not cloned
             if not workspace.world.is_package(name) and name != package.name and not reference.optional:
                 place = _Place(not launch.run, reference.by_default, idle, reference.conditional, reference.span, reference)
