@@ -145,6 +145,14 @@ def test_endless_scripts_end(text: str) -> None:
     assert hidden(run(text)) & Facet.EXECUTABLES
 
 
+@pytest.mark.parametrize(
+    "loop", ["foreach(i RANGE 900)\n{}endforeach()", "while(n LESS 900)\nmath(EXPR n ${{n}}+1)\n{}endwhile()"]
+)
+def test_loops_each_of_whose_rounds_may_be_the_last(loop: str) -> None:
+    script = "find_package(b)\nset(n 0)\n" + loop.format("if(b_A${i}${n})\nbreak()\nendif()\n")
+    assert hidden(run(script)) & Facet.EXECUTABLES
+
+
 def test_values_do_not_grow_without_end() -> None:
     script = run("set(x aaaaaaaaaa)\nforeach(i RANGE 60)\nset(x ${x}${x})\nendforeach()\n")
     assert not script.opaque
