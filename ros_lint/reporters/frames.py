@@ -33,13 +33,17 @@ class Mark(NamedTuple):
     """``^`` for the place of the finding, ``-`` for related ones."""
 
 
-def frame(marks: Sequence[Mark], texts: Texts, style: Style) -> tuple[list[str], str]:
-    """Return the rows of a frame over the files of the marks, and the gutter that rows below it start with."""
+def frame(marks: Sequence[Mark], texts: Texts, style: Style, most: int | None = None) -> tuple[list[str], str]:
+    """Return the rows of a frame over the files of the marks, and the gutter that rows below it start with.
+
+    The lines of the first ``most`` files are shown; of the marks in others, only where they are and what is said of them.
+    """
     files: dict[str, list[Mark]] = {}
     for mark in marks:
         files.setdefault(mark.span.path, []).append(mark)
+    rest = [mark for path in list(files)[most:] for mark in files.pop(path)] if most else []
     sources = {path: texts(path) for path in files}
-    visible = [(mark, source) for mark in marks if (source := sources[mark.span.path]) and _is_in(mark, source)]
+    visible = [(mark, source) for mark in marks if (source := sources.get(mark.span.path)) and _is_in(mark, source)]
     digits = max((len(str(min(mark.span.end_line, source.line_count))) for mark, source in visible), default=1)
     gutter = " " * digits
     bar = paint(style, "gutter", f"{gutter} |")
@@ -56,6 +60,10 @@ def frame(marks: Sequence[Mark], texts: Texts, style: Style) -> tuple[list[str],
         rows += [
             f"{bar} {paint(style, mark.color, safe(mark.label, style))}" for mark in in_file if mark.label and mark not in shown
         ]
+    if rest:
+        rows.append(bar)
+    arrow = paint(style, "gutter", ":::")
+    rows += [f"{gutter}{arrow} {safe(f'{mark.span}: {mark.label}', style)}" for mark in rest]
     return rows, gutter
 
 

@@ -15,7 +15,7 @@ from ros_lint.reporters.encode import encode
 from ros_lint.reporters.fingerprint import line_hashes
 from ros_lint.reporters.sarif_rules import LEVELS, TOPICS, capital, descriptor, sentence, topic
 from ros_lint.reporters.summary import and_list, crashed, some, told
-from ros_lint.text import Span, Text
+from ros_lint.text import Span, Text, raw
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -198,7 +198,7 @@ def _location(span: Span) -> Object:
 
 def _uri(path: str) -> str:
     """Return the reference that a relative path is in a URI."""
-    return quote(path.encode("utf-8", "surrogateescape"), safe="/!$&'()*+,;=@") or "."
+    return quote(raw(path), safe="/!$&'()*+,;=@") or "."
 
 
 def _region(span: Span) -> Object:

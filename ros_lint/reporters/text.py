@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 _PLAIN = Style()
 _RELATED = 8
 """Related places to show; the json format has all."""
+_FILES = 2
+"""Files to show lines of. The third place where the same is used tells nothing new; the steps of a cycle do."""
 
 
 def render(report: Report, texts: Texts, style: Style) -> str:
@@ -47,7 +49,7 @@ def _issue(issue: Issue, texts: Texts, style: Style) -> list[str]:
     for number, related in enumerate(finding.related[:_RELATED], 1):
         label = f"{number}: {related.message}" if finding.steps else related.message
         marks.append(Mark(related.span, label, "related", "-"))
-    rows, gutter = frame(marks, texts, style)
+    rows, gutter = frame(marks, texts, style, None if finding.steps else _FILES)
     notes: list[str] = []
     if len(finding.related) > _RELATED:
         notes.append(f"note: and {count(len(finding.related) - _RELATED, 'more place')}")
