@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ros_lint import __version__
+from ros_lint.text import raw
 from ros_lint.tree import Stamp
 
 if TYPE_CHECKING:
@@ -187,7 +188,7 @@ def _bare(told: Any) -> Any:
 
 def _part(path: str) -> int:
     """Return which part keeps the facts of a file: that of its folder."""
-    return zlib.crc32(path.rpartition("/")[0].encode("utf-8", "surrogateescape")) % _PARTS
+    return zlib.crc32(raw(path.rpartition("/")[0])) % _PARTS
 
 
 def _stamp(tree: Tree, path: str) -> Stamp | None:
@@ -200,7 +201,7 @@ def _stamp(tree: Tree, path: str) -> Stamp | None:
 def _digest(text: str) -> str:
     import hashlib  # noqa: PLC0415
 
-    return hashlib.sha256(text.encode("utf-8", "surrogateescape")).hexdigest()[:24]
+    return hashlib.sha256(raw(text)).hexdigest()[:24]
 
 
 def _state(files: Iterable[str]) -> str:

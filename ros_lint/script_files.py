@@ -166,7 +166,7 @@ def _looks_up(path: str, data: bytes, resource: str, hit: re.Match[bytes]) -> bo
         return False  # it is sought where the program is started
     if _is_below_sources(data, hit.start()):
         return False
-    above = parent(parent(resource)).rpartition("/")[2].encode()
+    above = raw(parent(parent(resource)).rpartition("/")[2])
     before = _BEFORE.search(data, max(hit.start() - 80, 0), hit.start()) if above else None
     return before is None or before[1] == above
 
@@ -212,7 +212,7 @@ def _run(tree: Tree, found: Found, programs: Sequence[str], endings: tuple[str, 
     names = {program.rpartition("/")[2]: program for program in programs}
     names = {**{name.removesuffix(".py"): program for name, program in names.items()}, **names}
     words = b"|".join([re.escape(raw(name)) for name in names])
-    command = re.compile(rb"\bros2 run +%s +(%s)(?![\w-]|\.\w)" % (re.escape(found.name.encode()), words))
+    command = re.compile(rb"\bros2 run +%s +(%s)(?![\w-]|\.\w)" % (re.escape(raw(found.name)), words))
     above = [join(folder, "README.md") for folder in (*folders_of(found.path), "")] if found.path else []
     told = [file for file in found.files if file.endswith(endings) and not file.startswith("CHANGELOG")]
     places: dict[str, Span] = {}

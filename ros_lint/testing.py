@@ -24,7 +24,7 @@ from ros_lint.load import Loader
 from ros_lint.patch import unified
 from ros_lint.report import Issue, Target
 from ros_lint.rule import Rule
-from ros_lint.text import Text, read
+from ros_lint.text import Text, raw, read
 from ros_lint.tree import MemoryTree, OverlayTree, Tree
 from ros_lint.underlay import in_tree
 
@@ -130,7 +130,7 @@ def differences(case: Case, rule: Rule) -> Iterator[str]:
     if changed and not rule.fixable:
         yield "the rule has a fix, and is not marked as fixable"
     if changed:
-        after = OverlayTree(tree, {path: text.encode() for path, text in changed.items()})
+        after = OverlayTree(tree, {path: raw(text) for path, text in changed.items()})
         again = issues_of(after, case, rule)
         yield from (f"{issue.finding.span}: still there after its fix" for issue in again if issue.finding.fix)
 

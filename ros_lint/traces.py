@@ -12,7 +12,7 @@ from ros_lint.cmake_finds import not_seen_used
 from ros_lint.declare import is_built_in_sight, is_unseen_by_name, sounds_unseen
 from ros_lint.evidence import Source, satisfying, used_names
 from ros_lint.facts.sources import Via
-from ros_lint.text import Span, span_in
+from ros_lint.text import Span, raw, span_in
 from ros_lint.tree import Tree, contents
 from ros_lint.type_names import Types
 from ros_lint.workspace import Package
@@ -62,7 +62,7 @@ def of_found(tree: Tree, package: Package, source: Source, world: World, types: 
         texts[path.endswith(_OF_BUILD)].append((path, data))
     found = frozenset(traces(wanted, texts[False], whole=True))
     scripts = b"\n".join([data for _, data in texts[True]])
-    found |= {name for name in wanted if re.search(_VARIABLE % re.escape(name.encode()), scripts)}
+    found |= {name for name in wanted if re.search(_VARIABLE % re.escape(raw(name)), scripts)}
     if len(found) < len(wanted):
         folders = _unknown_folders(package, source)
         found |= {name for name in wanted if any(f"{name}_".startswith(f"{folder}_") for folder in folders)}
@@ -84,7 +84,7 @@ def unwritten(tree: Tree, package: Package) -> frozenset[str]:
     data = b"\n".join([content for _, content in contents(tree, package.path, sources)])
     if _PUT_TOGETHER.search(data):
         return frozenset()
-    words = {name: name.rpartition("::")[2].encode() for name in wanted}
+    words = {name: raw(name.rpartition("::")[2]) for name in wanted}
     return frozenset([name for name, word in words.items() if word and not re.search(rb"\b%s\b" % re.escape(word), data)])
 
 
@@ -150,7 +150,7 @@ def traces(
     lower = data.lower() if words else b""
     for name in names:
         if name in words:
-            places = ((lower.find(word.lower().encode()), word.encode()) for word in words[name])
+            places = ((lower.find(raw(word.lower())), raw(word)) for word in words[name])
         else:
             places = ((_find_word(data, spelling, _JOINING if whole else b""), spelling) for spelling in _written(name, data))
         start, spelling = next((place for place in places if place[0] >= 0), (-1, b""))
@@ -176,7 +176,7 @@ def mentioned(
         for mention in facts.mentions
         if mention[1] in _AS_WRITTEN  # by index: there are ten thousands
     ]
-    lines = "\n".join([mention[0] for mention in mentions]).encode("utf-8", "surrogateescape")
+    lines = raw("\n".join([mention[0] for mention in mentions]))
     return {name: mentions[span.line - 1].span for name, span in traces(names, [("", lines)], words).items()}
 
 
@@ -188,7 +188,7 @@ def _written(name: str, data: bytes) -> Iterator[bytes]:
     """Yield those spellings of a name whose end stands somewhere: names begin alike, and what few have is found faster."""
     there: dict[bytes, bool] = {}
     for spelling in _spellings(name):
-        written = spelling.encode()
+        written = raw(spelling)
         end = _SEPARATOR.split(written, maxsplit=1)[-1]
         if end not in there:
             there[end] = end in data

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from operator import itemgetter
 from typing import Literal, NamedTuple, Protocol
 
-from ros_lint.text import Text, read
+from ros_lint.text import Text, raw, read
 
 Kind = Literal["file", "directory", "other"]
 
@@ -335,4 +335,4 @@ class OverlayTree:
 
 
 def _bytes(content: str | bytes) -> bytes:
-    return content if isinstance(content, bytes) else content.encode("utf-8", "surrogateescape")
+    return content if isinstance(content, bytes) else raw(content)

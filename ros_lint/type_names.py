@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from ros_lint.collectors import cpp_types
 from ros_lint.suffixes import HEADERS, SOURCES
+from ros_lint.text import raw
 from ros_lint.tree import contents, join
 
 if TYPE_CHECKING:
@@ -61,7 +62,7 @@ class Types:
         code: dict[str, bytes] = {}
         found: dict[str, Span] = {}
         for name, wanted in sought.items():
-            tail = name.partition("_")[2].encode()
+            tail = raw(name.partition("_")[2])
             for word in (*sorted(wanted.types), *([tail] if tail in wanted.spaces else [])):
                 having = [(path, text) for path, text in texts if word in text]  # few have it, and this is fast
                 code.update((path, cpp_types.code(text)) for path, text in having if path not in code)

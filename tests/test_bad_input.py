@@ -185,12 +185,13 @@ def test_names_that_are_no_utf_8(tmp_path: Path) -> None:
     folder = package(tmp_path / "talker", "talker")
     (folder / "README.md").write_text("ros2 run talker talker")
     for inner in ("config", "scripts", "launch", "msg", "src", "talker", "maps"):
-        for name in (b"caf\xe9.py", b"caf\xe9.launch.py", b"caf\xe9.yaml", b"Caf\xe9.msg", b"caf\xe9/hall.yaml"):
-            file = os.path.join(os.fsencode(folder / inner), name)
+        for name in (b"%s.py", b"%s.launch.py", b"%s.yaml", b"%s.msg", b"%s/hall.yaml", b"%s/in/it.yaml"):
+            file = os.path.join(os.fsencode(folder / inner), name % b"Caf\xe9")
             os.makedirs(os.path.dirname(file), exist_ok=True)
             with open(file, "w") as stream:
                 stream.write(
-                    "#!/usr/bin/env python3\nname = '/home/ada/talker/maps/hall.yaml'\nif __name__ == '__main__':\n  pass\n"
+                    "#!/usr/bin/env python3\nname = '/home/ada/talker/maps/hall.yaml', 'in/it.yaml'\n"
+                    "if __name__ == '__main__':\n  pass\n"
                 )
     for script in (None, "from setuptools import setup\nsetup(name='talker', version='1.0.0', packages=[])\n"):
         if script:
@@ -199,7 +200,7 @@ def test_names_that_are_no_utf_8(tmp_path: Path) -> None:
         ran = lint("--pedantic", tmp_path)
         assert (ran.code, ran.out["crashes"]) == (1, [])
         assert "failed on it" not in ran.text
-        assert any("caf" in finding["path"] for finding in ran.out["findings"])
+        assert any("Caf" in finding["path"] for finding in ran.out["findings"])
 
 
 @pytest.mark.parametrize("what", ["a folder", "a link to its folder"])

@@ -8,7 +8,7 @@ import warnings
 from typing import TYPE_CHECKING
 
 from ros_lint.facts.sight import Problem
-from ros_lint.text import Span
+from ros_lint.text import Span, from_raw, raw
 
 if TYPE_CHECKING:
     from ros_lint.text import Text
@@ -72,7 +72,7 @@ def _offset(source: Text, line: int, column: int) -> int:
     start = source.offset(line, 1)
     piece = source.text[start : start + column]
     if not piece.isascii():
-        piece = piece.encode("utf-8", "surrogateescape")[:column].decode("utf-8", "surrogateescape")
+        piece = from_raw(raw(piece)[:column])
     return start + len(piece)
 
 
@@ -86,7 +86,7 @@ def syntax_problem(source: Text, error: NotPythonError) -> Problem | None:
     from libcst import ParserSyntaxError, parse_module  # noqa: PLC0415  (costs more than a whole run without it)
 
     try:
-        parse_module(source.text.encode("utf-8", "surrogateescape"))
+        parse_module(raw(source.text))
     except ParserSyntaxError:
         pass
     except Exception:  # whatever else it does on odd input is no second opinion

@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterator
 from typing import Any, Final, Protocol, TypeVar
 from xml.parsers import expat
 
+from ros_lint.text import from_raw, raw
+
 
 class XmlError(Exception):
     """The text is not XML that can be read safely. ``offset`` is from 0 to the length of the text."""
@@ -57,7 +59,7 @@ def parse(text: str) -> Element:
 
 def parse_as(text: str, make: Callable[[str, dict[str, str], int], _E]) -> _E:
     """Return the root as an element of a kind of its own, made from tag, attributes and offset; else as :func:`parse`."""
-    data = unmarked(text.encode("utf-8", "surrogateescape"))
+    data = unmarked(raw(text))
     offset = _Offsets(data).of
     parser = expat.ParserCreate("utf-8")  # the text is decoded already, whatever its declaration says
     parser.buffer_text = True
@@ -119,6 +121,6 @@ class _Offsets:
             return byte
         if byte < self._byte:
             self._byte = self._character = 0
-        self._character += len(self._data[self._byte : byte].decode("utf-8", "surrogateescape"))
+        self._character += len(from_raw(self._data[self._byte : byte]))
         self._byte = byte
         return self._character

@@ -12,7 +12,8 @@ from ros_lint.interpret.cmake_glob import glob_regex
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_targets import generate
 from ros_lint.interpret.cmake_truth import TRUE_WORDS
-from ros_lint.interpret.cmake_values import ATOM, HOLE, SOURCE, data, is_fixed, is_known, join
+from ros_lint.interpret.cmake_values import ATOM, HOLE, SOURCE, is_fixed, is_known, join
+from ros_lint.text import raw
 
 
 def _file(run: Run, args: list[str]) -> None:
@@ -82,7 +83,7 @@ def _glob(run: Run, args: list[str], recurse: bool) -> None:
         found += _matches(run, pattern, recurse, folders)
     if relative is not None:
         found = [_relative(path, relative) for path in found]
-    run.set(args[0], HOLE if HOLE in found else join(sorted(dict.fromkeys(found), key=data)))
+    run.set(args[0], HOLE if HOLE in found else join(sorted(dict.fromkeys(found), key=raw)))
 
 
 def _matches(run: Run, pattern: str, recurse: bool, folders: bool) -> list[str]:

@@ -8,7 +8,8 @@ from typing import Final
 from ros_lint.interpret.cmake_regex import RegexError, anywhere, forget, translated
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_string import ascii_lower, ascii_upper, genex_strip, replace_all, strip
-from ros_lint.interpret.cmake_values import HOLE, MAYBE, data, elements, flat, glued, is_fixed, is_known, join, sure
+from ros_lint.interpret.cmake_values import HOLE, MAYBE, elements, flat, glued, is_fixed, is_known, join, sure
+from ros_lint.text import raw
 
 
 def _list(run: Run, args: list[str]) -> None:
@@ -94,7 +95,7 @@ def _sort(run: Run, name: str, args: list[str]) -> None:
         text = sure(item)[0]
         if kind == "FILE_BASENAME":
             text = text.rpartition("/")[2]
-        return data(ascii_lower(text) if options.get("CASE") == "INSENSITIVE" else text)
+        return raw(ascii_lower(text) if options.get("CASE") == "INSENSITIVE" else text)
 
     keys = [key(item) for item in items]
     if len(set(keys)) != len(set(items)):

@@ -8,6 +8,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Final
 
 from ros_lint.interpret.cmake_values import BINARY, HOLE, PREFIX, SOURCE, is_fixed, is_known
+from ros_lint.text import from_raw, raw
 
 if TYPE_CHECKING:
     from ros_lint.interpret.cmake_run import Run
@@ -32,11 +33,11 @@ def translated(text: str) -> re.Pattern[str] | None:
 
 def _bytes(text: str) -> str:
     """Return a text with one character for each of its bytes."""
-    return text if text.isascii() else text.encode("utf-8", "surrogateescape").decode("latin-1")
+    return text if text.isascii() else raw(text).decode("latin-1")
 
 
 def _text(text: str) -> str:
-    return text if text.isascii() else text.encode("latin-1").decode("utf-8", "surrogateescape")
+    return text if text.isascii() else from_raw(text.encode("latin-1"))
 
 
 class _Translator:

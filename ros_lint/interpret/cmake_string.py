@@ -8,8 +8,9 @@ from typing import Final
 
 from ros_lint.interpret.cmake_regex import RegexError, anywhere, clear, every, find, forget, store
 from ros_lint.interpret.cmake_run import Handler, Run
-from ros_lint.interpret.cmake_values import ATOM, BINARY, HOLE, LONGEST, PREFIX, SOURCE, data, glued, is_fixed, is_known, join
+from ros_lint.interpret.cmake_values import ATOM, BINARY, HOLE, LONGEST, PREFIX, SOURCE, glued, is_fixed, is_known, join
 from ros_lint.interpret.cmake_values import flat as flat_value
+from ros_lint.text import raw
 
 _UPPER: Final = {number: number - 32 for number in range(ord("a"), ord("z") + 1)}
 _LOWER: Final = {number: number + 32 for number in range(ord("A"), ord("Z") + 1)}
@@ -80,7 +81,7 @@ def _known(function: Callable[..., str]) -> Callable[..., str]:
 
 
 def _find(text: str, wanted: str, reverse: str = "") -> str:
-    whole, part = data(text), data(wanted)
+    whole, part = raw(text), raw(wanted)
     return str(whole.rfind(part) if reverse == "REVERSE" else whole.find(part))
 
 
@@ -94,11 +95,11 @@ def _replace(old: str, new: str, *inputs: str) -> str:
 
 
 def _length(text: str) -> str:
-    return str(len(data(text)))
+    return str(len(raw(text)))
 
 
 def _substring(text: str, begin: str, length: str) -> str:
-    whole = data(text)
+    whole = raw(text)
     start, count = int(begin), int(length)
     if not 0 <= start <= len(whole) or count < -1:
         return HOLE
@@ -154,7 +155,7 @@ def _concat(*inputs: str) -> str:
 
 
 def _compare(how: str, left: str, right: str) -> str:
-    first, second = data(left), data(right)
+    first, second = raw(left), raw(right)
     answers = {
         "EQUAL": first == second,
         "NOTEQUAL": first != second,
@@ -172,11 +173,11 @@ def _ascii(*codes: str) -> str:
 
 
 def _hex(text: str) -> str:
-    return data(text).hex()
+    return raw(text).hex()
 
 
 def _identifier(text: str) -> str:
-    found = re.sub(rb"[^A-Za-z0-9_]", b"_", data(text)).decode()
+    found = re.sub(rb"[^A-Za-z0-9_]", b"_", raw(text)).decode()
     return f"_{found}" if found[:1].isdigit() else found
 
 
@@ -184,7 +185,7 @@ def _hash(name: str) -> Callable[..., str]:
     def hashed(text: str) -> str:
         import hashlib  # noqa: PLC0415  (no package needs it but by accident)
 
-        return hashlib.new(name, data(text), usedforsecurity=False).hexdigest()
+        return hashlib.new(name, raw(text), usedforsecurity=False).hexdigest()
 
     return _known(hashed)
 

@@ -7,7 +7,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Final
 
 from ros_lint.interpret.cmake_truth import FALSE, LIKELY, NUMBER, TRUE, UNKNOWN, UNLIKELY, Token, Truth, number_of
-from ros_lint.interpret.cmake_values import HOLE, SOURCE, certainly_set, data, elements, is_fixed, is_known
+from ros_lint.interpret.cmake_values import HOLE, SOURCE, certainly_set, elements, is_fixed, is_known
+from ros_lint.text import raw
 
 if TYPE_CHECKING:
     from ros_lint.interpret.cmake_run import Run
@@ -195,10 +196,10 @@ def _newer(_run: Run, _left: Token, _right: Token) -> int:
 
 BINARY: Final[dict[str, Callable[[Run, Token, Token], int]]] = {
     "STREQUAL": _same,
-    "STRLESS": _comparison(lambda left, right: data(left) < data(right)),
-    "STRGREATER": _comparison(lambda left, right: data(left) > data(right)),
-    "STRLESS_EQUAL": _comparison(lambda left, right: data(left) <= data(right)),
-    "STRGREATER_EQUAL": _comparison(lambda left, right: data(left) >= data(right)),
+    "STRLESS": _comparison(lambda left, right: raw(left) < raw(right)),
+    "STRGREATER": _comparison(lambda left, right: raw(left) > raw(right)),
+    "STRLESS_EQUAL": _comparison(lambda left, right: raw(left) <= raw(right)),
+    "STRGREATER_EQUAL": _comparison(lambda left, right: raw(left) >= raw(right)),
     "EQUAL": _comparison(_numbers(lambda left, right: left == right)),
     "LESS": _comparison(_numbers(lambda left, right: left < right)),
     "GREATER": _comparison(_numbers(lambda left, right: left > right)),

@@ -119,11 +119,6 @@ def wild(value: str | None) -> str | None:
     return value.replace(HOLE, WILD) if HOLE in value and WILD not in value else value
 
 
-def data(text: str) -> bytes:
-    """Return the bytes that CMake compares and counts."""
-    return text.encode("utf-8", "surrogateescape")
-
-
 def join(values: Iterable[str]) -> str:
     """Return a list as CMake stores it, a HOLE for one that is too long."""
     if isinstance(values, (list, tuple)):
