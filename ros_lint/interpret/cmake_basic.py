@@ -37,8 +37,9 @@ def _set(run: Run, args: list[str]) -> None:
         run.set_outer(name, join(args[1:-1]) if len(args) > 2 else None)
         return
     value = join(args[1:])
-    if len(run.scopes) == 1 and (run.testing or name in run.for_tests):
+    if len(run.scopes) == 1 and (run.testing or name in run.for_tests or name in run.gained):
         _note_switch(run, name, value)
+        run.note_gained(name, split(value))
     command = run.frames[-1].command
     if run.distro and run.distro in value and command and any("$ENV{ROS_DISTRO}" in text for text, *_ in command.args):
         run.settable.add(name)  # as soft as the variable of the environment itself

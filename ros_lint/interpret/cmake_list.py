@@ -44,6 +44,8 @@ def _append(run: Run, name: str, args: list[str]) -> None:
     if not args:
         return
     old = run.get(name)
+    if run.testing and len(run.scopes) == 1:
+        run.note_gained(name, args)
     run.set(name, join([old, *args]) if old else join(args))
     run.remember(2)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import lru_cache
 from typing import Final, NamedTuple
 
@@ -350,7 +350,21 @@ class Run(Paths):
         if not purpose and self.is_helped() and (via == "cmake" or (via == "target" and span == self.here())):
             purpose = "helper"
         if not self.muted:
-            self.mentions[Mention(name, via, span, what, optional or self.unsure > 0, self.testing, purpose)] = None
+            test = self.testing or (bool(self.gained) and self._is_gained(name))
+            self.mentions[Mention(name, via, span, what, optional or self.unsure > 0, test, purpose)] = None
+
+    def note_gained(self, name: str, elements: Iterable[str]) -> None:
+        """Note what is about to be in a variable only where tests are wanted: what joins a list that is there without them."""
+        if not self.testing:
+            self.gained.pop(name, None)
+        elif before := self.get(name):
+            self.gained[name] = self.gained.get(name, frozenset()).union(set(elements).difference(split(before)))
+
+    def _is_gained(self, name: str) -> bool:
+        """Whether the current command names something only because a list that it is given was extended for tests."""
+        command = self.frames[-1].command
+        lists = [variable for variable, elements in self.gained.items() if name in elements]
+        return command is not None and any(f"${{{variable}}}" in text for variable in lists for text, *_ in command.args)
 
     def is_helped(self) -> bool:
         """Whether a command runs that another package of the workspace gives."""

@@ -91,6 +91,8 @@ class State:
         self.globals: Properties = Properties()
         self.for_tests: dict[str, str] = {}
         """Variables that become true only where tests are wanted, with the value that they get there."""
+        self.gained: dict[str, frozenset[str]] = {}
+        """Elements that lists have only where tests are wanted, by the variable that holds the list."""
         self.log: list[tuple[dict[str, Any], str, Any]] | None = None
         self.unpaired = False
         """Whether some value holds a square bracket without its partner, so that unknown texts may hold one too."""
