@@ -10,17 +10,17 @@ from __future__ import annotations
 import ast
 import re
 import sys
-import warnings
 from configparser import Error as ConfigError
 from configparser import RawConfigParser
 from typing import TYPE_CHECKING, NamedTuple
 
+from ros_lint.collectors.python_syntax import NotPythonError, parse, span_of
 from ros_lint.facts.manifest import ColconDepend, Role
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from ros_lint.text import Span, Text
+    from ros_lint.text import Text
 
 _REQUIREMENTS = {"setup_requires": Role.BUILD, "install_requires": Role.EXEC, "tests_require": Role.TEST}
 _TEST_EXTRAS = ("test", "tests", "testing")
@@ -73,10 +73,8 @@ def _cfg_depends(text: Text, options: Mapping[str, str], roles: Mapping[str, Rol
 def from_setup_py(setup_py: Text, setup_cfg: Text | None, pyproject: Text | None) -> PythonProject:
     """Return what running a ``setup.py`` would give, as far as that can be read off it."""
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # invalid escapes
-            module = ast.parse(setup_py.text)
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        module = parse(setup_py)
+    except NotPythonError:
         return NO_PROJECT  # running it fails, too
     try:
         return _from_module(module, setup_py, from_setup_cfg(setup_cfg) if setup_cfg else NO_PROJECT, pyproject)
@@ -198,16 +196,4 @@ class _Script:
             lines = value.splitlines() if isinstance(value, str) else []
             for line in lines:
                 if match := _REQUIREMENT.match(line):
-                    yield ColconDepend(match[1], role, self._span(item))
-
-    def _span(self, node: ast.expr) -> Span:
-        return self._text.span(*(self._offset(line, column) for line, column in _bounds(node)))
-
-    def _offset(self, line: int, column: int) -> int:
-        # ast counts the bytes of UTF-8.
-        text = self._text.line(line).encode("utf-8", "surrogateescape")[:column]
-        return self._text.offset(line, len(text.decode("utf-8", "surrogateescape")) + 1)
-
-
-def _bounds(node: ast.expr) -> tuple[tuple[int, int], tuple[int, int]]:
-    return (node.lineno, node.col_offset), (node.end_lineno or node.lineno, node.end_col_offset or node.col_offset)
+                    yield ColconDepend(match[1], role, span_of(self._text, item))

@@ -7,7 +7,6 @@ added starts nothing.
 from __future__ import annotations
 
 import ast
-import warnings
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
@@ -19,10 +18,9 @@ from ros_lint.collectors.launch_py_objects import PERHAPS, Frame, Function, Modu
 from ros_lint.collectors.launch_py_refused import misplaced, misused, no_conditions, no_texts, undefined
 from ros_lint.collectors.launch_py_run import Machine
 from ros_lint.collectors.launch_py_texts import Within, texts
-from ros_lint.collectors.launch_py_walk import span_of
 from ros_lint.collectors.launch_references import References
 from ros_lint.collectors.launch_text import UNKNOWN
-from ros_lint.collectors.python_syntax import refusal
+from ros_lint.collectors.python_syntax import NotPythonError, TooDeepError, parse, refusal, span_of
 from ros_lint.facts.launch import LaunchAction, LaunchFile
 from ros_lint.facts.sight import Facet, Opaque, Problem
 from ros_lint.text import Span, Text
@@ -46,16 +44,14 @@ def collect(
         return LaunchFile(source.path, "python", opaque=(opaque,), test="launch" not in defined, helper=not defined)
     test, helper = "launch" not in defined and "test" in defined, not defined
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # about escapes in somebody's strings
-            tree = ast.parse(source.text)
-    except SyntaxError as error:
-        problem = refusal(source, error.msg, error.lineno or 1, error.offset or 1)
-        opaque = Opaque(Facet.USES, "the file is no Python that can be read", problem.span)
-        return LaunchFile(source.path, "python", (), (opaque,), (problem,), test, helper)
-    except (ValueError, RecursionError, MemoryError):
+        tree = parse(source)
+    except TooDeepError:
         opaque = Opaque(Facet.USES, "the file is nested too deeply, or no text", source.span(0, 0))
         return LaunchFile(source.path, "python", (), (opaque,), (), test, helper)
+    except NotPythonError as error:
+        problem = refusal(source, error.message, error.line, error.column)
+        opaque = Opaque(Facet.USES, "the file is no Python that can be read", problem.span)
+        return LaunchFile(source.path, "python", (), (opaque,), (problem,), test, helper)
     helper = helper or any(_asks_for_arguments(node) for node in tree.body)
     reading = _Reading(source, Machine(modules, files))
     try:
@@ -92,12 +88,11 @@ def _imports(text: Text, tree: ast.Module) -> Iterator[tuple[str, Span]]:
     """Yield the modules that are imported first of all, under no condition."""
     if "sys.path" in text.text:
         return
-    source = Source(text)
     for statement in tree.body:
         if isinstance(statement, ast.Import):
-            yield from ((alias.name, span_of(alias, source)) for alias in statement.names)
+            yield from ((alias.name, span_of(text, alias)) for alias in statement.names)
         elif isinstance(statement, ast.ImportFrom):
-            yield "." * statement.level + (statement.module or ""), span_of(statement, source)
+            yield "." * statement.level + (statement.module or ""), span_of(text, statement)
 
 
 class _Reading:

@@ -12,6 +12,7 @@ from ros_lint.facts.sight import Problem
 
 if TYPE_CHECKING:
     from ros_lint.collectors.launch_py_objects import Source
+    from ros_lint.collectors.python_syntax import Node
 
 _MODULES: Mapping[str, frozenset[str]] = {
     module: frozenset(names.split())
@@ -66,7 +67,7 @@ def strays(tree: ast.Module, source: Source) -> Iterator[Problem]:
                 yield from _stray(f"{root.id}.{one.value.attr}", one.attr, one, source)
 
 
-def _stray(module: str, name: str, node: ast.AST, source: Source) -> Iterator[Problem]:
+def _stray(module: str, name: str, node: Node, source: Source) -> Iterator[Problem]:
     if _is_stray(module, name):
         yield Problem("stray-name", f"{module} has no {name}: {' and '.join(_HOMES[name])} has it", span_of(node, source))
 

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from ros_lint.collectors import launch_text
+from ros_lint.collectors import launch_text, python_syntax
 from ros_lint.collectors.launch_py_objects import (
     Conditions,
     Context,
@@ -37,34 +37,13 @@ _DEEPEST = 60
 _MOST = 5_000
 
 
-def place(node: ast.AST, source: Source) -> tuple[int, int]:
-    """Return the offsets of an expression."""
-    return (
-        _offset(source, node.lineno, node.col_offset),  # type: ignore[attr-defined]
-        _offset(source, node.end_lineno, node.end_col_offset),  # type: ignore[attr-defined]
-    )
-
-
-def _offset(source: Source, line: int, column: int) -> int:
-    start = source.text.offset(line, 1)
-    if source.ascii:
-        return start + column
-    head = source.text.line(line).encode("utf-8", "surrogateescape")[:column]
-    return start + len(head.decode("utf-8", "surrogateescape"))
-
-
-def span_of(node: ast.AST, source: Source) -> Span:
+def span_of(node: python_syntax.Node, source: Source) -> Span:
     """Return the span of an expression."""
     if not source.ascii:
-        return source.text.span(*place(node, source))
-    # The columns of the syntax tree count bytes, which are characters here.
-    return Span(
-        source.text.path,
-        node.lineno,  # type: ignore[attr-defined]
-        node.col_offset + 1,  # type: ignore[attr-defined]
-        node.end_lineno,  # type: ignore[attr-defined]
-        node.end_col_offset + 1,  # type: ignore[attr-defined]
-    )
+        return python_syntax.span_of(source.text, node)
+    # The columns of the syntax tree count bytes, which are characters here: most files are so, and this is fast.
+    end = node.end_lineno or node.lineno, (node.end_col_offset or node.col_offset) + 1
+    return Span(source.text.path, node.lineno, node.col_offset + 1, *end)
 
 
 def place_of(made: Made) -> Span:
@@ -198,7 +177,7 @@ class Walker:
         path, line, column, last, end = span
         if line == last and end - column == len(found[0]) + 2:  # between quotes as it is meant
             return LaunchValue(found, Span(path, line, column + 1, last, end - 1), exact=True)
-        at = source.text.text.find(found[0], *place(node, source))
+        at = source.text.text.find(found[0], *python_syntax.range_of(source.text, node))
         if at < 0:
             return LaunchValue(found, span)
         return LaunchValue(found, source.text.span(at, at + len(found[0])), exact=True)

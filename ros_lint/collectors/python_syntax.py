@@ -29,6 +29,9 @@ _PYTHON_2 = re.compile(
 _TEMPLATE_NAME = re.compile(r"\.(?:in|em|j2|jinja2?|mako|template|tmpl|tpl)(?:\.py)?\Z|\{\{|\}\}|__[A-Z_]+__\.py\Z")
 _TEMPLATE_MARK = re.compile(r"\{\{|\{%|@\{|@\(|@\[|@[A-Za-z_]\w*@|\$\{|<%")
 
+Node = ast.expr | ast.stmt | ast.alias | ast.keyword
+"""What stands in a place of its own."""
+
 
 class NotPythonError(Exception):
     """A source is no Python for the interpreter that runs."""
@@ -40,8 +43,12 @@ class NotPythonError(Exception):
         self.column = column
 
 
+class TooDeepError(NotPythonError):
+    """A source is nested too deeply for this interpreter, perhaps not for another; or no text."""
+
+
 def parse(source: Text) -> ast.Module:
-    """Return the tree of a source. Raises :class:`NotPythonError`, and nothing else."""
+    """Return the tree of a source. Raises :class:`NotPythonError`, also as :class:`TooDeepError`, and nothing else."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # about escapes in somebody's strings
@@ -49,21 +56,21 @@ def parse(source: Text) -> ast.Module:
     except SyntaxError as error:
         raise NotPythonError(error.msg, error.lineno or 1, error.offset or 1) from None
     except (ValueError, RecursionError, MemoryError) as error:
-        raise NotPythonError(str(error) or "nested too deeply", 1, 1) from None
+        raise TooDeepError(str(error) or "nested too deeply", 1, 1) from None
 
 
-def start_of(source: Text, node: ast.expr | ast.stmt | ast.alias) -> int:
+def start_of(source: Text, node: Node) -> int:
     """Return the offset at which a node starts. The tree counts columns in bytes of UTF-8."""
     return _offset(source, node.lineno, node.col_offset)
 
 
-def range_of(source: Text, node: ast.expr | ast.stmt | ast.alias) -> tuple[int, int]:
+def range_of(source: Text, node: Node) -> tuple[int, int]:
     """Return the offsets between which a node stands."""
     end = _offset(source, node.end_lineno or node.lineno, node.end_col_offset or node.col_offset)
     return start_of(source, node), end
 
 
-def span_of(source: Text, node: ast.expr | ast.stmt | ast.alias) -> Span:
+def span_of(source: Text, node: Node) -> Span:
     """Return the place of a node."""
     return source.span(*range_of(source, node))
 
