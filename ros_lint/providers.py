@@ -141,8 +141,17 @@ def offered(script: BuildScript, files: Sequence[str]) -> tuple[str, ...] | None
         if slash and top in tops:
             is_module = rest == "__init__.py" or (rest.endswith(".py") and top not in _DATA)
             modules[top] = modules.get(top, False) or is_module
-    found = tuple(top for top in tops if modules.get(top, True))
+    found = tuple(dict.fromkeys([*(top for top in tops if modules.get(top, True)), *_installed_modules(script)]))
     return found if found or _has_no_module(script, files) else None
+
+
+def _installed_modules(script: BuildScript) -> Iterator[str]:
+    """Yield the modules whose files are put by themselves where Python looks for them."""
+    for provided in script.provides:
+        if provided.path.endswith(".py") and provided.importable:
+            top = provided.path.rpartition("-packages/")[2].partition("/")[0].removesuffix(".py")
+            if top != "__init__":
+                yield top
 
 
 def _has_no_module(script: BuildScript, files: Iterable[str]) -> bool:

@@ -219,6 +219,15 @@ def test_modules_in_c_plus_plus() -> None:
     assert not hidden(script)
 
 
+def test_modules_for_a_python_that_is_not_known() -> None:
+    place = "lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/site-packages"
+    script = run(f"find_package(Python3 REQUIRED)\ninstall(DIRECTORY imp/ DESTINATION {place}/)\n", ("imp/joints.py",))
+    assert paths(script) == {"lib/python/site-packages/joints.py": False}
+    assert not hidden(script)
+    elsewhere = "install(FILES a.py DESTINATION lib/python${Python3_VERSION_MAJOR})\n"
+    assert hidden(run(f"find_package(Python3 REQUIRED)\n{elsewhere}", ("a.py",)))
+
+
 def test_folders_that_are_not_looked_into_are_installed_all_the_same() -> None:
     text = HEAD + "install(DIRECTORY share/ DESTINATION share/pkg)\n"
     listed = {"share/build": ["share/build/a.txt", "share/build/b/c.txt"], "gone": []}

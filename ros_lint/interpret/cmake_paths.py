@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import posixpath
+import re
 from bisect import bisect_left
 from collections.abc import Sequence
 from functools import lru_cache
@@ -10,6 +11,7 @@ from functools import lru_cache
 from ros_lint.interpret.cmake_sources import Sources
 from ros_lint.interpret.cmake_state import Frame, State
 from ros_lint.interpret.cmake_values import ATOM, BINARY, HOLE, MAYBE, PREFIX, SOURCE
+from ros_lint.knowledge.cmake_commands import VARIABLES
 from ros_lint.tree import join as join_path
 
 _OF_BUILD = "$<BUILD_INTERFACE:"
@@ -131,7 +133,12 @@ def _destination(value: str) -> str | None:
     """Return an install destination relative to the prefix."""
     if value.startswith(PREFIX):
         value = value[len(PREFIX) :].lstrip("/")
+    value = _MODULES.sub(VARIABLES["PYTHON_INSTALL_DIR"], value)
     if HOLE in value or "\1" in value or value.startswith("/") or "$<" in value:
         return None
     path = posixpath.normpath(value) if value else ""
     return "" if path == "." else path
+
+
+_MODULES = re.compile(rf"\Alib/python(?=[^/]*[{HOLE}{ATOM}])[^/]*/(?:site|dist)-packages(?=/|\Z)")
+"""Where Python looks for modules, of a version that is not known."""
