@@ -56,6 +56,7 @@ _SAY: Mapping[How, tuple[str, str]] = {
     "tested": ("substitution-as-text", "a {name} is always true: say IfCondition(a), or ask perform(context)"),
     "combined": ("substitution-as-text", "Python takes one of two conditions here: say {way}"),
 }
+_DECIDED = "a {name} is always true for Python: give it to condition=, or ask evaluate(context)"
 _TELLS = frozenset({"print", "debug", "info", "warning", "warn", "error", "LogInfo"})
 """Calls whose texts nobody but people read."""
 
@@ -67,6 +68,7 @@ def misused(tree: ast.Module, source: Source, noted: Iterable[Misused]) -> Itera
         return
     spared, functions, compared = _spared(tree), _functions(tree), _compared(tree)
     combined = [node for node in ast.walk(tree) if isinstance(node, ast.BoolOp)]
+    decided = {inner for node in ast.walk(tree) if isinstance(node, (ast.If, ast.IfExp)) for inner in ast.walk(node.test)}
     told: set[int] = set()
     for one in noted:
         if one.node in spared or one.node.lineno in told:
@@ -76,6 +78,8 @@ def misused(tree: ast.Module, source: Source, noted: Iterable[Misused]) -> Itera
             continue
         told.add(one.node.lineno)
         kind, message = _SAY["compared" if one.how == "formatted" and one.node in compared else one.how]
+        if one.how == "combined" and one.node in decided:
+            message = _DECIDED
         yield Problem(kind, message.format(name=one.made.name, way=_way(one, combined)), span_of(one.node, source))
 
 
