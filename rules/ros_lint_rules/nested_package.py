@@ -22,9 +22,9 @@ the nested one is not meant to be built, put an empty `COLCON_IGNORE` beside its
 - A `CMakeLists.txt` of the outer package takes the folder in with `add_subdirectory()`, or with a function of its own that is
   called like it (`add_rosidl_subdirectory()`): it is a part of that package then.
 - The nested manifest would be rejected anyway, or has no build script beside it.
-- In folders of tests, templates, examples or vendored code the confidence is medium: such manifests are mostly data; and in
-  folders for what is put aside, such as `legacy`. So it is where a file of the outer package cannot be read, and where one of
-  the two is of ROS 1 (catkin), which nobody builds with ROS 2.
+- In folders of tests, templates, examples or vendored code the confidence is medium: such manifests are mostly data, as are
+  those that the outer package installs; and in folders for what is put aside, such as `legacy`. So it is where a file of the
+  outer package cannot be read, and where one of the two is of ROS 1 (catkin), which nobody builds with ROS 2.
 """
 
 from __future__ import annotations
@@ -71,7 +71,13 @@ def _all_hidden(package: Package, lost: list[Manifest]) -> Finding:
 def _is_lost(package: Package, nested: Manifest) -> bool:
     """Whether a manifest is rather a package that somebody wants to build than data, and was not left behind with ROS 1."""
     data = any(_DATA.fullmatch(folder) or is_apart(f"{folder}/") for folder in _between(package, nested))
-    return not (data or package.builds_with == "catkin" or _is_of_ros_1(nested))
+    return not (data or _is_installed(package, nested) or package.builds_with == "catkin" or _is_of_ros_1(nested))
+
+
+def _is_installed(package: Package, nested: Manifest) -> bool:
+    """Whether the outer package installs the manifest, with its folder."""
+    installed = "/".join(nested.path.split("/")[-2:])
+    return any(provided.path.endswith(f"/{installed}") for provided in package.built.provides)
 
 
 def _between(package: Package, nested: Manifest) -> list[str]:
