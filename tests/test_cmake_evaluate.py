@@ -153,6 +153,16 @@ def test_loops_each_of_whose_rounds_may_be_the_last(loop: str) -> None:
     assert hidden(run(script)) & Facet.EXECUTABLES
 
 
+@pytest.mark.parametrize(
+    "piece",
+    ["if(b_A{})\nreturn()\nendif()\n", "if(b_A{})\nset(x{} y)\n", "if(TRUE)\nset(x{} y)\n"],
+    ids=["leave", "nest", "deep"],
+)
+def test_conditions_upon_conditions(piece: str) -> None:
+    script = "find_package(b)\n" + "".join(piece.format(number, number) for number in range(900))
+    assert hidden(run(script + "endif()\n" * (script.count("if(") - script.count("endif()")))) & Facet.EXECUTABLES
+
+
 def test_values_do_not_grow_without_end() -> None:
     script = run("set(x aaaaaaaaaa)\nforeach(i RANGE 60)\nset(x ${x}${x})\nendforeach()\n")
     assert not script.opaque

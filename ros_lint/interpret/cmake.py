@@ -29,9 +29,9 @@ from ros_lint.interpret import (
 )
 from ros_lint.interpret.cmake_flow import HANDLERS
 from ros_lint.interpret.cmake_released import released
-from ros_lint.interpret.cmake_run import BudgetError, Run, folded
+from ros_lint.interpret.cmake_run import Run, folded
 from ros_lint.interpret.cmake_sources import Helper, Sources
-from ros_lint.interpret.cmake_state import STOP, Frame
+from ros_lint.interpret.cmake_state import STOP, BudgetError, Frame
 from ros_lint.interpret.cmake_values import SOURCE, is_known
 from ros_lint.knowledge.cmake_commands import macros
 from ros_lint.text import Span, beginning
@@ -79,7 +79,7 @@ def evaluate(sources: Sources, distro: str = "", helpers: Mapping[str, Helper] =
     frame = Frame(True, path, f"{SOURCE}/{_TOP}")
     try:
         ended = cmake_flow.run_file(run, parsed.commands, frame)
-    except BudgetError:
+    except (BudgetError, RecursionError):
         run.frames[:] = [frame]
         run.hide(ANYTHING, "the script runs longer than can be followed", frame.command and frame.command.place(path))
     else:

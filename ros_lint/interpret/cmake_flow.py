@@ -9,13 +9,14 @@ from typing import Any, Final
 from ros_lint.collectors.cmake_syntax import Command
 from ros_lint.facts.sight import ANYTHING
 from ros_lint.interpret.cmake_blocks import Node, UnbalancedError, blocks
-from ros_lint.interpret.cmake_run import DEEPEST, MOST_STEPS, BudgetError, Handler, Run
+from ros_lint.interpret.cmake_run import DEEPEST, MOST_STEPS, Handler, Run
 from ros_lint.interpret.cmake_state import (
     NEXT,
     RETURN,
     STOP,
     TESTS,
     USUAL,
+    BudgetError,
     Changes,
     Choice,
     Exit,

@@ -10,7 +10,7 @@ from ros_lint.collectors.cmake_syntax import UNQUOTED, Command
 from ros_lint.interpret.cmake_blocks import Body, Loop
 from ros_lint.interpret.cmake_conditions import condition
 from ros_lint.interpret.cmake_flow import count_step, perhaps, run_body
-from ros_lint.interpret.cmake_run import DEEPEST, MOST_STEPS, BudgetError, Run
+from ros_lint.interpret.cmake_run import MOST_STEPS, Run
 from ros_lint.interpret.cmake_state import BREAK, CONTINUE, NEXT, RETURN, STOP, Exit
 from ros_lint.interpret.cmake_truth import FALSE, LIKELY, UNKNOWN, UNLIKELY
 from ros_lint.interpret.cmake_values import HOLE, MAYBE, WILD, elements, split, sure
@@ -29,7 +29,7 @@ def _run_foreach(run: Run, node: Loop) -> Exit:
     names = _loop_names(args)
     kept = [(name, run.scopes[-1].get(name, _ABSENT)) for name in names]
     seen = {name: run.get(name) or "" for name in names}
-    ended = _run_rounds(run, node.body, names, rounds, 0)
+    ended = _run_rounds(run, node.body, names, rounds)
     for name, value in kept:
         if value is _ABSENT and run.versions < (3, 21):  # policy CMP0124
             run.set(name, seen[name])
@@ -112,10 +112,7 @@ def _range(args: list[str]) -> list[str]:
     return [str(number) for number in range(start, stop + (1 if step > 0 else -1), step)]
 
 
-def _run_rounds(run: Run, body: Body, names: list[str], rounds: list[tuple[str, ...]], start: int, deep: int = 0) -> Exit:
-    """Run the rounds of a loop from ``start`` on, ``deep`` being how many before may have been the last."""
-    if deep > DEEPEST:
-        raise BudgetError
+def _run_rounds(run: Run, body: Body, names: list[str], rounds: list[tuple[str, ...]], start: int = 0) -> Exit:
     for index in range(start, len(rounds)):
         items = rounds[index]
         if items[0] in (HOLE, WILD):
@@ -132,7 +129,7 @@ def _run_rounds(run: Run, body: Body, names: list[str], rounds: list[tuple[str, 
             return NEXT if ended & BREAK and not ended & RETURN else (ended & ~BREAK) | (NEXT if ended & BREAK else 0)
         leaves = ended & (RETURN | BREAK)
         if leaves:
-            rest, changes = perhaps(run, partial(_run_rounds, run, body, names, rounds, index + 1, deep + 1))
+            rest, changes = perhaps(run, partial(_run_rounds, run, body, names, rounds, index + 1))
             run.join([{}, changes])
             return (ended & RETURN) | (NEXT if ended & BREAK else 0) | rest
     return NEXT
@@ -157,9 +154,7 @@ def _run_any_number(run: Run, round_: partial[Exit]) -> Exit:
     return ended | NEXT
 
 
-def _run_while(run: Run, node: Loop, deep: int = 0) -> Exit:
-    if deep > DEEPEST:
-        raise BudgetError
+def _run_while(run: Run, node: Loop) -> Exit:
     while True:
         count_step(run)
         run.frames[-1].command = node.command
@@ -173,7 +168,7 @@ def _run_while(run: Run, node: Loop, deep: int = 0) -> Exit:
         if not ended & (NEXT | CONTINUE):
             return NEXT if ended == BREAK else (ended & ~BREAK) | (NEXT if ended & BREAK else 0)
         if ended & (BREAK | RETURN):
-            rest, changes = perhaps(run, partial(_run_while, run, node, deep + 1))
+            rest, changes = perhaps(run, partial(_run_while, run, node))
             run.join([{}, changes])
             return (ended & RETURN) | NEXT | rest
 

@@ -17,8 +17,8 @@ from ros_lint.interpret.cmake_blocks import Body, Definition, If, blocks
 from ros_lint.interpret.cmake_definitions import counts
 from ros_lint.interpret.cmake_expand import Template, expand, template
 from ros_lint.interpret.cmake_flow import HANDLERS, call, perhaps, run_named
-from ros_lint.interpret.cmake_run import MOST_STEPS, BudgetError, Run
-from ros_lint.interpret.cmake_state import NEXT, STOP, TESTS, USUAL, Exit, Frame, Procedure
+from ros_lint.interpret.cmake_run import MOST_STEPS, Run
+from ros_lint.interpret.cmake_state import NEXT, STOP, TESTS, USUAL, BudgetError, Exit, Frame, Procedure
 from ros_lint.interpret.cmake_values import split
 from ros_lint.knowledge.cmake_commands import macros
 from ros_lint.text import Text

@@ -61,10 +61,6 @@ def substituted(text: str, given: Mapping[str, str]) -> str:
     return _SIMPLE.sub(lambda reference: given.get(reference[1], reference[0]), text)
 
 
-class BudgetError(Exception):
-    """The script runs longer than any real one."""
-
-
 class Run(Paths):
     """The state of an evaluation and all that it found."""
 

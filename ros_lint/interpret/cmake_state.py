@@ -74,6 +74,12 @@ class Change(NamedTuple):
 Changes = dict[tuple[int, str], Change]
 
 MISSING: Final = object()
+_DEEPEST: Final = 100
+"""Branches within branches; all that follows what may leave a body or a loop is one. Real packages need less than 20."""
+
+
+class BudgetError(Exception):
+    """The script runs longer than any real one."""
 
 
 class State:
@@ -94,6 +100,7 @@ class State:
         self.gained: dict[str, frozenset[str]] = {}
         """Elements that lists have only where tests are wanted, by the variable that holds the list."""
         self.log: list[tuple[dict[str, Any], str, Any]] | None = None
+        self._nested = 0
         self.unpaired = False
         """Whether some value holds a square bracket without its partner, so that unknown texts may hold one too."""
 
@@ -165,11 +172,18 @@ class State:
     # --- branching
 
     def branch(self, run: Callable[[], Exit]) -> tuple[Exit, Changes]:
-        """Run something, take back all that it wrote, and return how it ended and what it wrote."""
+        """Run something, take back all that it wrote, and return how it ended and what it wrote.
+
+        Raises BudgetError where branches are nested too deeply.
+        """
+        if self._nested > _DEEPEST:
+            raise BudgetError
+        self._nested += 1
         outer, self.log = self.log, []
         try:
             ended = run()
         finally:
+            self._nested -= 1
             log, self.log = self.log, outer
             changes: Changes = {}
             for mapping, key, _ in log:
