@@ -13,6 +13,7 @@ from ros_lint.interpret.cmake_include import include_foreign, include_own
 from ros_lint.interpret.cmake_run import Handler, Run, folded
 from ros_lint.interpret.cmake_values import ATOM, FOREIGN, HOLE, SOURCE, is_known, maybe, split, sure
 from ros_lint.text import Span
+from ros_lint.wording import few
 
 _FOREIGN_VARIABLE = re.compile(
     r"\$\{([A-Za-z0-9_+.-]+?)_(?:TARGETS|LIBRARIES|LIBRARY|LIBS|INCLUDE_DIRS?|INCLUDES|DEFINITIONS|LDFLAGS|CFLAGS)\}"
@@ -114,6 +115,7 @@ _PURPOSES: Final[Mapping[str, Purpose]] = {"-": "", "export": "export", "interfa
 def _uses(run: Run, args: list[str]) -> None:
     """``ros_lint_uses(for how names...)``: a macro is given the names of packages."""
     purpose = _PURPOSES[args[0]]
+    certainly: dict[str, Span] = {}
     for arg in args[2:]:
         name, certain = sure(arg)
         if name in ("PUBLIC", "INTERFACE", "PRIVATE", "SYSTEM"):
@@ -125,22 +127,28 @@ def _uses(run: Run, args: list[str]) -> None:
                 run.hide(Facet.USES, "the name of a package is not known")
         elif is_known(name) and not run.is_bundled(name):
             if certain:
-                _doubt(run, name, args[1].partition(" ")[0], run.where(arg))
+                certainly[name] = run.where(arg)
             what = f"{args[1]} {name}" if args[1] != "-" else ""
             run.mention(name, "target", run.where(arg), what, optional=not certain, purpose=purpose)
+    if certainly and not (run.muted or run.unsure):
+        _doubt(run, args[1].partition(" ")[0], certainly)
 
 
-def _doubt(run: Run, name: str, command: str, span: Span) -> None:
-    """Note what is given for a package to a command that asks whether it is found, and can never be."""
-    own = name == run.sources.name and command == "ament_target_dependencies"
-    if "::" in name and command.startswith("ament_"):
-        what = f"and {name} is a target"
-    elif own and name not in run.packages and run.normal(f"{name}_FOUND") is None:
-        what = f"and {name} is this one: link its targets with target_link_libraries()"
-    else:
-        return
-    if not run.muted and not run.unsure:
-        run.refused[Problem("no-package", f"{command}() takes packages that are found, {what}", span, subject=name)] = None
+def _doubt(run: Run, command: str, given: Mapping[str, Span]) -> None:
+    """Note what is given for packages to a command that asks whether they are found, and can never be."""
+    targets = [name for name in given if "::" in name] if command.startswith("ament_") else []
+    if targets:
+        are = "is a target" if len(targets) == 1 else "are targets"
+        _refuse(run, command, f"{few(targets)} {are}", given[targets[0]], targets[0])
+    own = run.sources.name
+    asked = own in given and command == "ament_target_dependencies"
+    if asked and own not in run.packages and run.normal(f"{own}_FOUND") is None:
+        _refuse(run, command, f"{own} is this one: link its targets with target_link_libraries()", given[own], own)
+
+
+def _refuse(run: Run, command: str, what: str, span: Span, name: str) -> None:
+    says = f"{command}() takes packages that are found, and {what}"
+    run.refused[Problem("no-package", says, span, subject=name)] = None
 
 
 def _target_uses(run: Run, args: list[str]) -> None:

@@ -31,9 +31,10 @@ is a slip for a package that is found.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from ros_lint.api import (
+    Call,
     Confidence,
     Facet,
     Finding,
@@ -47,6 +48,7 @@ from ros_lint.api import (
     called,
     cmake_edits,
     come_along,
+    few,
     found_names,
     is_meant,
     relative,
@@ -133,20 +135,34 @@ def _no_packages(package: Package, found: frozenset[str], workspace: Workspace) 
     for call in called(package, "ament_target_dependencies", anywhere=True):
         if _REPEATED.intersection(call.blocks):
             continue
-        for index, name in enumerate(call.texts[1:], 1):
-            if "$" in name or name in _WORDS or name.lower() in spelt or workspace.world.is_package(name):
-                continue
-            fix = None
-            if name in targets:
-                way_out = "is a target of this package and no package: link it with target_link_libraries()"
-            elif near := similar(name, sorted(found), 1, 0.9):
-                way_out = f"is no package that is found{is_meant(near)}"
-                fix = Fix.of(f"write {near[0]}", cmake_edits.write(call, index, near[0]), safe=False)
-            else:
-                continue
-            yield Finding(f"ament_target_dependencies() takes packages, and {name} {way_out}", call.span(index), name, fix=fix)
+        sought = enumerate(call.texts[1:], 1)
+        odd = {name: index for index, name in sought if not ("$" in name or name in _WORDS or name.lower() in spelt)}
+        odd = {name: index for name, index in odd.items() if not workspace.world.is_package(name)}
+        yield from _targets(call, {name: index for name, index in odd.items() if name in targets})
+        for name, index in odd.items():
+            if name not in targets and (near := similar(name, sorted(found), 1, 0.9)):
+                yield Finding(
+                    f"{_TAKES}{name} is no package that is found{is_meant(near)}",
+                    call.span(index),
+                    name,
+                    fix=Fix.of(f"write {near[0]}", cmake_edits.write(call, index, near[0]), safe=False),
+                )
 
 
+def _targets(call: Call, given: Mapping[str, int]) -> Iterator[Finding]:
+    """Yield one finding for the targets of the package that a call is given, by their names with their arguments."""
+    if given:
+        (name, at), *others = given.items()
+        are, it = ("are targets", "them") if others else ("is a target", "it")
+        yield Finding(
+            f"{_TAKES}{few(given)} {are} of this package: link {it} with target_link_libraries()",
+            call.span(at),
+            name,
+            several(Related(f"and {other}", call.span(index)) for other, index in others),
+        )
+
+
+_TAKES = "ament_target_dependencies() takes packages, and "
 _WORDS = frozenset({"PUBLIC", "PRIVATE", "INTERFACE", "SYSTEM"})
 _REPEATED = frozenset({"foreach", "while", "function", "macro"})
 """In these a name may be one that is put together elsewhere."""
