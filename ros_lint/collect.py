@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import gc
 import os
+import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Literal, NamedTuple
 
@@ -22,7 +23,20 @@ from ros_lint.text import Text, beginning, read
 from ros_lint.tree import DiskTree, RecordedTree, Tree
 
 Kind = Literal[
-    "manifest", "config", "cpp", "python", "cmake", "interface", "xml", "yaml", "resource", "java", "rust", "cargo", "matlab"
+    "manifest",
+    "config",
+    "cpp",
+    "python",
+    "program",
+    "cmake",
+    "interface",
+    "xml",
+    "yaml",
+    "resource",
+    "java",
+    "rust",
+    "cargo",
+    "matlab",
 ]
 
 MOST_BYTES = 4 << 20
@@ -41,8 +55,12 @@ _SUFFIXES.update(dict.fromkeys(("yaml", "yml"), "yaml"))
 _SUFFIXES.update(dict.fromkeys(("urdf", "xacro", "sdf", "world", "rviz"), "resource"))
 
 
+_OF_PYTHON = re.compile(rb"#![^\n]*python")
+"""How a program begins that Python runs, whatever it is called."""
+
 _HIDES: dict[Kind, Facet] = {
     "manifest": Facet(0),  # without it there is no package
+    "program": Facet(0),  # mostly no program
     "config": Facet(0),  # only beside setup.py, where its evaluation tells of it
     "cpp": Facet.USES | Facet.COMPONENTS,
     "cmake": ANYTHING,
@@ -79,6 +97,8 @@ def kind_of(path: str) -> Kind | None:
     if suffix in ("in", "em") and stem:  # configured by CMake, expanded by empy
         inner = _SUFFIXES.get(stem.rpartition(".")[2])
         return inner if inner in ("cmake", "python") else None
+    if name == suffix:  # without a suffix, it may be a program; what lies in resource/ is a marker, what is in capitals a LICENSE
+        return None if name.isupper() or path.endswith(f"resource/{name}") else "program"
     return _SUFFIXES.get(suffix) if stem else None
 
 
@@ -171,6 +191,10 @@ def _read_and_collect(tree: Tree, path: str, kind: Kind) -> Collected:
         data = tree.read(path)
     except OSError as error:
         return _unreadable(path, kind, error.strerror or str(error))
+    if kind == "program":
+        if not _OF_PYTHON.match(data):
+            return Collected()
+        kind = "python"
     if len(data) > MOST_BYTES:
         return _unreadable(path, kind, f"{len(data) >> 20} MB is more than a source has")
     if b"\0" in data[:1024] and not data.startswith((b"\xff\xfe", b"\xfe\xff")):
