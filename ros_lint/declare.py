@@ -20,17 +20,19 @@ if TYPE_CHECKING:
 def tag_for(package: Package, workspace: Workspace, name: str, role: Role) -> str:
     """Return the one tag that a careful maintainer writes for all that a name is needed for (reference, section E2).
 
-    Where the manifest says ``<depend>`` of everything, it goes on saying so, unless CMake finds and links all that it says
-    it of. For a manifest of format 1, where nothing means "build and run", it is the tag for building, see
-    :func:`add_dependency`.
+    Where the manifest says ``<depend>`` of everything, and of something that is only run, it goes on saying so, unless CMake
+    finds and links all that it says it of. For a manifest of format 1, where nothing means "build and run", it is the tag for
+    building, see :func:`add_dependency`.
     """
     form = package.manifest.format if package.manifest else 3
     if role == Role.TEST:
         return "test_depend"
     needed = _without(role, Role.TEST)
     if needed == Role.EXEC or (form > 1 and needed == Role.EXPORT and _is_only_run(workspace, name)):
-        habit = "depend" if form > 1 and _always_depend(package) and not finds_declared(package) else "exec_depend"
-        return "run_depend" if form == 1 else habit
+        if form == 1:
+            return "run_depend"
+        habit = _always_depend(package) and _depends_on_runs(package, workspace) and not finds_declared(package)
+        return "depend" if habit else "exec_depend"
     if needed == Role.TOOL or (_has(needed, Role.BUILD) and _is_tool(workspace, name, needed)):
         return "buildtool_depend"
     return "build_depend" if form == 1 or (needed == Role.BUILD and _is_only_for_building(workspace, name)) else "depend"
@@ -40,6 +42,19 @@ def _always_depend(package: Package) -> bool:
     """Whether a manifest knows no other tag than ``<depend>``, and that one well, for what is built or run."""
     tags = [declared.depend.tag for declared in package.declared if declared.role & (Role.BUILD | Role.EXEC | Role.EXPORT)]
     return len(tags) > 1 and set(tags) == {"depend"}
+
+
+def _depends_on_runs(package: Package, workspace: Workspace) -> bool:
+    """Whether something that is declared is only run, as far as the package uses it, or else by what others declare it as."""
+    roles: dict[str, Role] = {}
+    for use in package.uses:
+        for name in use.providers:
+            roles[name] = roles.get(name, use.role) | use.role
+    names = [declared.depend.name for declared in package.declared if declared.depend.tag == "depend"]
+    return any(not roles[name] & _BUILDS if name in roles else is_mostly_run(workspace, name) for name in names)
+
+
+_BUILDS = Role.BUILD | Role.EXPORT | Role.TOOL | Role.TEST
 
 
 def _has(role: Role, part: Role) -> bool:

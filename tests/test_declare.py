@@ -69,3 +69,11 @@ def test_what_others_declare_as_a_tool_is_a_tool() -> None:
 def test_format_1_has_other_tags(role: Role, tag: str) -> None:
     package, workspace = loaded("", form=1)
     assert tag_for(package, workspace, "nav_msgs", role) == tag
+
+
+def test_what_is_compiled_against_says_nothing_of_what_is_run() -> None:
+    built = "<buildtool_depend>ament_cmake</buildtool_depend><depend>rclcpp</depend><depend>std_msgs</depend>"
+    text = f"{HEAD.format(form=3)}{built}<export><build_type>ament_cmake</build_type></export></package>"
+    lines = "project(a)\nfind_package(rclcpp REQUIRED)\nfind_package(std_msgs REQUIRED)\nament_package()\n"
+    workspace = one_package.loaded({"a/package.xml": text, "a/CMakeLists.txt": lines})
+    assert tag_for(workspace.packages[0], workspace, "rviz2", Role.EXEC) == "exec_depend"
