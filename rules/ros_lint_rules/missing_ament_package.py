@@ -15,7 +15,8 @@ Call `ament_package()` once, as the last command of the top-level CMakeLists.txt
 
 ## When it keeps silent
 
-A command or an included file that cannot be followed may call it, and so may another CMakeLists.txt of the package.
+- A command or an included file that cannot be followed may call it, and so may another CMakeLists.txt of the package.
+- The package installs a CMake configuration of its own: other packages find that, as they do a plain CMake project.
 """
 
 from __future__ import annotations
@@ -41,6 +42,9 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     if any(name in script.calls for name in ENDS) or any(call.name in ENDS for call in script.written):
         return
     if any(opaque.span.path.endswith((".txt", ".cmake")) for opaque in package.hidden(ANYTHING)):
+        return
+    configurations = (f"/{package.name}Config.cmake", f"/{package.name.lower()}-config.cmake")
+    if any(provided.path.endswith(configurations) for provided in script.provides):
         return
     yield Finding(
         "ament_package() is never called, so the package will not be found once it is installed; call it last",
