@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import ast
 import posixpath
+import re
 from collections.abc import Callable, Mapping
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors import launch_text
@@ -228,6 +230,22 @@ def _makes(position: int) -> Rule:
     return rule
 
 
+_OUTPUT = re.compile(r"(?:>|\s-o\s)\s*(\S+)")
+
+
+def _runs(call: Call) -> Value:
+    """A command makes what it is told to write to, by ``>`` of the shell or by ``-o``: this need not be there before."""
+    words = call.items(0)
+    if words is None:
+        call.machine.ask(tuple([path for command in call.texts(0) for path in _OUTPUT.findall(command)]))
+    else:
+        for option, path in pairwise(words):
+            if "-o" in call.machine.texts(option):
+                call.machine.ask(call.machine.texts(path))
+    call.machine.lose([call.arguments, call.keywords])
+    return Unknown("")
+
+
 def subscript_library(machine: Machine, owner: Value, key: Value) -> Value:
     """Return an element of something that a library has."""
     if isinstance(owner, Api):
@@ -280,6 +298,8 @@ _BY_NAME: Mapping[str, Rule] = {
     "xacro.process": _expanded,
     "xacro.open_output": _makes(0),
     **dict.fromkeys(("shutil.copy", "shutil.copy2", "shutil.copyfile"), _makes(1)),
+    **{f"subprocess.{name}": _runs for name in ("Popen", "call", "check_call", "check_output", "getoutput", "run")},
+    "os.system": _runs,
 }
 
 _BY_LAST: Mapping[str, Rule] = {

@@ -28,7 +28,7 @@ Correct the path; the message names files of the same name that the package does
 - For a released package: its launch files are not known whole; other files of it are not known at all. Where nobody said
   which distribution is meant, the confidence is medium as long as one of them may have the file.
 - The launch file asks first if the package is there, or the file (`os.path.exists`), unless it stops where it is not; or it
-  writes the file itself (`open(path, 'w')`, `xacro.open_output(path)`).
+  writes the file itself (`open(path, 'w')`, `xacro.open_output(path)`), or by a command (`xacro ... > path`).
 - Models, displays and parameters that are not installed, or not in every build, and what xacro includes as `optional`. Where
   no launch file and no model is seen to look them up themselves, nobody may read them, and the confidence is medium.
 
