@@ -45,7 +45,26 @@ def of_package(tree: Tree, package: Package, source: Source, world: World, types
     if left:
         found = {**found, **traces(left, _contents(tree, package), libraries)}
         left = [name for name in left if name not in found]
-    return {**found, **types.used(source, left)} if left else found
+    if left:
+        found = {**found, **types.used(source, left)}
+        left = [name for name in left if name not in found]
+    return {**found, **_started(left, tree, package)} if left else found
+
+
+def _started(names: Sequence[str], tree: Tree, package: Package) -> dict[str, Span]:
+    """Return a place for those names that the pages of a package tell people to start something of."""
+    found: dict[str, Span] = {}
+    for path, data in contents(tree, package.path, [file for file in package.files if file.lower().endswith(_PAGES)]):
+        for match in _START.finditer(data):
+            name = match[1].decode()
+            if name in names:
+                found.setdefault(name, span_in(path, data, *match.span(1)))
+    return found
+
+
+_PAGES = (".md", ".rst")
+_START = re.compile(rb"\bros2 +(?:run|launch) +([a-z][a-z0-9_]*)")
+"""A command line, as people are told to type it."""
 
 
 def of_found(tree: Tree, package: Package, source: Source, world: World, types: Types) -> frozenset[str]:

@@ -16,7 +16,8 @@ Remove the tag. The fix does this, and needs `--unsafe-fixes` where the confiden
 
 ## When it keeps silent
 
-Where a type of it stands in C++ code by its bare name, which a header of a third package makes possible. And
+Where a type of it stands in C++ code by its bare name, which a header of a third package makes possible, and where a page
+of the package says to start something of it (`ros2 run`, `ros2 launch`). And
 whenever the dependency might be needed in a way that leaves no trace: linters, run-time and tool dependencies, tags
 under a condition, packages whose build scripts cannot be followed everywhere, metapackages, vendor packages and packages
 without code, and dependencies that give CMake macros or plugins. For rosdep keys of libraries, which others' headers may need,
