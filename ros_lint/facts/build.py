@@ -112,6 +112,15 @@ REPOSITORIES: Final[Mapping[str, str]] = {"gtest": "googletest", "gmock": "googl
 """What a project is called by whoever brings it along, where its targets and the folders of its headers have another name."""
 
 
+class Exported(NamedTuple):
+    """A target that install(TARGETS ... EXPORT) puts into a set."""
+
+    target: str
+    into: str
+    handed_on: bool
+    """Whether whoever finds the package has it for sure, for ament_export_targets() names the set."""
+
+
 class BuildScript(NamedTuple):
     """What the build of a package does: evaluated from CMakeLists.txt and what it includes, or from setup.py and setup.cfg."""
 
@@ -169,8 +178,7 @@ class BuildScript(NamedTuple):
     moved: tuple[str, ...] = ()
     """Files with Python modules that it installs, relative to the package, and folders of them, with a slash at the end,
     where they lie elsewhere than the names say: ``package_dir`` of a setup.py."""
-    export_sets: tuple[str, ...] = ()
-    """Sets that targets are exported in by install(TARGETS ... EXPORT)."""
+    exported: tuple[Exported, ...] = ()
     failed: bool = False
     """Whether it could not be evaluated by a mistake of ours, which ``opaque`` then tells."""
     behind: Span | None = None

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Final
 
 from ros_lint.collectors.cmake_syntax import Command, is_template
-from ros_lint.facts.build import BuildScript, Provided
+from ros_lint.facts.build import BuildScript, Exported, Provided
 from ros_lint.facts.sight import ANYTHING, Facet, Opaque, Problem
 from ros_lint.facts.sources import Mention
 from ros_lint.interpret import (
@@ -131,9 +131,15 @@ def _result(run: Run, path: str) -> BuildScript:
         refused=tuple(_refused(run)),
         runs=_runs(run),
         runs_tests=any(map(_RUNS_TESTS.search, calls)),
-        export_sets=tuple(dict.fromkeys([made.exported_in for made in run.installed_targets if is_known(made.exported_in)])),
+        exported=tuple(_exported(run)),
         set_aside=tuple([name for parsed in run.sources.scripts.values() for name in parsed.set_aside]),
     )
+
+
+def _exported(run: Run) -> Iterator[Exported]:
+    for made in run.installed_targets:
+        if made.exported_in and is_known(made.exported_in):
+            yield Exported(made.target, made.exported_in, not made.conditional and made.exported_in in run.exported_sets)
 
 
 _MAKES_NOTHING: Final = frozenset(

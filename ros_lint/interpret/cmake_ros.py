@@ -77,6 +77,12 @@ def _component(run: Run, args: list[str]) -> None:
             run.registered.append(run.scopes[-1])
 
 
+def _exported(run: Run, args: list[str]) -> None:
+    """``ros_lint_exported(sets...)``: whoever finds the package has the targets in these sets."""
+    if not (run.muted or run.conditional or run.testing):
+        run.exported_sets.update(dict.fromkeys([name for name, certain in map(sure, args) if certain]))
+
+
 def _interfaces(run: Run, args: list[str]) -> None:
     """``ros_lint_interfaces(install|- files...)``: interface files to generate code from."""
     package = run.sources.name or run.name
@@ -309,6 +315,7 @@ def run_handler(run: Run, name: str, args: list[str]) -> None:
 
 COMMANDS: Final[dict[str, Handler]] = {
     "ros_lint_component": _component,
+    "ros_lint_exported": _exported,
     "ros_lint_interfaces": _interfaces,
     "ros_lint_python": _python,
     "ros_lint_console_scripts": _scripts,

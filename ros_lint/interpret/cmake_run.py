@@ -123,6 +123,8 @@ class Run(Paths):
         self.installed: list[Provided] = []
         """Installed files. Those with a source that is not there count if it is generated."""
         self.installed_targets: list[InstalledTarget] = []
+        self.exported_sets: dict[str, None] = {}
+        """Sets of targets that whoever finds the package has for sure."""
         self.built: list[tuple[str, Properties, Span]] = []
         """Targets in the order of their definition."""
         self.links: dict[str, dict[str, Span]] = {}

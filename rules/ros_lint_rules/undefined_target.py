@@ -100,7 +100,7 @@ def _finds_strangers(package: Package, workspace: Workspace) -> bool:
 
 def _unfilled(package: Package) -> Iterator[Finding]:
     """Yield what is to say of exported sets of targets (reference, section C3): that none is in them."""
-    filled = package.built.export_sets
+    filled = list(dict.fromkeys([one.into for one in package.built.exported]))
     for call in called(package, "ament_export_targets", "ament_export_interfaces"):
         for index, text in enumerate(call.texts):
             name = evaluated_name(package, text)

@@ -61,7 +61,6 @@ from ros_lint.api import (
     found_along,
     found_names,
     given_for,
-    installed_targets,
     may_bring,
     relative,
     several,
@@ -133,20 +132,14 @@ def _has_headers(script: BuildScript) -> bool:
     return script.hides(Facet.SHARE) or any(provided.path.endswith(HEADERS) for provided in script.provides)
 
 
-def _exported_targets(package: Package) -> frozenset[str | None]:
-    """Return the targets that ament_export_targets() exports, None among them for those whose names are not known."""
-    sets = {text for call in called(package, "ament_export_targets", "ament_export_interfaces") for text in call.texts}
-    exported: set[str | None] = set()
-    for call in called(package, "install"):
-        words = call.texts
-        if not call.blocks and "EXPORT" in words[:-1] and words[words.index("EXPORT") + 1] in sets:
-            exported.update(evaluated_name(package, words[index]) for index in installed_targets(call))
-    return frozenset(exported)
+def _exported_targets(script: BuildScript) -> frozenset[str]:
+    """Return the targets that whoever finds the package can link."""
+    return frozenset([one.target for one in script.exported if one.handed_on])
 
 
 def _handed_on(package: Package, workspace: Workspace) -> Iterator[tuple[str, Span]]:
     """Yield the packages whose targets an exported library hands on to those who link it."""
-    exported = _exported_targets(package)
+    exported = _exported_targets(package.built)
     kinds = ("library", "interface")
     libraries = {target.name for target in package.built.targets if target.name in exported and target.kind in kinds}
     for call in called(package, "target_link_libraries"):
@@ -223,9 +216,7 @@ def _kept(package: Package, script: BuildScript) -> frozenset[str]:
     """
     built = [target for target in script.targets if not target.test]
     words = [text for call in called(package, "ament_export_libraries", anywhere=True) for text in call.texts]
-    handed_on = _exported_targets(package).union(evaluated_name(package, word) for word in words)
-    if None in handed_on:
-        return frozenset()
+    handed_on = {*_exported_targets(script), *(evaluated_name(package, word) for word in words)}
     inner = [target for target in built if target.kind == "executable" or target.name not in handed_on]
     outer = [target for target in built if target not in inner]
     if any(target.sources for target in outer) or not all(target.whole for target in built):

@@ -19,6 +19,7 @@
 #   ros_lint_test_executable(target ...)     a program that tests; options of the ament test commands are left out
 #   ros_lint_runs(files or folders...)       an interpreter runs these as tests
 #   ros_lint_hide(facets "reason")           something cannot be seen through
+#   ros_lint_exported(sets...)               whoever finds the package has the targets in these sets
 #   ros_lint_end()                           the package is complete
 # Sources: reference, sections C1 to C6; the documentation and the code of the packages named.
 
@@ -135,10 +136,12 @@ endmacro()
 
 package(ament_cmake_export_targets OPAQUE)
 macro(ament_export_targets)
+  ros_lint_exported(${ARGN})
 endmacro()
 
 package(ament_cmake_export_interfaces OPAQUE)
 macro(ament_export_interfaces)
+  ros_lint_exported(${ARGN})
 endmacro()
 
 package(ament_cmake_export_definitions OPAQUE)
