@@ -156,8 +156,10 @@ class Resolver:
         standing = self.names.standing(name) if name else "unknowable"
         if standing == "elsewhere":
             return Answer((name,))
-        if standing == "end-of-life" or (standing == "unknown" and interfaces):
-            return Answer((name,), interfaces and self.names.is_declared(name))
+        declared = interfaces and self.names.is_declared(name)
+        # A submodule that is not cloned may be a library. What another package declares is none, wherever it comes from.
+        if standing == "end-of-life" or (standing == "unknown" and interfaces) or (standing == "unknowable" and declared):
+            return Answer((name,), declared)
         return _NOBODY
 
 
@@ -323,7 +325,7 @@ _ACTIONS = "action_msgs"
 
 
 def _script_role(source: Source, mention: Mention) -> Role:
-    if source.builds_with == "ament_python" or mention.via == "macro":
+    if source.builds_with == "ament_python" or mention.via == "macro" or mention.purpose == "tool":
         return Role.TOOL
     return Role.EXPORT if mention.purpose == "export" else Role.BUILD
 

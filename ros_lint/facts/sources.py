@@ -12,10 +12,10 @@ from ros_lint.text import Span
 Via = Literal["package", "cmake", "macro", "target", "include", "import", "interface", "symbol", "launch", "key"]
 """In which of the name spaces a mention is to be looked up; they differ (reference, section D6 and E3.8)."""
 
-Purpose = Literal["", "export", "interfaces", "plugins", "helper"]
+Purpose = Literal["", "export", "interfaces", "plugins", "helper", "tool"]
 """What CMake takes a package for: to hand it on to those who find this one, to generate the code of interfaces, because it
-loads the plugins of this one, or because a command that another package of the workspace gives has it in itself. Most is for
-code, and nothing says so."""
+loads the plugins of this one, because a command that another package of the workspace gives has it in itself, or to run a
+program of it in the build. Most is for code, and nothing says so."""
 
 
 class Mention(NamedTuple):

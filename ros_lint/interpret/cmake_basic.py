@@ -13,6 +13,7 @@ from ros_lint.interpret.cmake_arguments import parse_keywords
 from ros_lint.interpret.cmake_flow import run_file, run_named
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_state import BREAK, CONTINUE, RETURN, STOP, Frame
+from ros_lint.interpret.cmake_tools import started
 from ros_lint.interpret.cmake_truth import is_off
 from ros_lint.interpret.cmake_values import HOLE, certainly_set, is_fixed, is_known, join, merge, split
 from ros_lint.text import Text
@@ -248,6 +249,7 @@ def _execute_process(run: Run, args: list[str]) -> None:
     folder = run.source(args[args.index("-S") + 1]) if "-S" in args[:-1] else None
     if folder and run.is_folder(folder) and not run.muted:
         run.bundled[posixpath.basename(folder)] = None
+    started(run, args)
     for keyword in ("RESULT_VARIABLE", "OUTPUT_VARIABLE", "ERROR_VARIABLE", "RESULTS_VARIABLE"):
         for index in range(len(args) - 1):
             if args[index] == keyword:

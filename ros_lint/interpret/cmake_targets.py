@@ -8,6 +8,7 @@ from ros_lint.facts.cmake import Target
 from ros_lint.facts.sight import Facet
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_state import Properties
+from ros_lint.interpret.cmake_tools import started
 from ros_lint.interpret.cmake_truth import is_off
 from ros_lint.interpret.cmake_values import HOLE, elements, is_fixed, is_known, join, sure
 from ros_lint.text import Span
@@ -164,8 +165,9 @@ def _property(run: Run, name: str, wanted: str, missing: str) -> str:
     return HOLE
 
 
-def _custom_command(run: Run, args: list[str]) -> None:
+def _custom_command(run: Run, args: list[str], *, optional: bool = False) -> None:
     """What add_custom_command() writes may be named as a source before it is there."""
+    started(run, args, optional=optional)
     outputs = False
     for arg in args:
         if arg in ("OUTPUT", "BYPRODUCTS"):
@@ -186,7 +188,7 @@ def generate(run: Run, path: str, *, folder: bool = False) -> None:
 def _custom_target(run: Run, args: list[str]) -> None:
     if args and is_known(args[0]):
         run.put(run.targets, args[0], Properties(KIND="other"))
-        _custom_command(run, args)
+        _custom_command(run, args, optional=args[1:2] != ["ALL"])
 
 
 def output_name(target: Properties) -> str | None:
