@@ -266,7 +266,8 @@ def _files_without(owner: str, path: str, kind: str, workspace: Workspace) -> tu
 def _hint(path: str, names: tuple[str, ...]) -> str:
     base = path.rpartition("/")[2]
     same = [name for name in names if name.rpartition("/")[2] == base]
-    return did_you_mean(similar(path, same, 1, 0) or near_names(path, names, 1, 0.8))
+    near = [name for name in near_names(path, names, 3, 0.8) if near_names(base, [name.rpartition("/")[2]], 1, 0.6)]
+    return did_you_mean(similar(path, same, 1, 0) or near[:1])
 
 
 RULE = Rule(
