@@ -126,6 +126,12 @@ def test_broken_substitutions(value: str, message: str) -> None:
     assert [problem.message for problem in found.problems] == [message]
 
 
+@pytest.mark.parametrize(("tag", "refused"), [("trace", False), ("gz_server", False), ("test", True), ("gtest", True)])
+def test_tags_that_other_packages_add(tag: str, refused: bool) -> None:
+    _, found = collect("a.launch.xml", f'<launch><{tag} name="a"/></launch>')
+    assert [problem.message for problem in found.problems] == [f"there is no tag <{tag}>"] * refused
+
+
 def test_depth_is_bounded() -> None:
     def nested(depth: int) -> str:
         return "<group>" * depth + '<node pkg="a" exec="b"/>' + "</group>" * depth

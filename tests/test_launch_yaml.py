@@ -75,6 +75,8 @@ def test_a_value_that_is_written_otherwise_is_not_replaced() -> None:
         ("launch:\n\t- a\n", 2),
         ("launch:\n- *x\n", 2),
         ("launch: &a [*a]\n---\nlaunch:\n", 2),
+        ("launch:\n- log:\n    message: a\tb\n", 3),
+        ("launch:\n- log: {message: a?}\n", 2),
     ],
 )
 def test_what_is_no_yaml(text: str, line: int) -> None:

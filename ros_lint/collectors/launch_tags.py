@@ -41,7 +41,6 @@ EXTENSIONS: Mapping[str, str] = {
     "ros_gz_sim": "ros_gz_sim",
     "gz_robot_plugin": "ros_gz_sim",
     "trace": "tracetools_launch",
-    "test": "launch_testing",
 }
 """Tags that other packages add, and the packages (entry point group ``launch.frontend.launch_extension``)."""
 
