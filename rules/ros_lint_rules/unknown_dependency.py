@@ -3,8 +3,8 @@
 
 A dependency in `package.xml` whose name means nothing to anybody: no package of the workspace, of an underlay or of any
 distribution has it, and no rosdep key is called so. Misspelt packages, the name that CMake, Python, apt or pip use instead
-of the rosdep key, modules of Python itself, programs of the package, and `ament_python`, which is a build type and no
-package.
+of the rosdep key, modules of Python itself, programs and modules of the package, and `ament_python`, which is a build type
+and no package.
 
 ## Why it matters
 
@@ -65,8 +65,8 @@ def check(workspace: Workspace) -> Iterator[Finding]:
                     yield _build_type(stranger)
                 elif stranger.runs_python and workspace.world.by_import(name).none_needed:
                     yield _needless(stranger, "is a module of Python itself, so there is nothing that rosdep could install")
-                elif workspace.world.meant(name, python=stranger.runs_python) is None and _is_own_program(stranger):
-                    yield _needless(stranger, "is a program of this package and no package")
+                elif workspace.world.meant(name, python=stranger.runs_python) is None and (own := _own(stranger)):
+                    yield _needless(stranger, f"is a {own} of this package and no package")
                 else:
                     yield _unknown(stranger, workspace)
 
@@ -87,14 +87,18 @@ def _needless(stranger: Stranger, why: str) -> Finding:
     return Finding(f"{name} {why}: remove the tag", stranger.declared.depend.span, name, fix=fix, package=package.name)
 
 
-def _is_own_program(stranger: Stranger) -> bool:
-    """Whether the name is that of a program which the package installs, and nothing finds or launches a package of the name."""
+def _own(stranger: Stranger) -> str:
+    """Return what of the package itself is called so, if nothing finds or launches a package of the name; "" for nothing."""
     package, name = stranger.package, stranger.name
+    if any(mention.name == name for mention in package.built.mentions):
+        return ""
+    if any(each.package == name for launch in package.launch for each in launch.references):
+        return ""
     own = programs(package)
-    if own is None or name not in own.names:
-        return False
-    found = {mention.name for mention in package.built.mentions}
-    return name not in found and not any(each.package == name for launch in package.launch for each in launch.references)
+    if own is not None and name in own.names:
+        return "program"
+    folders = [module.replace(".", "/") for module in package.built.python_packages]
+    return "module" if any(f"{folder}/{name}.py" in package.files for folder in folders) else ""
 
 
 def _unknown(stranger: Stranger, workspace: Workspace) -> Finding:
