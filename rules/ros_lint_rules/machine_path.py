@@ -12,8 +12,10 @@ its parameters; and where the path leads into the sources, it passes by what is 
 ## How to fix it
 
 A file of a package is found by the package: `get_package_share_directory('robot')` and `FindPackageShare` in Python,
-`$(find-pkg-share robot)` in XML and YAML launch files, `package://robot/` in models, `${prefix}/` in what `package.xml`
-exports. What belongs to the machine, such as data or a device, becomes a launch argument or a parameter without such a default.
+`$(find-pkg-share robot)` in XML and YAML launch files, `package://robot/` and `$(find robot)/` in models, `model://robot/` in
+those of Gazebo, `${prefix}/` in what `package.xml` exports. Parameters cannot look up anything: the launch file gives such
+ones. A map finds its image beside it. What belongs to the machine, such as data or a device, becomes a launch argument or a
+parameter without such a default.
 
 ## When it keeps silent
 
@@ -39,6 +41,7 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
+    everything,
     folders_of,
     is_apart,
     launchable,
@@ -48,6 +51,10 @@ from ros_lint.api import (
 )
 
 _BUILDING = ("CMakeLists.txt", ".cmake", "setup.py")
+_OF_GAZEBO = (".sdf", ".world")
+_MODELS = (".urdf", ".xacro", ".srdf", ".rviz")
+_IMAGES = (".pgm", ".png", ".bmp")
+"""What a map has beside it."""
 
 
 class _Inside(NamedTuple):
@@ -71,7 +78,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for (file, _), found in by_file.items():
         (first, inside), *others = found
         yield Finding(
-            f"{first.path} is there on one machine only: {_way_out(inside, file, package)}",
+            f"{first.path} is there on one machine only: {_way_out(first, inside, file, package)}",
             first.span,
             first.path,
             several(Related(f"and {other.path}", other.span) for other, _ in others),
@@ -79,16 +86,53 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         )
 
 
-def _way_out(inside: _Inside | None, file: str, package: Package) -> str:
+def _way_out(machine: MachinePath, inside: _Inside | None, file: str, package: Package) -> str:
     if inside is None:
         return "make it an argument, or a file of a package"
-    if inside.rest and inside.package == package.name and file.endswith(_BUILDING):
-        return f"it is {inside.rest} of this package; write that"
-    if inside.rest and file == "package.xml":
-        return f"it is {inside.rest} of {inside.package}; say ${{prefix}}/{inside.rest}"
     if not inside.rest:
-        return f"it leads into the sources of {inside.package}; make it an argument"
-    return f"it is {inside.rest} of {inside.package}; look it up in the share directory of {inside.package}"
+        return f"it leads into the sources of {inside.package}; {_without_file(machine, inside, file, package)}"
+    it_is = f"it is {inside.rest} of {inside.package}"
+    folder, _, name = inside.rest.rpartition("/")
+    if inside.package == package.name and file.endswith(_BUILDING):
+        return f"it is {inside.rest} of this package; write that"
+    if file == "package.xml":
+        return f"{it_is}; say ${{prefix}}/{inside.rest}"
+    if inside.package == package.name and name.endswith(_IMAGES) and (folder, True) == (file.rpartition("/")[0], _is_yaml(file)):
+        return f"{it_is}, beside this file; say {name}"
+    if scheme := _scheme(inside, file):
+        return f"{it_is}; say {scheme}/{inside.rest}"
+    if _is_yaml(file) and not any(launch.path == machine.span.path for launch in package.launch):
+        return f"{it_is}; let the launch file give it, from the share directory of {inside.package}"
+    return f"{it_is}; look it up in the share directory of {inside.package}"
+
+
+def _without_file(machine: MachinePath, inside: _Inside, file: str, package: Package) -> str:
+    """Return what to do about a path to what the package does not have."""
+    if scheme := _scheme(inside, file):
+        return f"put the file into a package, and say {scheme}/ before its path there"
+    defaults = [
+        action.value
+        for launch in package.launch
+        if launch.path == machine.span.path
+        for action in everything(launch.actions)
+        if action.kind == "argument" and action.value is not None
+    ]
+    if any(machine.path in text for default in defaults for text in default.texts):
+        return "the argument needs another default, or none"
+    return "make it an argument"
+
+
+def _scheme(inside: _Inside, file: str) -> str:
+    """Return how a model says that a file is in a package, "" for other files. What it reads by itself xacro has to fill in."""
+    if file.endswith(_OF_GAZEBO):
+        return f"model://{inside.package}"
+    if file.endswith(_MODELS):
+        return f"$(find {inside.package})" if _is_yaml(inside.rest) else f"package://{inside.package}"
+    return ""
+
+
+def _is_yaml(file: str) -> bool:
+    return file.endswith((".yaml", ".yml"))
 
 
 def _is_of_container(path: str) -> bool:
