@@ -24,6 +24,7 @@ from ros_lint.tree import within
 
 if TYPE_CHECKING:
     from ros_lint.providers import Providers
+    from ros_lint.source_lists import Awaited
     from ros_lint.world import Standing
 
 
@@ -37,6 +38,8 @@ class Names(Protocol):
     def is_package(self, name: str) -> bool: ...
     def standing(self, name: str) -> Standing: ...
     def is_declared(self, name: str) -> bool: ...
+    @property
+    def awaited(self) -> Awaited: ...
 
 
 _make = tuple.__new__
@@ -55,8 +58,6 @@ class Source(NamedTuple):
     """By path relative to the package."""
     launch: tuple[LaunchFile, ...]
     builds_with: str
-    absent: frozenset[str] = frozenset()
-    """Names of the folders of git submodules that are not cloned: they may be Python modules, or libraries."""
 
     @property
     def built(self) -> BuildScript:
@@ -232,7 +233,7 @@ class _Uses:
         self.resolver = resolver
         self._own = own
         self._alive = alive
-        self._absent = source.absent
+        self._absent = resolver.names.awaited.uncloned
         self._caught = frozenset([name for path in _lenient(source, alive) for name in source.facts[path].caught])
         self._added = frozenset([span for facts in source.facts.values() for span in facts.added])
         script = source.built

@@ -103,14 +103,13 @@ class Loader:
             if sources
             else [_Read(found, self._declared(found.manifest), None, {}, ()) for found in founds]
         )
-        absent = frozenset(folder.rpartition("/")[2] for folder in submodules)
-        world = World(tuple(self._members(reads, discovery.rejected)), self._underlays, self._knowledge, absent)
-        packages = tuple(self._join(tree, reads, world, absent, sources))
+        awaited = source_lists.awaited(tree, lists, submodules)
+        world = World(tuple(self._members(reads, discovery.rejected)), self._underlays, self._knowledge, awaited)
+        packages = tuple(self._join(tree, reads, world, sources))
         unusable = tuple(self._unusable(manifest) for manifest in discovery.rejected if not self._exclude(manifest.path))
         not_checked = dict.fromkeys((*discovery.not_checked, *_unreadable(collected), *_failed(reads)))
         ignores = ignored.find(tree, ((found.path, found.files) for found in founds))
-        fetched = source_lists.repositories(tree, lists)
-        return Workspace(packages, unusable, world, self.target, tuple(not_checked), lists, ignores, fetched)
+        return Workspace(packages, unusable, world, self.target, tuple(not_checked), lists, ignores)
 
     def text(self, path: str) -> Text | None:
         """Return the text of a file, None if it cannot be read."""
@@ -187,10 +186,10 @@ class Loader:
             if manifest.name:
                 yield _member(manifest.name, manifest, self._declared(manifest))
 
-    def _join(self, tree: Tree, reads: Sequence[_Read], world: World, absent: frozenset[str], search: bool) -> Iterator[Package]:
+    def _join(self, tree: Tree, reads: Sequence[_Read], world: World, search: bool) -> Iterator[Package]:
         sources = [
             evidence.Source(
-                r.found.name, r.found.path, r.found.files, r.script, r.facts, r.launch, r.found.type.removeprefix("ros."), absent
+                r.found.name, r.found.path, r.found.files, r.script, r.facts, r.launch, r.found.type.removeprefix("ros.")
             )
             for r in reads
         ]

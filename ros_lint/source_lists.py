@@ -4,10 +4,23 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
+from typing import NamedTuple
 
 from ros_lint.tree import Tree, join, parent, text_of
 
 _ENDINGS = (".repos", ".rosinstall", ".gitmodules")
+
+
+class Awaited(NamedTuple):
+    """Repositories that may still come to a workspace, by the names of their folders: mostly those of the packages in them."""
+
+    uncloned: frozenset[str] = frozenset()
+    """Submodules whose folders are empty. What they have is missing by no mistake: packages, Python modules, libraries."""
+    listed: frozenset[str] = frozenset()
+    """Those that ``*.repos`` and ``*.rosinstall`` have fetched, which whoever builds the workspace may have done or not."""
+
+
+NOTHING_AWAITED = Awaited()
 
 
 def find(tree: Tree, roots: Sequence[str], files: Iterable[str]) -> tuple[str, ...]:
@@ -49,11 +62,15 @@ def submodules(tree: Tree, lists: Iterable[str]) -> tuple[str, ...]:
 _REPOSITORY = re.compile(r"^[ \t]+['\"]?([\w./+-]+?)['\"]?[ \t]*:[ \t\r]*$|\blocal-name:[ \t]*['\"]?([\w./+-]+)", re.MULTILINE)
 
 
-def repositories(tree: Tree, lists: Iterable[str]) -> frozenset[str]:
-    """Return how the folders are called into which ``*.repos`` and ``*.rosinstall`` have repositories fetched."""
+def awaited(tree: Tree, lists: Iterable[str], submodules: Iterable[str]) -> Awaited:
+    """Return what the lists of a workspace name, and the submodules that are not cloned yet."""
     texts = [text.text for path in lists if not path.endswith(".gitmodules") and (text := text_of(tree, path))]
     found = (match[1] or match[2] for text in texts for match in _REPOSITORY.finditer(text))
-    return frozenset([folder.rstrip("/").rpartition("/")[2] for folder in found])
+    return Awaited(_names(submodules), _names(folder.rstrip("/") for folder in found))
+
+
+def _names(folders: Iterable[str]) -> frozenset[str]:
+    return frozenset([folder.rpartition("/")[2] for folder in folders])
 
 
 def _has_entries(tree: Tree, folder: str) -> bool:

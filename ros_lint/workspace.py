@@ -130,7 +130,6 @@ class Workspace:
     ``package.xml`` for which colcon sees no package at all, under the name that the manifest gives, if any.
     ``source_lists`` are files that name repositories which belong to the workspace and need not be there: ``*.repos``,
     ``*.rosinstall``, ``.gitmodules``. ``ignores`` says what git leaves out.
-    ``fetched`` are the names of the folders into which these lists have repositories fetched.
     """
 
     def __init__(
@@ -142,7 +141,6 @@ class Workspace:
         not_checked: tuple[NotChecked, ...],
         source_lists: tuple[str, ...] = (),
         ignores: tuple[ignored.Pattern, ...] = (),
-        fetched: frozenset[str] = frozenset(),
     ) -> None:
         self.packages = packages
         self.unusable = unusable
@@ -150,7 +148,6 @@ class Workspace:
         self.target = target
         self.not_checked = not_checked
         self.source_lists = source_lists
-        self.fetched = fetched
         self._ignores = ignores
         self.said: dict[object, Any] = {}
         """What functions that remember have said: :func:`per_workspace`, :func:`per_package`."""

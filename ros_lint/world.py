@@ -16,6 +16,7 @@ from ros_lint.knowledge.provides import NOTHING_KNOWN
 from ros_lint.knowledge.reach import Closure, Reach
 from ros_lint.knowledge.spelling import Spelling
 from ros_lint.providers import Meant, Providers
+from ros_lint.source_lists import NOTHING_AWAITED, Awaited
 
 if TYPE_CHECKING:
     from collections.abc import Container, Iterable, Mapping, Sequence
@@ -51,8 +52,7 @@ class Member(NamedTuple):
 class World:
     """Answers questions about names. Reads data files and underlays when first asked; may then raise KnowledgeError.
 
-    Of two members with one name the first counts; of two underlays that have a package, the first. ``absent`` are the names
-    of the folders of git submodules that are not cloned: mostly those of the packages in them.
+    Of two members with one name the first counts; of two underlays that have a package, the first.
     """
 
     def __init__(
@@ -60,11 +60,11 @@ class World:
         members: Iterable[Member],
         underlays: Sequence[Underlay],
         knowledge: Knowledge,
-        absent: frozenset[str] = frozenset(),
+        awaited: Awaited = NOTHING_AWAITED,
     ) -> None:
         self.underlays = tuple(underlays)
         self.knowledge = knowledge
-        self.absent = absent
+        self.awaited = awaited
         self._members: dict[str, Member] = {}
         for member in members:
             self._members.setdefault(member.name, member)
@@ -112,7 +112,7 @@ class World:
             return "unknowable"
         if self.knowledge.elsewhere(name):
             return "elsewhere"
-        if name in self.absent:
+        if name in self.awaited.uncloned:
             return "unknowable"
         return "end-of-life" if self.knowledge.names.end_of_life(name) else "unknown"
 

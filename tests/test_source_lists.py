@@ -19,5 +19,5 @@ def test_the_folders_of_repositories() -> None:
     repos = "repositories:\n  laser_tools:\n    type: git\n    url: https://example.com/x.git\n  'core/arm':\n    version: main\n"
     install = "- git: {local-name: src/camera, uri: 'https://example.com/y.git'}\n- git:\n    local-name: 'base'\n"
     tree = MemoryTree({"a.repos": repos, "b.rosinstall": install, ".gitmodules": "[submodule]\n  path = z\n"})
-    found = source_lists.repositories(tree, ["a.repos", "b.rosinstall", ".gitmodules", "gone.repos"])
-    assert found == {"laser_tools", "arm", "camera", "base"}
+    found = source_lists.awaited(tree, ["a.repos", "b.rosinstall", ".gitmodules", "gone.repos"], ["z", "src/legs"])
+    assert found == ({"z", "legs"}, {"laser_tools", "arm", "camera", "base"})

@@ -83,7 +83,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         left_out = (
             wanted
             and verdict.confidence is not Confidence.HIGH
-            and not (best.idle or best.conditional or name in workspace.fetched)
+            and not (best.idle or best.conditional or name in workspace.world.awaited.listed)
             and _never_comes(name, package, workspace)
         )
         told = _undeclared(name, package, workspace) if left_out and not verdict.known else ""
@@ -149,7 +149,7 @@ def _unknown(package: Package, workspace: Workspace) -> Iterator[tuple[str, list
         idle = not (launch.installed or hidden)
         for reference in launch.file.references:
             name = reference.package
-            unknowable = workspace.world.standing(name) == "unknowable" or name in workspace.world.absent
+            unknowable = workspace.world.standing(name) == "unknowable" or name in workspace.world.awaited.uncloned
             if "$" in name or reference.kind == "program" or unknowable:
                 continue  # a template, for whoever fills it in; no package at all; a submodule that is not cloned
             if not workspace.world.is_package(name) and name != package.name and not reference.optional:
