@@ -296,8 +296,14 @@ def _class(package: Package, plugin: PluginFile, one: PluginClass, registered: l
         yield from _base(plugin, one, same)
         return
     last = one.type.rpartition("::")[2]
-    alike = [made for made in registered if made.name.rpartition("::")[2] == last]
-    hint = f"; the sources say {alike[0].name}" if alike else f"; add PLUGINLIB_EXPORT_CLASS({one.type}, {one.base}) to one"
+    described = {each.type for file in package.built.plugins for library in file.libraries for each in library.classes}
+    alike = [made for made in registered if made.name.rpartition("::")[2] == last and made.name not in described]
+    if alike:
+        hint = f"; the sources say {alike[0].name}"
+    elif one.type in package.unwritten:
+        hint = ", and none has a class that is called so; take it out"
+    else:
+        hint = f"; add PLUGINLIB_EXPORT_CLASS({one.type}, {one.base}) to one"
     related = several(Related("made loadable here", made.span) for made in alike)
     yield Finding(
         f"no source makes {one.type} loadable{hint}",
