@@ -137,7 +137,7 @@ class _Verdict(NamedTuple):
     resembles: bool = True
     """Whether it is a slip, or was renamed, rather than a package that is nowhere to be had."""
     known: bool = False
-    """Whether the hint names what does the same in ROS 2."""
+    """Whether the hint names what does the same in ROS 2, or is of these words: then it is not to be had elsewhere."""
 
 
 def _unknown(package: Package, workspace: Workspace) -> Iterator[tuple[str, list[_Place]]]:
@@ -187,10 +187,20 @@ def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: W
         hint = f" in {distro}, it was last released for {ended[0]} (data of {date}){use}"
         return _Verdict(hint, Confidence.MEDIUM, resembles=False, known=bool(use))
     near = [other for other in world.suggest(name) if world.is_package(other)]
+    reordered = [] if near else _reordered(name, workspace)
     nowhere = f" in the workspace, the underlays or {distro} (data of {date})"
     # As sure as unknown-dependency is of what package.xml declares.
     strange = package.declares(name) and not may_be_package(name)
-    return _Verdict(f"{nowhere}{did_you_mean(near)}", Confidence.HIGH if strange else Confidence.MEDIUM, resembles=bool(near))
+    hint = f"{nowhere}{did_you_mean(near or reordered)}"
+    confidence = Confidence.HIGH if strange else Confidence.MEDIUM
+    return _Verdict(hint, confidence, resembles=bool(near or reordered), known=bool(reordered))
+
+
+def _reordered(name: str, workspace: Workspace) -> list[str]:
+    """Return the one package of the workspace that has all the words of a name, in another order or among more."""
+    words = set(name.split("_"))
+    found = [other for other in workspace.by_name if words.issubset(other.split("_"))] if len(words) > 1 else []
+    return found if len(found) == 1 else []
 
 
 RULE = Rule(
