@@ -63,9 +63,10 @@ _INCLUDING = ("include_directories", "target_include_directories")
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
-    if script is not None and package.builds_with == "ament_cmake":
-        yield from (Finding(it.message, it.span, it.subject) for it in script.refused if it.kind == "no-package")
-    if script is None or script.problems or package.builds_with != "ament_cmake" or script.hides(Facet.USES):
+    if script is None or package.builds_with != "ament_cmake":
+        return
+    yield from (Finding(it.message, it.span, it.subject) for it in script.refused if it.kind == "no-package")
+    if script.problems or script.hides(Facet.USES):
         return
     found = found_names(package, script)
     spelt = {name.lower() for name in found}  # namespaces of targets may be spelt another way: RTABMap, rtabmap::core
@@ -74,9 +75,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     missing: dict[str, list[tuple[str, Related]]] = {}
     for mention in script.mentions:
         name = mention.name.partition("::")[0]
-        if mention.via not in ("target", "macro") or mention.optional or name in found or name == package.name:
-            continue
-        if mention.via == "target" and name.lower() in spelt:
+        if mention.via not in ("target", "macro") or mention.optional or name.lower() in spelt or name == package.name:
             continue
         if mention.via == "macro" and (along is None or not along.isdisjoint(workspace.world.by_macro(name).names)):
             continue
@@ -115,7 +114,7 @@ def _included(package: Package, along: frozenset[str] | None, workspace: Workspa
             places.setdefault(use.package, []).append(use)
     for name, uses in places.items():
         providers = {provider for use in uses for provider in use.providers}
-        if package.declares(name) and world.is_package(name) and providers.isdisjoint(along) and name != package.name:
+        if package.declares(name) and world.is_package(name) and providers.isdisjoint(along):
             first, *others = uses
             yield Finding(
                 f"{first.what} needs {name}, which is declared and which nothing finds: add find_package({name} REQUIRED), and "
@@ -135,9 +134,8 @@ def _no_packages(package: Package, found: frozenset[str], workspace: Workspace) 
     for call in called(package, "ament_target_dependencies", anywhere=True):
         if _REPEATED.intersection(call.blocks):
             continue
-        sought = enumerate(call.texts[1:], 1)
-        odd = {name: index for index, name in sought if not ("$" in name or name in _WORDS or name.lower() in spelt)}
-        odd = {name: index for name, index in odd.items() if not workspace.world.is_package(name)}
+        given = {name: index for index, name in enumerate(call.texts[1:], 1)}
+        odd = {name: at for name, at in given.items() if name.lower() not in spelt and not workspace.world.is_package(name)}
         yield from _targets(call, {name: index for name, index in odd.items() if name in targets})
         for name, index in odd.items():
             if name not in targets and (near := similar(name, sorted(found), 1, 0.9)):
@@ -163,7 +161,6 @@ def _targets(call: Call, given: Mapping[str, int]) -> Iterator[Finding]:
 
 
 _TAKES = "ament_target_dependencies() takes packages, and "
-_WORDS = frozenset({"PUBLIC", "PRIVATE", "INTERFACE", "SYSTEM"})
 _REPEATED = frozenset({"foreach", "while", "function", "macro"})
 """In these a name may be one that is put together elsewhere."""
 
