@@ -18,7 +18,8 @@ Packages that depend on it find the library and not its headers: "fatal error: r
 
 `install(DIRECTORY include/ DESTINATION include/${PROJECT_NAME})`, with the same folder in
 `target_include_directories(... $<INSTALL_INTERFACE:include/${PROJECT_NAME}>)`. The fix installs to the folder that is
-exported. Where there are only programs, take the export away: headers without a library serve nobody. To export them:
+exported. Where there are only programs, take the export away: headers without a library serve nobody; so it may be where the
+library is loaded, as plugins and components are, and nobody links it. To export them:
 `ament_export_targets()` with an `install(TARGETS ... EXPORT ...)`, or `ament_export_include_directories()` and
 `ament_export_libraries()`.
 
@@ -93,16 +94,17 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         yield from _for_nobody(headers, exports)
         return
     sure = Confidence.HIGH if exports or linked or wanted else Confidence.MEDIUM if library else Confidence.LOW
+    perhaps_for_nobody = bool(exports) and loaded and not wanted
     why = ", but exported" if exports else f", and {wanted[0][0].name} includes them" if wanted else ""
     yield Finding(
         f"the headers in include/ ({headers[0].rpartition('/')[2]} ...) are not installed{why}; "
-        f"install them to {_place(exports)}",
+        f"install them to {_place(exports)}{', or take the export away' if perhaps_for_nobody else ''}",
         script.end,
         "include/",
         (*(Related("exported here", call.place) for call in exports), *_included_here(wanted)),
         _fix(package, exports),
         sure,
-        None if (exports and library) or wanted else Severity.WARNING,
+        None if (exports and library and not perhaps_for_nobody) or wanted else Severity.WARNING,
     )
 
 
