@@ -217,6 +217,8 @@ def _kept(package: Package, script: BuildScript) -> frozenset[str]:
     built = [target for target in script.targets if not target.test]
     words = [text for call in called(package, "ament_export_libraries", anywhere=True) for text in call.texts]
     handed_on = {*_exported_targets(script), *(evaluated_name(package, word) for word in words)}
+    if None in handed_on:
+        return frozenset()
     inner = [target for target in built if target.kind == "executable" or target.name not in handed_on]
     outer = [target for target in built if target not in inner]
     if any(target.sources for target in outer) or not all(target.whole for target in built):
