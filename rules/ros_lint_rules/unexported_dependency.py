@@ -102,13 +102,12 @@ def _linked(package: Package, workspace: Workspace, told: Container[str]) -> Ite
     if script is None or not _is_seen(package):
         return
     found = found_names(package, script)
-    exported = _exported(script)
-    along = found_along(workspace, exported)
+    along = found_along(workspace, _exported(script))
     places: dict[str, list[Span]] = {}
     for name, span in _handed_on(package, workspace):
-        if name in found and name not in exported and name not in told and workspace.world.is_package(name):
+        if name in found and name not in told and workspace.world.is_package(name):
             places.setdefault(name, []).append(span)
-    names = [name for name in places if name != package.name and name not in along]
+    names = [name for name in places if name not in along]
     sure = [name for name in names if along.complete or not may_bring(along.unknown, name, workspace)]
     usable = Confidence.HIGH if _has_headers(script) else Confidence.MEDIUM
     for some, confidence in ((sure, usable), ([name for name in names if name not in sure], Confidence.MEDIUM)):
