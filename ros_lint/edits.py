@@ -111,10 +111,17 @@ def _apply_to(source: Text, edits: Sequence[Edit]) -> str:
     for span, at_place in reversed([(span, list(group)) for span, group in groupby(in_order, lambda edit: edit.span)]):
         start = source.offset(span.line, span.column)
         end = source.offset(span.end_line, span.end_column)
-        put = _joined(at_place)
+        put = _indented(_joined(at_place), text, start)
         put = put.replace("\r\n", "\n").replace("\n", "\r\n") if by_return else put
         text = text[:start] + put + text[end:]
     return text
+
+
+def _indented(put: str, text: str, start: int) -> str:
+    """Indent new lines by tabs where the line before them is: who makes an edit counts characters, whatever they are."""
+    line = text[text.rfind("\n", 0, start) + 1 : start]
+    indent = line[: len(line) - len(line.lstrip(" \t"))]
+    return put.replace(f"\n{' ' * len(indent)}", f"\n{indent}") if "\t" in indent else put
 
 
 _BLANK = re.compile(r"\r\n|\n|\r")

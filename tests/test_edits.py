@@ -30,6 +30,12 @@ def test_lines_end_as_those_of_the_file() -> None:
     assert edits.apply([change], lambda path: source)["f"] == "one\r\na\r\nb\r\ntwo\r\n"
 
 
+def test_new_lines_are_indented_by_tabs_where_their_neighbours_are() -> None:
+    source = Text("f", "a(\n\t\tone\n  two)\n")
+    changes = [Fix("", (Edit(source.span(end, end), "\n  new"),)) for end in (source.text.index("\n  t"), source.text.index(")"))]
+    assert edits.apply(changes, lambda path: source)["f"] == "a(\n\t\tone\n\t\tnew\n  two\n  new)\n"
+
+
 def test_the_same_edit_twice_is_made_once() -> None:
     assert applied(fix((0, 0, "x")), fix((0, 0, "x"))) == "xone\r\ntwo\nthree"
 
