@@ -74,12 +74,13 @@ _VENDOR = "_vendor"
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    every = list(_included(package, workspace))
-    sure = list(dict.fromkeys([written for written, finding in every if finding.confidence is Confidence.HIGH]))
-    for written, finding in every:
-        edit = cmake_edits.export_dependencies(package, written, sure) if written in sure else None
-        yield finding._replace(fix=Fix.of(f"export {written}", edit, safe=False))
-    yield from _linked(package, workspace, {finding.subject for _, finding in every})
+    included = list(_included(package, workspace))
+    every = [*included, *_linked(package, workspace, {finding.subject for _, finding in included})]
+    sure = list(dict.fromkeys([name for names, finding in every if finding.confidence is Confidence.HIGH for name in names]))
+    for names, finding in every:
+        together = sure if finding.confidence is Confidence.HIGH else names
+        edit = cmake_edits.export_dependencies(package, " ".join(names), together) if names else None
+        yield finding._replace(fix=Fix.of(f"export {few(names)}", edit, safe=False))
 
 
 def _is_seen(package: Package) -> bool:
@@ -96,8 +97,11 @@ def _exported(script: BuildScript) -> set[str]:
     return given.union(mention.name for mention, _ in script.handed_on)
 
 
-def _linked(package: Package, workspace: Workspace, told: Container[str]) -> Iterator[Finding]:
-    """Yield the packages that exported libraries hand on as targets, and that whoever finds this package does not find."""
+def _linked(package: Package, workspace: Workspace, told: Container[str]) -> Iterator[tuple[tuple[str, ...], Finding]]:
+    """Yield the packages that exported libraries hand on as targets, and that whoever finds this package does not find.
+
+    With what to say of them. There are no names where it is not sure that they are not found.
+    """
     script = package.script
     if script is None or not _is_seen(package):
         return
@@ -114,16 +118,12 @@ def _linked(package: Package, workspace: Workspace, told: Container[str]) -> Ite
         if not some:
             continue
         first, *others = [span for name in some for span in places[name]]
-        edit = cmake_edits.export_dependencies(package, " ".join(some), some) if some is sure else None
-        yield Finding(
+        says = (
             f"an exported library hands on targets of {few(some)}, and whoever finds this package does not find them: "
-            f"add ament_export_dependencies({' '.join(some)})",
-            first,
-            some[0],
-            several(Related("also handed on", span) for span in others),
-            Fix.of(f"export {few(some)}", edit, safe=False),
-            confidence,
+            f"add ament_export_dependencies({' '.join(some)})"
         )
+        related = several(Related("also handed on", span) for span in others)
+        yield tuple(some) if some is sure else (), Finding(says, first, some[0], related, confidence=confidence)
 
 
 def _has_headers(script: BuildScript) -> bool:
@@ -161,8 +161,11 @@ def _handed_on(package: Package, workspace: Workspace) -> Iterator[tuple[str, Sp
 _TARGET = re.compile(r"([\w-]+)::[\w:-]+\Z|\$\{(\w+)_TARGETS\}\Z")
 
 
-def _included(package: Package, workspace: Workspace) -> Iterator[tuple[str, Finding]]:
-    """Yield what installed headers include and is not exported, as find_package() calls it, and what to say of it."""
+def _included(package: Package, workspace: Workspace) -> Iterator[tuple[tuple[str, ...], Finding]]:
+    """Yield what installed headers include and is not exported, as find_package() calls it, and what to say of it.
+
+    There is no name where it is not sure.
+    """
     script = package.script
     if script is None or not _is_seen(package):
         return
@@ -182,15 +185,16 @@ def _included(package: Package, workspace: Workspace) -> Iterator[tuple[str, Fin
         way_out = f"add ament_export_dependencies({written})"
         if not compiled:
             way_out += ", or do not install it, for it includes what others do not have"
+        confidence = _confidence(package, workspace, name, exported, compiled) if compiled else Confidence.LOW
         yield (
-            written,
+            (written,) if confidence is Confidence.HIGH else (),
             Finding(
                 f"{name} is included by this installed header, but not exported: {way_out}",
                 first.span,
                 name,
                 several(Related(f"also included here: {use.what}", use.span) for use in others),
                 None,
-                _confidence(package, workspace, name, exported, compiled) if compiled else Confidence.LOW,
+                confidence,
             ),
         )
 
