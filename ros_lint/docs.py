@@ -32,8 +32,8 @@ def listing(rules: Iterable[Rule]) -> str:
     return "".join(f"{line}\n" for line in lines)
 
 
-def page(rule: Rule) -> str:
-    """Return the page of a rule in Markdown."""
+def page(rule: Rule, example: str = "") -> str:
+    """Return the page of a rule in Markdown, with an example of what it prints behind what it finds, if there is one."""
     facts = [
         f"{rule.severity!s}",
         "on by default" if rule.default else f"off by default (`--select {rule.name}` or `--pedantic`)",
@@ -41,12 +41,19 @@ def page(rule: Rule) -> str:
         f"since {rule.since}",
     ]
     summary = f"{rule.summary[0].upper()}{rule.summary[1:]}."
-    return f"# {rule.name} ({rule.code})\n\n{summary}\n\n{' · '.join(facts)}\n\n{rule.doc.strip()}\n"
+    doc = rule.doc.strip()
+    if example:
+        found, why, rest = doc.partition(_WHY)
+        doc = f"{found}```text\n{example}\n```\n\n{why}{rest}"
+    return f"# {rule.name} ({rule.code})\n\n{summary}\n\n{' · '.join(facts)}\n\n{doc}\n"
+
+
+_WHY = "## Why it matters\n"
 
 
 def overview(rules: Sequence[Rule]) -> str:
     """Return the page that lists all rules in Markdown, with links to their pages."""
-    parts = ["# Rules\n\nMade of the rules themselves by `pytest --bless`; `ros-lint rule NAME` prints a page.\n"]
+    parts = ["# Rules\n\nMade of the rules and their cases by `pytest --bless`; `ros-lint rule NAME` prints a page.\n"]
     for digit, heading in GROUPS.items():
         mine = [rule for rule in rules if rule.code[3] == digit]
         if not mine:

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from ros_lint import docs, registry
+from ros_lint import docs, registry, testing
 from ros_lint.config import read
 from ros_lint.options import OPTIONS
 
@@ -18,6 +18,7 @@ PAGES = ROOT / "docs" / "rules"
 RULES = registry.load()
 CONSOLE = re.compile(r"^```console\n\$ ros-lint (?P<arguments>[^\n]*)\n(?P<output>.*?)^```$", re.MULTILINE | re.DOTALL)
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+WANTED = re.compile(r" *(?:#|//|<!--) *want .*")
 DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 
 
@@ -30,7 +31,15 @@ def check(path: Path, text: str, request: pytest.FixtureRequest) -> None:
 
 @pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.name)
 def test_the_page_of_a_rule(rule: registry.Rule, request: pytest.FixtureRequest) -> None:
-    check(PAGES / f"{rule.name}.md", docs.page(rule), request)
+    check(PAGES / f"{rule.name}.md", docs.page(rule, example_of(rule)), request)
+
+
+def example_of(rule: registry.Rule) -> str:
+    """Return the first finding in the cases of a rule that says nothing about its confidence, else the first of all."""
+    cases = testing.read_cases(ROOT / "fixtures" / f"{rule.name}.md")
+    found = [issue for case in cases for issue in (case.output or "").strip("\n").split("\n\n") if issue]
+    assert found, f"no case of {rule.name} has a block output"
+    return WANTED.sub("", next((issue for issue in found if "= note:" not in issue), found[0]))
 
 
 def test_the_list_of_rules(request: pytest.FixtureRequest) -> None:
