@@ -8,10 +8,12 @@ TEST_FOLDERS = frozenset(
     {"test", "tests", "testing", "integration_tests", "benchmark", "benchmarks", "unit_tests", "test_data", "testdata",
      "test_resources"}
 )  # fmt: skip
-_PUT_ASIDE = frozenset({"attic", "backup", "backups", "deprecated", "legacy", "obsolete", "old", "unused"})
+EDITORS_COPIES = frozenset({".ipynb_checkpoints"})
+"""Folders in which editors keep copies."""
+_PUT_ASIDE = frozenset({"attic", "backup", "backups", "deprecated", "legacy", "obsolete", "old", "unused"}) | EDITORS_COPIES
 _APART = frozenset({"example", "examples", "sample", "samples", "template", "templates", "doc", "docs"}) | _PUT_ASIDE
-_COPY = re.compile(r" (?:copy(?: \d+)?|\(\d+\))\.\w+\Z")
-"""What editors and file managers call the copy of a file."""
+_COPY = re.compile(r" (?:copy(?: \d+)?|\(\d+\))\.\w+\Z|[ _.-](?:backup|bak|old)(?:[ _.-]?v?\d+)*(?:\.launch)?\.\w+\Z")
+"""What editors and file managers call the copy of a file, and people what they keep."""
 
 _OF_TESTS = re.compile(r"(?:^|_)(?:tests?|testing)(?:_|$)")
 
@@ -25,7 +27,7 @@ def is_apart(path: str) -> bool:
     """Return whether a file serves tests, shows something, is to be filled in, or kept for later, by its path."""
     name = path.rpartition("/")[2]
     of_tests = name.startswith("test_") or "_test." in name or ".test." in name
-    return of_tests or lies_apart(path) or (" " in name and _COPY.search(name) is not None)
+    return of_tests or lies_apart(path) or _COPY.search(name) is not None
 
 
 def lies_apart(path: str) -> bool:

@@ -34,9 +34,6 @@ _OF_PAGES = frozenset({"doc", "docs", "sphinx"})
 _STAND_INS = (".jinja.", ".j2.", ".tmpl.", ".template.")
 """Parts of the names of templates: what is made of them is of other packages."""
 
-_COPIES = frozenset({".ipynb_checkpoints"})
-"""Folders in which editors keep copies."""
-
 _PROJECTS = frozenset({"CMakeLists.txt", "setup.py", "pyproject.toml", "package.xml"})
 """Files that make a folder a project."""
 
@@ -81,7 +78,7 @@ class Liveness:
         """Return whether a file has no part in the package: a template for others, a recipe, what makes the pages, a copy."""
         folder, _, name = path.rpartition("/")
         folders = folder.split("/")
-        if not _COPIES.isdisjoint(folders):
+        if not apart.EDITORS_COPIES.isdisjoint(folders):
             return True
         looks_so = any(part in name for part in _STAND_INS) or (name.startswith("setup.py.") and folder)
         if not looks_so and name.endswith(".py"):
