@@ -56,6 +56,7 @@ _SAY: Mapping[How, tuple[str, str]] = {
     "tested": ("substitution-as-text", "a {name} is always true: say IfCondition(a), or ask perform(context)"),
     "combined": ("substitution-as-text", "Python takes one of two conditions here: say {way}"),
 }
+_JOINED = "Python takes one of two substitutions here: say {joined}Substitution(a, b)"
 _DECIDED = "a {name} is always true for Python: give it to condition=, or ask evaluate(context)"
 _TELLS = frozenset({"print", "debug", "info", "warning", "warn", "error", "LogInfo"})
 """Calls whose texts nobody but people read."""
@@ -69,6 +70,7 @@ def misused(tree: ast.Module, source: Source, noted: Iterable[Misused]) -> Itera
     spared, functions, compared = _spared(tree), _functions(tree), _compared(tree)
     combined = [node for node in ast.walk(tree) if isinstance(node, ast.BoolOp)]
     decided = {inner for node in ast.walk(tree) if isinstance(node, (ast.If, ast.IfExp)) for inner in ast.walk(node.test)}
+    joined = {value: "Or" if isinstance(node.op, ast.Or) else "And" for node in combined for value in node.values}
     told: set[int] = set()
     for one in noted:
         if one.node in spared or one.node.lineno in told:
@@ -80,7 +82,10 @@ def misused(tree: ast.Module, source: Source, noted: Iterable[Misused]) -> Itera
         kind, message = _SAY["compared" if one.how == "formatted" and one.node in compared else one.how]
         if one.how == "combined" and one.node in decided:
             message = _DECIDED
-        yield Problem(kind, message.format(name=one.made.name, way=_way(one, combined)), span_of(one.node, source))
+        elif one.how == "tested" and one.node in joined and one.node not in decided:
+            message = _JOINED
+        said = message.format(name=one.made.name, way=_way(one, combined), joined=joined.get(one.node, ""))
+        yield Problem(kind, said, span_of(one.node, source))
 
 
 def _way(one: Misused, combined: Iterable[ast.BoolOp]) -> str:
