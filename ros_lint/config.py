@@ -44,7 +44,7 @@ class Settings:
     def show(self) -> str:
         """Return one line an option, for ``--show-settings``."""
         width = max(len(name) for name in self._values)
-        return "".join(f"{name:{width}} = {_toml(setting.value)}  # {setting.origin}\n" for name, setting in self._values.items())
+        return "".join(f"{name:{width}} = {toml(setting.value)}  # {setting.origin}\n" for name, setting in self._values.items())
 
 
 def settle(given: Mapping[str, Any], start: str, environment: Mapping[str, str], display: str = "") -> Settings:
@@ -191,13 +191,14 @@ def _from_environment(option: Option, value: str) -> Any:
     return value
 
 
-def _toml(value: Any) -> str:
+def toml(value: Any) -> str:
+    """Return the value of an option as it is written in a file."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, tuple | list):
-        return f"[{', '.join(_toml(entry) for entry in value)}]"
+        return f"[{', '.join(toml(entry) for entry in value)}]"
     if isinstance(value, dict):
-        return f"{{{', '.join(f'{_toml(key)} = {_toml(entry)}' for key, entry in value.items())}}}"
+        return f"{{{', '.join(f'{toml(key)} = {toml(entry)}' for key, entry in value.items())}}}"
     if isinstance(value, int):
         return str(value)
     import json  # noqa: PLC0415

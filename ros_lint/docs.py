@@ -1,9 +1,11 @@
-"""What is written about rules: the list, the page of a rule, the pages below docs/rules."""
+"""What is written about rules: the list, the page of a rule, the pages below docs/rules; and the table of options."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from ros_lint.config import toml
+from ros_lint.options import Option
 from ros_lint.rule import Rule
 
 GROUPS = {
@@ -65,6 +67,25 @@ def overview(rules: Sequence[Rule]) -> str:
             for rule in mine
         ]
     return "".join(parts)
+
+
+def settings(options: Iterable[Option]) -> str:
+    """Return the table of options in Markdown: those that may stand in a file first."""
+    lines = ["| setting | on the command line | if nothing is said | what it does |", "|---|---|---|---|"]
+    for option in sorted(options, key=lambda option: not option.in_file):
+        name = f"`{option.name}`" if option.in_file else ""
+        default = f"`${option.environment}`" if option.environment else f"`{toml(option.default)}`" if option.in_file else ""
+        choices = f": {', '.join(f'`{choice}`' for choice in option.choices)}" if option.choices and option.type == "word" else ""
+        lines.append(f"| {name} | {_flag(option)} | {default} | {option.help}{choices} |")
+    return "\n".join(lines)
+
+
+def _flag(option: Option) -> str:
+    if not option.on_command_line:
+        return ""
+    if option.type == "flag":
+        return f"`--no-{option.name}`" if option.default else f"`--{option.name}`"
+    return f"`--{option.name} {option.metavar or 'WORD'}`"
 
 
 def as_json(rules: Iterable[Rule]) -> str:

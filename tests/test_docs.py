@@ -18,6 +18,7 @@ PAGES = ROOT / "docs" / "rules"
 RULES = registry.load()
 CONSOLE = re.compile(r"^```console\n\$ ros-lint (?P<arguments>[^\n]*)\n(?P<output>.*?)^```$", re.MULTILINE | re.DOTALL)
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+SETTINGS = re.compile(r"^\| setting \|.*?(?=\n\n)", re.MULTILINE | re.DOTALL)
 WANTED = re.compile(r" *(?:#|//|<!--) *want .*")
 DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 
@@ -48,6 +49,11 @@ def test_the_list_of_rules(request: pytest.FixtureRequest) -> None:
 
 def test_no_page_without_a_rule() -> None:
     assert {page.stem for page in PAGES.glob("*.md")} == {rule.name for rule in RULES} | {"README"}
+
+
+def test_the_table_of_settings(request: pytest.FixtureRequest) -> None:
+    page = ROOT / "docs" / "settings.md"
+    check(page, SETTINGS.sub(lambda _: docs.settings(OPTIONS), page.read_text("utf-8")), request)
 
 
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
