@@ -19,7 +19,7 @@ Packages that depend on it find the library and not its headers: "fatal error: r
 `install(DIRECTORY include/ DESTINATION include/${PROJECT_NAME})`, with the same folder in
 `target_include_directories(... $<INSTALL_INTERFACE:include/${PROJECT_NAME}>)`. The fix installs to the folder that is
 exported. Where there are only programs, take the export away: headers without a library serve nobody; so it may be where the
-library is loaded, as plugins and components are, and nobody links it. To export them:
+library is not installed, or is loaded, as plugins and components are, and nobody links it. To export them:
 `ament_export_targets()` with an `install(TARGETS ... EXPORT ...)`, or `ament_export_include_directories()` and
 `ament_export_libraries()`.
 
@@ -94,7 +94,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         yield from _for_nobody(headers, exports)
         return
     sure = Confidence.HIGH if exports or linked or wanted else Confidence.MEDIUM if library else Confidence.LOW
-    perhaps_for_nobody = bool(exports) and loaded and not wanted
+    perhaps_for_nobody = bool(exports) and (loaded or not library) and not wanted
     why = ", but exported" if exports else f", and {wanted[0][0].name} includes them" if wanted else ""
     yield Finding(
         f"the headers in include/ ({headers[0].rpartition('/')[2]} ...) are not installed{why}; "
