@@ -1,4 +1,7 @@
-"""Paths below somebody's home directory, written out in a file: they are there on one machine only."""
+"""Paths below somebody's home directory, written out in a file: they are there on one machine only.
+
+And those into the sources from where the workspace is: they are there for whoever starts something in that folder.
+"""
 
 from __future__ import annotations
 
@@ -10,21 +13,30 @@ from ros_lint.text import Text
 
 _ROOTS = ("/home/", "/Users/")
 _PATH = re.compile(r"(?<![\w.$}~)*/-])(?:file://)?(?P<path>/(?:home|Users)/[\w.+-]+/[^\s\"'`<>|;:,()\[\]{}&$\\*?#]+)")
+_SOURCES = ("'src/", '"src/', "./src/")
+_RELATIVE = re.compile(
+    r"""(?:[=(:\[{]|\breturn|["']\s*,)\s*[rbu]?(?P<quote>["'])"""
+    r"""(?P<path>(?:\./)?src/[\w.+-]+/[^\s"'`<>|;:,()\[\]{}&$\\*?#%]+)(?P=quote)"""
+)
+_JOINED = re.compile(r"join(?:path)?\([^()]*\Z")
+_NEAR = 200
 
 
 def collect(text: Text) -> tuple[MachinePath, ...]:
-    """Return the paths of a file that lie in a home directory, comments and docstrings left out.
+    """Return the paths of a file that lie in a home directory, or in ``src``, comments and docstrings left out.
 
-    A path ends where something is filled in. One that is put together (``"/home/" + user``) is none, nor are the folders of
-    all users.
+    A path ends where something is filled in. One that is put together (``"/home/" + user``, ``join(root, "src/robot")``) is
+    none, nor are the folders of all users.
     """
-    if not any(root in text.text for root in _ROOTS):
-        return ()
-    hits = list(_PATH.finditer(text.text))
+    content = text.text
+    hits = list(_PATH.finditer(content)) if any(root in content for root in _ROOTS) else []
+    if any(start in content for start in _SOURCES):
+        hits += [hit for hit in _RELATIVE.finditer(content) if not _JOINED.search(content, hit.start() - _NEAR, hit.start() + 1)]
+        hits.sort(key=lambda hit: hit.start("path"))
     if not hits:
         return ()
     beside = [*comments(text), *(_docstrings(text) if text.path.endswith(".py") else ())]
-    said = [hit for hit in hits if not any(start <= hit.start() < end for start, end in beside)]
+    said = [hit for hit in hits if not any(start <= hit.start("path") < end for start, end in beside)]
     return tuple([_found(text, hit) for hit in said])
 
 

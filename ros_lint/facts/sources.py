@@ -64,10 +64,10 @@ class LookUp(NamedTuple):
 
 
 class MachinePath(NamedTuple):
-    """A path below the home directory of somebody, written out."""
+    """A path below the home directory of somebody, or into the sources from the folder above them, written out."""
 
     path: str
-    """As ``/home/jay/ros2_ws/src/robot/config/robot.yaml``, without a slash at the end."""
+    """As ``/home/jay/ros2_ws/src/robot/config/robot.yaml`` or ``src/robot/config/robot.yaml``, without a slash at the end."""
     span: Span
 
 

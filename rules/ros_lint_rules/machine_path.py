@@ -2,12 +2,14 @@
 ## What it finds
 
 A path below somebody's home directory (`/home/jay/ros2_ws/src/robot/config/robot.yaml`), written out in a launch file, a
-program, a model, parameters or a build script.
+program, a model, parameters or a build script. And a path to a file of a package from the folder that its sources are in
+(`src/robot/config/robot.yaml`).
 
 ## Why it matters
 
 It is there on one machine only. On the next one, in a container and on the robot the launch stops, or a node starts without
-its parameters; and where the path leads into the sources, it passes by what is installed.
+its parameters; and where the path leads into the sources, it passes by what is installed. One that begins with `src/` is there
+for whoever starts the program in the root of the workspace.
 
 ## How to fix it
 
@@ -20,7 +22,8 @@ parameter without such a default.
 ## When it keeps silent
 
 - In comments and docstrings, in tests, examples and documentation, in CMake files that are no part of the build.
-- Of paths that are put together, such as `'/home/' + user`, and of `~`: these are meant for whoever runs it.
+- Of paths that are put together, such as `'/home/' + user` and `join(root, 'src/robot')`, and of `~`: these are meant for
+  whoever runs it. Of `src/` in build scripts, and where no package of the workspace has such a file.
 - The confidence is high where the path leads to a file of this workspace, or into a folder of its sources, and the file that
   names it is used: installed, built or launched. It is medium for other paths, which may be right on the machine that the
   package is made for, for a workspace beside the homes of users (`/home/ws/src`), which is one of a container, and where
@@ -72,18 +75,24 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     by_file: dict[tuple[str, str], list[tuple[MachinePath, _Inside | None]]] = {}
     for each in package.machine_paths:
         file = relative(package, each.span.path)
-        if not is_apart(file) and (file in used or not file.endswith(".cmake")):  # builds leave such files behind
-            inside = _inside(each.path, workspace)
+        if is_apart(file) or (file not in used and file.endswith(".cmake")):  # builds leave such files behind
+            continue
+        inside = _inside(each.path, workspace)
+        if each.path.startswith("/") or (inside and not file.endswith((*_BUILDING, "package.xml"))):
             by_file.setdefault((file, inside.package if inside else ""), []).append((each, inside))
     for (file, _), found in by_file.items():
         (first, inside), *others = found
         yield Finding(
-            f"{first.path} is there on one machine only: {_way_out(first, inside, file, package)}",
+            f"{first.path} {_where(first.path)}: {_way_out(first, inside, file, package)}",
             first.span,
             first.path,
             several(Related(f"and {other.path}", other.span) for other, _ in others),
             confidence=Confidence.HIGH if inside and file in used and not _is_of_container(first.path) else Confidence.MEDIUM,
         )
+
+
+def _where(path: str) -> str:
+    return "is there on one machine only" if path.startswith("/") else "is found from the root of the workspace only"
 
 
 def _way_out(machine: MachinePath, inside: _Inside | None, file: str, package: Package) -> str:
@@ -137,7 +146,7 @@ def _is_yaml(file: str) -> bool:
 
 def _is_of_container(path: str) -> bool:
     """Whether a path lies in a workspace that is no user's home, but beside those: ``/home/ws/src/robot``."""
-    return path.split("/")[3] in ("src", "install")
+    return path.startswith("/") and path.split("/")[3] in ("src", "install")
 
 
 def _used(package: Package) -> frozenset[str]:
@@ -158,7 +167,7 @@ def _inside(path: str, workspace: Workspace) -> _Inside | None:
     """
     folders = _folders(workspace)
     parts = path.split("/")
-    for at in range(len(parts) - 1, 2, -1):
+    for at in range(len(parts) - 1, 2 if path.startswith("/") else 0, -1):
         package = folders.get(parts[at])
         if package is None:
             continue
@@ -184,7 +193,7 @@ def _folders(workspace: Workspace) -> Mapping[str, Package]:
 RULE = Rule(
     name="machine-path",
     code="ROS418",
-    summary="a path must not lead into the home directory of one machine",
+    summary="a path must lead to the same file on every machine, and wherever a program is started",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,
