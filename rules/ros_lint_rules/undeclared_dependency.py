@@ -96,6 +96,8 @@ def _finding(package: Package, workspace: Workspace, need: Need, says: str, conf
         message = f"{name} {says}, nor could it: {way_out.obstacle}"
     else:
         message = f"{name} {says}: add {way_out.written}"
+        if _needs_back(name, package, workspace):
+            message += f"; {name} needs {package.name}, too, and they cannot both declare each other: move to one what both need"
     return Finding(
         message,
         best.span,
@@ -104,6 +106,12 @@ def _finding(package: Package, workspace: Workspace, need: Need, says: str, conf
         None if where else way_out.fix,
         confidence if way_out.certain else min(confidence, Confidence.MEDIUM),
     )
+
+
+def _needs_back(name: str, package: Package, workspace: Workspace) -> bool:
+    """Whether a package of the workspace surely needs the one that needs it, and does not declare that either."""
+    others = workspace.by_name.get(name, ())
+    return any(need.name == package.name and sure for other in others for need, sure in undeclared(other, workspace))
 
 
 def _where(name: str, workspace: Workspace) -> str:
