@@ -136,7 +136,7 @@ def _of_users(package: Package, workspace: Workspace) -> Iterator[Finding]:
         used = _Used(*what, places[0])
         makers = workspace.by_name.get(used.maker, ())
         maker = makers[0] if len(makers) == 1 else None
-        wrong = _lacking(used, package, workspace) if not makers else _wrong(used, maker, workspace) if maker else None
+        wrong = _lacking(used, workspace) if not makers else _wrong(used, maker, workspace) if maker else None
         if wrong is None:
             continue
         if used.bare:
@@ -185,7 +185,7 @@ def _wrong(used: _Used, maker: Package, workspace: Workspace) -> str | None:
     if not generated or maker.builds_with != "ament_cmake" or maker.hidden(Facet.INTERFACES):
         return None
     there = _there(maker, workspace)[used.kind, bool(used.header)]
-    if used.name in there or (not used.header and any(used.name.startswith(f"{name}_") for name in there)):
+    if _is_among(used, there):
         return None
     by_hand = f"{used.maker}/{used.kind}/{used.name}{used.header}" if used.header else f"{used.kind}/__init__.py"
     if any(f"/{file}".endswith(f"/{by_hand}") for file in maker.files):
@@ -193,18 +193,20 @@ def _wrong(used: _Used, maker: Package, workspace: Workspace) -> str | None:
     return _says(used, generated, there, "generates", "; correct the name, or add the file")
 
 
-def _lacking(used: _Used, package: Package, workspace: Workspace) -> str | None:
+def _lacking(used: _Used, workspace: Workspace) -> str | None:
     """Return what is wrong about a use of a package that is released, or below the workspace, None as above."""
     known = workspace.world.interfaces(used.maker, everywhere=not workspace.target.told)
     there = _names(known, used.kind, bool(used.header))
-    if not known or used.name in there or (not used.header and any(used.name.startswith(f"{name}_") for name in there)):
-        return None
-    by_hand = f"/{used.maker}/{used.kind}/{used.name}{used.header}"
-    if any(f"/{file}".endswith(by_hand) for file in package.files if used.header):
+    if not known or _is_among(used, there):
         return None
     if used.name not in _names(known, "", bool(used.header)) and not similar(used.name, there, 1, 0.88):
         return None  # no slip, and a newer version may have more than is known
     return _says(used, sorted(known), there, "has", "; correct the name")
+
+
+def _is_among(used: _Used, there: Collection[str]) -> bool:
+    """Whether what is used is one of some interfaces, or a message that a service or an action is made of."""
+    return used.name in there or (not used.header and any(used.name.startswith(f"{name}_") for name in there))
 
 
 def _says(used: _Used, interfaces: Sequence[str], there: Collection[str], does: str, way_out: str) -> str:
