@@ -120,7 +120,7 @@ def started(packages: Iterable[Package], *, kept_back: bool = False) -> dict[str
     """
     found: dict[str, dict[str, list[LaunchReference]]] = {}
     for package in packages:
-        installed = {provided.source for provided in package.built.provides} if package.launch else ()
+        installed = package.built.installed if package.launch else ()
         for launch in package.launch:
             path = within(package.path, launch.path)
             if (path not in installed and is_kept_back(package, path)) is not kept_back:

@@ -191,7 +191,7 @@ class Liveness:
     def _named(self) -> frozenset[str]:
         """Folders out of which the script takes files, each with what the names of these end with."""
         files = {source for target in self._script.targets for source in target.sources}
-        files.update([p.source for p in self._script.provides if p.source])
+        files.update(self._installed)
         split = [file.rpartition("/") for file in files]
         return frozenset([f"{folder}/*{name[name.rfind('.') :]}" for folder, _, name in split])
 
@@ -308,7 +308,7 @@ class Liveness:
 
     @cached_property
     def _installed(self) -> frozenset[str]:
-        return frozenset([p.source for p in self._script.provides if p.source])
+        return self._script.installed
 
     @cached_property
     def _started(self) -> frozenset[str]:

@@ -202,6 +202,11 @@ class BuildScript(NamedTuple):
         return self.path.endswith("CMakeLists.txt")
 
     @property
+    def installed(self) -> frozenset[str]:
+        """The files that are installed, by where they lie in the package. Generated ones are none of them."""
+        return frozenset([provided.source for provided in self.provides if provided.source])
+
+    @property
     def is_empty(self) -> bool:
         """Whether it is a CMake script without a command: empty, or all of it a comment."""
         return self.of_cmake and not (self.calls or self.problems or self.opaque)

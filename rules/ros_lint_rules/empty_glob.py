@@ -31,7 +31,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_python":
         return
-    kept = {provided.source for provided in script.provides}
+    kept = script.installed
     for problem in script.problems:
         if problem.kind == "empty-glob" and not workspace.is_made(package, problem.subject):
             folder = _folder(problem.subject)

@@ -153,7 +153,7 @@ def _used(package: Package) -> frozenset[str]:
     """Return the files of a package that are seen to be installed, built, launched or part of its build script."""
     script = package.built
     modules = tuple([f"{module.replace('.', '/')}/" for module in script.python_packages])
-    files = {provided.source for provided in script.provides if provided.source}
+    files = set(script.installed)
     files.update(source for target in script.targets if not target.test for source in target.sources)
     files.update(launch.path for launch in launchable(package))
     files.update(relative(package, path) for path in (script.path, *(call.path for call in script.written)))

@@ -74,7 +74,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     everything = [made for made in package.registrations if made.kind == "plugin"]
     registered = [made for made in everything if not (is_apart(relative(package, made.span.path)) or _is_no_plugin(made))]
     names = {made.name for made in registered}
-    installed = {provided.source for provided in script.provides}
+    installed = script.installed
     exported = list(called(package, EXPORTING_PLUGINS, anywhere=True))
     if EXPORTING_PLUGINS not in script.calls and not exported:
         yield from _unexported(package, registered)

@@ -55,7 +55,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         yield from _of_setup(package)
     if package.builds_with != "ament_cmake":
         return
-    installed = {provided.source for provided in script.provides}
+    installed = script.installed
     nodes = {relative(package, use.span.path) for use in package.uses if use.via == "import" and use.package == "rclpy"}
     standing = workspace.world.standing
     left = installed.union(script.inputs)
