@@ -3,8 +3,8 @@
 
 A dependency in `package.xml` whose name means nothing to anybody: no package of the workspace, of an underlay or of any
 distribution has it, and no rosdep key is called so. Misspelt packages, the name that CMake, Python, apt or pip use instead
-of the rosdep key, modules of Python itself, programs and modules of the package, and `ament_python`, which is a build type
-and no package.
+of the rosdep key, modules of Python itself, programs and modules of the package, groups of packages, and `ament_python`, which
+is a build type and no package.
 
 ## Why it matters
 
@@ -58,11 +58,14 @@ _FINDS_DECLARED = "ament_auto_find_build_dependencies"
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
+    groups = {group for package in workspace.packages for group in package.groups}
     for name, packages in declared_names(workspace).items():
         if workspace.world.standing(name) == "unknown":
             for stranger in strangers(name, packages):
                 if name == _PYTHON_BUILD:
                     yield _build_type(stranger)
+                elif name in groups:
+                    yield _needless(stranger, "is a group of packages and none itself")
                 elif stranger.runs_python and workspace.world.by_import(name).none_needed:
                     yield _needless(stranger, "is a module of Python itself, so there is nothing that rosdep could install")
                 elif workspace.world.meant(name, python=stranger.runs_python) is None and (own := _own(stranger)):
