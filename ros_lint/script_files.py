@@ -49,8 +49,7 @@ def with_files(tree: Tree, found: Found, commands: Mapping[str, Parsed], script:
     files = [_script_file(file, text, file in executables) for file, text in texts.items()]
     files = [file._replace(helper=_is_helper(file, texts)) for file in files]
     files = _with_runs(tree, found, script, files)
-    provided = [each.source for each in script.provides]
-    missing = {} if script.hides(Facet.SHARE) else resource_files.uninstalled(found.files, provided)
+    missing = {} if script.hides(Facet.SHARE) else resource_files.uninstalled(found.files, script.installed)
     if not (plugins or files or missing):
         return script
     texts_that_name = contents(tree, found.path, filter(resource_files.may_name, found.files)) if missing else ()
@@ -177,7 +176,7 @@ def _with_runs(tree: Tree, found: Found, script: BuildScript, files: list[Script
     CMake installs what lies among scripts; setup.py also makes programs of the modules that its entry points name.
     """
     if script.of_cmake:
-        kept = {provided.source for provided in script.provides}
+        kept = script.installed
         lost = [file.path for file in files if file.path not in kept and file.shebang and file.main]
         run = _run(tree, found, lost, _TELLS) if lost else {}
         return [file._replace(run=run.get(file.path)) for file in files] if run else files

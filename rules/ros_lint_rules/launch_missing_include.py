@@ -253,7 +253,7 @@ def _files_without(owner: str, path: str, kind: str, workspace: Workspace) -> tu
             return None
         names.update(p.path[len(share) :] for p in one.script.provides if p.path.startswith(share))
         # What is in the sources and installed nowhere is told by another rule, also when the folders differ.
-        installed = {provided.source for provided in one.script.provides}
+        installed = one.script.installed
         if any((file == path or file.endswith(f"/{path}")) and file not in installed for file in one.files):
             return None
         if any(path.startswith(f"{folder}/") for folder in (*one.unseen, *one.nested)):

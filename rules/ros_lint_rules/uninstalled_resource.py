@@ -81,7 +81,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if script is None or script.is_empty or package.builds_with not in ("ament_cmake", "ament_python"):
         return
     installed = _with_folders(provided.path for provided in script.provides)
-    kept = _with_folders(provided.source for provided in script.provides if provided.source)
+    kept = _with_folders(script.installed)
     missing: dict[str, list[tuple[str, Span]]] = {}
     files = frozenset(package.files)
     folders = frozenset(file.partition("/")[0] for file in package.files if _is_resource(file))
