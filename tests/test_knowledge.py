@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from ros_lint.collectors.launch_asked import DISTRIBUTIONS
 from ros_lint.knowledge import Knowledge, distros, index, newest_lts, provides, rosdep
 from ros_lint.knowledge.builtin import PYTHON_MODULES
 from ros_lint.knowledge.names import NOTHING_NEEDED, Names
@@ -243,3 +244,7 @@ def test_plugins_of_one_base_stand_together() -> None:
     found = provides.parse(line.split("\t"))
     assert found.known("plugins").names == ("nav=demo::A", "nav=demo::B", "rviz=demo/C")
     assert provides.render(found) == line
+
+
+def test_launch_files_are_followed_for_the_distributions_that_there_are_data_of() -> None:
+    assert tuple(distro.name for distro in distros()) == DISTRIBUTIONS

@@ -14,15 +14,16 @@ def asks_first(conditions: Iterable[LaunchCondition]) -> bool:
     return any(condition.wanted and asked_for(text) for condition in conditions for text in condition.texts)
 
 
-_DISTRIBUTIONS = ("humble", "jazzy", "kilted", "lyrical", "rolling")
-"""The distributions that are still maintained: what a launch file does for older ones alone is none of our business."""
+DISTRIBUTIONS = ("humble", "jazzy", "kilted", "lyrical", "rolling")
+"""The distributions that are still maintained: what a launch file does for older ones alone is none of our business. Those that
+there are data of, as a test says: facts of a file must not hang on data that the user may have renewed."""
 _ASKED = "$ROS_DISTRO"
 
 
 def optional_under(conditions: Sequence[LaunchCondition]) -> bool | None:
     """Return whether what is under conditions is done without somewhere, None if no distribution comes to it."""
     asking = [condition for condition in conditions if any(_ASKED in text for text in condition.texts)]
-    holds = {_holds_in(distro, asking) for distro in _DISTRIBUTIONS} if asking else {True}
+    holds = {_holds_in(distro, asking) for distro in DISTRIBUTIONS} if asking else {True}
     return None if holds == {False} else False in holds or asks_first(conditions)
 
 
