@@ -16,11 +16,13 @@ Rename one, remove one, or put an empty file `COLCON_IGNORE` into the folder of 
 ## When it keeps silent
 
 About folders that are ignored, and about packages of the same name in an underlay: see `shadowed-package`. Where each lies
-below a `src` of its own, such as `arm_ws/src` and `car_ws/src`, the confidence is medium: these are built one by one.
+below a `src` of its own, such as `arm_ws/src` and `car_ws/src`, or in a step of its own, such as `03-service` and `04-action`,
+the confidence is medium: these are built one by one.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 
 from ros_lint.api import Confidence, Finding, Package, Related, Rule, Severity, Workspace
@@ -43,10 +45,22 @@ def check(workspace: Workspace) -> Iterator[Finding]:
 
 
 def _lie_apart(packages: Iterable[Package]) -> bool:
-    """Whether each package lies below a ``src`` of its own: the workspaces of one repository are built one by one."""
-    places = [f"/{package.path}/".partition("/src/") for package in packages]
-    tops = {top for top, found, _ in places if top and found}
-    return len(tops) == len(places)
+    """Whether each package lies in a workspace of its own: those of one repository, and its steps, are built one by one."""
+    places = [_workspace(package.path) for package in packages]
+    return "" not in places and len(set(places)) == len(places)
+
+
+_STEP = re.compile(r"\d+[-_. ]|(?:chapter|day|exercise|lab|lesson|part|step|tutorial|week)[-_ ]?\d")
+
+
+def _workspace(path: str) -> str:
+    """Return the folder above the ``src`` that a package is in, or the step of a course, "" where it lies in neither."""
+    top, inside, _ = f"/{path}/".partition("/src/")
+    if inside:
+        return top
+    parts = path.split("/")
+    step = next((at for at, part in enumerate(parts) if _STEP.match(part.lower())), len(parts))
+    return "/".join(parts[: step + 1]) if step < len(parts) else ""
 
 
 RULE = Rule(
