@@ -54,7 +54,7 @@ def _depends_on_runs(package: Package, workspace: Workspace) -> bool:
     return any(not roles[name] & _BUILDS if name in roles else is_mostly_run(workspace, name) for name in names)
 
 
-_BUILDS = Role.BUILD | Role.EXPORT | Role.TOOL | Role.TEST
+_BUILDS = Role.BUILD | Role.EXPORT | Role.TOOL
 
 
 def _has(role: Role, part: Role) -> bool:

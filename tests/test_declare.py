@@ -77,3 +77,15 @@ def test_what_is_compiled_against_says_nothing_of_what_is_run() -> None:
     lines = "project(a)\nfind_package(rclcpp REQUIRED)\nfind_package(std_msgs REQUIRED)\nament_package()\n"
     workspace = one_package.loaded({"a/package.xml": text, "a/CMakeLists.txt": lines})
     assert tag_for(workspace.packages[0], workspace, "rviz2", Role.EXEC) == "exec_depend"
+
+
+def test_what_is_run_and_tested_is_only_run() -> None:
+    declared = "<depend>rclpy</depend><depend>std_msgs</depend><export><build_type>ament_python</build_type></export>"
+    files = {
+        "a/package.xml": f"{HEAD.format(form=3)}{declared}</package>",
+        "a/setup.py": "from setuptools import setup\n\nsetup(name='talker', version='1.0.0', packages=['talker'])\n",
+        "a/talker/__init__.py": "import rclpy\nimport std_msgs.msg\n",
+        "a/test/test_talker.py": "import rclpy\nimport std_msgs.msg\n",
+    }
+    workspace = one_package.loaded(files)
+    assert tag_for(workspace.packages[0], workspace, "rviz2", Role.EXEC) == "depend"
