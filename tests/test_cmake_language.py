@@ -160,6 +160,44 @@ except ImportError:
     CMAKE = shutil.which("cmake")
 
 
+_SMALL = (
+    "string(JSON A ERROR_VARIABLE B GET [[{}]] x)",
+    'set(B 1)\nstring(CONFIGURE "@B@" A @ONLY)',
+    'string(SHA3_256 A "x")',
+    "set(A a/b.c)\ncmake_path(GET A STEM B)\ncmake_path(APPEND A d OUTPUT_VARIABLE C)\ncmake_path(REMOVE_FILENAME A)",
+    "cmake_path(SET A x)\ncmake_path(CONVERT a:b TO_CMAKE_PATH_LIST B)\ncmake_path(IS_RELATIVE A C)",
+    'set(A "a b")\nseparate_arguments(A)\nseparate_arguments(B UNIX_COMMAND "a \'b c\'")',
+    "cmake_policy(GET CMP0054 A)",
+    "set(B 1)\nget_directory_property(A DEFINITION B)\nget_cmake_property(C NOPE)\nset_directory_properties(PROPERTIES X Y)",
+    "cmake_host_system_information(RESULT A QUERY IS_64BIT)",
+    "block()\nfind_program(A nope_nope)\nfind_file(B nope_nope)\nendblock()",
+    "function(f)\nset(A ${CMAKE_CURRENT_FUNCTION} PARENT_SCOPE)\nendfunction()\nf()",
+    'set(L "a;b")\nlist(TRANSFORM L APPEND x AT 0 -2)',
+    "set_property(GLOBAL APPEND_STRING PROPERTY P a b)\nget_property(A GLOBAL PROPERTY P)",
+    'set(A 1)\noption(B "" ${A})\noption(C "" x)',
+    'set(A "a;;b;$<C:d>")\nstring(GENEX_STRIP "${A}" B)',
+    'file(TO_NATIVE_PATH "a//b" A)\nfile(TO_CMAKE_PATH "a/;b" B)\nfile(TO_CMAKE_PATH "/a/b" C)',
+    "get_filename_component(A C:/a PATH)\nget_filename_component(B C:/a ABSOLUTE)",
+    'get_filename_component(A "/bin/sh x" PROGRAM PROGRAM_ARGS B)',
+    'macro(m p)\nset(A "<${${p}}>")\nendmacro()\nm("")',
+    'set(A a/b/ CACHE PATH "")\nset(B a/b/ CACHE STRING "")\nset(C "x//y;z/" CACHE FILEPATH "")',
+    'set(A)\nforeach(A RANGE 0)\nendforeach()\noption(A "" ON)',
+    'cmake_policy(VERSION 3.5)\noption(A "" OFF)\nforeach(A)\nendforeach()\n'
+    'block()\nforeach(i IN LISTS A)\nset(A 7 CACHE STRING "" FORCE)\nendforeach()\nendblock()',
+    'if(U0)\nset(A x CACHE STRING "")\nendif()\nif(DEFINED CACHE{A})\ntrace(1)\nendif()',
+)
+
+
+@pytest.mark.skipif(CMAKE is None, reason="cmake is not installed")
+def test_values_of_small_scripts_are_those_of_cmake(tmp_path: Path) -> None:
+    assert CMAKE is not None
+    scripts = {number: Script(text, ("", "0", "a")) for number, text in enumerate(_SMALL)}
+    real = really_run(CMAKE, scripts, tmp_path)
+    assert len(real) == len(scripts)
+    wrong = {scripts[number].text: disagreements(evaluated(scripts[number]), outcome) for number, outcome in real.items()}
+    assert not {text: found for text, found in wrong.items() if found}
+
+
 @pytest.mark.skipif(CMAKE is None, reason="cmake is not installed")
 def test_values_are_those_of_cmake(tmp_path: Path) -> None:
     assert CMAKE is not None

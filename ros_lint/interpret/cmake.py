@@ -11,6 +11,7 @@ from ros_lint.facts.build import BuildScript, Exported, Provided
 from ros_lint.facts.sight import ANYTHING, Facet, Opaque, Problem
 from ros_lint.facts.sources import Mention
 from ros_lint.interpret import (
+    cmake_answers,
     cmake_basic,
     cmake_branches,
     cmake_definitions,
@@ -38,6 +39,7 @@ from ros_lint.text import Span, beginning
 from ros_lint.tree import join
 
 for _module in (
+    cmake_answers,
     cmake_basic,
     cmake_fetch,
     cmake_file,

@@ -14,7 +14,7 @@ from ros_lint.interpret.cmake_flow import run_file, run_named
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_state import BREAK, CONTINUE, RETURN, STOP, Frame
 from ros_lint.interpret.cmake_tools import started
-from ros_lint.interpret.cmake_truth import is_off
+from ros_lint.interpret.cmake_truth import TRUE_WORDS, is_off
 from ros_lint.interpret.cmake_values import HOLE, certainly_set, is_fixed, is_known, join, merge, split
 from ros_lint.text import Text
 
@@ -61,6 +61,8 @@ def _note_switch(run: Run, name: str, value: str) -> None:
 
 def _set_cache(run: Run, name: str, value: str, kind: str, force: bool) -> None:
     new = name not in run.cache
+    if kind in ("PATH", "FILEPATH"):
+        value = _path(value)
     if kind != "INTERNAL" and not force:
         run.settable.add(name)
     if not new and not force and kind != "INTERNAL" and not certainly_set(run.cache[name]):
@@ -70,6 +72,12 @@ def _set_cache(run: Run, name: str, value: str, kind: str, force: bool) -> None:
         run.put(run.cache, name, value)
         if run.versions < (3, 21):  # policy CMP0126
             run.set(name, None)
+
+
+def _path(value: str) -> str:
+    """Return what the cache makes of a path."""
+    odd = HOLE in value or "//" in value or "\\" in value or ";" in value or value.startswith("~")
+    return HOLE if odd else value.rstrip("/") or value
 
 
 def _unset(run: Run, args: list[str]) -> None:
@@ -89,7 +97,7 @@ def _option(run: Run, args: list[str]) -> None:
     if not args or HOLE in args[0]:
         return
     name = args[0]
-    usual = args[2] if len(args) > 2 else "OFF"
+    usual = _switch(args[2]) if len(args) > 2 else "OFF"
     run.settable.add(name)
     value = run.normal(name)
     if value is not None and run.versions >= (3, 13):  # policy CMP0077
@@ -102,6 +110,15 @@ def _option(run: Run, args: list[str]) -> None:
         run.set(name, None)
     elif not certainly_set(run.cache[name]):
         run.put(run.cache, name, merge([run.cache[name], usual]))
+        if value is not None:
+            run.set(name, HOLE)
+
+
+def _switch(value: str) -> str:
+    """Return the word that option() makes of a value."""
+    if not is_fixed(value):
+        return HOLE
+    return "ON" if value.upper() in TRUE_WORDS else "OFF"
 
 
 def _message(_run: Run, args: list[str]) -> int | None:
@@ -131,6 +148,8 @@ def _minimum(run: Run, args: list[str]) -> None:
 def _policy(run: Run, args: list[str]) -> None:
     if args[:1] == ["VERSION"] and len(args) > 1:
         _policies(run, args[1])
+    elif args[:1] == ["GET"] and len(args) > 2:
+        run.set(args[2], HOLE)
 
 
 def _policies(run: Run, wanted: str) -> None:
@@ -233,17 +252,6 @@ def _folder_sources(run: Run, args: list[str]) -> None:
     run.set(args[1], join([*filter(None, [run.get(args[1])]), *sources]))
 
 
-def _set_unknown(run: Run, args: list[str]) -> None:
-    """A command whose first argument names the variable that gets something unknown."""
-    if args and HOLE not in args[0]:
-        run.set(args[0], HOLE)
-
-
-def _set_last_unknown(run: Run, args: list[str]) -> None:
-    if args and HOLE not in args[-1]:
-        run.set(args[-1], HOLE)
-
-
 def _execute_process(run: Run, args: list[str]) -> None:
     """``execute_process(COMMAND cmake -S folder ...)`` and others: a project among the sources is built along then."""
     folder = run.source(args[args.index("-S") + 1]) if "-S" in args[:-1] else None
@@ -276,30 +284,7 @@ COMMANDS: Final[dict[str, Handler]] = {
     "exec_program": _execute_process,
     "cmake_language": _language,
     "aux_source_directory": _folder_sources,
-    "find_library": _set_unknown,
-    "find_path": _set_unknown,
-    "find_program": _set_unknown,
-    "find_file": _set_unknown,
-    "check_cxx_compiler_flag": _set_last_unknown,
-    "check_c_compiler_flag": _set_last_unknown,
-    "check_cxx_source_compiles": _set_last_unknown,
-    "check_c_source_compiles": _set_last_unknown,
-    "check_cxx_source_runs": _set_last_unknown,
-    "check_include_file": _set_last_unknown,
-    "check_include_files": _set_last_unknown,
-    "check_include_file_cxx": _set_last_unknown,
-    "check_library_exists": _set_last_unknown,
-    "check_symbol_exists": _set_last_unknown,
-    "check_cxx_symbol_exists": _set_last_unknown,
-    "check_function_exists": _set_last_unknown,
-    "check_cxx_linker_flag": _set_last_unknown,
-    "check_type_size": _set_last_unknown,
     "check_language": nothing,
-    "test_big_endian": _set_unknown,
-    "site_name": _set_unknown,
-    "try_compile": _set_unknown,
-    "try_run": _set_unknown,
-    "processorcount": _set_unknown,
 }
 COMMANDS.update(
     dict.fromkeys(
@@ -307,13 +292,14 @@ COMMANDS.update(
             "mark_as_advanced", "include_guard", "enable_testing", "enable_language", "add_definitions",
             "add_compile_definitions", "add_compile_options", "add_link_options", "link_directories", "source_group",
             "add_dependencies", "set_tests_properties", "remove_definitions", "set_source_files_properties",
+            "set_directory_properties",
             "variable_watch", "build_command", "create_test_sourcelist", "define_property", "include_regular_expression",
             "include_external_msproject", "load_cache", "cmake_print_variables", "cmake_print_properties",
             "feature_summary", "add_feature_info", "set_package_properties", "ctest_start", "ctest_test", "export",
             "target_compile_definitions", "target_compile_features", "target_compile_options", "target_link_options",
             "target_link_directories", "target_precompile_headers", "gtest_discover_tests", "gtest_add_tests",
-            "check_ipo_supported", "cmake_push_check_state", "cmake_pop_check_state", "cmake_host_system_information",
-            "cmake_file_api", "write_file", "make_directory", "check_struct_has_member",
+            "check_ipo_supported", "cmake_push_check_state", "cmake_pop_check_state", "cmake_file_api",
+            "write_file", "make_directory", "check_struct_has_member",
         ),
         nothing,
     )

@@ -104,8 +104,8 @@ def expand(parts: Template, lookup: Lookup) -> str:
             pieces.append(part)
             continue
         where, inner = part
-        name = inner[0]
-        if len(inner) == 1 and isinstance(name, str) and HOLE not in name and MAYBE not in name:
+        name = inner[0] if inner else ""
+        if len(inner) <= 1 and isinstance(name, str) and HOLE not in name and MAYBE not in name:
             pieces.append(lookup(name, where))
         else:
             pieces.append(_reference(part, lookup))

@@ -43,11 +43,15 @@ def _file(run: Run, args: list[str]) -> None:
     elif mode == "RELATIVE_PATH" and len(args) == 4:
         run.set(args[1], _relative(args[3], args[2]))
     elif mode in ("TO_CMAKE_PATH", "TO_NATIVE_PATH") and len(args) > 2:
-        run.set(args[2], args[1] if ":" not in args[1] and "\\" not in args[1] else HOLE)
+        run.set(args[2], args[1] if _SAME_EVERYWHERE.fullmatch(args[1]) else HOLE)
     elif mode == "REAL_PATH" and len(args) > 2:
         run.set(args[2], _absolute(args[1], run.places["CMAKE_CURRENT_SOURCE_DIR"]))
     elif mode in ("READ", "SIZE", "TIMESTAMP", "READ_SYMLINK", "MD5", "SHA1", "SHA256", "STRINGS"):
         run.set(args[2] if len(args) > 2 else "", HOLE)
+
+
+_SAME_EVERYWHERE: Final = re.compile(rf"[/{ATOM}]?(?:[^/:;\\ \0\2\3]+/)*[^/:;\\ \0\2\3]+")
+"""A path that file(TO_CMAKE_PATH) and file(TO_NATIVE_PATH) leave as it is."""
 
 
 def _copy(run: Run, copied: list[str], destination: str) -> None:
@@ -125,7 +129,7 @@ _ROOTS: Final = ("/\1source", "/\1build", "/\1prefix")
 
 
 def _absolute(path: str, base: str) -> str:
-    if not is_fixed(path) or not is_fixed(base):
+    if not is_fixed(path) or not is_fixed(base) or _DRIVE.match(path):
         return HOLE
     whole = path if path.startswith("/") else posixpath.join(base, path)
     found = posixpath.normpath(whole)
@@ -138,14 +142,19 @@ def _component(run: Run, args: list[str]) -> None:
     if len(args) < 3 or HOLE in args[0]:
         return
     name, path, mode = args[:3]
+    if "PROGRAM_ARGS" in args[3:-1]:
+        run.set(args[args.index("PROGRAM_ARGS") + 1], HOLE)
     base = args[args.index("BASE_DIR") + 1] if "BASE_DIR" in args[:-1] else run.places["CMAKE_CURRENT_SOURCE_DIR"]
     run.set(name, _part(run, path, mode, base))
+
+
+_DRIVE: Final = re.compile("[A-Za-z]:")
 
 
 def _part(run: Run, path: str, mode: str, base: str) -> str:
     if mode in ("ABSOLUTE", "REALPATH"):
         return _absolute(path, base)
-    if mode in ("PROGRAM", "PROGRAM_ARGS") or "\2" in path or "\\" in path:
+    if mode in ("PROGRAM", "PROGRAM_ARGS") or "\2" in path or "\\" in path or _DRIVE.match(path):
         return HOLE
     if mode in ("DIRECTORY", "PATH"):
         path = re.sub("/{2,}", "/", path).rstrip("/") or path[:1]

@@ -131,6 +131,10 @@ def call(run: Run, procedure: Procedure | Choice, args: list[str]) -> Exit:
             return run_body(run, body)
         finally:
             frames.pop()
+    values["CMAKE_CURRENT_FUNCTION"] = procedure.name
+    folder = procedure.folder or HOLE
+    values["CMAKE_CURRENT_FUNCTION_LIST_DIR"] = folder
+    values["CMAKE_CURRENT_FUNCTION_LIST_FILE"] = f"{folder}/{procedure.path.rpartition('/')[2]}"
     run.scopes.append(Variables(values))
     try:
         ended = run_body(run, body)

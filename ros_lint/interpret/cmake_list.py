@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Final
 
 from ros_lint.interpret.cmake_regex import RegexError, anywhere, forget, translated
@@ -203,11 +203,9 @@ def _transform(run: Run, name: str, args: list[str]) -> None:
     if args[0] == "REPLACE" or "REGEX" in args[1 + count :]:
         forget(run)
     try:
-        chosen = _selected(items, args[1 + count :])
-        run.set(
-            output,
-            join(_transformed(item, action) if index in chosen else item for index, item in enumerate(items)),
-        )
+        for index in _selected(items, args[1 + count :]):
+            items[index] = _transformed(items[index], action)
+        run.set(output, join(items))
     except (ValueError, RegexError):
         run.set(output, HOLE)
 
@@ -231,10 +229,10 @@ def _transformed(item: str, action: Callable[[str], str]) -> str:
     return MAYBE + changed if ";" not in changed else HOLE
 
 
-def _selected(items: list[str], selector: list[str]) -> frozenset[int]:
-    """Return the indices that a selector picks. Raises ValueError where CMake reports an error."""
+def _selected(items: list[str], selector: list[str]) -> Sequence[int]:
+    """Return the indices that a selector picks, twice where it does so. Raises ValueError where CMake reports an error."""
     if not selector:
-        return frozenset(range(len(items)))
+        return range(len(items))
     if not is_fixed(join(items)):
         raise ValueError(selector)
     mode, args = selector[0], selector[1:]
@@ -242,15 +240,15 @@ def _selected(items: list[str], selector: list[str]) -> frozenset[int]:
         pattern = translated(args[0])
         if pattern is None or not is_known(join(items)):
             raise ValueError(selector)
-        return frozenset(index for index, item in enumerate(items) if pattern.search(item))
+        return [index for index, item in enumerate(items) if pattern.search(item)]
     numbers = [int(arg) for arg in args]
     placed = [number + len(items) if number < 0 else number for number in numbers]
     if mode == "AT" and all(0 <= number < len(items) for number in placed):
-        return frozenset(placed)
+        return placed
     if mode == "FOR" and len(numbers) in (2, 3) and all(0 <= number < len(items) for number in placed[:2]):
         step = numbers[2] if len(numbers) == 3 else 1
         if step > 0 and placed[0] <= placed[1]:
-            return frozenset(range(placed[0], placed[1] + 1, step))
+            return range(placed[0], placed[1] + 1, step)
     raise ValueError(selector)
 
 

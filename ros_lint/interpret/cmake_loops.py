@@ -26,12 +26,14 @@ def _run_foreach(run: Run, node: Loop) -> Exit:
     if not args:
         return NEXT
     rounds = _rounds(run, node.command, args)
+    if not rounds:
+        return NEXT
     names = _loop_names(args)
     kept = [(name, run.scopes[-1].get(name, _ABSENT)) for name in names]
     seen = {name: run.get(name) or "" for name in names}
     ended = _run_rounds(run, node.body, names, rounds)
     for name, value in kept:
-        if value is _ABSENT and run.versions < (3, 21):  # policy CMP0124
+        if value in (_ABSENT, None) and run.versions < (3, 21):  # policy CMP0124
             run.set(name, seen[name])
         elif value is _ABSENT:
             run.remove(run.scopes[-1], name)

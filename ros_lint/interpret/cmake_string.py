@@ -29,10 +29,8 @@ def _string(run: Run, args: list[str]) -> None:
         return
     function = _FUNCTIONS.get(mode)
     if function is None:
-        output = rest[0] if mode in ("RANDOM", "TIMESTAMP", "UUID", "JSON") else rest[-1]
-        if mode == "RANDOM":
-            output = rest[-1]
-        _assign(run, output, HOLE)
+        for output in _outputs(mode, rest):
+            _assign(run, output, HOLE)
         return
     place, compute = function
     if len(rest) <= (max(place, 0)):
@@ -43,6 +41,15 @@ def _string(run: Run, args: list[str]) -> None:
     except (ValueError, TypeError):
         value = HOLE  # CMake reports an error
     _assign(run, output, value, *rest)
+
+
+def _outputs(mode: str, args: list[str]) -> list[str]:
+    """Return the variables that a mode sets which is not followed, given the arguments after it."""
+    if mode == "JSON":
+        return [args[0], args[2]] if args[1:2] == ["ERROR_VARIABLE"] and len(args) > 2 else args[:1]
+    if mode == "CONFIGURE":
+        return args[1:2]
+    return args[:1] if mode in ("TIMESTAMP", "UUID") else args[-1:]
 
 
 def _assign(run: Run, name: str, value: str, *texts: str) -> None:
@@ -115,7 +122,7 @@ def strip(text: str) -> str:
 
 
 def genex_strip(text: str) -> str:
-    """Return a text without its generator expressions."""
+    """Return a text without its generator expressions and without empty list elements."""
     found: list[str] = []
     index = 0
     while index < len(text):
@@ -136,7 +143,7 @@ def genex_strip(text: str) -> str:
         else:
             found.append(text[index])
             index += 1
-    return "".join(found)
+    return ";".join(filter(None, "".join(found).split(";")))
 
 
 def _repeat(text: str, count: str) -> str:
@@ -212,6 +219,10 @@ _FUNCTIONS: Final[dict[str, tuple[int, Callable[..., str]]]] = {
     "SHA256": (0, _hash("sha256")),
     "SHA384": (0, _hash("sha384")),
     "SHA512": (0, _hash("sha512")),
+    "SHA3_224": (0, _hash("sha3_224")),
+    "SHA3_256": (0, _hash("sha3_256")),
+    "SHA3_384": (0, _hash("sha3_384")),
+    "SHA3_512": (0, _hash("sha3_512")),
 }
 """Where among the arguments after the mode the output variable stands, and what computes its value from the others."""
 

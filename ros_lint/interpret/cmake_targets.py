@@ -126,7 +126,7 @@ def _set_property(run: Run, args: list[str]) -> None:
         if "APPEND" in modes:
             run.put(holder, name, join([*([old] if old else []), *values]))
         elif modes:
-            run.put(holder, name, old + "".join(values))
+            run.put(holder, name, old + join(values))
         else:
             run.put(holder, name, join(values))
 

@@ -24,7 +24,7 @@ def _defined(run: Run, token: Token) -> Truth:
         run.tested.add(name)
         return Truth(TRUE if run.lookup(name[4:-1], "ENV") and is_known(run.lookup(name[4:-1], "ENV")) else UNKNOWN)
     if name.startswith("CACHE{") and name.endswith("}"):
-        return Truth(TRUE if name[6:-1] in run.cache else UNKNOWN)
+        return Truth(TRUE if certainly_set(run.cache.get(name[6:-1], HOLE)) else UNKNOWN)
     value = run.get(name)
     if value is None:
         return Truth(UNLIKELY if run.may_be_set(name) else FALSE)
