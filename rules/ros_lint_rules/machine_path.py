@@ -66,6 +66,8 @@ class _Inside(NamedTuple):
     package: str
     rest: str
     """What the package has there, below its folder; "" where it has nothing, or the folder itself is meant."""
+    whole: bool
+    """Whether the folder itself is meant."""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -98,6 +100,8 @@ def _where(path: str) -> str:
 def _way_out(machine: MachinePath, inside: _Inside | None, file: str, package: Package) -> str:
     if inside is None:
         return "make it an argument, or a file of a package"
+    if inside.whole and not file.endswith((*_BUILDING, "package.xml")) and not _scheme(inside, file) and not _is_yaml(file):
+        return f"it is the folder of {inside.package}; look up the share directory of {inside.package}"
     if not inside.rest:
         return f"it leads into the sources of {inside.package}; {_without_file(machine, inside, file, package)}"
     it_is = f"it is {inside.rest} of {inside.package}"
@@ -174,7 +178,7 @@ def _inside(path: str, workspace: Workspace) -> _Inside | None:
         rest = "/".join(parts[at + 1 :])
         has = _has(package, rest)
         if has or "src" in parts[3:at]:
-            return _Inside(package.name, rest if has else "")
+            return _Inside(package.name, rest if has else "", whole=not rest)
     return None
 
 
