@@ -148,8 +148,12 @@ _RUNS = frozenset({"add_custom_command", "add_custom_target"})
 
 
 def may_run_built(script: BuildScript) -> bool:
-    """Whether a custom command may run in the build what the package builds."""
-    return not _RUNS.isdisjoint(script.calls)
+    """Whether a custom command may run in the build what the package builds.
+
+    That which rosidl makes for interfaces does not.
+    """
+    calls = [call.name for call in script.written] if "rosidl_generate_interfaces" in script.calls else script.calls
+    return not _RUNS.isdisjoint(calls)
 
 
 def with_client(package: Package) -> frozenset[str]:
@@ -201,8 +205,16 @@ def library_of(package: Package, made: Registration) -> str:
 
 
 def installs_built(script: BuildScript) -> bool:
-    """Whether anything that a package builds may be installed, by the name of its target or as a file."""
-    return any(provided.target or provided.path.startswith(("lib/", "bin/")) for provided in script.provides)
+    """Whether anything that a package builds may be installed, by the name of its target or as a file.
+
+    What rosidl generates, and installs by itself, is none of it.
+    """
+    built = (provided.path for provided in script.provides if provided.target or provided.path.startswith(("lib/", "bin/")))
+    return not all(_GENERATED in path for path in built)
+
+
+_GENERATED = "__rosidl_"
+"""What stands in the names of the libraries of interfaces, and of no others."""
 
 
 def listed_to_install(package: Package) -> frozenset[str]:

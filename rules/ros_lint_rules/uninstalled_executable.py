@@ -5,9 +5,9 @@ Programs that are built and land where nobody looks for them:
 
 - an executable that a launch file of the workspace starts and that is not installed at all;
 - a node, if nothing at all of what the package builds is installed, or if others of its nodes are;
-- an executable that is installed to `bin/` instead of `lib/<package>`, if it is a node (its sources or their own
-  headers include rclcpp) or a launch file starts it. Where only another header of the package includes rclcpp, the confidence
-  is medium.
+- an executable that is installed to `bin/` or `lib/` instead of `lib/<package>`, if it is a node (its sources or their own
+  headers include rclcpp) or a launch file starts it. Where only another header of the package includes rclcpp, and for other
+  programs in `lib/`, the confidence is medium.
 
 ## Why it matters
 
@@ -58,7 +58,7 @@ from ros_lint.api import (
     with_client,
 )
 
-_BIN = ("bin", "${CMAKE_INSTALL_BINDIR}")
+_BIN = ("bin", "${CMAKE_INSTALL_BINDIR}", "lib", "${CMAKE_INSTALL_LIBDIR}")
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -79,14 +79,15 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     by_launch_files = workspace.started.get(package.name, {})
     for target in programs_built(script):
         found = places.get(target.name, [])
-        if any(folder.partition("/")[0] != "bin" for folder, _, _ in found):
+        if not all(_is_for_others(folder) for folder, _, _ in found):
             continue
         launched = by_launch_files.get(found[0][1] if found else target.name, ())
         related = several(Related("a launch file starts it here", reference.span) for reference in launched)
         sure = bool(launched or target.name in nodes)
-        if found and (sure or any(file.startswith("include/") for file in with_client(package))):
+        nowhere = all(folder == "lib" for folder, _, _ in found)
+        if found and (sure or nowhere or any(file.startswith("include/") for file in with_client(package))):
             span = found[0][2]
-            where = f"{found[0][0]}/, where ros2 run and launch do not look"
+            where = f"{found[0][0]}/, where {'nobody looks' if nowhere else 'ros2 run and launch do not look'}"
             yield Finding(
                 f"{target.name} is installed to {where}; install it to {own}",
                 span,
@@ -105,6 +106,11 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             says = " and, unlike other nodes of the package, not installed"
             confidence = Confidence.MEDIUM if _kept_back(package, target.name, (), workspace) else Confidence.HIGH
             yield _left(package, script, target, says)._replace(severity=Severity.WARNING, confidence=confidence)
+
+
+def _is_for_others(folder: str) -> bool:
+    """Whether programs of a folder are found by their names alone, if at all: bin, and lib, where libraries are."""
+    return folder.partition("/")[0] == "bin" or folder == "lib"
 
 
 def _kept_back(package: Package, name: str, launched: Sequence[LaunchReference], workspace: Workspace) -> bool:
