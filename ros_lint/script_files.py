@@ -98,7 +98,10 @@ _HOLDS_SOURCES = re.compile(r"(?:-D)?(\w+)=[\\\"]*\$\{\w*_SOURCE_DIR\}")
 
 
 def _read_in_sources(found: Found, missing: Mapping[str, Sequence[str]], naming: _Texts) -> Iterator[str]:
-    """Yield the folders of resources that a text names where they lie in sources, as ``/home/me/src/robot/maps/hall``."""
+    """Yield the folders of resources that a text names where they lie in sources, as ``/home/me/src/robot/maps/hall``.
+
+    Not what is in such a folder itself: xacro writes into a model from what file it has made it.
+    """
     if not missing:
         return
     top = found.path.rpartition("/")[2] or found.name
@@ -108,7 +111,8 @@ def _read_in_sources(found: Found, missing: Mapping[str, Sequence[str]], naming:
     below = b"/%s/" % raw(top)
     for path, data in naming:
         if below in data:  # the pattern takes a hundred times as long
-            yield from (f"{from_raw(hit[1])}/" for hit in place.finditer(data))
+            named = {from_raw(hit[1]) for hit in place.finditer(data)}
+            yield from (f"{folder}/" for folder in sorted(named) if not path.startswith(f"{join(found.path, folder)}/"))
         if _OF_SOURCES.search(data) and not path.endswith(".md"):
             yield from (f"{from_raw(hit[1])}/" for hit in part.finditer(data) if _is_below_sources(data, hit.start()))
 

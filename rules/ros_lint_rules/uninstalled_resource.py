@@ -30,11 +30,13 @@ where `data_files` is written out and the files are not too many.
 - A folder that nothing in the package names has medium confidence: it may serve documentation, be opened by hand from the
   sources, or be left over. Not so if it lies in a folder that is installed (`worlds/textures/`), and its files serve at run
   time alone: displays, maps, models, textures, parameters; nor if the package builds, installs and tests nothing, so that
-  it is there for these files; nor if they are parameters of nodes (`ros__parameters`), and the package has nodes. Where a
-  text names the folder as it lies in the sources (`/home/me/src/robot/maps/hall`, `'src', 'robot', 'maps'`), or code comes to
-  it by a macro to which CMake gives the folder of the sources, it is found there: the confidence is medium. It is so where a
-  program seeks its files in the folder that it is started from. A launch file that looks a file of the name up in another
-  package names that one, and what lies here may be a copy.
+  it is there for these files; nor if they are parameters of nodes (`ros__parameters`), and the package has nodes, or nothing
+  but files; nor if they are models or worlds of a package that has nothing but files, and installs no other; nor if a file is
+  looked up in it that is not even there. Where a text names the folder as it lies in the sources
+  (`/home/me/src/robot/maps/hall`, `'src', 'robot', 'maps'`), or code comes to it by a macro to which CMake gives the folder of
+  the sources, it is found there: the confidence is medium. It is so where a program seeks its files in the folder that it is
+  started from. A launch file that looks a file of the name up in another package names that one, and what lies here may be a
+  copy.
 """
 
 from __future__ import annotations
@@ -71,9 +73,11 @@ _DOCUMENTS = frozenset({"images", "media", "data"})
 _PICTURES = frozenset({"images", "media"})
 _PICTURE = (".png", ".jpg", ".jpeg")
 _RUN_TIME = (
-    ".dae", ".obj", ".pgm", ".rviz", ".sdf", ".srdf", ".stl", ".urdf", ".wbt", ".world", ".xacro", ".yaml", ".yml",
+    ".dae", ".lua", ".obj", ".pgm", ".rviz", ".sdf", ".srdf", ".stl", ".urdf", ".wbt", ".world", ".xacro", ".yaml", ".yml",
 )  # fmt: skip
 """What serves at run time, and nowhere else."""
+_OF_MODELS = (".dae", ".obj", ".sdf", ".srdf", ".stl", ".urdf", ".wbt", ".world", ".xacro")
+"""What of it is looked up by other files and programs; displays, maps and parameters are also opened by hand."""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -83,12 +87,16 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     installed = _with_folders(provided.path for provided in script.provides)
     kept = _with_folders(script.installed)
     missing: dict[str, list[tuple[str, Span]]] = {}
+    looked_into: dict[str, Span] = {}
     files = frozenset(package.files)
     folders = frozenset(file.partition("/")[0] for file in package.files if _is_resource(file))
     for look_up in workspace.looked_up.get(package.name, ()):
         path, span = look_up.path.rstrip("/"), look_up.span
         place = f"share/{package.name}/{path}"
-        if place in installed or path.endswith(LAUNCH_NAMES) or not (path in files or path in folders):
+        if place in installed or path.endswith(LAUNCH_NAMES):
+            continue
+        if not (path in files or path in folders):
+            looked_into.setdefault(path.partition("/")[0], span)
             continue
         if not package.hidden(Facet.SHARE, place):
             missing.setdefault(_unit(path, kept), []).append((path, span))
@@ -96,7 +104,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         yield _named(package, script, unit, found)
     if not package.hidden(Facet.SHARE):
         told = {unit.partition("/")[0] for unit in missing}
-        yield from _folders(package, script, kept, told)
+        yield from _folders(package, script, kept, told, looked_into)
 
 
 def _with_folders(paths: Iterable[str]) -> set[str]:
@@ -134,14 +142,19 @@ def _name(path: str) -> str:
     return path.rpartition("/")[2]
 
 
-def _folders(package: Package, script: BuildScript, kept: set[str], told: set[str]) -> Iterator[Finding]:
-    """Speak of folders of resources of which nothing is installed."""
+def _folders(
+    package: Package, script: BuildScript, kept: set[str], told: set[str], looked_into: Mapping[str, Span]
+) -> Iterator[Finding]:
+    """Speak of folders of resources of which nothing is installed.
+
+    ``looked_into`` are those in which a file is looked up that is not even there.
+    """
     launches = {launch.path for launch in launchable(package)}
     places = dict(script.named)
     # What is installed from a place that is not known, such as one of several folders, may be any file of the name.
     chosen = frozenset([_name(provided.path) for provided in script.provides if not provided.source])
     modules = frozenset(script.python_packages)
-    forgotten = _Forgotten(package, script, places)
+    forgotten = _Forgotten(package, script, places, looked_into)
     for folder, found in uninstalled_resources(package.files, kept).items():
         files = [file for file in found if file not in launches and file not in script.inputs]
         top = folder.partition("/")[0]
@@ -156,13 +169,19 @@ def _folders(package: Package, script: BuildScript, kept: set[str], told: set[st
 class _Forgotten:
     """What to say of a folder that is not installed, and how sure that is, going by the rest of the package.
 
-    ``places`` are those where a text of the package names one of its files.
+    ``places`` are those where a text of the package names one of its files, ``looked_into`` those where a file is looked up
+    that is not in its folder.
     """
 
-    def __init__(self, package: Package, script: BuildScript, places: Mapping[str, Span]) -> None:
+    def __init__(
+        self, package: Package, script: BuildScript, places: Mapping[str, Span], looked_into: Mapping[str, Span]
+    ) -> None:
         self._package = package
         self._script = script
         self._places = places
+        self._looked_into = looked_into
+        models = any(provided.source.lower().endswith(_OF_MODELS) for provided in script.provides)
+        self._lacks_models = not models and _only_files(package, script)
         self._made_of_them = _makes_nothing(package, script)
         self._of_nodes = _of_nodes(package, script)
         self._elsewhere = _looked_up_elsewhere(package)
@@ -178,9 +197,12 @@ class _Forgotten:
             f"{folder}/ ({examples}) is not installed, so it cannot be looked up at run time; install it to share/{package.name}",
             setup_edits.place(script),
             f"{folder}/",
-            several(Related(f"{_name(file)} is named here", places[file]) for file in looked_up),
+            several(
+                [Related(f"{_name(file)} is named here", places[file]) for file in looked_up]
+                or [Related("it is looked into here", self._looked_into[one]) for one in [folder] if one in self._looked_into]
+            ),
             fix=_fix(package, script, f"{folder}/") if "/" not in folder else None,
-            confidence=Confidence.HIGH if looked_up else self._unnamed(folder, files),
+            confidence=Confidence.HIGH if looked_up or folder in self._looked_into else self._unnamed(folder, files),
             severity=Severity.WARNING,
         )
 
@@ -193,9 +215,10 @@ class _Forgotten:
         in_sources = f"{folder}/" in self._script.inputs
         if any(file in self._of_nodes for file in files) and not in_sources:
             return Confidence.HIGH
-        for_run_time = any(file.endswith(_RUN_TIME) or "/textures/" in file for file in files)
-        meant = ("/" in folder or self._made_of_them) and not copied and not in_sources
-        return Confidence.HIGH if meant and for_run_time else Confidence.MEDIUM
+        for_run_time = any(file.lower().endswith(_RUN_TIME) or "/textures/" in file for file in files)
+        lost = self._lacks_models and any(file.lower().endswith(_OF_MODELS) for file in files)
+        meant = "/" in folder or self._made_of_them or lost
+        return Confidence.HIGH if meant and for_run_time and not copied and not in_sources else Confidence.MEDIUM
 
 
 def _looked_up_elsewhere(package: Package) -> frozenset[tuple[str, str]]:
@@ -213,9 +236,17 @@ def _makes_nothing(package: Package, script: BuildScript) -> bool:
     return script.makes_nothing and not is_apart(f"{package.name.replace('_', '/')}/")
 
 
+def _only_files(package: Package, script: BuildScript) -> bool:
+    """Whether a package has nothing for its users but files that it installs to its share folder."""
+    makes = script.targets or script.python_packages or script.interfaces or script.components
+    installs = any("/" in provided.source for provided in script.provides)
+    return script.of_cmake and installs and not makes and all(p.path.startswith("share/") for p in script.provides)
+
+
 def _of_nodes(package: Package, script: BuildScript) -> frozenset[str]:
-    """Return the files with parameters of nodes, for a package that installs nodes."""
-    installs = script.components or any(provided.path.startswith(f"lib/{package.name}/") for provided in script.provides)
+    """Return the files with parameters of nodes, for a package that installs nodes, or nothing but files."""
+    runs = script.components or any(provided.path.startswith(f"lib/{package.name}/") for provided in script.provides)
+    installs = runs or _only_files(package, script)
     if not installs or "example" in package.name:
         return frozenset()
     return frozenset(relative(package, file.path) for file in package.parameter_files if file.nodes)
