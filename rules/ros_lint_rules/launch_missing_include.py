@@ -22,9 +22,9 @@ Correct the path; the message names files of the same name that the package does
 - The file is in the sources and not installed: that is `uninstalled-resource`.
 - A part of the package's build script that cannot be followed may install it.
 - Files that look as if something writes or downloads them: networks, records, images; folders. Not so what a node reads
-  for certain: parameters, the displays of rviz2. Maps, which people make with the robot, and what git ignores have medium
-  confidence, and so have records beside which one of nearly the same name is installed; unless that one is the only one
-  that nothing names.
+  for certain: parameters, the displays of rviz2. Maps, which people make with the robot, what lies in a
+  folder for what is made (`temp`, `tmp`, `generated`), and what git ignores have medium confidence, and so have records beside
+  which one of nearly the same name is installed; unless that one is the only one that nothing names.
 - For a released package: its launch files are not known whole; other files of it are not known at all. Where nobody said
   which distribution is meant, the confidence is medium as long as one of them may have the file.
 - The launch file asks first if the package is there, or the file (`os.path.exists`), unless it stops where it is not; or it
@@ -232,10 +232,13 @@ def _is_left_over(file: str, owner: str, names: tuple[str, ...], workspace: Work
 
 
 def _is_made(owner: str, path: str, workspace: Workspace) -> bool:
-    """Whether people make such a file with the robot, as they do maps and what git ignores."""
-    if not {"map", "maps"}.isdisjoint(path.split("/")[:-1]):
+    """Whether people make such a file with the robot, as they do maps and what git ignores, or programs do when they run."""
+    if not _FILLED_LATER.isdisjoint(path.split("/")[:-1]):
         return True
     return any(workspace.is_made(one, path) for one in workspace.by_name.get(owner, ()))
+
+
+_FILLED_LATER = frozenset({"generated", "map", "maps", "temp", "tmp"})
 
 
 def _files_without(owner: str, path: str, kind: str, workspace: Workspace) -> tuple[str, ...] | None:
