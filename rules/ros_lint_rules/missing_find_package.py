@@ -1,13 +1,12 @@
 """
 ## What it finds
 
-A CMake script that uses a ROS package without having found it: a target `package::library`, an argument of
-`ament_target_dependencies()`, or a macro of the package. And what `ament_target_dependencies()` is given that is no package:
-a target, the package itself, or nearly the name of a package that is found; a target that `ament_export_dependencies()` is
-given. And a package that is to be found by its own build.
-
-A package whose headers a compiled source includes, and which is declared, counts as used, too; unless the script adds a folder
-outside the package to those that headers are sought in.
+- A CMake script that uses a ROS package without having found it: a target `package::library`, an argument of
+  `ament_target_dependencies()`, or a macro of the package.
+- A declared package that nothing finds, while a compiled source includes its headers.
+- What `ament_target_dependencies()` is given for a package and is none: a target, the package itself, or a slip for the name
+  of a package that is found. A target that is given to `ament_export_dependencies()`.
+- A `find_package()` of the package itself.
 
 ## Why it matters
 
@@ -21,12 +20,14 @@ is a slip for a package that is found.
 
 ## When it keeps silent
 
-- The package comes along with one that is found, for then it is found, too: then, and when nobody knows what comes along,
-  the confidence is medium.
+- The package comes along with one that is found, so that it is mostly found, too, or nobody knows what comes along: the
+  confidence is medium.
 - The script cannot be followed everywhere, or the use hangs on a condition that cannot be decided.
 - The name belongs to no ROS package that is known, to no target either, and looks like no name that is found; or it is that
-  of a package that is found, in other capitals.
-- A command that another package of the workspace gives has it in itself: that package is to find it.
+  of a package that is found, in other capitals. Not so for a declared one under `DEPENDENCIES` of
+  `rosidl_generate_interfaces()`: only packages can stand there.
+- A command that comes from another package of the workspace uses the package: that other one has to find it.
+- The script adds a folder outside of the package to its include directories: headers may be found there.
 """
 
 from __future__ import annotations
@@ -79,7 +80,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             continue
         if mention.via == "macro" and (along is None or not along.isdisjoint(workspace.world.by_macro(name).names)):
             continue
-        if mention.purpose in _NOT_SOUGHT or not workspace.world.is_package(name):
+        stated = mention.purpose == "interfaces" and package.declares(name)
+        if mention.purpose in _NOT_SOUGHT or not (stated or workspace.world.is_package(name)):
             continue
         what = mention.what or mention.name
         missing.setdefault(name, []).append((what, Related(f"also needed here: {what}", mention.span)))

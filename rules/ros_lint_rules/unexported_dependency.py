@@ -25,13 +25,17 @@ not `gz_sim_vendor`. The fix does this; it needs `--unsafe-fixes`, for whoever f
 - Targets are handed on in functions or under conditions, or are those of a package that comes along with one that is exported.
 - What the header includes comes with the tools that tests are built with, such as `ament_cmake_gtest`.
 
-The confidence is medium when the other package comes along, or may come along, with one that is exported, when the package
-exports no include directories, so that its headers may be there for itself, when an exported target or
-`ament_export_include_directories()` has the include directories of the other one written out, and when the package exports no
-library that it builds, and the header belongs to one of the sources of a program or of a library, such as a plugin: what it
-declares can be linked nowhere else. So it is of targets that are handed on by a package that installs no headers: its libraries
-are plugins, and nobody finds it by CMake. It is low when the header compiles nowhere else, because it includes a file that is
-not installed, or a package that only ROS 1 has.
+The confidence is medium when
+
+- the other package comes along, or may come along, with one that is exported;
+- the package exports no include directories, so that its headers may be there for itself;
+- an exported target or `ament_export_include_directories()` has the include directories of the other one written out;
+- the package exports no library that it builds, and the header belongs to one of the sources of a program or of a library, such
+  as a plugin: what it declares can be linked nowhere else;
+- targets are handed on by a package that installs no headers: its libraries are plugins, and nobody finds it by CMake.
+
+It is low when the header compiles nowhere else, because it includes a file that is not installed, or a package that only ROS 1
+has.
 """
 
 from __future__ import annotations
