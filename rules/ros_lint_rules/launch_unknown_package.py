@@ -197,10 +197,10 @@ def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: W
 
 
 def _reordered(name: str, workspace: Workspace) -> list[str]:
-    """Return the one package of the workspace that has all the words of a name, in another order or among more."""
+    """Return the one package of the workspace that has all the words of a name, in another order."""
     words = set(name.split("_"))
-    found = [other for other in workspace.by_name if words.issubset(other.split("_"))] if len(words) > 1 else []
-    return found if len(found) == 1 else []
+    alike = [other for other in workspace.by_name if name not in other and words.issubset(other.split("_"))]
+    return alike if len(words) > 1 and len(alike) == 1 else []
 
 
 RULE = Rule(
