@@ -37,6 +37,11 @@ def make(*names, **more):
 return make('b', 'c', package='a')
 => node a b, node a c
 
+numbers = [float(x) for x in LaunchConfiguration('datum').perform(None).split(' ') if x]
+last = numbers.pop(2)
+return [Node(package='a', executable='b', parameters=[{'datum': [numbers[0], numbers[1]]}])]
+=> node a b
+
 make = partial(Node, package='a')
 return [make(executable='b')]
 => node a b

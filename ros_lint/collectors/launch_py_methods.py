@@ -28,7 +28,7 @@ from ros_lint.collectors.launch_py_objects import (
     union,
     written,
 )
-from ros_lint.collectors.launch_py_operations import hashable, text_of, texts_made, with_format
+from ros_lint.collectors.launch_py_operations import hashable, may_have_more, text_of, texts_made, with_format
 from ros_lint.collectors.launch_text import LONGEST, UNKNOWN, is_plain, is_settled, joined
 from ros_lint.collectors.python_methods import CONSTANTS, NUMBERS, SPLITS, STRIPS, TEXT_METHODS, TRUTHS
 
@@ -268,7 +268,7 @@ def _of_list(machine: Machine, owner: list[Value], name: str, arguments: list[Va
 
 def _popped(owner: list[Value], position: Value) -> Value:
     index = -1 if position is None else plain(position)
-    if not isinstance(index, int):
+    if not isinstance(index, int) or (may_have_more(owner) and not -len(owner) <= index < len(owner)):
         return Unknown("pop() from a place that is not known")
     try:
         return plain(owner.pop(index))

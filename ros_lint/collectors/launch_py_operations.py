@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ros_lint.collectors.launch_py_misuse import note
@@ -348,6 +348,11 @@ def _waits(text: str) -> bool:
     return UNKNOWN not in text and bool(named_in(text))
 
 
+def may_have_more(values: Sequence[Value]) -> bool:
+    """Whether a collection may hold more than is seen: one element stands for all that come of what is not known."""
+    return any(isinstance(one, (Guarded, Unknown)) for one in values)
+
+
 def subscript(machine: Machine, owner: Value, key: Value) -> Value:
     """Return an element of a value."""
     if isinstance(owner, dict):
@@ -360,7 +365,7 @@ def subscript(machine: Machine, owner: Value, key: Value) -> Value:
             return union(owner.values()) if owner else Unknown("element of an empty dictionary")
         raise Raised
     if isinstance(owner, (list, tuple)):
-        if isinstance(key, int):
+        if isinstance(key, int) and (-len(owner) <= key < len(owner) or not may_have_more(owner)):
             try:
                 return plain(owner[key])
             except IndexError:
