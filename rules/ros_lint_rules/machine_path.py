@@ -26,8 +26,8 @@ parameter without such a default.
   whoever runs it. Of `src/` in build scripts, and where no package of the workspace has such a file.
 - The confidence is high where the path leads to a file of this workspace, or into a folder of its sources, and the file that
   names it is used: installed, built or launched. It is medium for other paths, which may be right on the machine that the
-  package is made for, for a workspace beside the homes of users (`/home/ws/src`), which is one of a container, and where
-  nothing is seen to use the file.
+  package is made for, for a workspace beside the homes of users (`/home/ws/src`), which is one of a container, in records of
+  `experiments`, which say how it was on one machine, and where nothing is seen to use the file.
 """
 
 from __future__ import annotations
@@ -84,12 +84,13 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             by_file.setdefault((file, inside.package if inside else ""), []).append((each, inside))
     for (file, _), found in by_file.items():
         (first, inside), *others = found
+        doubted = _is_of_container(first.path) or not _RECORDS.isdisjoint(file.split("/"))
         yield Finding(
             f"{first.path} {_where(first.path)}: {_way_out(first, inside, file, package)}",
             first.span,
             first.path,
             several(Related(f"and {other.path}", other.span) for other, _ in others),
-            confidence=Confidence.HIGH if inside and file in used and not _is_of_container(first.path) else Confidence.MEDIUM,
+            confidence=Confidence.HIGH if inside and file in used and not doubted else Confidence.MEDIUM,
         )
 
 
@@ -146,6 +147,10 @@ def _scheme(inside: _Inside, file: str) -> str:
 
 def _is_yaml(file: str) -> bool:
     return file.endswith((".yaml", ".yml"))
+
+
+_RECORDS = frozenset({"experiment", "experiments"})
+"""Folders that say how something was tried."""
 
 
 def _is_of_container(path: str) -> bool:
