@@ -280,13 +280,17 @@ def _finding(package: Package, calls: list[Call], file: str, wanted: str, *, asi
 
     ``aside``: a comment has it where a list had it, which is mostly meant so.
     """
+    read = [each for each in package.interface_files if relative(package, each.path) == file]
+    refused = [problem.message for each in read for problem in each.problems]
     way_out = f"rosidl wants it to be called {wanted}" if wanted else "add it, or remove it"
+    if refused and not wanted:
+        way_out = f"remove it, or correct it, for rosidl does not take it: {refused[0]}"
     return Finding(
         f"{file} is not given to {_GENERATE}(), so nothing is generated from it; {way_out}",
         calls[0].place,
         file,
         (_here(package, file),),
-        None if wanted or aside else _fix(calls, file),
+        None if wanted or aside or refused else _fix(calls, file),
         Confidence.MEDIUM if aside or calls[0].blocks else Confidence.HIGH,
     )
 
