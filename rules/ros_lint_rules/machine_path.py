@@ -16,8 +16,8 @@ for whoever starts the program in the root of the workspace.
 A file of a package is found by the package: `get_package_share_directory('robot')` and `FindPackageShare` in Python,
 `$(find-pkg-share robot)` in XML and YAML launch files, `package://robot/` and `$(find robot)/` in models, `model://robot/` in
 those of Gazebo, `${prefix}/` in what `package.xml` exports. Parameters cannot look up anything: the launch file gives such
-ones. A map finds its image beside it. What belongs to the machine, such as data or a device, becomes a launch argument or a
-parameter without such a default.
+ones. A map finds its image beside it. A program is started by `ros2 run`, or as a node. What belongs to the machine, such as
+data or a device, becomes a launch argument or a parameter without such a default.
 
 ## When it keeps silent
 
@@ -68,6 +68,8 @@ class _Inside(NamedTuple):
     """What the package has there, below its folder; "" where it has nothing, or the folder itself is meant."""
     whole: bool
     """Whether the folder itself is meant."""
+    program: str
+    """What ``ros2 run`` calls the file, "" if it is not installed as a program of the package."""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -117,6 +119,8 @@ def _way_out(machine: MachinePath, inside: _Inside | None, file: str, package: P
         return f"{it_is}; say {scheme}/{inside.rest}"
     if _is_yaml(file) and not any(launch.path == machine.span.path for launch in package.launch):
         return f"{it_is}; let the launch file give it, from the share directory of {inside.package}"
+    if inside.program:
+        return f"{it_is}; start it with ros2 run {inside.package} {inside.program}, or as a node"
     return f"{it_is}; look it up in the share directory of {inside.package}"
 
 
@@ -183,8 +187,14 @@ def _inside(path: str, workspace: Workspace) -> _Inside | None:
         rest = "/".join(parts[at + 1 :])
         has = _has(package, rest)
         if has or "src" in parts[3:at]:
-            return _Inside(package.name, rest if has else "", whole=not rest)
+            return _Inside(package.name, rest if has else "", whole=not rest, program=_program(package, rest))
     return None
+
+
+def _program(package: Package, file: str) -> str:
+    """Return by which name a file of a package is started where it is installed as its program (reference, section D5), or ""."""
+    installed = [provided.path for provided in package.built.provides if file and provided.source == file]
+    return next((path.rpartition("/")[2] for path in installed if path.startswith(f"lib/{package.name}/")), "")
 
 
 def _has(package: Package, path: str) -> bool:
