@@ -23,7 +23,7 @@ in the `CMakeLists.txt` of the package, or in a macro instead of a function.
 ## When it keeps silent
 
 Where the components or the libraries of the package cannot be seen whole; for tests; where no source of the package has the
-macro. A package that registers no component at all may compose its nodes by itself: the confidence is medium unless a launch
+macro, nor includes the header for it. A package that registers no component at all may compose its nodes by itself: the confidence is medium unless a launch
 file of the workspace loads the component.
 """
 
@@ -71,7 +71,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     names = {one.name for one in made}
     registered = {component.name.removeprefix("::") for component in script.components}
     left = [one for one in made if one.name not in registered]
-    unmade = [component for component in script.components if component.name.removeprefix("::") not in names] if made else []
+    unmade = [component for component in script.components if component.name.removeprefix("::") not in names]
+    if not made and not _forgets_macro(package):
+        unmade = []  # the macro of somebody else may make them
     # The only class that nobody makes is the only one that is compiled and that nobody registers, whatever the names.
     only = left if len(unmade) == len(left) == 1 and library_of(package, left[0]) else []
     for component in unmade:
@@ -83,6 +85,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         yield _unregistered(package, one, started=one.name in workspace.loaded.get(package.name, ()))
     if not package.hidden(Facet.LIBRARIES):
         yield from _libraries(package)
+
+
+def _forgets_macro(package: Package) -> bool:
+    """Whether a source includes what is only there to make components loadable, and none does, those of tests included."""
+    included = any(use.via == "include" and "register_node_macro" in use.what for use in package.uses)
+    return included and all(one.kind != "component" for one in package.registrations)
 
 
 _WORDS = {"PLUGIN": 0, "NO_UNDEFINED_SYMBOLS": 0, "EXECUTABLE": 1, "EXECUTOR": 1}
