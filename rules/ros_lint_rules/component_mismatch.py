@@ -23,8 +23,8 @@ in the `CMakeLists.txt` of the package, or in a macro instead of a function.
 ## When it keeps silent
 
 Where the components or the libraries of the package cannot be seen whole; for tests; where no source of the package has the
-macro, nor includes the header for it. A package that registers no component at all may compose its nodes by itself: the confidence is medium unless a launch
-file of the workspace loads the component.
+macro, nor includes the header for it. A package that registers no component at all may compose its nodes by itself: the
+confidence is medium unless a launch file of the workspace loads the component.
 """
 
 from __future__ import annotations
