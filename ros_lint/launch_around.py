@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
+from ros_lint.collectors.launch_asked import DISTRIBUTIONS
 from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, installed_place
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.launch import LaunchFile
@@ -33,12 +34,21 @@ class Around(NamedTuple):
     launch: tuple[LaunchFile, ...]
 
 
-def completed(tree: Tree, packages: Sequence[Around]) -> list[tuple[LaunchFile, ...]]:
-    """Return the launch files of each package, those followed again that want something which is there and may help."""
+def completed(tree: Tree, packages: Sequence[Around], distro: str) -> list[tuple[LaunchFile, ...]]:
+    """Return the launch files of each package, those followed again that want something which is there and may help.
+
+    They refer to what they do in a distribution, if it is maintained.
+    """
     if not any(_is_open(file) for package in packages for file in package.launch):
-        return [package.launch for package in packages]
+        return [tuple([_under(distro, file) for file in package.launch]) for package in packages]
     places = _Places(tree, packages)
-    return [tuple([places.completed(file, package) for file in package.launch]) for package in packages]
+    return [tuple([_under(distro, places.completed(file, package)) for file in package.launch]) for package in packages]
+
+
+def _under(distro: str, file: LaunchFile) -> LaunchFile:
+    if distro not in DISTRIBUTIONS or not any(reference.distros for reference in file.references):
+        return file
+    return file._replace(references=tuple([one for one in file.references if not one.distros or distro in one.distros]))
 
 
 class _Places:

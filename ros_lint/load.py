@@ -165,6 +165,7 @@ class Loader:
                 )
                 for found, script, files in zip(founds, built, of_package, strict=True)
             ],
+            self.target.distro,
         )
         return [
             _Read(

@@ -34,7 +34,7 @@ def _package(name: str, files: dict[str, str], provides: dict[str, str], modules
 
 def _completed(*packages: tuple[launch_around.Around, dict[str, str]]) -> dict[str, LaunchFile]:
     tree = MemoryTree({f"{package.name}/{path}": text for package, files in packages for path, text in files.items()})
-    done = launch_around.completed(tree, [package for package, _ in packages])
+    done = launch_around.completed(tree, [package for package, _ in packages], "jazzy")
     return {file.path: file for files in done for file in files}
 
 
@@ -213,4 +213,4 @@ def generate_launch_description():
 """,
     }
     package = _package("app", files, {})
-    assert launch_around.completed(MemoryTree({}), [package]) == [package.launch]
+    assert launch_around.completed(MemoryTree({}), [package], "jazzy") == [package.launch]

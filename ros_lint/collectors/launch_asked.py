@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
 from ros_lint.collectors.launch_expression import evaluate, means_true
 from ros_lint.collectors.launch_text import asked_for, fill, is_settled, named_in
@@ -20,11 +20,13 @@ there are data of, as a test says: facts of a file must not hang on data that th
 _ASKED = "$ROS_DISTRO"
 
 
-def optional_under(conditions: Sequence[LaunchCondition]) -> bool | None:
-    """Return whether what is under conditions is done without somewhere, None if no distribution comes to it."""
+EVERYWHERE = frozenset(DISTRIBUTIONS)
+
+
+def distributions_under(conditions: Iterable[LaunchCondition]) -> frozenset[str]:
+    """Return the distributions that come to what is under conditions, as far as these ask for one."""
     asking = [condition for condition in conditions if any(_ASKED in text for text in condition.texts)]
-    holds = {_holds_in(distro, asking) for distro in DISTRIBUTIONS} if asking else {True}
-    return None if holds == {False} else False in holds or asks_first(conditions)
+    return frozenset([distro for distro in DISTRIBUTIONS if _holds_in(distro, asking)]) if asking else EVERYWHERE
 
 
 def _holds_in(distro: str, conditions: Iterable[LaunchCondition]) -> bool:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from operator import attrgetter
 from typing import NamedTuple
 
 from ros_lint.collectors import launch_markup_actions, launch_markup_nodes
@@ -47,7 +46,7 @@ def read(source: Text, root: Entity) -> Found:
         actions = reader.actions(children)
     references = References(actions)
     return Found(
-        tuple(sorted(references.found, key=attrgetter("span"))),
+        references.all(),
         tuple(references.opaque),
         (*reader.problems, *references.problems),
         tuple(actions),

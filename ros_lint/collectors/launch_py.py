@@ -64,7 +64,7 @@ def collect(
     return LaunchFile(
         source.path,
         "python",
-        tuple(sorted(references.found, key=lambda reference: reference.span)),
+        references.all(),
         tuple(references.opaque),
         tuple(dict.fromkeys([*misplaced(tree, source)] or [*reading.problems, *references.problems])),
         test,

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
+from operator import attrgetter
 from posixpath import normpath
 from types import MappingProxyType
 
 from ros_lint.collectors import launch_text
-from ros_lint.collectors.launch_asked import optional_under
+from ros_lint.collectors.launch_asked import EVERYWHERE, asks_first, distributions_under
 from ros_lint.collectors.launch_expression import evaluate
 from ros_lint.collectors.launch_held import held
 from ros_lint.collectors.launch_text import (
@@ -54,7 +55,9 @@ class References:
         self._carriers = carriers_of_places(self._held.values)
         self._known: dict[str, tuple[str, ...]] = {}
         self._narrowed: Mapping[str, tuple[str, ...]] = {}
-        self._optional = False
+        self._asks = False
+        self._distros = EVERYWHERE
+        self._named_in: dict[tuple[str, Span], frozenset[str]] = {}
         self._named: set[str] = set()
         asked = [(text, span) for text, span in places.items() if not is_settled(text)]
         self._computed = {package: span for text, span in asked for package in self._fill(text)}
@@ -62,13 +65,11 @@ class References:
             self._action(action, conditional=False)
 
     def _action(self, action: LaunchAction, conditional: bool) -> None:
-        before, narrowed, known = self._optional, self._narrowed, self._known
+        before, narrowed, known = (self._asks, self._distros), self._narrowed, self._known
         if action.conditions:
             conditional = True
-            optional = optional_under(action.conditions)
-            if optional is None:
+            if not self._enter(action.conditions):
                 return
-            self._optional = before or optional
             self._narrow(action.conditions)
         match action.kind:
             case "node" | "component":
@@ -85,7 +86,15 @@ class References:
                 self._paths(value, action.package_span, conditional, reads)
         for child in action.children:
             self._action(child, conditional)
-        self._optional, self._narrowed, self._known = before, narrowed, known
+        self._asks, self._distros = before
+        self._narrowed, self._known = narrowed, known
+
+    def _enter(self, conditions: Sequence[LaunchCondition]) -> bool:
+        """Go under conditions; return whether any distribution does."""
+        distros = self._distros & distributions_under(conditions)
+        if distros:
+            self._asks, self._distros = self._asks or asks_first(conditions), distros
+        return bool(distros)
 
     def _program(self, action: LaunchAction, conditional: bool) -> None:
         kind: ReferenceKind = "node" if action.kind == "node" else "component"
@@ -249,24 +258,20 @@ class References:
         if not is_plain(package):
             self.hide("the package that is looked up is computed", value.span)
             return
-        optional = optional_under(conditions)
-        if optional is None:
-            return
-        if not any(reference.package == package and reference.conditional <= bool(conditions) for reference in self.found):
-            self.found[
-                LaunchReference(
-                    "package", package, "", value.span, value.span, bool(conditions), value.exact, value.exact, optional
-                )
-            ] = None
+        before = self._asks, self._distros
+        if self._enter(conditions) and not any(
+            reference.package == package and reference.conditional <= bool(conditions) and not reference.by_default
+            for reference in self.found
+        ):
+            self._add("package", package, "", value, value, bool(conditions), by_default=False)
+        self._asks, self._distros = before
 
     def opens(self, value: LaunchValue, conditions: Sequence[LaunchCondition]) -> None:
         """Note a file that is read when the launch file is."""
-        optional = optional_under(conditions)
-        if optional is None:
-            return
-        before, self._optional = self._optional, optional
-        self._paths(value, None, bool(conditions))
-        self._optional = before
+        before = self._asks, self._distros
+        if self._enter(conditions):
+            self._paths(value, None, bool(conditions))
+        self._asks, self._distros = before
 
     def _add(
         self,
@@ -292,11 +297,15 @@ class References:
             conditional,
             exact,
             package_exact,
-            self._optional,
+            self._asks or self._distros != EVERYWHERE,
             by_default,
             package_by_default and package not in self._places,
             read,
+            distros=tuple(sorted(self._distros)) if self._distros != EVERYWHERE else (),
         )
+        if not self._asks:
+            place = package, owner.span
+            self._named_in[place] = self._named_in.get(place, frozenset()) | self._distros
         self.found[reference] = None
 
     def spare(self, packages: Container[str]) -> None:
@@ -314,6 +323,14 @@ class References:
                 one._replace(asked=True) if one.kind in ("file", "include") and (one.package, one.name) in asked else one: None
                 for one in self.found
             }
+
+    def all(self) -> tuple[LaunchReference, ...]:
+        """Return the references by place. Nobody does without what one place names in every distribution, whatever of it."""
+        found = list(self.found)
+        for number, one in enumerate(found):
+            if one.distros and self._named_in.get((one.package, one.package_span)) == EVERYWHERE:
+                found[number] = one._replace(optional=False)
+        return tuple(sorted(found, key=attrgetter("span")))
 
     def hide(self, reason: str, span: Span) -> None:
         """Note that something hides which packages are used."""

@@ -83,7 +83,7 @@ class LaunchReference(NamedTuple):
     package_exact: bool = True
     """The same of ``package_span`` and the package."""
     optional: bool = False
-    """Whether the launch file asks first if the package is there, and does without."""
+    """Whether the launch file asks first if the package is there, and does without, or names it in some distributions only."""
     by_default: bool = False
     """Whether it holds only as long as nobody gives the arguments of the launch file other values than their defaults."""
     package_by_default: bool = False
@@ -92,6 +92,8 @@ class LaunchReference(NamedTuple):
     """Whether what is started reads this file for certain, so that it cannot be one that is written: parameters, displays."""
     asked: bool = False
     """Whether the launch file asks first if this file is there, and does without."""
+    distros: tuple[str, ...] = ()
+    """The distributions that come to it, sorted, where a launch file asks which one runs; none if all do."""
 
 
 class LaunchFile(NamedTuple):

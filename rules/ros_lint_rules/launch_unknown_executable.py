@@ -20,7 +20,7 @@ executable must be meant.
 - A part of the package's build script that cannot be followed may make the executable.
 - For a released package: the sources of its release are not known whole. What is known of another distribution's
   release does not count; where nobody said which one is meant, the confidence is medium as long as one of them may have it.
-- Only distributions that are none any more come there: `'spawner' if os.environ['ROS_DISTRO'] > 'foxy' else 'spawner.py'`.
+- Only other distributions come there: `'spawner' if os.environ['ROS_DISTRO'] > 'foxy' else 'spawner.py'`.
 - In launch files of examples, and of tests that the build script is not seen to run, the confidence is medium; one that is
   merely called a test and always installed counts like any other.
 """
