@@ -104,6 +104,23 @@ def test_what_it_is_for(text: str, test: bool, helper: bool) -> None:
         ("m = MoveItConfigsBuilder('a', package_name='b').to_moveit_configs()\nreturn []", ["package b"]),
         ("m = MoveItConfigsBuilder('a', 'robot_description_left')\nreturn []", ["package a_moveit_config"]),
         ("m = MoveItConfigsBuilder('a', 'robot_description', 'b')\nreturn []", ["package b"]),
+        (
+            "m = MoveItConfigsBuilder('a').robot_description_semantic(file_path='config/b.srdf').sensors_3d('c.yaml')\nreturn []",
+            ["file a_moveit_config config/b.srdf"],
+        ),
+        (
+            "m = MoveItConfigsBuilder('a', package_name='b').joint_limits(Path('config') / 'c.yaml').to_moveit_configs()\n"
+            "return []",
+            ["file b config/c.yaml"],
+        ),
+        (
+            "p = ParameterBuilder('a').yaml('config/b.yaml').file_parameter('c', 'd.txt')\nreturn []",
+            ["file a config/b.yaml", "file a d.txt"],
+        ),
+        (
+            "try:\n    m = MoveItConfigsBuilder('a', package_name='b').yaml('c.yaml')\nexcept OSError:\n    m = None\nreturn []",
+            ["package b"],
+        ),
     ],
 )
 def test_programs(body: str, wanted: list[str]) -> None:
@@ -338,7 +355,7 @@ def test_what_a_file_does_without(body: str, wanted: dict[str, bool]) -> None:
             "p = DeclareLaunchArgument('p', default_value=get_package_share_directory('a') + '/x.rviz', condition=i)\n"
             "q = DeclareLaunchArgument('p', default_value=get_package_share_directory('b') + '/y.rviz', condition=j)\n"
             "return [p, q, Node(package='c', executable='d', arguments=[LaunchConfiguration('p')])]",
-            {"file? a x.rviz": 1, "package a": 1, "file? b y.rviz": 2, "file b y.rviz": 2, "node c d": 3},
+            {"file? a x.rviz": 1, "package a": 1, "file? b y.rviz": 2, "file b y.rviz": 2, "package b": 2, "node c d": 3},
         ),
         (
             "d = Command([\n  'xacro ', get_package_share_directory('a') + '/x.xacro'])\n"

@@ -23,6 +23,7 @@ from ros_lint.collectors.launch_py_objects import (
     Unknown,
     Value,
     alternatives,
+    argument_of,
     environment,
     guarded_text,
     union,
@@ -102,6 +103,39 @@ def _note_builder(call: Call, made: Made) -> None:
             _note(call, name, made.written(0, "robot_name"), eager=True)
 
 
+_READ_BY_BUILDERS: Mapping[str, int] = {
+    "file_parameter": 1,
+    "joint_limits": 0,
+    "moveit_cpp": 0,
+    "pilz_cartesian_limits": 0,
+    "robot_description": 0,
+    "robot_description_kinematics": 0,
+    "robot_description_semantic": 0,
+    "trajectory_execution": 0,
+    "xacro_parameter": 1,
+    "yaml": 0,
+}
+"""Which argument names the file that a method of MoveIt's builders reads; sensors_3d asks first if it is there."""
+
+
+def _note_built(call: Call, owner: Made) -> None:
+    """Note the file that MoveIt's builders read at once: its path is from the share folder of their package on."""
+    position = _READ_BY_BUILDERS.get(call.name)
+    if position is None or call.machine.guarded or owner.name not in ("MoveItConfigsBuilder", "ParameterBuilder"):
+        return
+    package = owner.get(2 if owner.name == "MoveItConfigsBuilder" else 0, "package_name")
+    robot = owner.get(0, "robot_name")
+    if package is None and isinstance(robot, str):
+        package = f"{robot}_moveit_config"
+    given = call.get(position, "file_path")
+    if not (isinstance(package, str) and launch_text.is_plain(package) and isinstance(given, (str, FilePath))):
+        return
+    at = argument_of(call.node, position, "file_path")
+    for path in text_of(given):
+        whole = posixpath.join(launch_text.share(package), path)
+        call.machine.opened.append((whole, at, call.frame.source, call.machine.conditions))
+
+
 def _note(call: Call, package: Value, at: ast.expr, eager: bool) -> None:
     source = call.frame.source
     for one in alternatives(package):
@@ -133,6 +167,7 @@ def _method(call: Call, owner: Made) -> Value:
         found = conditions_of(owner)
         return Unknown("a condition", found[0] if len(found) == 1 else None)
     if owner.name.endswith("Builder"):
+        _note_built(call, owner)
         owner.keywords.update({f"{name}.{key}": value for key, value in call.keywords.items()})
         owner.keywords.update({f"{name}.{index}": value for index, value in enumerate(call.arguments)})
         return owner

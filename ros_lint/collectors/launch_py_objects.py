@@ -114,6 +114,16 @@ class Api:
         return self.name.rpartition(".")[2]
 
 
+def argument_of(call: ast.Call, position: int, *names: str) -> ast.expr:
+    """Return the expression of an argument of a call, or the whole call."""
+    for keyword in call.keywords:
+        if keyword.arg in names:
+            return keyword.value
+    if not 0 <= position < len(call.args) or any(isinstance(argument, ast.Starred) for argument in call.args):
+        return call
+    return call.args[position]
+
+
 class Made:
     """What calling a class of the launch libraries makes: an action, a substitution, a description."""
 
@@ -142,13 +152,7 @@ class Made:
 
     def written(self, position: int, *names: str) -> ast.expr:
         """Return the expression of an argument, or the whole call."""
-        node = self.node
-        for keyword in node.keywords:
-            if keyword.arg in names:
-                return keyword.value
-        if not 0 <= position < len(node.args) or any(isinstance(argument, ast.Starred) for argument in node.args):
-            return node
-        return node.args[position]
+        return argument_of(self.node, position, *names)
 
 
 class Function:

@@ -5,6 +5,9 @@ A launch file that includes a launch file, or names a parameter, model, map or d
 have: neither installed there nor in its sources. Likewise an installed model, display or parameter file, URDF and xacro among
 them, that looks up a mesh or another file in a package of the workspace.
 
+So are files that MoveIt's builders read from the package that they are made for:
+`MoveItConfigsBuilder("arm").joint_limits(file_path="config/joint_limits.yaml")`.
+
 A file that an included launch file names with what it is passed, `$(var folder)/robot.yaml`, is looked for as it is when
 one is launched that includes it, itself or by way of others.
 
@@ -128,6 +131,7 @@ def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if others_there is None:
             continue
         written = best.kind == "include" or path.endswith(_WRITTEN) or any(one.read for one in references)
+        written = written or _is_misspelt(path, others_there)
         twin = "" if written else _twin(path, others_there)
         if not written and not twin:
             continue
@@ -217,6 +221,12 @@ def _twin(path: str, names: tuple[str, ...]) -> str:
     beside = [name.rpartition("/")[2] for name in names if _kind(name) == _kind(path)]
     near = similar(base, beside, 1, 0.8)
     return f"{folder}/{near[0]}".lstrip("/") if near else ""
+
+
+def _is_misspelt(path: str, names: tuple[str, ...]) -> bool:
+    """Whether the letters of the suffix are those of a file that is there in another order: x.yalm."""
+    stem, _, suffix = path.rpartition(".")
+    return any(name.startswith(f"{stem}.") and sorted(name[len(stem) + 1 :]) == sorted(suffix) for name in names)
 
 
 def _kind(path: str) -> tuple[str, str]:
