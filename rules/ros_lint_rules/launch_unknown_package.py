@@ -122,12 +122,16 @@ def _undeclared(name: str, package: Package, workspace: Workspace) -> str:
 
 
 def _never_comes(name: str, package: Package, workspace: Workspace) -> bool:
-    """Whether nothing that is declared is a package of some name, or may bring it along."""
+    """Whether nothing that is declared is a package of some name, or may bring it along.
+
+    What took another name in ROS 2 is not brought by what nobody knows.
+    """
     manifest = package.manifest
     if manifest is None or manifest.problems or package.tags(name):
         return False
     closure = declared_closure(package, workspace, Role.EXEC | Role.EXPORT)
-    return name not in closure and not may_bring(closure.unknown, name, workspace)
+    replaced = bool(workspace.world.successor(name))
+    return name not in closure and (replaced or not may_bring(closure.unknown, name, workspace))
 
 
 class _Verdict(NamedTuple):
