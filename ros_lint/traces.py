@@ -55,7 +55,7 @@ def _started(names: Sequence[str], tree: Tree, package: Package) -> dict[str, Sp
     """Return a place for those names that the pages of a package tell people to start something of."""
     found: dict[str, Span] = {}
     for path, data in contents(tree, package.path, [file for file in package.files if file.lower().endswith(_PAGES)]):
-        for match in _START.finditer(data):
+        for match in _START.finditer(data) if b"ros2 " in data else ():
             name = match[1].decode()
             if name in names:
                 found.setdefault(name, span_in(path, data, *match.span(1)))
@@ -63,7 +63,7 @@ def _started(names: Sequence[str], tree: Tree, package: Package) -> dict[str, Sp
 
 
 _PAGES = (".md", ".rst")
-_START = re.compile(rb"\bros2 +(?:run|launch) +([a-z][a-z0-9_]*)")
+_START = re.compile(rb"ros2 +(?:run|launch) +([a-z][a-z0-9_]*)")
 """A command line, as people are told to type it."""
 
 

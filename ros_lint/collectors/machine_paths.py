@@ -11,7 +11,6 @@ from ros_lint.comments import comments
 from ros_lint.facts.sources import MachinePath
 from ros_lint.text import Text
 
-_ROOTS = ("/home/", "/Users/")
 _PATH = re.compile(r"(?<![\w.$}~)*/-])(?:file://)?(?P<path>/(?:home|Users)/[\w.+-]+/[^\s\"'`<>|;:,()\[\]{}&$\\*?#]+)")
 _SOURCES = ("'src/", '"src/', "./src/")
 _RELATIVE = re.compile(
@@ -29,8 +28,8 @@ def collect(text: Text) -> tuple[MachinePath, ...]:
     none, nor are the folders of all users.
     """
     content = text.text
-    hits = list(_PATH.finditer(content)) if any(root in content for root in _ROOTS) else []
-    if any(start in content for start in _SOURCES):
+    hits = list(_PATH.finditer(content)) if "/home/" in content or "/Users/" in content else []
+    if "src/" in content and any(start in content for start in _SOURCES):
         hits += [hit for hit in _RELATIVE.finditer(content) if not _JOINED.search(content, hit.start() - _NEAR, hit.start() + 1)]
         hits.sort(key=lambda hit: hit.start("path"))
     if not hits:
