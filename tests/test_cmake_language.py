@@ -184,6 +184,8 @@ _SMALL = (
     'set(A)\nforeach(A RANGE 0)\nendforeach()\noption(A "" ON)',
     'cmake_policy(VERSION 3.5)\noption(A "" OFF)\nforeach(A)\nendforeach()\n'
     'block()\nforeach(i IN LISTS A)\nset(A 7 CACHE STRING "" FORCE)\nendforeach()\nendblock()',
+    'string(REGEX REPLACE "^[a-z]" "-" A "ab")',
+    'string(REGEX MATCHALL "^[a-z]" A "ab")',
     'if(U0)\nset(A x CACHE STRING "")\nendif()\nif(DEFINED CACHE{A})\ntrace(1)\nendif()',
 )
 

@@ -165,6 +165,7 @@ def find(run: Run, regex: str, text: str) -> bool | None:
     """Return whether an expression matches somewhere, and set the match variables. None: CMake refuses it."""
     pattern = translated(regex)
     if pattern is None:
+        forget(run)
         return None
     clear(run)
     match = pattern.search(_bytes(text))

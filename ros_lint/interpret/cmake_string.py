@@ -257,6 +257,7 @@ def _regex_all(run: Run, regex: str, text: str) -> str:
     try:
         matches = every(regex, text)[:-1]
     except RegexError:
+        forget(run)
         return HOLE
     clear(run)
     for _, _, groups in matches:
@@ -277,6 +278,7 @@ def _regex_replace(run: Run, regex: str, new: str, text: str) -> str:
                 clear(run)
                 store(run, groups)
     except RegexError:
+        forget(run)
         return HOLE
     if not is_known(text):
         forget(run)
