@@ -88,7 +88,7 @@ def _run_way(run: Run, way: _Way) -> Exit:
 def _run_ways(run: Run, ways: Sequence[_Way]) -> Exit:
     ended: Exit = 0
     alive: list[tuple[Changes, bool]] = []
-    onward: list[_Way] = []
+    onward: list[tuple[_Way, Exit]] = []
     some_usual = any(way.usual for way in ways)
     for way in ways:
         run.unsure += not way.usual
@@ -101,7 +101,7 @@ def _run_ways(run: Run, ways: Sequence[_Way]) -> Exit:
         if one == STOP:
             continue
         if one & NEXT:
-            onward.append(way)
+            onward.append((way, one))
         ended |= one & ~STOP
         alive.append((changes, way.usual))
     if not alive:
@@ -109,8 +109,10 @@ def _run_ways(run: Run, ways: Sequence[_Way]) -> Exit:
     default = next((index for index, (_, usual) in enumerate(alive) if usual), None)
     run.join([changes for changes, _ in alive], default)
     if ended != NEXT and onward:
-        ended |= USUAL if any(way.usual for way in onward) else 0
-        ended |= TESTS if all(way.testing for way in onward) and not run.testing else 0
+        # The usual way goes on for sure if nothing in it can leave, or if what leaves is the exception there.
+        ended &= ~USUAL
+        ended |= USUAL if any(way.usual and (one & ~STOP == NEXT or one & USUAL) for way, one in onward) else 0
+        ended |= TESTS if all(way.testing for way, _ in onward) and not run.testing else 0
     return ended
 
 
