@@ -187,6 +187,7 @@ _SMALL = (
     'string(REGEX REPLACE "^[a-z]" "-" A "ab")',
     'string(REGEX MATCHALL "^[a-z]" A "ab")',
     'if(U0)\nset(A x CACHE STRING "")\nendif()\nif(DEFINED CACHE{A})\ntrace(1)\nendif()',
+    'if("a" MATCHES "(a)" OR FALSE AND DEFINED CMAKE_MATCH_1)\ntrace(1)\nendif()',
     'option(L "")\nforeach(i 1)\nif(L)\nelseif(1)\nif(NOT "${U1}" STREQUAL x)\nbreak()\nendif()\nendif()\nset(A y)\nendforeach()',
 )
 

@@ -133,6 +133,8 @@ class _Parser:
         if unary is not None and self.at + 1 < len(self.tokens) and self.keyword(1) not in (")", "AND", "OR"):
             operand = self.tokens[self.at + 1]
             self.at += 2
+            if operand.text.startswith("CMAKE_MATCH_") and any(token.text == "MATCHES" for token in self.tokens):
+                return Truth(UNKNOWN)  # it is asked before anything is matched
             return unary(self.run, operand)
         left = self.tokens[self.at]
         self.at += 1
