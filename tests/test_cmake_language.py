@@ -188,6 +188,7 @@ _SMALL = (
     'string(REGEX MATCHALL "^[a-z]" A "ab")',
     'if(U0)\nset(A x CACHE STRING "")\nendif()\nif(DEFINED CACHE{A})\ntrace(1)\nendif()',
     'if("a" MATCHES "(a)" OR FALSE AND DEFINED CMAKE_MATCH_1)\ntrace(1)\nendif()',
+    'macro(m x)\nset(A "1|${x}|2")\nendmacro()\nset(B a)\nif(U0)\nlist(APPEND B b)\nendif()\nm("${B}")',
     'option(L "")\nforeach(i 1)\nif(L)\nelseif(1)\nif(NOT "${U1}" STREQUAL x)\nbreak()\nendif()\nendif()\nset(A y)\nendforeach()',
 )
 

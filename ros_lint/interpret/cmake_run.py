@@ -15,7 +15,7 @@ from ros_lint.interpret.cmake_expand import ExpansionError, expand, template, te
 from ros_lint.interpret.cmake_paths import Paths
 from ros_lint.interpret.cmake_sources import Helper, Sources
 from ros_lint.interpret.cmake_state import MISSING, Frame, Properties, Variables
-from ros_lint.interpret.cmake_values import ATOM, HOLE, MAYBE, split, wild
+from ros_lint.interpret.cmake_values import ATOM, HOLE, MAYBE, flat, split, wild
 from ros_lint.knowledge.cmake_commands import SOFT_VARIABLES, UNKNOWN_VARIABLES, VARIABLES
 from ros_lint.text import Span
 
@@ -58,7 +58,10 @@ def _inside(path: str, command: Command, argument: Argument) -> Span:
 
 def substituted(text: str, given: Mapping[str, str]) -> str:
     """Return the text of an argument as a macro reads it, given what its parameters hold."""
-    return _SIMPLE.sub(lambda reference: given.get(reference[1], reference[0]), text)
+    alone = _SIMPLE.fullmatch(text)
+    if alone is not None:
+        return given.get(alone[1], text)
+    return _SIMPLE.sub(lambda reference: flat(given.get(reference[1], reference[0])), text)
 
 
 class Run(Paths):
