@@ -12,8 +12,8 @@ from ros_lint.cmake_finds import not_seen_used
 from ros_lint.declare import is_built_in_sight, is_unseen_by_name, sounds_unseen
 from ros_lint.evidence import Source, satisfying, used_names
 from ros_lint.facts.sources import Via
-from ros_lint.text import Span, raw, span_in
-from ros_lint.tree import Tree, contents
+from ros_lint.text import Span, beginning, raw, span_in
+from ros_lint.tree import Tree, contents, join
 from ros_lint.type_names import Types
 from ros_lint.workspace import Package
 
@@ -52,9 +52,16 @@ def of_package(tree: Tree, package: Package, source: Source, world: World, types
 
 
 def _started(names: Sequence[str], tree: Tree, package: Package) -> dict[str, Span]:
-    """Return a place for those names that the pages of a package tell people to start something of."""
+    """Return a place for those names that the pages of a package tell people to start something of.
+
+    A page that cannot be read may do so for each of them.
+    """
     found: dict[str, Span] = {}
-    for path, data in contents(tree, package.path, [file for file in package.files if file.lower().endswith(_PAGES)]):
+    for path in (join(package.path, file) for file in package.files if file.lower().endswith(_PAGES)):
+        try:
+            data = tree.read(path)
+        except OSError:
+            return dict.fromkeys(names, beginning(path))
         for match in _START.finditer(data) if b"ros2 " in data else ():
             name = match[1].decode()
             if name in names:
