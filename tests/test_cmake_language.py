@@ -189,6 +189,11 @@ _SMALL = (
     'if(U0)\nset(A x CACHE STRING "")\nendif()\nif(DEFINED CACHE{A})\ntrace(1)\nendif()',
     'if("a" MATCHES "(a)" OR FALSE AND DEFINED CMAKE_MATCH_1)\ntrace(1)\nendif()',
     'macro(m x)\nset(A "1|${x}|2")\nendmacro()\nset(B a)\nif(U0)\nlist(APPEND B b)\nendif()\nm("${B}")',
+    'if(NOT U1)\nelse()\nset(B "")\nendif()\nif("B" STREQUAL B)\ntrace(1)\nendif()',
+    'if(NOT U1)\nelse()\nset(B "")\nendif()\nif(B MATCHES "(.)")\nset(A "${CMAKE_MATCH_1}")\nendif()',
+    'if(NOT U1)\nelse()\nset(B "")\nendif()\nset(L "B;C")\nif(B IN_LIST L)\ntrace(1)\nendif()',
+    'if(NOT U1)\nelse()\nset(A yes)\nendif()\nfunction(g)\nforeach(z IN LISTS ARGN)\nset(C "${C},${z}" PARENT_SCOPE)\n'
+    'endforeach()\nendfunction()\ng(a "${A}")',
     'option(L "")\nforeach(i 1)\nif(L)\nelseif(1)\nif(NOT "${U1}" STREQUAL x)\nbreak()\nendif()\nendif()\nset(A y)\nendforeach()',
 )
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Container, Sequence
 from functools import partial
 from typing import Any, Final
 
-from ros_lint.collectors.cmake_syntax import Command
+from ros_lint.collectors.cmake_syntax import QUOTED, Command
 from ros_lint.facts.sight import ANYTHING
 from ros_lint.interpret.cmake_blocks import Node, UnbalancedError, blocks
 from ros_lint.interpret.cmake_run import DEEPEST, MOST_STEPS, Handler, Run
@@ -24,7 +24,7 @@ from ros_lint.interpret.cmake_state import (
     Procedure,
     Variables,
 )
-from ros_lint.interpret.cmake_values import HOLE, MAYBE, elements, join, maybe
+from ros_lint.interpret.cmake_values import HOLE, MAYBE, certainly_set, elements, join, maybe
 
 HANDLERS: Final[dict[str, Handler]] = {}
 """What carries out each command of CMake. Filled by :mod:`ros_lint.interpret.cmake`, as is BLOCKS."""
@@ -114,13 +114,15 @@ def call(run: Run, procedure: Procedure | Choice, args: list[str]) -> Exit:
     if len(frames) > DEEPEST:
         raise BudgetError
     firm = len(args)
+    gaps: Container[str] = ()
     command = frames[-1].command
     given = "".join(args)
     if (HOLE in given or MAYBE in given) and command is not None:
         index = run.firm_arguments(command)
         if index is not None:  # cmake_language(CALL) takes two words more than the command itself
             firm = max(0, index - (len(run.arguments(command)) - len(args)))
-    values = _call_values(procedure, args, firm)
+        gaps = _gaps(run, command)
+    values = _call_values(procedure, args, firm, gaps)
     for arg in args:
         run.notice(arg)
     frame = Frame(procedure.own, procedure.path, procedure.folder, procedure)
@@ -157,18 +159,18 @@ def _call_one_of(run: Run, choice: Choice, args: list[str]) -> Exit:
     return ended
 
 
-def _call_values(procedure: Procedure, args: list[str], firm: int) -> dict[str, str]:
+def _call_values(procedure: Procedure, args: list[str], firm: int, gaps: Container[str]) -> dict[str, str]:
     """Return what the parameters, ARGC, ARGV, ARGN and ARGV0 and so on hold.
 
     ``firm`` is the index of the first argument that may be missing or be several: of those after it nobody knows which is
-    the how many-th.
+    the how many-th. ``gaps`` are arguments in quotes that may be empty.
     """
     parameters = procedure.parameters
     if firm == len(args):
         values = dict(zip(parameters, args, strict=False))
         for name in parameters[len(args) :]:
             values[name] = ""
-        values["ARGN"] = ";".join(args[len(parameters) :])
+        values["ARGN"] = _listed(args[len(parameters) :], gaps)
         if not procedure.counts:
             return values
         values["ARGC"] = str(len(args))
@@ -176,13 +178,25 @@ def _call_values(procedure: Procedure, args: list[str], firm: int) -> dict[str, 
         values = {name: args[index] if index < firm else HOLE for index, name in enumerate(parameters)}
         values["ARGC"] = HOLE
         if firm >= len(parameters):
-            values["ARGN"] = join(args[len(parameters) :])
+            values["ARGN"] = _listed(args[len(parameters) :], gaps)
         else:  # any of the others may be among them, and be a keyword
             values["ARGN"] = join([HOLE, *(maybe(item) for arg in args[firm:] for item in elements(arg))])
         values.update({f"ARGV{index}": HOLE for index in range(firm, len(args) + 10)})
-    values["ARGV"] = join(args)
+    values["ARGV"] = _listed(args, gaps)
     values.update({f"ARGV{index}": arg for index, arg in enumerate(args[:firm])})
     return values
+
+
+def _gaps(run: Run, command: Command) -> set[str]:
+    """Return the arguments in quotes of which nothing may be there."""
+    values = {run.evaluated(text) for text, kind, _, _ in command.args if kind == QUOTED}
+    return {value for value in values if MAYBE in value and not certainly_set(value)}
+
+
+def _listed(args: Sequence[str], gaps: Container[str]) -> str:
+    """Return arguments as a list. One of the ``gaps`` is perhaps an empty element there, where it is not alone."""
+    listed = join(args)
+    return f"{listed};{MAYBE}" if gaps and len(args) > 1 and any(arg in gaps for arg in args) else listed
 
 
 def run_file(run: Run, commands: Sequence[Command], frame: Frame) -> Exit:

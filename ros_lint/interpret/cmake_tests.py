@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Final
 
 from ros_lint.interpret.cmake_truth import FALSE, LIKELY, NUMBER, TRUE, UNKNOWN, UNLIKELY, Token, Truth, number_of
@@ -92,27 +92,41 @@ UNARY: Final[dict[str, Callable[[Run, Token], Truth]]] = {
 # --- binary tests --------------------------------------------------------------------------------------------------
 
 
-def _operand(run: Run, token: Token) -> str:
-    """Return the value of a variable, or the text itself."""
+def _operands(run: Run, token: Token) -> tuple[str, ...]:
+    """Return the value of a variable, or the text itself; both where an empty variable may not be set at all."""
     if token.quoted:
         # Before policy CMP0054 quoted arguments were looked up as well.
-        return token.text if run.versions >= (3, 1) or run.get(token.text) is None else HOLE
+        return (token.text if run.versions >= (3, 1) or run.get(token.text) is None else HOLE,)
     value = run.get(token.text) if is_known(token.text) else None
-    return token.text if value is None else value
+    if value is None:
+        return (token.text,)
+    return (value,) if value else (token.text, value)
 
 
-def _comparison(compare: Callable[[str, str], bool]) -> Callable[[Run, Token, Token], int]:
+def _agreed(answers: Iterable[int]) -> int:
+    """Return the one answer of all readings of the operands."""
+    different = set(answers)
+    return different.pop() if len(different) == 1 else UNKNOWN
+
+
+def _of_operands(compare: Callable[[str, str], int]) -> Callable[[Run, Token, Token], int]:
     def compared(run: Run, left: Token, right: Token) -> int:
-        first, second = _operand(run, left), _operand(run, right)
-        if is_known(first) and is_known(second):
-            return TRUE if compare(first, second) else FALSE
-        return UNKNOWN
+        seconds = _operands(run, right)
+        return _agreed(compare(first, second) for first in _operands(run, left) for second in seconds)
 
     return compared
 
 
-def _same(run: Run, left: Token, right: Token) -> int:
-    first, second = _operand(run, left), _operand(run, right)
+def _comparison(compare: Callable[[str, str], bool]) -> Callable[[Run, Token, Token], int]:
+    def compared(first: str, second: str) -> int:
+        if is_known(first) and is_known(second):
+            return TRUE if compare(first, second) else FALSE
+        return UNKNOWN
+
+    return _of_operands(compared)
+
+
+def _same(first: str, second: str) -> int:
     if is_known(first) and is_known(second):
         return TRUE if first == second else FALSE
     if first == second and is_fixed(first):
@@ -170,19 +184,25 @@ def _versions(compare: Callable[[int, int], bool]) -> Callable[[str, str], bool]
 def _matches(run: Run, left: Token, right: Token) -> int:
     from ros_lint.interpret.cmake_regex import find, forget  # noqa: PLC0415  (few scripts match anything)
 
-    text = _operand(run, left)
-    if not (is_known(text) and is_known(right.text)):
+    texts = _operands(run, left)
+    if not (is_known(texts[0]) and is_known(right.text)):
         forget(run)
         return UNKNOWN
-    found = find(run, right.text, text)
-    return UNKNOWN if found is None else (TRUE if found else FALSE)
+    found = [find(run, right.text, text) for text in texts]
+    if None in found or found[0] != found[-1]:
+        forget(run)
+        return UNKNOWN
+    return TRUE if found[0] else FALSE
 
 
 def _in_list(run: Run, left: Token, right: Token) -> int:
-    element = _operand(run, left)
     value = run.get(right.text)
     if value is None:
         return UNLIKELY if run.may_be_set(right.text) else FALSE
+    return _agreed(_is_element(element, value) for element in _operands(run, left))
+
+
+def _is_element(element: str, value: str) -> int:
     if not is_known(element) or not element + value:
         return UNKNOWN
     if element in elements(value):
@@ -195,7 +215,7 @@ def _newer(_run: Run, _left: Token, _right: Token) -> int:
 
 
 BINARY: Final[dict[str, Callable[[Run, Token, Token], int]]] = {
-    "STREQUAL": _same,
+    "STREQUAL": _of_operands(_same),
     "STRLESS": _comparison(lambda left, right: raw(left) < raw(right)),
     "STRGREATER": _comparison(lambda left, right: raw(left) > raw(right)),
     "STRLESS_EQUAL": _comparison(lambda left, right: raw(left) <= raw(right)),

@@ -52,8 +52,8 @@ def split(value: str) -> list[str]:
     if ";" not in value:
         return [value] if value else []
     if "\\" not in value and "[" not in value and "]" not in value and "\3" not in value:
-        return [element for element in value.split(";") if element]
-    return [element for element in _split(value) if element]
+        return [element for element in value.split(";") if element and element != MAYBE]
+    return [element for element in _split(value) if element and element != MAYBE]
 
 
 def elements(value: str) -> list[str]:
