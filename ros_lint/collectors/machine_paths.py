@@ -19,13 +19,17 @@ _RELATIVE = re.compile(
 )
 _JOINED = re.compile(r"join(?:path)?\([^()]*\Z")
 _NEAR = 200
+_WRITTEN = re.compile(r"""["']\s*,\s*(?:mode\s*=\s*)?["'][wax]""")
+_STREAM = re.compile(r"\bofstream\b[^;]*\Z")
+_UNREAD = re.compile(r"^([ ]*)Description File:[^\n]*\n\1Description Source: Topic\b", re.MULTILINE)
+"""What RViz keeps in a display of a robot whose description comes from a topic."""
 
 
 def collect(text: Text) -> tuple[MachinePath, ...]:
     """Return the paths of a file that lie in a home directory, or in ``src``, comments and docstrings left out.
 
-    A path ends where something is filled in. One that is put together (``"/home/" + user``, ``join(root, "src/robot")``) is
-    none, nor are the folders of all users.
+    So is what RViz keeps and does not read. A path ends where something is filled in. One that is put together
+    (``"/home/" + user``, ``join(root, "src/robot")``) is none, nor are the folders of all users.
     """
     content = text.text
     hits = list(_PATH.finditer(content)) if "/home/" in content or "/Users/" in content else []
@@ -35,6 +39,8 @@ def collect(text: Text) -> tuple[MachinePath, ...]:
     if not hits:
         return ()
     beside = [*comments(text), *(_docstrings(text) if text.path.endswith(".py") else ())]
+    if text.path.endswith(".rviz"):
+        beside += [unread.span() for unread in _UNREAD.finditer(content)]
     said = [hit for hit in hits if not any(start <= hit.start("path") < end for start, end in beside)]
     return tuple([_found(text, hit) for hit in said])
 
@@ -42,7 +48,8 @@ def collect(text: Text) -> tuple[MachinePath, ...]:
 def _found(text: Text, hit: re.Match[str]) -> MachinePath:
     path = hit["path"].rstrip("./")
     start = hit.start("path")
-    return MachinePath(path, text.span(start, start + len(path)))
+    written = _WRITTEN.match(text.text, hit.end("path")) or _STREAM.search(text.text, max(0, start - _NEAR), start)
+    return MachinePath(path, text.span(start, start + len(path)), bool(written))
 
 
 def _docstrings(text: Text) -> list[tuple[int, int]]:

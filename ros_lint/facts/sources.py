@@ -69,6 +69,8 @@ class MachinePath(NamedTuple):
     path: str
     """As ``/home/jay/ros2_ws/src/robot/config/robot.yaml`` or ``src/robot/config/robot.yaml``, without a slash at the end."""
     span: Span
+    written: bool = False
+    """Whether a program opens it to write to it."""
 
 
 class ImportedType(NamedTuple):

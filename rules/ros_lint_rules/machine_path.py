@@ -15,13 +15,15 @@ for whoever starts the program in the root of the workspace.
 
 A file of a package is found by the package: `get_package_share_directory('robot')` and `FindPackageShare` in Python,
 `$(find-pkg-share robot)` in XML and YAML launch files, `package://robot/` and `$(find robot)/` in models, `model://robot/` in
-those of Gazebo, `${prefix}/` in what `package.xml` exports. Parameters cannot look up anything: the launch file gives such
-ones. A map finds its image beside it. A program is started by `ros2 run`, or as a node. What belongs to the machine, such as
-data or a device, becomes a launch argument or a parameter without such a default.
+those of Gazebo, or `model://box` for a model in a folder that is in its resource path, `${prefix}/` in what `package.xml`
+exports. Parameters cannot look up anything: the launch file gives such ones. A map finds its image beside it. A program is
+started by `ros2 run`, or as a node. What belongs to the machine, such as data, a device or what is written there, becomes a
+launch argument or a parameter without such a default.
 
 ## When it keeps silent
 
-- In comments and docstrings, in tests, examples and documentation, in CMake files that are no part of the build.
+- In comments and docstrings, in tests, examples and documentation, in CMake files that are no part of the build, in launch
+  files of ROS 1. In a display of RViz whose robot comes from a topic: the file that it keeps is not read.
 - Of paths that are put together, such as `'/home/' + user` and `join(root, 'src/robot')`, and of `~`: these are meant for
   whoever runs it. Of `src/` in build scripts, and where no package of the workspace has such a file.
 - The confidence is high where the path leads to a file of this workspace, or into a folder of its sources, and the file that
@@ -56,6 +58,7 @@ from ros_lint.api import (
 _BUILDING = ("CMakeLists.txt", ".cmake", "setup.py")
 _OF_GAZEBO = (".sdf", ".world")
 _MODELS = (".urdf", ".xacro", ".srdf", ".rviz")
+_PROGRAMS = (".py", ".c", ".cc", ".cpp", ".cxx", ".h", ".hpp")
 _IMAGES = (".pgm", ".png", ".bmp")
 """What a map has beside it."""
 
@@ -81,6 +84,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         file = relative(package, each.span.path)
         if is_apart(file) or (file not in used and file.endswith(".cmake")):  # builds leave such files behind
             continue
+        if file.endswith(".launch") and not _is_launched(each, package):  # a launch file of ROS 1
+            continue
         inside = _inside(each.path, workspace)
         if each.path.startswith("/") or (inside and not file.endswith((*_BUILDING, "package.xml"))):
             by_file.setdefault((file, inside.package if inside else ""), []).append((each, inside))
@@ -103,6 +108,9 @@ def _where(path: str) -> str:
 def _way_out(machine: MachinePath, inside: _Inside | None, file: str, package: Package) -> str:
     if inside is None:
         return "make it an argument, or a file of a package"
+    if machine.written:
+        place = f"it is {inside.rest} of" if inside.rest else "it leads into the sources of"
+        return f"{place} {inside.package}, and is written to; {_without_file(machine, inside, file, package)}"
     if inside.whole and not file.endswith((*_BUILDING, "package.xml")) and not _scheme(inside, file) and not _is_yaml(file):
         return f"it is the folder of {inside.package}; look up the share directory of {inside.package}"
     if not inside.rest:
@@ -115,9 +123,12 @@ def _way_out(machine: MachinePath, inside: _Inside | None, file: str, package: P
         return f"{it_is}; say ${{prefix}}/{inside.rest}"
     if inside.package == package.name and name.endswith(_IMAGES) and (folder, True) == (file.rpartition("/")[0], _is_yaml(file)):
         return f"{it_is}, beside this file; say {name}"
+    if file.endswith(_OF_GAZEBO) and inside.rest.startswith("models/"):
+        model = inside.rest.removeprefix("models/")
+        return f"{it_is}; say model://{model}, with this folder of models in Gazebo's resource path"
     if scheme := _scheme(inside, file):
         return f"{it_is}; say {scheme}/{inside.rest}"
-    if _is_yaml(file) and not any(launch.path == machine.span.path for launch in package.launch):
+    if _is_yaml(file) and not _is_launched(machine, package):
         return f"{it_is}; let the launch file give it, from the share directory of {inside.package}"
     if inside.program:
         return f"{it_is}; start it with ros2 run {inside.package} {inside.program}, or as a node"
@@ -137,7 +148,15 @@ def _without_file(machine: MachinePath, inside: _Inside, file: str, package: Pac
     ]
     if any(machine.path in text for default in defaults for text in default.texts):
         return "the argument needs another default, or none"
-    return "make it an argument"
+    if _is_yaml(file) and not _is_launched(machine, package):
+        return "let the launch file give it"
+    program = file.endswith(_PROGRAMS) and not file.endswith(_BUILDING) and not _is_launched(machine, package)
+    return "make it a parameter" if program else "make it an argument"
+
+
+def _is_launched(machine: MachinePath, package: Package) -> bool:
+    """Whether a path stands in a launch file of ROS 2."""
+    return any(launch.path == machine.span.path for launch in package.launch)
 
 
 def _scheme(inside: _Inside, file: str) -> str:
