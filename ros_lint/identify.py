@@ -52,6 +52,8 @@ Verdict = Identity | Ignored | None
 _EVERYWHERE = ("COLCON_IGNORE", "_order_isolated_packages.py", "_setup_util.py")
 _ROS_ONLY = ("CATKIN_IGNORE", "AMENT_IGNORE")
 _PREFIX_SCRIPTS = ("bash", "sh", "zsh", "ps1")
+_HOOKS = ("local_setup.dsv", "package.dsv")
+"""What ament and colcon put beside the manifest of an installed package."""
 SIGNS = frozenset(
     (
         *_EVERYWHERE,
@@ -94,7 +96,10 @@ def product(names: Collection[str]) -> str:
     if "CACHEDIR.TAG" in names:
         return "a cache: it has CACHEDIR.TAG"
     if "package.xml" in names:
-        return ""
+        hooks = [name for name in _HOOKS if name in names]
+        return (
+            f"an installed package: it has {hooks[0]}" if hooks and not {"CMakeLists.txt", "setup.py"}.intersection(names) else ""
+        )
     if "CMakeCache.txt" in names and "CMakeLists.txt" not in names:
         return "a build tree of CMake: it has CMakeCache.txt"
     if any(f"local_setup.{shell}" in names and f"setup.{shell}" in names for shell in _PREFIX_SCRIPTS):

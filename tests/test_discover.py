@@ -182,6 +182,23 @@ def test_products_are_skipped_by_what_is_in_them(files: dict[str, str]) -> None:
     assert [skipped.path for skipped in found.skipped] == ["install"]
 
 
+@pytest.mark.parametrize("hook", ["local_setup.dsv", "package.dsv"])
+def test_an_installed_package_is_one_where_nothing_else_of_the_install_tree_is_kept(hook: str) -> None:
+    files = {
+        "install/p/share/p/package.xml": manifest_text("p"),
+        f"install/p/share/p/{hook}": "",
+        "src/p/package.xml": manifest_text("p"),
+    }
+    found = discover(MemoryTree(files), [""])
+    assert [package.path for package in found.packages] == ["src/p"]
+    assert [skipped.path for skipped in found.skipped] == ["install/p/share/p"]
+
+
+def test_a_package_with_such_a_file_of_its_own_is_one() -> None:
+    tree = MemoryTree({"p/package.xml": manifest_text("p"), "p/package.dsv": "", "p/setup.py": ""})
+    assert [package.name for package in discover(tree, [""]).packages] == ["p"]
+
+
 def test_scripts_of_a_package_make_no_install_tree() -> None:
     tree = MemoryTree({"p/package.xml": manifest_text("p"), "p/setup.bash": "", "p/local_setup.bash": "", "local_setup.sh": ""})
     assert [package.name for package in discover(tree, [""]).packages] == ["p"]
