@@ -43,11 +43,13 @@ Give the argument, or give it a default where it is declared; correct the name, 
 - What is asked for before it is declared is declared or set by a file that includes this one, or perhaps by one that it
   includes before. Where it is asked for under a condition, or the file requires other arguments, so that it is a part of
   others, the confidence is medium.
+- An argument that an include gives is left set: what stands further down in the same file may ask for it, or include what
+  takes it, such as a launch file that is not in the workspace. So may a file of the workspace that includes this one: then
+  the confidence is medium, unless it resembles an argument that is not given.
 - An argument that does nothing is empty by default, and another launch file of the folder requires it: this one may be put
   in the place of the other, and takes what that one takes.
 
-What does nothing is an info, since an argument that nobody takes is also set for what is included later; it is a warning
-if it resembles an argument that is not given.
+What does nothing is an info; it is a warning if it resembles an argument that is not given.
 """
 
 from __future__ import annotations
@@ -115,9 +117,10 @@ def _of_file(
     file: LaunchFile, links: Links, families: Families, filled: frozenset[str], beside: Collection[str], *, whole: bool
 ) -> Iterator[Finding]:
     """``whole``: all files can be read, and with them whoever includes this one; ``beside``: what those of its folder require."""
-    for action in everything(file.actions):
+    actions = list(everything(file.actions))
+    for index, action in enumerate(actions):
         if action.kind == "include":
-            yield from _of_include(action, file, links, families, filled)
+            yield from _of_include(action, actions[index + 1 :], file, links, families, filled)
         elif action.kind == "argument":
             yield from _of_choices(action)
     names, takes, above = families.names(file), links.takes(file), families.above(file)
@@ -283,7 +286,7 @@ def _failing(broken: Broken, *, sure: bool) -> Finding:
 
 
 def _of_include(
-    action: LaunchAction, source: LaunchFile, links: Links, families: Families, filled: frozenset[str]
+    action: LaunchAction, later: list[LaunchAction], source: LaunchFile, links: Links, families: Families, filled: frozenset[str]
 ) -> Iterator[Finding]:
     target = links.target(action.target, source)
     places = action.argument_spans or [value.span for _, value in action.arguments]
@@ -303,20 +306,35 @@ def _of_include(
                 severity=Severity.ERROR,
             )
     left = takes.known - given.keys()
-    sure = not families.fill(target.file)
+    sure, alone = not families.fill(target.file), not families.above(source)
     for name, place in given.items() if takes.complete else ():
-        if name not in takes.known and name not in action.perhaps and (sure or name not in filled):
-            yield _useless(file, name, place, left, sure=sure)
+        if name in takes.known or name in action.perhaps or (name in filled and not sure):
+            continue
+        if not any(_may_take(other, name, source, links) for other in later):
+            yield _useless(file, name, place, left, sure=sure, alone=alone)
 
 
-def _useless(file: str, name: str, place: Span, left: frozenset[str], *, sure: bool) -> Finding:
-    """Return the finding for an argument that nobody takes. One that resembles an argument not given was renamed."""
+def _may_take(action: LaunchAction, name: str, source: LaunchFile, links: Links) -> bool:
+    """Whether an action asks, or may include what asks, for what an earlier include was given, which leaves it set."""
+    if any(name == asked for text, _ in texts_of(action) for asked, _, _ in configurations(text)):
+        return True
+    if action.kind != "include" or name in dict(action.arguments):
+        return False
+    target = links.target(action.target, source)
+    return target is None or not links.takes(target.file).complete or name in links.takes(target.file).known
+
+
+def _useless(file: str, name: str, place: Span, left: frozenset[str], *, sure: bool, alone: bool) -> Finding:
+    """Return the finding for an argument that nobody takes. One that resembles an argument not given was renamed.
+
+    ``alone``: no file includes the one that gives it, and may include what takes it afterwards.
+    """
     near = similar(name, left, 1, 0.85)
     return Finding(
         f"{file} takes no argument {name}: it does nothing there{did_you_mean(near) or '; take it out'}",
         place,
         f"{file}:{name}",
-        confidence=Confidence.HIGH if sure else Confidence.MEDIUM,
+        confidence=Confidence.HIGH if sure and (near or alone) else Confidence.MEDIUM,
         severity=None if near else Severity.INFO,
     )
 
