@@ -11,7 +11,8 @@ The launch file stops there: `executable 'x' not found on the libexec directory`
 ## How to fix it
 
 Correct the name. The usual slips are the suffix (a console script is called `talker`, a script installed by CMake
-`talker.py`) and a target that was renamed. Install a script that only lies there; if it lands in `bin/`, install it to
+`talker.py`), the name of a module instead of the entry point that runs it, and a target that was renamed. Install a script
+that only lies there, and what is built; if it lands in `bin/`, install it to
 `lib/${PROJECT_NAME}`, or say `install_scripts=$base/lib/<package>` in `setup.cfg`. The fix corrects the name where one
 executable must be meant.
 
@@ -28,7 +29,7 @@ executable must be meant.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from typing import NamedTuple
 
 from ros_lint.api import (
@@ -101,11 +102,39 @@ def _missing(owner: str, name: str, workspace: Workspace) -> _Missing | None:
             where = tuple(Related("installed here", p.span) for p in one.built.provides if p.path == path)
             return _Missing(f" in lib/{owner}, but {path}, where launch does not look; install it there", "", where)
         names |= found.names
-        if lying := _lying(one, name):
+        if lying := _lying(one, name) or _built(one, name):
             return lying
     meant = _meant(name, tuple(sorted(names)))
+    if not meant and (running := next(filter(None, (_running(one, name, names) for one in owners)), None)):
+        return running
     related = tuple(Related("its build script", one.script.end) for one in owners if one.script and one.script.end)
     return _Missing(_hint(name, meant, tuple(sorted(names))), meant, related[:1])
+
+
+def _built(package: Package, name: str) -> _Missing | None:
+    """Return what to say of an executable of the name that a package builds, and that no other rule tells to be left behind."""
+    target = next((each for each in package.built.targets if each.kind == "executable" and each.name == name), None)
+    if target is None:
+        return None
+    return _Missing(f": it is built, but not installed; install it to lib/{package.name}", "", (Related("here", target.span),))
+
+
+def _running(package: Package, name: str, names: Collection[str]) -> _Missing | None:
+    """Return what to say of a name that is not one of a program, but of the Python file that is to run."""
+    script, stem = package.built, name.removesuffix(".py")
+    entries = [entry for entry in script.entry_points if entry.name in names and entry.module.rpartition(".")[2] == stem]
+    if entries:
+        one = entries[0] if len(entries) == 1 else None
+        return _Missing(
+            f": {' or '.join(entry.name for entry in entries[:3])} runs the module {entries[0].module}",
+            one.name if one else "",
+            tuple(Related("by this entry point", entry.span) for entry in entries[:1]),
+        )
+    module = next((module for module in script.python_packages if module.rpartition(".")[2] == stem and "." in module), "")
+    if module and script.entry_points:
+        return _Missing(f": the module {module} has no entry point; add one to console_scripts")
+    lying = _lying(package, f"{stem}.py")
+    return lying._replace(hint=f"{lying.hint}, and start {stem}.py") if lying and stem == name else None
 
 
 def _lying(package: Package, name: str) -> _Missing | None:
