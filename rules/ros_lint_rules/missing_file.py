@@ -75,7 +75,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _is_unseen(package: Package, path: str) -> bool:
-    return any(path == folder or path.startswith(f"{folder}/") for folder in package.unseen)
+    """Whether something lies at a path, or around it or in it, that nobody has looked into, such as a submodule."""
+    return any(f"{path}/".startswith(f"{folder}/") or folder.startswith(f"{path}/") for folder in package.unseen)
 
 
 def _confidence(package: Package, workspace: Workspace, problem: Problem) -> Confidence:
