@@ -14,8 +14,9 @@
 
 Without a required argument, and with a default that is no choice, the launch file stops: `Included launch description
 missing required argument`. So it does when a configuration is asked for that nobody set: `launch configuration 'x' does
-not exist`. An argument that nobody takes does nothing, silently: it was renamed or removed, and what it used to change has
-its default again. So it is with one that is asked for by another name than it is declared by: the default there counts.
+not exist`; only `LaunchConfigurationEquals` goes on, and never holds. An argument that nobody takes does nothing, silently:
+it was renamed or removed, and what it used to change has its default again. So it is with one that is asked for by another
+name than it is declared by: the default there counts.
 
 ## How to fix it
 
@@ -57,6 +58,7 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Collection, Iterator, Mapping
+from typing import NamedTuple
 
 from ros_lint.api import (
     Broken,
@@ -181,13 +183,13 @@ def _too_early(file: LaunchFile, links: Links, above: Collection[str]) -> Iterat
         if action.kind == "argument" and action.target is not None:
             for name in action.target.texts:
                 declared.setdefault(name, (index, action.span))
-    places: dict[str, list[tuple[Span, bool]]] = {}
-    for name, span, sure in _asked_early(file, links, {name: at for name, (at, _) in declared.items()}, above):
-        places.setdefault(name, []).append((span, sure))
-    for name, found in places.items():
+    places: dict[tuple[str, bool | None], list[tuple[Span, bool]]] = {}
+    for early in _asked_early(file, links, {name: at for name, (at, _) in declared.items()}, above):
+        places.setdefault((early.name, early.holds), []).append((early.span, early.sure))
+    for (name, holds), found in places.items():
         (first, _), *others = found
         yield Finding(
-            f"{name} is asked for before it is declared, so the launch file stops where nobody gives it; declare it further up",
+            f"{name} is asked for before it is declared, so {_OUTCOMES[holds]} where nobody gives it; declare it further up",
             first,
             name,
             several(
@@ -201,23 +203,33 @@ def _too_early(file: LaunchFile, links: Links, above: Collection[str]) -> Iterat
         )
 
 
-def _asked_early(
-    file: LaunchFile, links: Links, declared: Mapping[str, int], above: Collection[str]
-) -> Iterator[tuple[str, Span, bool]]:
-    """Yield what is asked for before its number in ``declared`` comes, where, and whether it is surely asked for there."""
+class _Early(NamedTuple):
+    """A launch configuration that is asked for before it is declared."""
+
+    name: str
+    span: Span
+    sure: bool
+    """Whether it is surely asked for there."""
+    holds: bool | None
+    """What a condition comes to that compares a configuration which is not there; None where launch stops instead."""
+
+
+_OUTCOMES = {None: "the launch file stops", False: "the condition never holds", True: "the condition always holds"}
+
+
+def _asked_early(file: LaunchFile, links: Links, declared: Mapping[str, int], above: Collection[str]) -> Iterator[_Early]:
+    """Yield what is asked for before its number in ``declared`` comes."""
     there = set(above)
     part = bool(links.takes(file).required)
     for index, action in enumerate(file.actions):
         late = [name for name, at in declared.items() if at > index and name not in there]
         if not late:
             return
-        # A condition is asked for whatever comes of it.
-        asking = [text for condition in action.conditions for text in condition.texts]
-        for text, span in texts_of(action) if action.kind != "later" else ():
+        for text, span, conditional, holds in _questions(action) if action.kind != "later" else ():
             for name, has_default, _ in configurations(text):
                 if name in late and not has_default:
                     late.remove(name)
-                    yield name, span, not part and (not action.conditions or text in asking)
+                    yield _Early(name, span, not part and not conditional, holds)
         for inner in everything((action,)):
             if inner.kind == "include" and (target := links.target(inner.target, file)) is not None:
                 there |= links.takes(target.file).known
@@ -226,6 +238,21 @@ def _asked_early(
             there.update(name for name, _ in inner.arguments)
             if inner.kind in ("argument", "set") and inner.target is not None:
                 there.update(inner.target.texts)
+
+
+def _questions(action: LaunchAction) -> Iterator[tuple[str, Span, bool, bool | None]]:
+    """Yield what launch evaluates of an action, where, whether under a condition, and what a comparison with nothing comes to.
+
+    A condition is asked for whatever comes of it, and one that compares a configuration goes on where there is none.
+    """
+    asking = {text for condition in action.conditions if condition.equals is None for text in condition.texts}
+    comparing = [condition for condition in action.conditions if condition.equals is not None]
+    for text, span in texts_of(action):
+        if text in asking or not any(text in condition.texts for condition in comparing):
+            yield text, span, bool(action.conditions) and text not in asking, None
+    for condition in comparing:
+        for text in condition.texts:
+            yield text, action.span, False, not condition.wanted
 
 
 def _empty(file: LaunchFile) -> Iterator[str]:
