@@ -17,6 +17,18 @@ from ros_lint.text import Span, beginning
 from ros_lint.tree import join, within
 from ros_lint.workspace import Package
 
+FINDS_TESTS = frozenset({
+    "ament_lint_auto_find_test_dependencies", "ament_auto_find_test_dependencies", "autoware_package",
+})  # fmt: skip
+"""Commands that find all that is declared for tests, and with it linters, which then run."""
+
+LINTERS = {
+    f"ament_cmake_{linter}": f"ament_{linter}"
+    for linter in ("clang_format", "clang_tidy", "copyright", "cppcheck", "cpplint", "flake8", "lint_cmake", "mypy", "pclint",
+                   "pep257", "pycodestyle", "pyflakes", "uncrustify", "xmllint")
+}  # fmt: skip
+"""Linters, and the command of each."""
+
 
 def top_file(package: Package) -> str:
     """Return the path of the package's own CMakeLists.txt, relative to the base."""

@@ -26,34 +26,27 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import BuildScript, Facet, Finding, Package, Rule, Severity, Workspace, called
+from ros_lint.api import FINDS_TESTS, LINTERS, BuildScript, Facet, Finding, Package, Rule, Severity, Workspace, called
 
 _AUTO = "ament_lint_auto"
 _ALL = "ament_lint_common"
 _RUN = "ament_lint_auto_find_test_dependencies"
-_FIND = frozenset({_RUN, "ament_auto_find_test_dependencies", "autoware_package"})
-_CALLS = {
-    f"ament_cmake_{linter}": f"ament_{linter}"
-    for linter in ("clang_format", "clang_tidy", "copyright", "cppcheck", "cpplint", "flake8", "lint_cmake", "mypy", "pclint",
-                   "pep257", "pycodestyle", "pyflakes", "uncrustify", "xmllint")
-}  # fmt: skip
-"""Linters, and the command of each."""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or script.problems or package.builds_with != "ament_cmake" or script.hides(Facet.USES):
         return
-    if _FIND.intersection(script.calls) or _checks_what_it_generates(package):
+    if FINDS_TESTS.intersection(script.calls) or _checks_what_it_generates(package):
         return
     if any(call.blocks.count("if") > call.test for call in called(package, _RUN, anywhere=True)):
         return  # an option switches them on
-    declared = [each.depend for each in package.declared if each.name in (_AUTO, _ALL, *_CALLS)]
+    declared = [each.depend for each in package.declared if each.name in (_AUTO, _ALL, *LINTERS)]
     for_others = {depend.name for depend in declared if depend.tag != "test_depend"}
     mine = [depend for depend in declared if depend.name not in for_others]
     called_by_name = _called_by_name(package, script)
     found = _found(package, script)
-    idle = [depend for depend in mine if depend.name not in found and _CALLS.get(depend.name) not in called_by_name]
+    idle = [depend for depend in mine if depend.name not in found and LINTERS.get(depend.name) not in called_by_name]
     if called_by_name:
         for depend in idle:
             if depend.name != _ALL:  # it brings those that are called
@@ -75,8 +68,8 @@ def _checks_what_it_generates(package: Package) -> bool:
 
 def _called_by_name(package: Package, script: BuildScript) -> list[str]:
     """Return the commands of linters that the CMake files call, if only under a condition."""
-    written = {call.name for call in called(package, *_CALLS.values(), anywhere=True)}
-    return sorted(written.union(set(_CALLS.values()).intersection(script.calls)))
+    written = {call.name for call in called(package, *LINTERS.values(), anywhere=True)}
+    return sorted(written.union(set(LINTERS.values()).intersection(script.calls)))
 
 
 def _found(package: Package, script: BuildScript) -> set[str]:

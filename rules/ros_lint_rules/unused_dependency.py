@@ -34,6 +34,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros_lint.api import (
+    FINDS_TESTS,
+    LINTERS,
     PYTHON_LIKE,
     BuildScript,
     Carried,
@@ -61,7 +63,8 @@ from ros_lint.api import (
 )
 
 _TAGS = ("depend", "build_depend")
-_NO_TEST = ("enable_testing", "ament_lint_auto_find_test_dependencies", "ament_auto_find_test_dependencies")
+_HANDED_ON = Role.EXEC | Role.EXPORT
+_NO_TEST = FINDS_TESTS | {"enable_testing"}
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -118,7 +121,11 @@ def _unused(package: Package, workspace: Workspace) -> Iterator[tuple[Declared, 
             if mostly_run and not leaves_trace(package, workspace, name):
                 continue
             says = "nothing in the package uses it"
-        elif depend.tag == "test_depend" and not _is_used(package, name) and not _can_test_with(package, script, workspace, name):
+        elif depend.tag == "test_depend" and not (
+            _is_used(package, name)
+            or _brings_linters(script, workspace, name)
+            or _can_test_with(package, script, workspace, name)
+        ):
             says = "there is no test that could use it"
         else:
             continue
@@ -137,6 +144,12 @@ def _lacks_programs(package: Package, script: BuildScript) -> bool:
 def _is_used(package: Package, name: str) -> bool:
     """Whether a package is used, test or no test: CMake stops without it, and to a launch file it is declared wrongly."""
     return any(use.package == name for use in package.uses)
+
+
+def _brings_linters(script: BuildScript, workspace: Workspace, name: str) -> bool:
+    """Whether a package of the workspace is found for the linters that it brings, whatever it is called."""
+    brought = (each for package in workspace.by_name.get(name, ()) for each in package.declared if each.role & _HANDED_ON)
+    return not FINDS_TESTS.isdisjoint(script.calls) and any(each.name in LINTERS for each in brought)
 
 
 def _can_test_with(package: Package, script: BuildScript, workspace: Workspace, name: str) -> bool:
