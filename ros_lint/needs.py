@@ -202,7 +202,8 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
 
     What only launch files name, to start, include or look it up, is left out, unless these are tests: it has a rule of its
     own. So is what is declared by another name, and a command of CMake that comes with what is to be declared anyway. Of what
-    modules with parts of launch files name, nobody knows who takes it.
+    modules with parts of launch files name, nobody knows who takes it. Nor is it known of files that need what is declared under
+    a condition, which does not hold here, whether they are for here; what CMake asks for is.
     """
     unknown = all_declared(package, workspace).unknown
     found = []
@@ -213,10 +214,12 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
         if not (need.declared or need.brought or any(otherwise.intersection(use.providers) for use in need.uses))
     ]
     joined = _joined([need for need in missing if not only_launched(package, need.uses)])
+    elsewhere = frozenset([each.name for each in package.manifest.depends if each.condition]) if package.manifest else frozenset()
     for need in joined:
         if all(use.via == "macro" for use in need.uses) and _comes_with(need, joined, workspace):
             continue
         sure = need.sure and any(use.via != "launch" or use.role is _TEST for use in need.uses)
+        sure = sure and (need.name not in elsewhere or any(use.via in _BUILT and use.sure for use in need.uses))
         if workspace.world.standing(need.name) != "known":
             if comes_elsewhere(package, workspace, need.name) or _is_declared_as_key(package, workspace, need.name):
                 continue
@@ -224,6 +227,9 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
         uses = despite(unknown, need.uses, workspace) if sure and unknown else need.uses
         found.append((need._replace(uses=uses or need.uses), sure and bool(uses)))
     return tuple(found)
+
+
+_BUILT = frozenset({"cmake", "macro", "target"})
 
 
 def _is_declared_as_key(package: Package, workspace: Workspace, name: str) -> bool:

@@ -14,6 +14,7 @@ out, and the released binary lacks it.
 
 Declare the package in `package.xml`, in the tag that the message names: `<depend>` for what is compiled against and
 needed at run time, `<exec_depend>` for what is needed at run time only, `<test_depend>` for tests. The fix does this.
+Where a tag is there, under a condition that does not hold, widen the condition.
 
 ## When it keeps silent
 
@@ -31,7 +32,8 @@ needed at run time, `<exec_depend>` for what is needed at run time only, `<test_
   nobody said which distribution is meant. What brings it along there counts.
 - A declared dependency is itself not known, so that the package might come with it, and nothing else needs it that could not:
   then the confidence is medium.
-- All evidence is in files that are perhaps not built or installed: then, too, the confidence is medium.
+- All evidence is in files that are perhaps not built or installed: then, too, the confidence is medium. So it is with files
+  that need what is declared under a condition which does not hold, unless CMake asks for it: they may be for where it does.
 - The package needs this one itself, in whatever tag, so that declaring it would close a cycle that colcon refuses: then,
   too, the confidence is medium, and nothing is fixed. Nor is it where no key resolves for the distribution, and for a project of
   the workspace without `package.xml`, which colcon builds and rosdep does not know.
@@ -88,12 +90,15 @@ def _finding(package: Package, workspace: Workspace, need: Need, says: str, conf
     name = need.name
     way_out = advice(package, workspace, name, need.role)
     where = _where(name, workspace)
+    condition = _condition(package, name)
     if way_out.circular:
         message = f"{name} is used here, but cannot be declared: {way_out.obstacle}"
     elif where:
         message = f"{name} {says}, nor could it: {workspace.target.distro} has no such package, only {where}"
     elif way_out.obstacle:
         message = f"{name} {says}, nor could it: {way_out.obstacle}"
+    elif condition:
+        message = f"{name} is used here, but package.xml declares it only under the condition {condition}: widen that"
     else:
         message = f"{name} {says}: add {way_out.written}"
         if _needs_back(name, package, workspace):
@@ -103,9 +108,15 @@ def _finding(package: Package, workspace: Workspace, need: Need, says: str, conf
         best.span,
         name,
         several(Related(f"also used here: {use.what}", use.span) for use in others),
-        None if where else way_out.fix,
+        None if where or condition else way_out.fix,
         confidence if way_out.certain else min(confidence, Confidence.MEDIUM),
     )
+
+
+def _condition(package: Package, name: str) -> str:
+    """Return the condition, which does not hold, under which a manifest declares a name, "" if it does not."""
+    depends = package.manifest.depends if package.manifest else ()
+    return next((each.condition for each in depends if each.name == name), "")
 
 
 def _needs_back(name: str, package: Package, workspace: Workspace) -> bool:
