@@ -32,7 +32,8 @@ where `data_files` is written out and the files are not too many.
   time alone: displays, maps, models, textures, parameters; nor if the package builds, installs and tests nothing, so that
   it is there for these files; nor if they are parameters of nodes (`ros__parameters`), and the package has nodes, or nothing
   but files; nor if they are models or worlds of a package that has nothing but files, and installs no other; nor if a file is
-  looked up in it that is not even there. Where a text names the folder as it lies in the sources
+  looked up in it that is not even there, and that git does not leave out either. Examples and templates, as their names say,
+  are copied and not looked up. Where a text names the folder as it lies in the sources
   (`/home/me/src/robot/maps/hall`, `'src', 'robot', 'maps'`), or code comes to it by a macro to which CMake gives the folder of
   the sources, it is found there: the confidence is medium. It is so where a program seeks its files in the folder that it is
   started from. A launch file that looks a file of the name up in another package names that one, and what lies here may be a
@@ -96,7 +97,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if place in installed or path.endswith(LAUNCH_NAMES):
             continue
         if not (path in files or path in folders):
-            looked_into.setdefault(path.partition("/")[0], span)
+            if not workspace.is_made(package, path):  # else it is made, and there where it is wanted
+                looked_into.setdefault(path.partition("/")[0], span)
             continue
         if not package.hidden(Facet.SHARE, place):
             missing.setdefault(_unit(path, kept), []).append((path, span))
@@ -211,7 +213,7 @@ class _Forgotten:
         if folder.partition("/")[0] in _DOCUMENTS:
             return Confidence.LOW
         copied = not {name for _, name in self._elsewhere}.isdisjoint([_name(file) for file in files])
-        files = [file for file in files if "example" not in file]
+        files = [file for file in files if not any(word in file for word in _TO_COPY)]
         in_sources = f"{folder}/" in self._script.inputs
         if any(file in self._of_nodes for file in files) and not in_sources:
             return Confidence.HIGH
@@ -219,6 +221,10 @@ class _Forgotten:
         lost = self._lacks_models and any(file.lower().endswith(_OF_MODELS) for file in files)
         meant = "/" in folder or self._made_of_them or lost
         return Confidence.HIGH if meant and for_run_time and not copied and not in_sources else Confidence.MEDIUM
+
+
+_TO_COPY = ("example", "sample", "template")
+"""In the names of files that somebody copies, and that nothing reads where they are."""
 
 
 def _looked_up_elsewhere(package: Package) -> frozenset[tuple[str, str]]:
