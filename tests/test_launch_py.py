@@ -186,6 +186,18 @@ def test_files_that_are_read_at_once(body: str, wanted: list[str]) -> None:
     assert python(f"{path}{body}\nreturn []") == wanted
 
 
+def test_a_file_that_is_read_for_one_value_of_an_argument_is_the_one_of_that_value() -> None:
+    before = (
+        "def start(context):\n"
+        "    robot = LaunchConfiguration('robot').perform(context)\n"
+        "    if robot == 'arm':\n"
+        "        open(os.path.join(get_package_share_directory('a'), robot + '.yaml')).read()\n"
+        "    return []\n"
+    )
+    body = "return [DeclareLaunchArgument('robot', default_value='base'), OpaqueFunction(function=start)]"
+    assert python(body, before) == ["file? a arm.yaml", "package? a"]
+
+
 def test_a_path_of_nothing_is_no_path() -> None:
     body = (
         "name = {}.get('plugin') if os.environ.get('X') else 'aruco'\n"

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from operator import attrgetter
 from posixpath import normpath
 from types import MappingProxyType
@@ -25,6 +25,7 @@ from ros_lint.collectors.launch_text import (
     runs_xacro,
     share,
 )
+from ros_lint.collectors.launch_values import Reads, values_of
 from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchReference, LaunchValue, ReferenceKind
 from ros_lint.facts.sight import Facet, Opaque, Problem
 from ros_lint.text import Span
@@ -65,12 +66,26 @@ class References:
             self._action(action, conditional=False)
 
     def _action(self, action: LaunchAction, conditional: bool) -> None:
-        before, narrowed, known = (self._asks, self._distros), self._narrowed, self._known
-        if action.conditions:
-            conditional = True
-            if not self._enter(action.conditions):
-                return
-            self._narrow(action.conditions)
+        if not action.conditions:
+            self._taken(action, conditional)
+            return
+        with self._under(action.conditions) as somewhere:
+            if somewhere:
+                self._taken(action, conditional=True)
+
+    @contextmanager
+    def _under(self, conditions: Sequence[LaunchCondition]) -> Iterator[bool]:
+        """Go under conditions for a while. Yields whether any distribution does."""
+        before = self._asks, self._distros, self._narrowed, self._known
+        self._asks = self._asks or asks_first(conditions)
+        self._distros &= distributions_under(conditions)
+        self._narrow(conditions)
+        try:
+            yield bool(self._distros)
+        finally:
+            self._asks, self._distros, self._narrowed, self._known = before
+
+    def _taken(self, action: LaunchAction, conditional: bool) -> None:
         match action.kind:
             case "node" | "component":
                 self._program(action, conditional)
@@ -81,20 +96,11 @@ class References:
         for name, value in action.arguments:
             if name == "prefix":
                 self._prefix(value, conditional)
-        for value, reads in _values(action):
+        for value, reads in values_of(action):
             if not _is_dull(value.texts, self._carriers):
                 self._paths(value, action.package_span, conditional, reads)
         for child in action.children:
             self._action(child, conditional)
-        self._asks, self._distros = before
-        self._narrowed, self._known = narrowed, known
-
-    def _enter(self, conditions: Sequence[LaunchCondition]) -> bool:
-        """Go under conditions; return whether any distribution does."""
-        distros = self._distros & distributions_under(conditions)
-        if distros:
-            self._asks, self._distros = self._asks or asks_first(conditions), distros
-        return bool(distros)
 
     def _program(self, action: LaunchAction, conditional: bool) -> None:
         kind: ReferenceKind = "node" if action.kind == "node" else "component"
@@ -170,7 +176,7 @@ class References:
         for program in sorted(_PREFIXES.intersection([text.strip().partition(" ")[0] for text in texts])):
             self._add("program", program, program, value, value, conditional or len(texts) > 1, default)
 
-    def _paths(self, value: LaunchValue, package_span: Span | None, conditional: bool, reads: _Reads | None = None) -> None:
+    def _paths(self, value: LaunchValue, package_span: Span | None, conditional: bool, reads: Reads | None = None) -> None:
         """Note the places that a value mentions."""
         texts, default = self._filled(value)
         # What is written out stays the same, whatever else is in the text: a command has more words than the file.
@@ -258,20 +264,18 @@ class References:
         if not is_plain(package):
             self.hide("the package that is looked up is computed", value.span)
             return
-        before = self._asks, self._distros
-        if self._enter(conditions) and not any(
-            reference.package == package and reference.conditional <= bool(conditions) and not reference.by_default
-            for reference in self.found
-        ):
-            self._add("package", package, "", value, value, bool(conditions), by_default=False)
-        self._asks, self._distros = before
+        with self._under(conditions) as somewhere:
+            if somewhere and not any(
+                reference.package == package and reference.conditional <= bool(conditions) and not reference.by_default
+                for reference in self.found
+            ):
+                self._add("package", package, "", value, value, bool(conditions), by_default=False)
 
     def opens(self, value: LaunchValue, conditions: Sequence[LaunchCondition]) -> None:
         """Note a file that is read when the launch file is."""
-        before = self._asks, self._distros
-        if self._enter(conditions):
-            self._paths(value, None, bool(conditions))
-        self._asks, self._distros = before
+        with self._under(conditions) as somewhere:
+            if somewhere:
+                self._paths(value, None, bool(conditions))
 
     def _add(
         self,
@@ -335,49 +339,6 @@ class References:
     def hide(self, reason: str, span: Span) -> None:
         """Note that something hides which packages are used."""
         self.opaque[Opaque(Facet.USES, reason, span)] = None
-
-
-_Reads = Callable[[str], str]
-"""Returns the part of a text that names a file which is read."""
-_DISPLAY = re.compile(r"(?:^|\s)(?:-d|--display-config)(?:[\s=]+(\S+)|$)")
-"""The option of rviz2 that names the file with its displays."""
-
-
-def _whole(text: str) -> str:
-    return text
-
-
-def _display(text: str) -> str:
-    match = _DISPLAY.search(text)
-    return (match[1] or "") if match is not None else ""
-
-
-def _values(action: LaunchAction) -> Iterable[tuple[LaunchValue, _Reads | None]]:
-    """Return the values of an action in which a path can be, apart from its target, and what of them is read."""
-    found: list[tuple[LaunchValue, _Reads | None]] = []
-    if action.value is not None:
-        found.append((action.value, None))
-    if action.name is not None:
-        found.append((action.name, None))
-    if action.namespace is not None:
-        found.append((action.namespace, None))
-    if action.arguments:
-        shows = action.kind == "node" and action.package is not None and action.package.texts == ("rviz2",)
-        found += _shown(action.arguments) if shows else [(value, None) for _, value in action.arguments]
-    if action.parameters:
-        found += [(value, None if name else _whole) for name, value in action.parameters]
-    return found
-
-
-def _shown(arguments: Iterable[tuple[str, LaunchValue]]) -> Iterator[tuple[LaunchValue, _Reads | None]]:
-    """Yield the words that rviz2 is given: the file with its displays stands in one with its option, or follows it."""
-    follows = False
-    for name, value in arguments:
-        if not name:
-            yield value, _whole if follows else _display
-            follows = any((match := _DISPLAY.search(text)) and not match[1] for text in value.texts)
-        else:
-            yield value, None
 
 
 def _is_dull(texts: Iterable[str], carriers: Container[str]) -> bool:

@@ -1,0 +1,50 @@
+"""The values of an action in which a path can be, and which of them name a file that is read."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Iterator
+
+from ros_lint.facts.launch import LaunchAction, LaunchValue
+
+Reads = Callable[[str], str]
+"""Returns the part of a text that names a file which is read."""
+_DISPLAY = re.compile(r"(?:^|\s)(?:-d|--display-config)(?:[\s=]+(\S+)|$)")
+"""The option of rviz2 that names the file with its displays."""
+
+
+def _whole(text: str) -> str:
+    return text
+
+
+def _display(text: str) -> str:
+    match = _DISPLAY.search(text)
+    return (match[1] or "") if match is not None else ""
+
+
+def values_of(action: LaunchAction) -> Iterable[tuple[LaunchValue, Reads | None]]:
+    """Return the values of an action in which a path can be, apart from its target, and what of them is read."""
+    found: list[tuple[LaunchValue, Reads | None]] = []
+    if action.value is not None:
+        found.append((action.value, None))
+    if action.name is not None:
+        found.append((action.name, None))
+    if action.namespace is not None:
+        found.append((action.namespace, None))
+    if action.arguments:
+        shows = action.kind == "node" and action.package is not None and action.package.texts == ("rviz2",)
+        found += _shown(action.arguments) if shows else [(value, None) for _, value in action.arguments]
+    if action.parameters:
+        found += [(value, None if name else _whole) for name, value in action.parameters]
+    return found
+
+
+def _shown(arguments: Iterable[tuple[str, LaunchValue]]) -> Iterator[tuple[LaunchValue, Reads | None]]:
+    """Yield the words that rviz2 is given: the file with its displays stands in one with its option, or follows it."""
+    follows = False
+    for name, value in arguments:
+        if not name:
+            yield value, _whole if follows else _display
+            follows = any((match := _DISPLAY.search(text)) and not match[1] for text in value.texts)
+        else:
+            yield value, None
