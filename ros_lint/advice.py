@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.declare import add_dependency, tag_for
+from ros_lint.declare import add_dependency, tag_for, tags_for
 from ros_lint.rule import Fix
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ class Advice(NamedTuple):
 def advice(package: Package, workspace: Workspace, name: str, role: Role) -> Advice:
     """Return what to do about a package or key that is needed and is to be declared. The package has a manifest."""
     tag = tag_for(package, workspace, name, role)
-    written = f"<{tag}>{name}</{tag}>"
+    written = " and ".join(f"<{each}>{name}</{each}>" for each in tags_for(package, tag))
     if way := circle(package, workspace, name):
         between = f", by way of {' > '.join(way[1:-1])}" if len(way) > 2 else ""
         return Advice(written, None, f"it needs this package itself{between}", circular=True, certain=False)

@@ -65,12 +65,16 @@ def _without(role: Role, part: Role) -> Role:
     return role & ~part
 
 
+def tags_for(package: Package, tag: str) -> tuple[str, ...]:
+    """Return all tags that it takes to say what a tag means: in format 1, what is built is run as well. It has a manifest."""
+    assert package.manifest is not None
+    return (tag, "run_depend") if package.manifest.format == 1 and tag == "build_depend" else (tag,)
+
+
 def add_dependency(package: Package, tag: str, name: str) -> tuple[Edit, ...]:
     """Return the edits that declare a name. The package has a manifest."""
-    manifest = package.manifest
-    assert manifest is not None
-    tags = (tag, "run_depend") if manifest.format == 1 and tag == "build_depend" else (tag,)
-    return tuple(manifest_edits.add(manifest, each, name) for each in tags)
+    assert package.manifest is not None
+    return tuple(manifest_edits.add(package.manifest, each, name) for each in tags_for(package, tag))
 
 
 def change_dependency(package: Package, depends: Sequence[Depend], tag: str, alike: Collection[Depend]) -> tuple[Edit, ...]:

@@ -124,11 +124,15 @@ def _lacking(package: Package, workspace: Workspace) -> Iterator[tuple[str, list
 
 
 def _in_wrong_tags(package: Package, workspace: Workspace) -> frozenset[str]:
-    """Return what is declared and does not come at run time, though more than starting and including it takes it then."""
+    """Return what is declared and does not come at run time, though more than starting and including it takes it then.
+
+    So does what is handed on to those that build against the package.
+    """
     found: set[str] = set()
     for need in needs(package, workspace):
         uses = [use for use in need.uses if use.sure and use.via in ("import", "package") and use.role & Role.EXEC]
-        if need.declared and uses and not comes_with_launching(package, uses):
+        handed_on = any(use.sure and use.role & Role.EXPORT for use in need.uses)
+        if need.declared and (handed_on or (uses and not comes_with_launching(package, uses))):
             found.update(need.declared)
     return frozenset(found)
 
