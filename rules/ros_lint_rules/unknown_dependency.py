@@ -125,7 +125,8 @@ def _unknown(stranger: Stranger, workspace: Workspace) -> Finding:
             fix = Fix.of(f"write {lacking[0]} for {name}", *_rename(stranger, lacking[0]))
         message = f"{what}: {hint}"
     else:
-        caller = _caller(meant.by, meant.name)
+        # What is written like a key is not what anybody calls it.
+        caller = "" if name.startswith("python3-") else _caller(meant.by, meant.name)
         why = f", but what {caller} calls it" if caller else ""
         again = stranger.package.declares(meant.name)
         message = f"{what}{why}: " + (f"remove it, {meant.name} is declared, too" if again else f"write {meant.name}")
