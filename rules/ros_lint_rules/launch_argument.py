@@ -45,8 +45,8 @@ Give the argument, or give it a default where it is declared; correct the name, 
   includes before. Where it is asked for under a condition, or the file requires other arguments, so that it is a part of
   others, the confidence is medium.
 - An argument that an include gives is left set: what stands further down in the same file may ask for it, or include what
-  takes it, such as a launch file that is not in the workspace. So may a file of the workspace that includes this one: then
-  the confidence is medium, unless it resembles an argument that is not given.
+  takes it, such as a launch file that is not in the workspace. So may what stands further down in a file of the workspace
+  that includes this one: then the confidence is medium, unless it resembles an argument that is not given.
 - An argument that does nothing is empty by default, and another launch file of the folder requires it: this one may be put
   in the place of the other, and takes what that one takes.
 
@@ -57,7 +57,7 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from typing import NamedTuple
 
 from ros_lint.api import (
@@ -98,7 +98,8 @@ _DIGITS = re.compile(r"\d+")
 
 def check(workspace: Workspace) -> Iterator[Finding]:
     links = workspace.links
-    families = Families([file for package in workspace.packages for file in package.launch], links)
+    files = [file for package in workspace.packages for file in package.launch]
+    families, after = Families(files, links), _after(files, links)
     filled = frozenset(name for package in workspace.packages for file in package.parameter_files for name in file.asks)
     whole = not workspace.unread()
     for package in workspace.packages:
@@ -107,7 +108,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
             required.setdefault(_folder(file), set()).update(links.takes(file).required)
         for launch in launchable(package):
             beside = required[_folder(launch.file)]
-            for finding in _of_file(launch.file, links, families, filled, beside, whole=whole):
+            for finding in _of_file(launch.file, links, families, after, filled, beside, whole=whole):
                 yield finding._replace(package=package.name)
 
 
@@ -115,14 +116,35 @@ def _folder(file: LaunchFile) -> str:
     return file.path.rpartition("/")[0]
 
 
+_After = Mapping[str, list[tuple[LaunchFile, list[LaunchAction]]]]
+"""The files that include a file, each with what it does after that."""
+
+
+def _after(files: Iterable[LaunchFile], links: Links) -> _After:
+    found: dict[str, list[tuple[LaunchFile, list[LaunchAction]]]] = {}
+    for file in files:
+        actions = list(everything(file.actions))
+        for index, action in enumerate(actions):
+            if action.kind == "include" and (target := links.target(action.target, file)) is not None:
+                found.setdefault(target.file.path, []).append((file, actions[index + 1 :]))
+    return found
+
+
 def _of_file(
-    file: LaunchFile, links: Links, families: Families, filled: frozenset[str], beside: Collection[str], *, whole: bool
+    file: LaunchFile,
+    links: Links,
+    families: Families,
+    after: _After,
+    filled: frozenset[str],
+    beside: Collection[str],
+    *,
+    whole: bool,
 ) -> Iterator[Finding]:
     """``whole``: all files can be read, and with them whoever includes this one; ``beside``: what those of its folder require."""
     actions = list(everything(file.actions))
     for index, action in enumerate(actions):
         if action.kind == "include":
-            yield from _of_include(action, actions[index + 1 :], file, links, families, filled)
+            yield from _of_include(action, actions[index + 1 :], file, links, families, after, filled)
         elif action.kind == "argument":
             yield from _of_choices(action)
     names, takes, above = families.names(file), links.takes(file), families.above(file)
@@ -313,7 +335,13 @@ def _failing(broken: Broken, *, sure: bool) -> Finding:
 
 
 def _of_include(
-    action: LaunchAction, later: list[LaunchAction], source: LaunchFile, links: Links, families: Families, filled: frozenset[str]
+    action: LaunchAction,
+    later: list[LaunchAction],
+    source: LaunchFile,
+    links: Links,
+    families: Families,
+    after: _After,
+    filled: frozenset[str],
 ) -> Iterator[Finding]:
     target = links.target(action.target, source)
     places = action.argument_spans or [value.span for _, value in action.arguments]
@@ -333,12 +361,12 @@ def _of_include(
                 severity=Severity.ERROR,
             )
     left = takes.known - given.keys()
-    sure, alone = not families.fill(target.file), not families.above(source)
+    sure = not families.fill(target.file)
     for name, place in given.items() if takes.complete else ():
         if name in takes.known or name in action.perhaps or (name in filled and not sure):
             continue
         if not any(_may_take(other, name, source, links) for other in later):
-            yield _useless(file, name, place, left, sure=sure, alone=alone)
+            yield _useless(file, name, place, left, sure=sure, alone=not _is_left_to(name, source, links, after))
 
 
 def _may_take(action: LaunchAction, name: str, source: LaunchFile, links: Links) -> bool:
@@ -351,10 +379,23 @@ def _may_take(action: LaunchAction, name: str, source: LaunchFile, links: Links)
     return target is None or not links.takes(target.file).complete or name in links.takes(target.file).known
 
 
+def _is_left_to(name: str, source: LaunchFile, links: Links, after: _After) -> bool:
+    """Whether a file that includes this one, itself or by way of others, goes on with what may see what is set in here."""
+    seen, waiting = {source.path}, [source.path]
+    while waiting:
+        for file, later in after.get(waiting.pop(), ()):
+            if any(_may_take(action, name, file, links) for action in later):
+                return True
+            if file.path not in seen:
+                seen.add(file.path)
+                waiting.append(file.path)
+    return False
+
+
 def _useless(file: str, name: str, place: Span, left: frozenset[str], *, sure: bool, alone: bool) -> Finding:
     """Return the finding for an argument that nobody takes. One that resembles an argument not given was renamed.
 
-    ``alone``: no file includes the one that gives it, and may include what takes it afterwards.
+    ``alone``: no file includes the one that gives it, and goes on with what may take it.
     """
     near = similar(name, left, 1, 0.85)
     return Finding(
