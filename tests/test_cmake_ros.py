@@ -65,6 +65,52 @@ def test_interfaces() -> None:
     assert mentioned(script)[("macro", "rosidl_default_generators")].purpose == "interfaces"
 
 
+def test_interfaces_go_by_the_project_that_generates_them() -> None:
+    inner = {
+        "inner/CMakeLists.txt": "project(inner_msgs)\nrosidl_generate_interfaces(inner_msgs msg/A.msg)\n",
+        "inner/msg/A.msg": "",
+    }
+    script = run("add_subdirectory(inner)\nrosidl_generate_interfaces(pkg msg/B.msg)\n", {**inner, "msg/B.msg": ""})
+    assert {path for path in paths(script) if path.endswith(".msg")} == {"share/inner_msgs/msg/A.msg", "share/pkg/msg/B.msg"}
+    assert script.python_packages == ("inner_msgs", "pkg")
+
+
+def test_definitions_keep_their_last_folder_and_what_is_made_of_them_goes_by_its_kind() -> None:
+    script = run(
+        "rosidl_generate_interfaces(pkg msg/base/A.msg srvs/B.srv msg/deep/C.idl)\n",
+        ("msg/base/A.msg", "srvs/B.srv", "msg/deep/C.idl"),
+    )
+    assert {path.removeprefix("share/pkg/") for path in paths(script) if path.startswith("share/")} == {
+        "base/A.msg", "msg/A.idl", "srvs/B.srv", "srv/B.idl", "msg/deep/C.idl",
+    }  # fmt: skip
+
+
+def test_headers_of_generate_parameter_library() -> None:
+    script = run(
+        "generate_parameter_library(gains src/gains.yaml)\ngenerate_parameter_library(limits l.yaml src/check.hpp)\n",
+        ("src/check.hpp",),
+    )
+    assert [path for path in paths(script) if path.startswith("include/")] == [
+        "include/pkg/gains.hpp", "include/pkg/limits.hpp", "include/pkg/check.hpp",
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("words", "wanted"),
+    [
+        ("", {"cmake/vendor_package_cmake_prefix.cmake", "environment/vendor_package.sh"}),
+        ("GLOBAL_HOOK", {"environment/vendor_package.sh", "environment/vendor_package_cmake_prefix.sh"}),
+        ("SKIP_INSTALL", set()),
+        ("SATISFIED TRUE", set()),
+    ],
+)
+def test_what_finds_a_vendored_project_is_installed(words: str, wanted: set[str]) -> None:
+    script = run(f"ament_vendor(other VCS_URL https://example.org/other.git {words})\n")
+    found = {path.removeprefix("share/pkg/") for path in paths(script) if path.endswith((".sh", ".cmake"))}
+    assert found == wanted
+    assert ("share/ament_index/resource_index/vendor_packages/pkg" in paths(script)) == bool(wanted)
+
+
 def test_python_packages() -> None:
     files = ("pkg_py/__init__.py", "pkg_py/sub/__init__.py", "pkg_py/sub/x.py", "setup.cfg")
     texts = {"setup.cfg": "[options.entry_points]\nconsole_scripts =\n    tool = pkg_py.sub.x:main\n"}

@@ -85,7 +85,8 @@ def _exported(run: Run, args: list[str]) -> None:
 
 def _interfaces(run: Run, args: list[str]) -> None:
     """``ros_lint_interfaces(install|- files...)``: interface files to generate code from."""
-    package = run.sources.name or run.name
+    project = run.get("PROJECT_NAME") or ""
+    package = project if is_known(project) else run.sources.name or run.name
     for arg in args[1:]:
         plain, certain = sure(arg)
         path = plain.rpartition(":")[2] if ":" in plain else plain
@@ -105,10 +106,10 @@ def _interfaces(run: Run, args: list[str]) -> None:
             run.missing.append((source, span, conditional))
         if args[0] == "install":
             written = source if source is not None and source not in run.generated else ""
-            for end in dict.fromkeys((suffix, "idl")):
-                made = written if end == suffix else ""
-                place = f"share/{package}/{kind}/{stem}.{end}"
-                run.installed.append(Provided(place, made or "", False, conditional, span))
+            # rosidl_adapter puts what it makes into the folder of its kind, wherever the definition lies
+            places = [(folder, "idl", written)] if suffix == "idl" else [(kind, suffix, written), (suffix, "idl", "")]
+            for place, end, made in places:
+                run.installed.append(Provided(f"share/{package}/{place}/{stem}.{end}", made, False, conditional, span))
     if not run.muted and len(args) > 1:
         run.python_packages[package] = None
 

@@ -131,8 +131,11 @@ def _linked(package: Package, workspace: Workspace, told: Container[str]) -> Ite
 
 
 def _has_headers(script: BuildScript) -> bool:
-    """Whether a package installs headers: libraries without are plugins, which nobody links and nobody finds by CMake."""
-    return script.hides(Facet.SHARE) or any(provided.path.endswith(HEADERS) for provided in script.provides)
+    """Whether a package installs headers of its own: libraries without are plugins, which nobody links and nobody finds by CMake.
+
+    What is generated, such as the parameters of a plugin, is there for its own code.
+    """
+    return script.hides(Facet.SHARE) or any(provided.path.endswith(HEADERS) and provided.source for provided in script.provides)
 
 
 def _exported_targets(script: BuildScript) -> frozenset[str]:

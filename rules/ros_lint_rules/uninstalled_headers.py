@@ -77,7 +77,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     places = [provided.path for provided in script.provides]
     if not headers or script.end is None:
         return
-    installed = any(path.endswith(HEADERS) for path in places)
+    names = {_name(file) for file in headers}
+    installed = any(
+        provided.path.endswith(HEADERS) and (provided.source or _name(provided.path) in names) for provided in script.provides
+    )
     if installed and _tells(package):
         return
     takers = _wanted(workspace).get(package.name, ())
@@ -97,7 +100,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     perhaps_for_nobody = bool(exports) and (loaded or not library) and not wanted
     why = ", but exported" if exports else f", and {wanted[0][0].name} includes them" if wanted else ""
     yield Finding(
-        f"the headers in include/ ({headers[0].rpartition('/')[2]} ...) are not installed{why}; "
+        f"the headers in include/ ({_name(headers[0])} ...) are not installed{why}; "
         f"install them to {_place(exports)}{', or take the export away' if perhaps_for_nobody else ''}",
         script.end,
         "include/",
@@ -112,11 +115,15 @@ _GAZEBO = re.compile(r"(?:gazebo|gz|ignition)(?!.*_msgs$)", re.IGNORECASE)
 """What a package finds to build plugins of Gazebo."""
 
 
+def _name(path: str) -> str:
+    return path.rpartition("/")[2]
+
+
 def _for_nobody(headers: Sequence[str], exports: Sequence[Call]) -> Iterator[Finding]:
     """Speak of a package of programs that exports a folder: who finds it is told of a folder that is not there."""
     first, *others = exports
     yield Finding(
-        f"the headers in include/ ({headers[0].rpartition('/')[2]} ...) are exported and not installed, and there is no library "
+        f"the headers in include/ ({_name(headers[0])} ...) are exported and not installed, and there is no library "
         "to use them with; take the export away",
         first.place,
         "include/",
