@@ -216,7 +216,10 @@ class _Layout:
         while (following := self.neighbours(tail).after) is not None and following in self.manifest.asides:
             tail = following
         if following is not None:
-            return Edit(span.end(), element)
+            # A line of several of one kind is a habit; one of two kinds is a slip, or all is on one line.
+            tags = {depend.span: depend.tag for depend in self.manifest.depends}
+            slip = self.neighbours(span).before is None and tags.get(span) != tags.get(following)
+            return Edit(span.end(), f"{self.manifest.newline}{self._indent(span)}{element}" if slip else element)
         blank = self.manifest.newline if apart else ""
         place = Span(self.path, tail.end_line + 1, 1, tail.end_line + 1, 1)
         return Edit(place, f"{blank}{self._indent(span)}{element}{self.manifest.newline}")

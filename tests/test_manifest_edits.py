@@ -191,6 +191,12 @@ def test_sort(text: str) -> None:
         ("\t<depend>a</depend>", "depend", "b", "\t<depend>a</depend>\n\t<depend>b</depend>"),
         ("  <depend>a</depend><depend>c</depend>", "depend", "b", "  <depend>a</depend><depend>b</depend><depend>c</depend>"),
         (
+            "  <depend>a</depend> <test_depend>t</test_depend>",
+            "depend",
+            "b",
+            "  <depend>a</depend>\n  <depend>b</depend> <test_depend>t</test_depend>",
+        ),
+        (
             "  <depend>a</depend> <!-- on\n  two lines -->",
             "depend",
             "b",
