@@ -18,14 +18,18 @@ Rename one, or install it once. Including works all the same, since an include n
 - Each of them is included by another launch file of the workspace: then they are parts, which nobody launches by name. So
   they may be where a file of the workspace cannot be read.
 - Launch files of tests and examples.
+
+Where folders side by side have several names in common, as with one set of files for each robot, the confidence is medium:
+they may be launched by their paths.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from ros_lint.api import (
     LAUNCH_NAMES,
+    Confidence,
     Finding,
     Package,
     Provided,
@@ -42,7 +46,8 @@ from ros_lint.api import (
 
 def check(workspace: Workspace) -> Iterator[Finding]:
     for package in workspace.packages:
-        for name, places in _twice(package).items():
+        twice = _twice(package)
+        for name, places in twice.items():
             sources = [from_base(package, place.source) for place in places]
             if len(set(sources)) > 1 and (workspace.unread() or _included(workspace).issuperset(sources)):
                 continue
@@ -58,8 +63,21 @@ def check(workspace: Workspace) -> Iterator[Finding]:
                     else Related("the other file", beginning(source))
                     for place, source in zip(places[1:], sources[1:], strict=True)
                 ),
+                confidence=Confidence.MEDIUM if _is_set(twice, places) else Confidence.HIGH,
                 package=package.name,
             )
+
+
+def _is_set(twice: Mapping[str, Sequence[Provided]], places: Sequence[Provided]) -> bool:
+    """Whether files of one name lie in folders side by side that have more names in common: one set of files for each robot."""
+    folders = _folders(places)
+    return len({folder.rpartition("/")[0] for folder in folders}) == 1 and any(
+        len(folders & _folders(others)) > 1 for others in twice.values() if others is not places
+    )
+
+
+def _folders(places: Iterable[Provided]) -> set[str]:
+    return {place.path.rpartition("/")[0] for place in places}
 
 
 def _twice(package: Package) -> dict[str, list[Provided]]:
