@@ -19,7 +19,8 @@ The loader looks up names: "According to the loaded plugin descriptions the clas
 ## How to fix it
 
 `pluginlib_export_plugin_description_file(<package of the base class> plugins.xml)`; write type and path as they are in the
-sources and in `add_library()`. The fix exports a description whose base classes are all of one package.
+sources and in `add_library()`. The fix exports a description whose base classes are all of one package. Where the workspace has
+the base class and loads no plugins as that, the macro may be a left-over, and can go: this is an info.
 
 ## When it keeps silent
 
@@ -77,7 +78,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     installed = script.installed
     exported = list(called(package, EXPORTING_PLUGINS, anywhere=True))
     if EXPORTING_PLUGINS not in script.calls and not exported:
-        yield from _unexported(package, registered)
+        yield from _unexported(package, workspace, registered)
         # What descriptions say that nobody is told of does no harm, and many are left over from ROS 1.
         for plugin in script.plugins:
             if plugin.path in installed and not is_apart(plugin.path):
@@ -213,7 +214,7 @@ def _reads_manifest(package: Package) -> bool:
     return any(element.tag in _READ_BY_RQT and element.get("plugin") for element in exports)
 
 
-def _unexported(package: Package, registered: list[Registration]) -> Iterator[Finding]:
+def _unexported(package: Package, workspace: Workspace, registered: list[Registration]) -> Iterator[Finding]:
     script = package.script
     assert script is not None
     if not registered:
@@ -222,6 +223,15 @@ def _unexported(package: Package, registered: list[Registration]) -> Iterator[Fi
     names = {made.name for made in registered}
     plugin = next((p for p in script.plugins if any(c.type in names for lib in p.libraries for c in lib.classes)), None)
     if _reads_manifest(package):
+        return
+    if plugin is None and (base := _loaded_by_nobody(registered, workspace)):
+        yield Finding(
+            f"{first.name} is made loadable, and nothing loads plugins as {base}; take the macro out, or export a description",
+            first.span,
+            "pluginlib",
+            several(Related("also this class", made.span) for made in others),
+            severity=Severity.INFO,
+        )
         return
     way = f"{EXPORTING_PLUGINS}(... {plugin.path})" if plugin else f"a plugin description and {EXPORTING_PLUGINS}()"
     yield Finding(
@@ -234,6 +244,14 @@ def _unexported(package: Package, registered: list[Registration]) -> Iterator[Fi
         # Sources that nothing compiles may be left over; where there is no library at all, it is yet to be added.
         confidence=Confidence.HIGH if library_of(package, first) or not _builds_libraries(package) else Confidence.MEDIUM,
     )
+
+
+def _loaded_by_nobody(registered: list[Registration], workspace: Workspace) -> str:
+    """Return the base of loadable classes, if it is of a package of the workspace where nothing is seen to load it, else ""."""
+    bases = {made.base for made in registered}
+    base = bases.pop()
+    owner = base.partition("::")[0]
+    return base if not bases and owner in workspace.by_name and base not in _loading(workspace) else ""
 
 
 def _export(package: Package, plugin: PluginFile) -> Fix | None:
