@@ -119,7 +119,7 @@ _FOR_TESTS = frozenset({*_TEST_COMMANDS.values(), "ament_lint_auto", "ament_lint
 
 
 def unguarded_tests(package: Package) -> dict[str, Call]:
-    """Return the packages for tests that are declared for tests only and used in every build, with the first call."""
+    """Return the packages for tests that are declared for tests only, or not at all, and used in every build: the first call."""
     found: dict[str, Call] = {}
     if package.builds_with != "ament_cmake":
         return found
@@ -127,7 +127,7 @@ def unguarded_tests(package: Package) -> dict[str, Call]:
         provider = _TEST_COMMANDS.get(call.name) or (call.texts[0] if call.args else "")
         stops = call.name != "find_package" or "REQUIRED" in call.texts
         always = stops and not call.test and not call.blocks
-        if always and provider in _FOR_TESTS and provider not in found and package.declares(provider) == Role.TEST:
+        if always and provider in _FOR_TESTS and provider not in found and not package.declares(provider) & ~Role.TEST:
             found[provider] = call
     return found
 

@@ -21,7 +21,7 @@ Where a tag is there, under a condition that does not hold, widen the condition.
 - The package comes with a declared one: see `transitive-dependency` for uses that hang on such a chain.
 - It is declared by a wrong name: `unknown-dependency` says so.
 - The use is optional: `find_package(QUIET)` behind `if(X_FOUND)`, `try: import`, also `try: from .file import` of the file
-  that has it, `__has_include`. Then the confidence is low, and nothing is fixed. It is silent where the package needs this
+  that has it, `__has_include`, an import where a comparison of `ROS_VERSION` says ROS 1. Then the confidence is low, and nothing is fixed. It is silent where the package needs this
   one itself.
 - It is named only in a template for other packages, by what makes the pages of the documentation, or in an editor's copy.
 - colcon rejects `package.xml`, which is to be mended first: then the confidence is medium.
@@ -53,6 +53,7 @@ from ros_lint.api import (
     Need,
     Package,
     Related,
+    Role,
     Rule,
     Severity,
     Workspace,
@@ -62,6 +63,7 @@ from ros_lint.api import (
     several,
     tells,
     undeclared,
+    unguarded_tests,
     wishes,
 )
 
@@ -88,7 +90,8 @@ def _finding(package: Package, workspace: Workspace, need: Need, says: str, conf
     """Return what is to say of a need. A manifest that colcon rejects has to be mended first: then nothing is certain."""
     best, *others = need.uses
     name = need.name
-    way_out = advice(package, workspace, name, need.role)
+    role = Role.TEST if name in unguarded_tests(package) else need.role  # which is told to be put where tests are
+    way_out = advice(package, workspace, name, role)
     where = _where(name, workspace)
     condition = _condition(package, name)
     if way_out.circular:

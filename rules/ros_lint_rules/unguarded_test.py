@@ -2,7 +2,7 @@
 ## What it finds
 
 Commands that make tests, and `find_package()` of packages that serve tests only, outside `if(BUILD_TESTING)`, where the
-package that brings them is declared as `<test_depend>` only.
+package that brings them is declared as `<test_depend>` only, or not at all: then `undeclared-dependency` names that tag.
 
 ## Why it matters
 
@@ -15,19 +15,23 @@ Put it between `if(BUILD_TESTING)` and `endif()`.
 
 ## When it keeps silent
 
-Where the package is declared for the build as well; under any condition that asks for tests; in functions; where
-`find_package()` is not `REQUIRED`.
+Where the package is declared for the build as well, or comes along with what is; under any condition that asks for tests; in
+functions; where `find_package()` is not `REQUIRED`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Finding, Package, Rule, Severity, Workspace, unguarded_tests
+from ros_lint.api import Finding, Package, Rule, Severity, Workspace, undeclared, unguarded_tests
 
 
-def check(package: Package, _: Workspace) -> Iterator[Finding]:
-    for provider, call in unguarded_tests(package).items():
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    found = unguarded_tests(package)
+    lacking = {need.name for need, _ in undeclared(package, workspace)} if found else set()
+    for provider, call in found.items():
+        if not package.declares(provider) and provider not in lacking:
+            continue  # it comes along with what is declared for every build
         what = f"find_package({provider})" if call.name == "find_package" else f"{call.name}()"
         yield Finding(
             f"{what} outside if(BUILD_TESTING), but {provider} is there for tests only; put it inside",
