@@ -31,7 +31,7 @@ class Import(NamedTuple):
 
 _SKIPS = "importorskip"
 _DYNAMIC = frozenset({"import_module", _SKIPS, "__import__"})
-GUARD = re.compile(r"TYPE_CHECKING|version_info|platform|DISTRO|distro|suppress")
+GUARD = re.compile(r"TYPE_CHECKING|version_info|platform|DISTRO|distro|suppress|(?i:ros_?version)")
 """What a test, or a with statement, has that may decide about the imports in it."""
 _MISSING = frozenset({"ImportError", "ModuleNotFoundError"})
 _IMPORT_ERRORS = _MISSING | {"Exception", "BaseException"}
@@ -41,8 +41,8 @@ _EXITS = frozenset({"exit", "quit", "_exit", "fail"})
 def walk(source: Text, tree: ast.Module) -> list[Import]:
     """Return the imports of a source in order.
 
-    Optional are those under TYPE_CHECKING, and those in a try statement that goes on when the import fails or under
-    a test of the platform, unless every branch imports from the same package (reference, section D6). A try statement
+    Optional are those under TYPE_CHECKING, those for ROS 1, and those in a try statement that goes on when the import fails or
+    under a test of the platform, unless every branch imports from the same package (reference, section D6). A try statement
     inside of others that raises another error instead, which says what is missing, makes them optional, too. Calls of
     ``importlib.import_module()`` and the like are imports, too; whoever calls one is taken to be able to go without.
     A test that is skipped without a module goes without whatever it imports of it afterwards.
@@ -144,6 +144,9 @@ class _Walker:
         if _is_off(test, self._off) or (isinstance(test, (ast.Name, ast.Attribute)) and "TYPE_CHECKING" in words):
             yield from ((found, optional or 1) for found, optional in self.imports(statement.body))
             yield from self.imports(statement.orelse)
+        elif (of_ros_2 := _tells_ros_2(test, words)) is not None:
+            for body, runs in ((statement.body, of_ros_2), (statement.orelse, not of_ros_2)):
+                yield from ((found, optional or (0 if runs else 1)) for found, optional in self.imports(body))
         elif not GUARD.search(" ".join(words)):
             yield from self.imports(statement.body)
             yield from self.imports(statement.orelse)
@@ -169,6 +172,19 @@ def _is_off(test: ast.expr, off: frozenset[str]) -> bool:
     if isinstance(test, ast.BoolOp):
         return (any if isinstance(test.op, ast.And) else all)(_is_off(part, off) for part in test.values)
     return isinstance(test, ast.Name) and test.id in off
+
+
+_OF_ROS = re.compile(r"ros_?version", re.IGNORECASE)
+
+
+def _tells_ros_2(test: ast.expr, words: Iterable[str]) -> bool | None:
+    """Return what a comparison of the version of ROS with 1 or 2 comes to in ROS 2, None of any other test."""
+    if not (isinstance(test, ast.Compare) and isinstance(test.ops[0], (ast.Eq, ast.NotEq)) and any(map(_OF_ROS.search, words))):
+        return None
+    numbers = [str(side.value) for side in (test.left, *test.comparators) if isinstance(side, ast.Constant)]
+    if len(test.ops) > 1 or numbers not in (["1"], ["2"]):
+        return None
+    return (numbers == ["2"]) == isinstance(test.ops[0], ast.Eq)
 
 
 def _alternatives(branches: list[list[_Found]], kind: int) -> Iterator[_Found]:
