@@ -167,13 +167,13 @@ def is_mostly_run(workspace: Workspace, name: str) -> bool:
     if name in workspace.by_name or not world.is_package(name):
         return False
     released = world.released(name)
-    if released and released.interfaces and not _runs(world, name):
+    if released and released.interfaces and not runs(world, name):
         return False
     declared = world.knowledge.index.declared_as(name)
     return 2 * sum(count for kinds, count in declared.items() if "b" not in kinds) > sum(declared.values())
 
 
-def _runs(world: World, name: str) -> bool:
+def runs(world: World, name: str) -> bool:
     """Whether a package is known to have something to start or to load."""
     offers = (world.executables, world.programs, world.launch_files, world.components, world.plugins)
     return any(offer(name).names for offer in offers)
@@ -186,7 +186,7 @@ def leaves_trace(package: Package, workspace: Workspace, name: str) -> bool:
     if released is None:
         return False
     no_python = not any(file.endswith(PYTHON_LIKE) for file in package.files)
-    return bool(released.interfaces) or (no_python and not _runs(world, name) and bool(world.python_modules(name).names))
+    return bool(released.interfaces) or (no_python and not runs(world, name) and bool(world.python_modules(name).names))
 
 
 PYTHON_LIKE = (".py", ".py.in", ".launch", ".launch.xml", ".launch.yaml")

@@ -12,7 +12,8 @@ every machine, and tells readers something wrong.
 
 ## How to fix it
 
-Remove the tag. The fix does this, and needs `--unsafe-fixes` where the confidence is less than high.
+Remove the tag, and with a `<build_depend>` those for exporting it and for running what has no programs. The fix does this,
+and needs `--unsafe-fixes` where the confidence is less than high.
 
 ## When it keeps silent
 
@@ -41,6 +42,7 @@ from ros_lint.api import (
     Carried,
     Confidence,
     Declared,
+    Depend,
     Finding,
     Fix,
     Package,
@@ -56,6 +58,7 @@ from ros_lint.api import (
     is_unseen_by_name,
     leaves_trace,
     remove_dependency,
+    runs,
     satisfying,
     sounds_unseen,
     used_names,
@@ -77,12 +80,14 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             told = _told(package, name, carried[name])
             yield Finding(told, depend.span, name, confidence=min(confidence, Confidence.MEDIUM))
             continue
-        written = f"<{depend.tag}>{name}</{depend.tag}>"
+        idle = [depend, *(_left(package, workspace, depend) if sure else ())]
+        its = " and ".join(f"<{each.tag}>" for each in idle[1:])
+        written = f"<{depend.tag}>{name}</{depend.tag}>" + (f" and its {its}" if its else "")
         yield Finding(
             f"{name} is declared, but {says}: remove {written}",
             depend.span,
             name,
-            fix=Fix(f"remove {written}", remove_dependency(package, depend), safe=sure),
+            fix=Fix(f"remove {written}", tuple(edit for each in idle for edit in remove_dependency(package, each)), safe=sure),
             confidence=confidence,
         )
 
@@ -93,6 +98,15 @@ def _told(package: Package, name: str, carried: Carried) -> str:
     if carried.name == name:
         return f"{name} is declared, but only {carried.package} uses it: declare it there instead"
     return f"{name} is declared, but only brings {carried.name} to {carried.package}: declare that there instead"
+
+
+def _left(package: Package, workspace: Workspace, depend: Depend) -> Iterator[Depend]:
+    """Yield the other tags of what nothing is built with: for those that build against the package, and to run no programs."""
+    for other in package.tags(depend.name) if depend.tag == "build_depend" else ():
+        tag = other.depend.tag
+        to_run = tag == "exec_depend" and not runs(workspace.world, depend.name)
+        if (tag == "build_export_depend" or to_run) and not other.depend.condition:
+            yield other.depend
 
 
 def _unused(package: Package, workspace: Workspace) -> Iterator[tuple[Declared, str, Confidence]]:
