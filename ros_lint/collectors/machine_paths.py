@@ -12,6 +12,7 @@ from ros_lint.facts.sources import MachinePath
 from ros_lint.text import Text
 
 _PATH = re.compile(r"(?<![\w.$}~)*/-])(?:file://)?(?P<path>/(?:home|Users)/[\w.+-]+/[^\s\"'`<>|;:,()\[\]{}&$\\*?#]+)")
+_OF_WORKSPACE = re.compile(r"""(?<=["'])(?P<path>~/(?:[\w.+-]+/)+(?:src|install)/[^\s"'`<>|;:,()\[\]{}&$\\*?#%]+)(?=["'])""")
 _SOURCES = ("'src/", '"src/', "./src/")
 _RELATIVE = re.compile(
     r"""(?:[=(:\[{]|\breturn|["']\s*,)\s*[rbu]?(?P<quote>["'])"""
@@ -26,18 +27,20 @@ _UNREAD = re.compile(r"^([ ]*)Description File:[^\n]*\n\1Description Source: Top
 
 
 def collect(text: Text) -> tuple[MachinePath, ...]:
-    """Return the paths of a file that lie in a home directory, or in ``src``, comments and docstrings left out.
+    """Return the paths of a file that lie in a home directory, below ``~`` those into a workspace, or in ``src``.
 
-    So is what RViz keeps and does not read. A path ends where something is filled in. One that is put together
-    (``"/home/" + user``, ``join(root, "src/robot")``) is none, nor are the folders of all users.
+    Comments and docstrings are left out, and so is what RViz keeps and does not read. A path ends where something is filled
+    in. One that is put together (``"/home/" + user``, ``join(root, "src/robot")``) is none, nor are the folders of all users.
     """
     content = text.text
     hits = list(_PATH.finditer(content)) if "/home/" in content or "/Users/" in content else []
+    if "~/" in content:
+        hits += _OF_WORKSPACE.finditer(content)
     if "src/" in content and any(start in content for start in _SOURCES):
         hits += [hit for hit in _RELATIVE.finditer(content) if not _JOINED.search(content, hit.start() - _NEAR, hit.start() + 1)]
-        hits.sort(key=lambda hit: hit.start("path"))
     if not hits:
         return ()
+    hits.sort(key=lambda hit: hit.start("path"))
     beside = [*comments(text), *(_docstrings(text) if text.path.endswith(".py") else ())]
     if text.path.endswith(".rviz"):
         beside += [unread.span() for unread in _UNREAD.finditer(content)]

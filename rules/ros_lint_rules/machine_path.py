@@ -3,7 +3,7 @@
 
 A path below somebody's home directory (`/home/jay/ros2_ws/src/robot/config/robot.yaml`), written out in a launch file, a
 program, a model, parameters or a build script. And a path to a file of a package from the folder that its sources are in
-(`src/robot/config/robot.yaml`).
+(`src/robot/config/robot.yaml`), or from the workspace in whoever's home (`~/ros2_ws/src/robot/config/robot.yaml`).
 
 ## Why it matters
 
@@ -25,7 +25,8 @@ launch argument or a parameter without such a default.
 - In comments and docstrings, in tests, examples and documentation, in CMake files that are no part of the build, in launch
   files of ROS 1. In a display of RViz whose robot comes from a topic: the file that it keeps is not read.
 - Of paths that are put together, such as `'/home/' + user` and `join(root, 'src/robot')`, and of `~`: these are meant for
-  whoever runs it. Of `src/` in build scripts, and where no package of the workspace has such a file.
+  whoever runs it. But `~/ros2_ws/src/robot/map.yaml` is told where a package of the workspace has that file.
+- Of `src/` and `~` in build scripts, and where no package of the workspace has such a file.
 - The confidence is high where the path leads to a file of this workspace, or into a folder of its sources, and the file that
   names it is used: installed, built or launched. It is medium for other paths, which may be right on the machine that the
   package is made for, for a workspace beside the homes of users (`/home/ws/src`), which is one of a container, in records of
@@ -102,6 +103,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _where(path: str) -> str:
+    if path.startswith("~"):
+        return "is there only for whoever calls the workspace so"
     return "is there on one machine only" if path.startswith("/") else "is found from the root of the workspace only"
 
 
