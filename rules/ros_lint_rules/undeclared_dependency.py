@@ -21,8 +21,8 @@ Where a tag is there, under a condition that does not hold, widen the condition.
 - The package comes with a declared one: see `transitive-dependency` for uses that hang on such a chain.
 - It is declared by a wrong name: `unknown-dependency` says so.
 - The use is optional: `find_package(QUIET)` behind `if(X_FOUND)`, `try: import`, also `try: from .file import` of the file
-  that has it, `__has_include`, an import where a comparison of `ROS_VERSION` says ROS 1. Then the confidence is low, and nothing is fixed. It is silent where the package needs this
-  one itself.
+  that has it, `__has_include`, an import where a comparison of `ROS_VERSION` says ROS 1. Then the confidence is low, and
+  nothing is fixed. It is silent where the package needs this one itself.
 - It is named only in a template for other packages, by what makes the pages of the documentation, or in an editor's copy.
 - colcon rejects `package.xml`, which is to be mended first: then the confidence is medium.
 - The name belongs to no package or rosdep key that is known, or to the system. Whose messages are used is a package all the
