@@ -198,7 +198,13 @@ def meant(world: World, name: str, *, python: bool) -> Meant | None:
         if found is not None:
             return found
     slips = _declarable(world, world.spelling.one_slip(name))
+    if python:  # a library of that name is nothing to Python: pyaml is not yaml, but the module of it
+        slips = _declarable(world, (slip if world.is_package(slip) else f"python3-{slip}" for slip in _bare(slips)))
     return Meant(slips[0], "slip") if len(slips) == 1 else None
+
+
+def _bare(names: Iterable[str]) -> Iterator[str]:
+    return (name.removeprefix("python3-") for name in names)
 
 
 def near(world: World, name: str, *, python: bool) -> tuple[str, ...]:

@@ -20,8 +20,8 @@ _RELATIVE = re.compile(
 )
 _JOINED = re.compile(r"join(?:path)?\([^()]*\Z")
 _NEAR = 200
-_WRITTEN = re.compile(r"""["']\s*,\s*(?:mode\s*=\s*)?["'][wax]""")
-_STREAM = re.compile(r"\bofstream\b[^;]*\Z")
+_WRITTEN = re.compile(r"""["']\s*,\s*(?:(?:mode\s*=\s*)?["'][wax]|std::ios(?:_base)?::(?:out|app|trunc)\b)""")
+_WRITES = re.compile(r"\bofstream\b[^;]*\Z|\b(?:imwrite|savefig|savetxt|to_csv|makedirs|mkdir)\(\s*f?[\"']\Z")
 _UNREAD = re.compile(r"^([ ]*)Description File:[^\n]*\n\1Description Source: Topic\b", re.MULTILINE)
 """What RViz keeps in a display of a robot whose description comes from a topic."""
 
@@ -51,7 +51,7 @@ def collect(text: Text) -> tuple[MachinePath, ...]:
 def _found(text: Text, hit: re.Match[str]) -> MachinePath:
     path = hit["path"].rstrip("./")
     start = hit.start("path")
-    written = _WRITTEN.match(text.text, hit.end("path")) or _STREAM.search(text.text, max(0, start - _NEAR), start)
+    written = _WRITTEN.match(text.text, hit.end("path")) or _WRITES.search(text.text, max(0, start - _NEAR), start)
     return MachinePath(path, text.span(start, start + len(path)), bool(written))
 
 

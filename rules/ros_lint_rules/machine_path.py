@@ -215,8 +215,11 @@ def _inside(path: str, workspace: Workspace) -> _Inside | None:
 
 def _program(package: Package, file: str) -> str:
     """Return by which name a file of a package is started where it is installed as its program (reference, section D5), or ""."""
-    installed = [provided.path for provided in package.built.provides if file and provided.source == file]
-    return next((path.rpartition("/")[2] for path in installed if path.startswith(f"lib/{package.name}/")), "")
+    own = f"lib/{package.name}/"
+    installed = [provided.path for provided in package.built.provides if provided.path.startswith(own)]
+    sources = [provided.path for provided in package.built.provides if file and provided.source == file]
+    entries = [own + entry.name for entry in package.built.entry_points if f"{entry.module.replace('.', '/')}.py" == file]
+    return next((path.removeprefix(own) for path in (*sources, *entries) if path in installed), "")
 
 
 def _has(package: Package, path: str) -> bool:
