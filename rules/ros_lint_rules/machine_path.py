@@ -202,15 +202,17 @@ def _inside(path: str, workspace: Workspace) -> _Inside | None:
     """
     folders = _folders(workspace)
     parts = path.split("/")
+    sources = None
     for at in range(len(parts) - 1, 2 if path.startswith("/") else 0, -1):
         package = folders.get(parts[at])
         if package is None:
             continue
         rest = "/".join(parts[at + 1 :])
-        has = _has(package, rest)
-        if has or "src" in parts[3:at]:
-            return _Inside(package.name, rest if has else "", whole=not rest, program=_program(package, rest))
-    return None
+        if _has(package, rest):
+            return _Inside(package.name, rest, whole=not rest, program=_program(package, rest))
+        if "src" in parts[3:at]:  # the module of a package has its name, too: it may be the folder above that is meant
+            sources = _Inside(package.name, "", whole=not rest, program="")
+    return sources
 
 
 def _program(package: Package, file: str) -> str:
