@@ -39,7 +39,7 @@ from ros_lint.build_scripts import (
     with_client,
 )
 from ros_lint.carriers import Carried, carriers, found_for_nothing
-from ros_lint.cmake_finds import come_along, found_along, found_names, given_for
+from ros_lint.cmake_finds import come_along, finds_declared, found_along, found_names, given_for
 from ros_lint.collectors.launch import NAMES as LAUNCH_NAMES
 from ros_lint.collectors.launch_text import agree, configurations, is_plain, renames
 from ros_lint.declare import (
@@ -210,6 +210,7 @@ __all__ = [
     "everything",
     "few",
     "filled",
+    "finds_declared",
     "folders_of",
     "forgotten_nodes",
     "found_along",

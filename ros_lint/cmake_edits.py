@@ -65,7 +65,7 @@ def export_dependencies(package: Package, name: str, all_names: Sequence[str]) -
     """
     call = next((call for call in called(package, "ament_export_dependencies") if call.args and not call.blocks), None)
     if call is not None:
-        return _append(call, len(call.args) - 1, name)
+        return add_argument(call, name)
     return at_end(package.built, f"ament_export_dependencies({' '.join(all_names)})")
 
 
@@ -97,6 +97,11 @@ def exports_targets(name: str, workspace: Workspace) -> bool:
 
 
 _EXPORTS_TARGETS = frozenset({"ament_export_targets", "rosidl_generate_interfaces"})
+
+
+def add_argument(call: Call, text: str) -> Edit:
+    """Add an argument at the end of a call that has some."""
+    return _append(call, len(call.args) - 1, text)
 
 
 def _append(call: Call, last: int, text: str) -> Edit:

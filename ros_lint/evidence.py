@@ -178,11 +178,10 @@ _WHAT: Mapping[Via, str] = {
 }
 
 
-def resolve(source: Source, resolver: Resolver) -> tuple[Use, ...]:
-    """Return every use of another package, sorted by place."""
+def resolve(source: Source, resolver: Resolver, own: OwnFiles) -> tuple[Use, ...]:
+    """Return every use of another package, sorted by place, given what names mean files of the package itself."""
     launched = frozenset(within(source.path, launch.path) for launch in source.launch)
     tests = frozenset(within(source.path, launch.path) for launch in source.launch if launch.test)
-    own = OwnFiles(source.name, source.files, source.script, source.facts)
     alive = Liveness(own, launched)
     uses = _Uses(source, own, alive, resolver)
     forgone = own.forgone(_lenient(source, alive))

@@ -199,7 +199,8 @@ class Loader:
         for number, (done, source) in enumerate(zip(reads, sources, strict=True)):
             self._progress("joining", number, len(reads))
             found = done.found
-            uses = evidence.resolve(source, resolver)
+            own = own_files.OwnFiles(source.name, source.files, source.script, source.facts)
+            uses = evidence.resolve(source, resolver, own)
             declared = done.declared
             package = Package(
                 name=found.name,
@@ -226,6 +227,7 @@ class Loader:
                 parameter_files=tuple([f.parameters for f in done.facts.values() if f.parameters is not None]),
                 unusable_headers=public_headers.unusable(source.built, done.facts, found.files),
                 machine_paths=done.machine_paths,
+                compiled_along=own.compiled_along(),
                 left_behind=tuple(own_files.left_behind(found.files, source.built, done.facts)),
             )
             if package.registrations and done.script and done.script.plugins:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 
-from ros_lint.facts.build import BuildScript, LeftBehind, Provided
+from ros_lint.facts.build import NOTHING_BUILT, BuildScript, LeftBehind, Provided
 from ros_lint.facts.sources import FileFacts
 from ros_lint.text import Span
 from ros_lint.tree import join, seen_from
@@ -74,6 +74,25 @@ class OwnFiles:
                 reached.add(path)
                 waiting += self._includes(path)[1]
         return frozenset(reached)
+
+    def compiled_along(self) -> Mapping[str, frozenset[str]]:
+        """Return the headers of the package that come with each source of its targets, where only one file can be meant.
+
+        Left out are tests, sources that some builds leave out, and targets that get headers from nobody knows where.
+        """
+        targets = [each for each in (self.script or NOTHING_BUILT).targets if each.headers is not None and not each.test]
+        sources = dict.fromkeys([source for each in targets for source in each.sources if source not in each.optional])
+        return {source: self._along(source) for source in sources if source in self.facts}
+
+    def _along(self, source: str) -> frozenset[str]:
+        along: set[str] = set()
+        waiting = [source]
+        while waiting:
+            for path in self._includes(waiting.pop())[1]:
+                if path not in along and len(self.by_name[path.rpartition("/")[2]]) == 1:
+                    along.add(path)
+                    waiting.append(path)
+        return frozenset(along)
 
     def _includes(self, path: str) -> tuple[set[str], list[str]]:
         """Return what a file includes of the package: headers as it names them, and the files that these can be."""

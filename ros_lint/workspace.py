@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property, wraps
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from ros_lint import ignored
@@ -78,6 +79,8 @@ class Package(NamedTuple):
     """Paths below somebody's home directory that its files have."""
     unusable_headers: tuple[str, ...] = ()
     """Those installed headers, relative to it, that do not compile anywhere else: what they include is not installed."""
+    compiled_along: Mapping[str, frozenset[str]] = MappingProxyType({})
+    """For each source that every build compiles, tests left out: the headers of the package that it certainly includes."""
     loaders: tuple[PluginLoader, ...] = ()
     """What its C++ sources load plugins by."""
     left_behind: tuple[LeftBehind, ...] = ()

@@ -23,6 +23,8 @@ class Target(NamedTuple):
     """Those of its sources that are not compiled in every build: all of them where it is not built in every one."""
     whole: bool = True
     """Whether all of its sources are known."""
+    headers: tuple[str, ...] | None = None
+    """What may give it headers that are not of the package, mostly as find_package() calls it; None if anything may."""
 
 
 class Call(NamedTuple):

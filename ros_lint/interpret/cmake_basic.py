@@ -15,7 +15,7 @@ from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_state import BREAK, CONTINUE, RETURN, STOP, Frame
 from ros_lint.interpret.cmake_tools import started
 from ros_lint.interpret.cmake_truth import TRUE_WORDS, is_off
-from ros_lint.interpret.cmake_values import HOLE, certainly_set, is_fixed, is_known, join, merge, split
+from ros_lint.interpret.cmake_values import HOLE, MAYBE, certainly_set, elements, is_fixed, is_known, join, merge, split
 from ros_lint.text import Text
 
 
@@ -199,7 +199,11 @@ def _parse_arguments(run: Run, args: list[str]) -> None:
     """cmake_parse_arguments(prefix options one multi args...) and its PARSE_ARGV form."""
     if args[:1] == ["PARSE_ARGV"]:
         prefix, options, ones, multis = (*args[2:6], "", "", "", "")[:4]
-        given = [arg.replace(";", "\\;") for arg in _rest_of_call(run, args[1])]
+        rest = _rest_of_call(run, args[1])
+        if rest is None:  # any keyword may be given
+            run.set_all(dict.fromkeys(parse_keywords(prefix, options, ones, multis, ()), HOLE))
+            return
+        given = [arg.replace(";", "\\;") for arg in rest]
     else:
         prefix, options, ones, multis = (*args[:4], "", "", "", "")[:4]
         given = args[4:]
@@ -212,11 +216,23 @@ def _parse_arguments(run: Run, args: list[str]) -> None:
     run.set_all(parse_keywords(prefix, options, ones, multis, given))
 
 
-def _rest_of_call(run: Run, first: str) -> list[str]:
+def _rest_of_call(run: Run, first: str) -> list[str] | None:
+    """Return the arguments of the function from one on; None if nobody knows which these are."""
     argc = run.get("ARGC") or ""
-    if not first.isdigit() or not argc.isdigit():
-        return [HOLE]
-    return [run.get(f"ARGV{index}") or "" for index in range(int(first), int(argc))]
+    if not first.isdigit():
+        return None
+    if argc.isdigit():
+        return [run.get(f"ARGV{index}") or "" for index in range(int(first), int(argc))]
+    firm: list[str] = []
+    while (arg := run.get(f"ARGV{len(firm)}")) and not _NOT_ONE.search(arg):
+        firm.append(arg)
+    if int(first) > len(firm):
+        return None
+    return [*firm[int(first) :], *elements(run.get("ARGV") or HOLE)[len(firm) :]]
+
+
+_NOT_ONE = re.compile(f"[{HOLE}{MAYBE};\\\\[\\]]")
+"""What stands in values that may be no argument or several, or are not what they were before they were put into a list."""
 
 
 def _language(run: Run, args: list[str]) -> int | None:
@@ -289,14 +305,14 @@ COMMANDS: Final[dict[str, Handler]] = {
 COMMANDS.update(
     dict.fromkeys(
         (
-            "mark_as_advanced", "include_guard", "enable_testing", "enable_language", "add_definitions",
-            "add_compile_definitions", "add_compile_options", "add_link_options", "link_directories", "source_group",
+            "mark_as_advanced", "include_guard", "enable_testing", "enable_language",
+            "add_compile_definitions", "add_link_options", "link_directories", "source_group",
             "add_dependencies", "set_tests_properties", "remove_definitions", "set_source_files_properties",
             "set_directory_properties",
             "variable_watch", "build_command", "create_test_sourcelist", "define_property", "include_regular_expression",
             "include_external_msproject", "load_cache", "cmake_print_variables", "cmake_print_properties",
             "feature_summary", "add_feature_info", "set_package_properties", "ctest_start", "ctest_test", "export",
-            "target_compile_definitions", "target_compile_features", "target_compile_options", "target_link_options",
+            "target_compile_definitions", "target_compile_features", "target_link_options",
             "target_link_directories", "target_precompile_headers", "gtest_discover_tests", "gtest_add_tests",
             "check_ipo_supported", "cmake_push_check_state", "cmake_pop_check_state", "cmake_file_api",
             "write_file", "make_directory", "check_struct_has_member",

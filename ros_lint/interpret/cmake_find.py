@@ -9,15 +9,13 @@ from typing import Final
 from ros_lint.collectors.cmake_syntax import QUOTED, UNQUOTED
 from ros_lint.facts.sight import ANYTHING, Facet, Problem
 from ros_lint.facts.sources import Purpose
+from ros_lint.interpret.cmake_headers import ALL_TARGETS, FOREIGN_VARIABLE, given
 from ros_lint.interpret.cmake_include import include_foreign, include_own
 from ros_lint.interpret.cmake_run import Handler, Run, folded
 from ros_lint.interpret.cmake_values import ATOM, FOREIGN, HOLE, SOURCE, is_known, maybe, split, sure
 from ros_lint.text import Span
 from ros_lint.wording import few
 
-_FOREIGN_VARIABLE = re.compile(
-    r"\$\{([A-Za-z0-9_+.-]+?)_(?:TARGETS|LIBRARIES|LIBRARY|LIBS|INCLUDE_DIRS?|INCLUDES|DEFINITIONS|LDFLAGS|CFLAGS)\}"
-)
 _FOREIGN_TARGET = re.compile(r"(?<!\w)(?<!::)[A-Za-z_][\w.+-]*::[\w.+:-]*\w")
 
 
@@ -109,6 +107,7 @@ def _find_all(run: Run, args: list[str]) -> None:
             found(run, name, required=True)
 
 
+_VISIBILITY: Final = frozenset({"PUBLIC", "INTERFACE", "PRIVATE", "SYSTEM"})
 _PURPOSES: Final[Mapping[str, Purpose]] = {"-": "", "export": "export", "interfaces": "interfaces", "plugins": "plugins"}
 
 
@@ -118,7 +117,7 @@ def _uses(run: Run, args: list[str]) -> None:
     certainly: dict[str, Span] = {}
     for arg in args[2:]:
         name, certain = sure(arg)
-        if name in ("PUBLIC", "INTERFACE", "PRIVATE", "SYSTEM"):
+        if name in _VISIBILITY:
             continue
         if name == _FOUND_DECLARED and purpose == "interfaces":
             _uses(run, [*args[:2], *map(maybe, run.sources.build_depends)])  # keys are not found
@@ -154,6 +153,8 @@ def _refuse(run: Run, command: str, what: str, span: Span, name: str) -> None:
 def _target_uses(run: Run, args: list[str]) -> None:
     """``ros_lint_target_uses(how target names...)``."""
     _give(run, args[0].partition(" ")[0], args[1:2])
+    names = [name for name in args[2:] if name not in _VISIBILITY]
+    given(run, args[1] if len(args) > 1 else ALL_TARGETS, [name if HOLE in name else f"{name}::" for name in names])
     _uses(run, ["-", args[0], *args[2:]])
 
 
@@ -192,7 +193,7 @@ def link(run: Run, args: list[str]) -> None:
     for text, kind, start, end in command.args:
         if (kind != UNQUOTED and kind != QUOTED) or "_" not in text:  # noqa: PLR1714  (this is fast)
             continue
-        for match in _FOREIGN_VARIABLE.finditer(text):
+        for match in FOREIGN_VARIABLE.finditer(text):
             if match[1] in run.sources.name or match[1] == "PROJECT_NAME":
                 continue
             package = _package_of(run, match[1])
@@ -200,9 +201,28 @@ def link(run: Run, args: list[str]) -> None:
                 run.mention(package, "target", command.span(frame.path, start, end), match[0])
 
 
+def _target_include_directories(run: Run, args: list[str]) -> None:
+    given(run, args[0] if args else ALL_TARGETS, [arg for arg in args[1:] if arg not in _WORDS])
+    _include_directories(run, args)
+
+
+def _all_include_directories(run: Run, args: list[str]) -> None:
+    given(run, ALL_TARGETS, [arg for arg in args if arg not in _WORDS])
+    _include_directories(run, args)
+
+
 def _include_directories(run: Run, args: list[str]) -> None:
     link(run, args)
     run.reaches_out = run.reaches_out or any(map(run.leads_out, args))
+
+
+_WORDS: Final = _VISIBILITY | {"BEFORE", "AFTER"}
+
+
+def _link_all(run: Run, args: list[str]) -> None:
+    """``link_libraries(names...)``."""
+    given(run, ALL_TARGETS, args)
+    link(run, args)
 
 
 def _brings(run: Run, space: str, inner: str) -> bool:
@@ -210,9 +230,13 @@ def _brings(run: Run, space: str, inner: str) -> bool:
     return run.is_bundled(space) or (space not in run.prefixes and inner in run.prefixes)
 
 
+_LINK_WORDS: Final = _VISIBILITY | {"LINK_PRIVATE", "LINK_PUBLIC", "LINK_INTERFACE_LIBRARIES", "debug", "optimized", "general"}
+
+
 def _link_libraries(run: Run, args: list[str]) -> None:
     """``target_link_libraries(target [PRIVATE|PUBLIC|INTERFACE] names...)``."""
     link(run, args)
+    given(run, args[0] if args else ALL_TARGETS, [arg for arg in args[1:] if arg not in _LINK_WORDS])
     _give(run, "target_link_libraries", args)
     if run.muted or not args or run.unsure or (run.testing and "TEST" not in run.targets.get(args[0], ())):
         return
@@ -244,9 +268,9 @@ COMMANDS: Final[dict[str, Handler]] = {
     "pkg_check_modules": _pkg_config,
     "pkg_search_module": _pkg_config,
     "target_link_libraries": _link_libraries,
-    "target_include_directories": _include_directories,
-    "include_directories": _include_directories,
-    "link_libraries": link,
+    "target_include_directories": _target_include_directories,
+    "include_directories": _all_include_directories,
+    "link_libraries": _link_all,
     "ros_lint_find": _find_all,
     "ros_lint_uses": _uses,
     "ros_lint_target_uses": _target_uses,

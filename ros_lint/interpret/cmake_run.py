@@ -132,6 +132,8 @@ class Run(Paths):
         """Targets in the order of their definition."""
         self.links: dict[str, dict[str, Span]] = {}
         """What targets are linked with, and where that is said."""
+        self.headers: dict[str, dict[str, None]] = {}
+        """What may give targets their headers."""
         self.missing: list[tuple[str, Span, bool]] = []
         """Files that are named and not there (unless they are generated), and whether that may not matter.
 

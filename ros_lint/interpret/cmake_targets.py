@@ -6,6 +6,7 @@ from typing import Final, Literal
 
 from ros_lint.facts.cmake import Target
 from ros_lint.facts.sight import Facet
+from ros_lint.interpret.cmake_headers import reached
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_state import Properties
 from ros_lint.interpret.cmake_tools import started
@@ -218,7 +219,8 @@ def targets(run: Run) -> tuple[Target, ...]:
         optional = tuple([path for path in sources if path not in firm])
         links = _links(run, name) if name in run.links else ()
         whole = len(named) == len(listed)
-        found.append(Target(name, _KINDS.get(kind, "library"), sources, "TEST" in target, span, links, optional, whole))
+        headers = reached(run, name, run.targets)
+        found.append(Target(name, _KINDS.get(kind, "library"), sources, "TEST" in target, span, links, optional, whole, headers))
     return tuple(dict.fromkeys(found)) if len(found) > 1 else tuple(found)
 
 

@@ -6,6 +6,7 @@
 #   ros_lint_uses(for how names...)          the names are packages; "how" is quoted before a name, - for nothing;
 #                                            "for" is export, interfaces, plugins, or -
 #   ros_lint_target_uses(how target names...)  likewise, behind the name of a target
+#   ros_lint_headers_of(target names...)     the target has the headers of packages
 #   ros_lint_find(build|test)                the dependencies that package.xml declares are searched
 #   ros_lint_component(classes...)           classes that a component container can load
 #   ros_lint_interfaces(install|- files...)  code is generated from interface files
@@ -258,6 +259,7 @@ endmacro()
 macro(ament_auto_add_executable target)
   cmake_parse_arguments(_ARG_AUTO "NO_TARGET_LINK_LIBRARIES" "DIRECTORY" "" ${ARGN})
   add_executable(${target} ${_ARG_AUTO_UNPARSED_ARGUMENTS})
+  ros_lint_headers_of(${target} "${${PROJECT_NAME}_FOUND_BUILD_DEPENDS}")
   if(_ARG_AUTO_DIRECTORY)
     file(GLOB_RECURSE _ament_auto_found RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}
       "${_ARG_AUTO_DIRECTORY}/*.c" "${_ARG_AUTO_DIRECTORY}/*.cc" "${_ARG_AUTO_DIRECTORY}/*.cpp" "${_ARG_AUTO_DIRECTORY}/*.cxx")
@@ -270,6 +272,7 @@ endmacro()
 macro(ament_auto_add_library target)
   cmake_parse_arguments(_ARG_AUTO "NO_TARGET_LINK_LIBRARIES" "DIRECTORY" "" ${ARGN})
   add_library(${target} ${_ARG_AUTO_UNPARSED_ARGUMENTS})
+  ros_lint_headers_of(${target} "${${PROJECT_NAME}_FOUND_BUILD_DEPENDS}")
   if(_ARG_AUTO_DIRECTORY)
     file(GLOB_RECURSE _ament_auto_found RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}
       "${_ARG_AUTO_DIRECTORY}/*.c" "${_ARG_AUTO_DIRECTORY}/*.cc" "${_ARG_AUTO_DIRECTORY}/*.cpp" "${_ARG_AUTO_DIRECTORY}/*.cxx")
@@ -576,6 +579,7 @@ function(generate_parameter_library target yaml)
   add_library(${target} INTERFACE)
   ros_lint_provide(include/${PROJECT_NAME}/${target}.hpp)
   install(FILES ${ARGN} DESTINATION include/${PROJECT_NAME})
+  ros_lint_headers_of(${target} generate_parameter_library)
 endfunction()
 function(generate_parameter_module module yaml)
   ros_lint_python(${PROJECT_NAME})

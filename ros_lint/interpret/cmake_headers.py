@@ -1,0 +1,128 @@
+"""Where targets get headers of other packages from: what they are linked with, and their include directories.
+
+Everything counts that may be given to a target, under whatever conditions: what is not in here, no build gives it.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Final
+
+from ros_lint.collectors.cmake_syntax import QUOTED, UNQUOTED
+from ros_lint.interpret.cmake_run import folded
+from ros_lint.interpret.cmake_values import ATOM, HOLE, MAYBE, SOURCE, elements
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from ros_lint.interpret.cmake_run import Handler, Run
+    from ros_lint.interpret.cmake_state import Properties
+
+FOREIGN_VARIABLE: Final = re.compile(
+    r"\$\{([A-Za-z0-9_+.-]+?)_(?:TARGETS|LIBRARIES|LIBRARY|LIBS|INCLUDE_DIRS?|INCLUDES|DEFINITIONS|LDFLAGS|CFLAGS)\}"
+)
+"""A reference to what a found package sets, with its name."""
+
+ALL_TARGETS: Final = ""
+"""What stands for every target, where include_directories() and link_libraries() give something."""
+
+_ANYTHING: Final = HOLE
+_NAME = re.compile(r"[A-Za-z_][\w.+-]*(?:::[\w.+-]+)*")
+_OF_OURS: Final = (SOURCE, f"/{ATOM}build", f"/{ATOM}prefix", "/usr/")
+"""Folders that hold no headers of other ROS packages."""
+
+
+def given(run: Run, target: str, args: Iterable[str]) -> None:
+    """Note what a target is given: targets, folders or libraries, as evaluated, and packages with ``::`` behind the name."""
+    have = run.headers.setdefault(target, {})
+    known = True
+    for arg in args:
+        known = known and HOLE not in arg
+        for each in elements(arg):
+            have.update(dict.fromkeys(_names(run, each.lstrip(MAYBE))))
+    if not known:
+        have.update(dict.fromkeys(_written(run)))
+
+
+def _names(run: Run, arg: str) -> tuple[str, ...]:
+    if HOLE in arg:
+        return ()
+    if "$<" in arg:
+        return (_ANYTHING,) if "TARGET_PROPERTY" in arg else tuple(_NAME.findall(arg))
+    if arg.startswith("/") or ATOM in arg:
+        return () if arg.startswith(_OF_OURS) and not run.leads_out(arg) else (_ANYTHING,)
+    return (_ANYTHING,) if run.leads_out(arg) else (arg,)
+
+
+def _written(run: Run) -> list[str]:
+    """Return which packages the command that runs names by their variables, and what may be anything."""
+    command = run.frames[-1].command
+    found: list[str] = []
+    for text, kind, _, _ in command.args if command is not None else ():
+        if kind in (UNQUOTED, QUOTED) and HOLE in run.evaluated(text):
+            found += [_package(run, match) for match in FOREIGN_VARIABLE.finditer(text)]
+            if HOLE in run.evaluated(FOREIGN_VARIABLE.sub("", text)):
+                found.append(_ANYTHING)
+    return found or [_ANYTHING]
+
+
+def _package(run: Run, variable: re.Match[str]) -> str:
+    """Return the package whose variable a reference names: anything where none is found that sets it, or the script does."""
+    name = variable[0][2:-1]
+    set_by_package = folded(variable[1]) in map(folded, run.prefixes) and run.normal(name) is None
+    return f"{variable[1]}::" if set_by_package else _ANYTHING
+
+
+def _given(run: Run, args: list[str]) -> None:
+    """``ros_lint_headers_of(target names...)``: the target has the headers of packages."""
+    given(run, args[0], args[1:])
+
+
+def _options(run: Run, args: list[str]) -> None:
+    """Note include directories that are given as options of the compiler."""
+    if any(_FOLDER_OPTION.search(arg) for arg in args):
+        given(run, ALL_TARGETS, [f"/{ATOM}"])
+
+
+_FOLDER_OPTION = re.compile(r"(?:\A|[\s:;])-(?:I|isystem|include)")
+_FLAGS: Final = ("CMAKE_CXX_FLAGS", "CMAKE_C_FLAGS", "CMAKE_CXX_STANDARD_INCLUDE_DIRECTORIES")
+_PROPERTIES: Final = frozenset(
+    {
+        "COMPILE_FLAGS", "COMPILE_OPTIONS", "INCLUDE_DIRECTORIES", "INTERFACE_INCLUDE_DIRECTORIES", "INTERFACE_LINK_LIBRARIES",
+        "LINK_LIBRARIES",
+    }
+)  # fmt: skip
+
+
+def reached(run: Run, name: str, targets: Mapping[str, Properties]) -> tuple[str, ...] | None:
+    """Return what a target may get headers from, as find_package() calls it or by another name; None if from anywhere."""
+    if any(_FOLDER_OPTION.search(run.get(flags) or "") for flags in _FLAGS):
+        return None
+    found: dict[str, None] = {}
+    waiting = [name, ALL_TARGETS]
+    seen: set[str] = set()
+    while waiting:
+        each = waiting.pop()
+        if each in seen:
+            continue
+        seen.add(each)
+        target = targets.get(each)
+        if target is not None:
+            if target["KIND"] == "imported" or not _PROPERTIES.isdisjoint(target):
+                return None
+            if target["KIND"] == "alias":
+                waiting.append(target["ALIASED"])
+        elif each not in (name, ALL_TARGETS):
+            found[each.partition("::")[0]] = None
+        waiting += run.headers.get(each, ())
+        if _ANYTHING in waiting:
+            return None
+    return tuple(sorted(found))
+
+
+COMMANDS: Final[Mapping[str, Handler]] = {
+    "ros_lint_headers_of": _given,
+    "add_compile_options": _options,
+    "add_definitions": _options,
+    "target_compile_options": _options,
+}
