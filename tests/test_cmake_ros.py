@@ -135,11 +135,12 @@ def helper(name: str, files: Mapping[str, str], script: str) -> Helper:
     return Helper(found, evaluate(found))
 
 
-def test_macros_of_the_workspace_are_followed() -> None:
+@pytest.mark.parametrize("name", ["tools", "@PROJECT_NAME@"])
+def test_macros_of_the_workspace_are_followed(name: str) -> None:
     tools = helper(
         "tools",
         {
-            "cmake/tools-extras.cmake.in": 'include("${tools_DIR}/install_all.cmake")\nfind_package(rclcpp REQUIRED)\n',
+            "cmake/tools-extras.cmake.in": f'include("${{{name}_DIR}}/install_all.cmake")\nfind_package(rclcpp REQUIRED)\n',
             "cmake/install_all.cmake": "macro(install_all)\n"
             "install(DIRECTORY ${ARGN} DESTINATION share/${PROJECT_NAME})\nendmacro()\n",
         },
@@ -157,6 +158,20 @@ def test_macros_of_the_workspace_are_followed() -> None:
         hidden(evaluate(found))
         == Facet.USES | Facet.EXECUTABLES | Facet.SHARE | Facet.PYTHON | Facet.LIBRARIES | Facet.INTERFACES | Facet.COMPONENTS
     )
+
+
+@pytest.mark.parametrize(("point", "unseen"), [("ament_package", Facet.COMPONENTS), ("ament_lint_auto", Facet(0))])
+def test_components_may_be_registered_by_code_that_ament_package_runs(point: str, unseen: Facet) -> None:
+    script = run(f"ament_register_extension({point} tools hook.cmake)\nament_package()\n")
+    assert hidden(script) == unseen
+
+
+def test_media_for_rviz_are_installed_with_their_folders() -> None:
+    script = run("register_rviz_ogre_media_exports(DIRECTORIES ogre/materials)\n", ("ogre/materials/a.material",))
+    assert paths(script) == {
+        "share/pkg/ogre/materials/a.material": False,
+        "share/ament_index/resource_index/rviz_ogre_media_exports/pkg": False,
+    }
 
 
 @pytest.mark.parametrize("kept", ["", "set(DISTRO $ENV{ROS_DISTRO})\n", "if(1)\nset(DISTRO ros-$ENV{ROS_DISTRO})\nendif()\n"])

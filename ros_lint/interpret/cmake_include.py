@@ -5,6 +5,7 @@ from __future__ import annotations
 import posixpath
 from typing import Final
 
+from ros_lint.collectors.cmake_syntax import Command
 from ros_lint.facts.sight import ANYTHING, Facet
 from ros_lint.interpret.cmake_flow import run_file
 from ros_lint.interpret.cmake_run import Handler, Run
@@ -82,7 +83,16 @@ def include_foreign(run: Run, package: str, source: str) -> int | None:
     installed = f"share/{package}/cmake/{posixpath.basename(source).removesuffix('.in')}"
     installed = next((file.path for file in helper.script.provides if file.source == source), installed)
     frame = Frame(False, join_path(helper.sources.path, source), f"{FOREIGN}{package}/{installed}", provider=package)
-    return run_file(run, helper.sources.scripts[source].commands, frame)
+    commands = helper.sources.scripts[source].commands
+    if source.endswith(".in"):
+        commands = tuple([_configured(command, helper.script.name or package) for command in commands])
+    return run_file(run, commands, frame)
+
+
+def _configured(command: Command, project: str) -> Command:
+    """Return a command of a template as it is installed. Other variables than the name are rarely asked for in code."""
+    args = [(text.replace("@PROJECT_NAME@", project), kind, start, end) for text, kind, start, end in command.args]
+    return command._replace(args=tuple(args))
 
 
 MODULES: Final = frozenset({

@@ -79,7 +79,11 @@ function(ament_environment_hooks)
   endforeach()
 endfunction()
 
-function(ament_register_extension)
+# Those of released packages are part of what stands here for their macros. Others write to the ament index.
+function(ament_register_extension point package file)
+  if(point STREQUAL ament_package)
+    ros_lint_hide(COMPONENTS "what ${file} of ${package} registers is not known")
+  endif()
 endfunction()
 
 macro(ament_execute_extensions)
@@ -570,6 +574,11 @@ endmacro()
 
 package(rviz_rendering)
 macro(register_rviz_ogre_media_exports)
+  cmake_parse_arguments(_ARG_OGRE "" "" "DIRECTORIES" ${ARGN})
+  foreach(_ogre_media ${_ARG_OGRE_DIRECTORIES})
+    get_filename_component(_ogre_folder "${_ogre_media}" DIRECTORY)
+    install(DIRECTORY ${_ogre_media} DESTINATION share/${PROJECT_NAME}/${_ogre_folder} USE_SOURCE_PERMISSIONS)
+  endforeach()
   ros_lint_provide(share/ament_index/resource_index/rviz_ogre_media_exports/${PROJECT_NAME})
 endmacro()
 
