@@ -175,14 +175,17 @@ def declared_closure(package: Package, workspace: Workspace, role: Role) -> Clos
     return workspace.world.closure(starts)
 
 
-def covered(package: Package, workspace: Workspace, names: Iterable[str], role: Role) -> bool:
-    """Whether one of the names comes along, or may come along, with something else that is declared for any part of a role."""
+def covered(package: Package, workspace: Workspace, names: Iterable[str], role: Role, *, surely: bool = False) -> bool:
+    """Whether one of the names comes along with something else that is declared for any part of a role.
+
+    Or whether it may, unless ``surely``.
+    """
     names = frozenset(names)
     starts = {each.name for each in package.declared if each.role & role and each.name not in names}
     closure = workspace.world.closure(sorted(starts))
     if any(name in closure for name in names):
         return True
-    unknown = closure.unknown
+    unknown = () if surely else closure.unknown
     return bool(unknown) and any(may_bring(unknown, name, workspace) for name in names)
 
 

@@ -17,7 +17,8 @@ Use the tag that the message names. The fix does this, and puts it among its lik
 
 ## When it keeps silent
 
-- The package comes along in the right way with another declared dependency.
+- The package comes along in the right way with another declared dependency. Where it is declared for tests only, the confidence
+  is then low: it works until the other one drops it.
 - The use is optional, or in files that are perhaps not built or installed.
 - Only launch files name it, for what they start, include or look up: see `launch-outside-closure`.
 - Launch files import what comes with `ros2 launch`, and what packages of tests declare serves tests anyhow.
@@ -209,15 +210,22 @@ def _lacks(package: Package, workspace: Workspace, need: Need, tags: Sequence[De
     def asked(role: Role) -> bool:
         return any(use.sure and _is_about(use, role) for use in need.uses)
 
-    def comes_along(enough: Role) -> bool:
-        return covered(package, workspace, {name for use in need.uses for name in use.providers}, enough)
+    def comes_along(enough: Role, *, surely: bool = False) -> bool:
+        return covered(package, workspace, {name for use in need.uses for name in use.providers}, enough, surely=surely)
 
     def missing(role: Role, enough: Role) -> bool:
         return not given & enough and asked(role) and not comes_along(enough)
 
     if given is _TEST:
         role = next((role for role in _ASKED if asked(role)), None)
-        return None if role is None or comes_along(~_TEST) else _Lack(role, "but it is used outside tests")
+        if role is None:
+            return None
+        why = "but it is used outside tests"
+        if not comes_along(~_TEST):
+            return _Lack(role, why)
+        named = any(use.sure and use.via != "macro" and _is_about(use, role) for use in need.uses)
+        merely = f"{why}, where it merely comes along with what else is declared"
+        return _Lack(role, merely, Confidence.LOW) if named and comes_along(~_TEST, surely=True) else None
     if not given & _TEST and missing(Role.BUILD, _TO_BUILD):
         # Its own sources may do without those of its headers that include it.
         handed_on = given & Role.EXPORT and all(use.role & Role.EXPORT for use in need.uses if _is_about(use, Role.BUILD))
