@@ -10,6 +10,7 @@ from collections.abc import Collection, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.collectors.launch_asked import DISTRIBUTIONS
+from ros_lint.collectors.launch_py_released import HELPERS
 from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, installed_place
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.launch import LaunchFile
@@ -169,7 +170,7 @@ def _is_open(file: LaunchFile) -> bool:
     """Return whether there is something in a launch file that what it wants can make clear."""
     if not file.wants or file.helper:
         return False
-    if file.opaque:
+    if file.opaque or not HELPERS.keys().isdisjoint(file.wants):
         return True
     values = [value for action in everything(file.actions) for value in (action.package, action.target) if value is not None]
     return any(UNKNOWN in text for value in values for text in value.texts)

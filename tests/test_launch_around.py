@@ -110,6 +110,30 @@ def generate_launch_description():
     assert not found.opaque
 
 
+def test_a_released_helper_is_what_the_workspace_has_of_it() -> None:
+    files = {
+        "launch/a.launch.py": """
+from launch import LaunchDescription
+from controller_manager.launch_utils import generate_load_controller_launch_description
+
+def generate_launch_description():
+    return LaunchDescription([generate_load_controller_launch_description("arm")])
+""",
+    }
+    library = {
+        "controller_manager/__init__.py": "",
+        "controller_manager/launch_utils.py": HELPER.replace("start", "generate_load_controller_launch_description"),
+    }
+    package = _package("app", files, {})
+    modules = ("controller_manager", "controller_manager.launch_utils")
+    alone = _completed((package, files))["app/launch/a.launch.py"]
+    assert _named(alone) == {("controller_manager", "spawner")}
+    beside = _completed((package, files), (_package("controller_manager", library, {}, modules), library))
+    (action,) = beside["app/launch/a.launch.py"].actions
+    assert action.package is not None
+    assert action.package.texts == ("driver",)
+
+
 def test_sibling_by_changed_path() -> None:
     files = {
         "launch/common.py": HELPER,

@@ -150,7 +150,7 @@ class _Reading:
             if made.name.startswith("LaunchConfig")  # LaunchConfigAsBool of nav2_common among them
             for name in texts(made.get(0, "variable_name", "launch_configuration_name"), within)
         }
-        if ".launch_configurations" in self._source.text.text:
+        if self._machine.borrows or ".launch_configurations" in self._source.text.text:
             found.add(UNKNOWN)
         return tuple(sorted(found))
 

@@ -44,6 +44,7 @@ def _include(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchA
         argument_spans=tuple([span for _, span, _, _ in passed]),
         perhaps=_perhaps(passed),
         conditions=conditions,
+        lent=made.source.lent,
     )
     return walker.apart(include, given)
 

@@ -97,7 +97,7 @@ def _store(machine: Machine, target: ast.Subscript, value: Value, frame: Frame) 
 
 def _import(machine: Machine, node: ast.Import, frame: Frame) -> None:
     for alias in node.names:
-        found = machine.module(alias.name, frame.source)
+        found = machine.module(alias.name, frame.source, node)
         top = alias.name.partition(".")[0]
         if alias.asname:
             frame.names[alias.asname] = found or Api(alias.name)
@@ -107,7 +107,7 @@ def _import(machine: Machine, node: ast.Import, frame: Frame) -> None:
 
 def _import_from(machine: Machine, node: ast.ImportFrom, frame: Frame) -> None:
     name = "." * node.level + (node.module or "")
-    found = machine.module(name, frame.source)
+    found = machine.module(name, frame.source, node)
     for alias in node.names:
         if alias.name == "*":
             frame.names.update(found.names if found is not None else {})
@@ -117,7 +117,8 @@ def _import_from(machine: Machine, node: ast.ImportFrom, frame: Frame) -> None:
             continue
         inner = found.names.get(alias.name) if found is not None else None
         if inner is None:
-            inner = machine.module(f"{name}.{alias.name}" if node.module else f"{name}{alias.name}", frame.source)
+            full = f"{name}.{alias.name}" if node.module else f"{name}{alias.name}"
+            inner = machine.module(full, frame.source, node)
         frame.names[alias.asname or alias.name] = inner if inner is not None else Api(f"{name}.{alias.name}")
 
 

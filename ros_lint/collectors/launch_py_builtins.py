@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ros_lint.collectors import launch_text
 from ros_lint.collectors.launch_py_call import Call, Rule, nothing, unknown, unknown_text
-from ros_lint.collectors.launch_py_methods import call_method, items, sort
+from ros_lint.collectors.launch_py_methods import call_method, items, of_instance, sort
 from ros_lint.collectors.launch_py_misuse import note
 from ros_lint.collectors.launch_py_objects import (
     Api,
@@ -206,12 +206,24 @@ def _isinstance(call: Call) -> Value:
 def _getattr(call: Call) -> Value:
     owner, name = plain(call.get(0)), plain(call.get(1))
     if isinstance(owner, Instance) and isinstance(name, str):
-        if name in owner.attributes:
-            return owner.attributes[name]
-        found = owner.cls.find(name)
-        if found is None and len(call.arguments) > 2:
+        if len(call.arguments) > 2 and name not in owner.attributes and owner.cls.find(name) is None:
             return call.arguments[2]
+        return of_instance(owner, name)
     return Unknown("an attribute")
+
+
+def _fields(call: Call) -> Value:
+    """``dataclasses.fields()``: what has a name, each."""
+    given = plain(call.get(0))
+    cls = given.cls if isinstance(given, Instance) else given
+    if not isinstance(cls, Class):
+        return unknown(call)
+    found: list[Value] = []
+    for name in cls.every_field():
+        field = Instance(Class("Field", [], {}, []))
+        field.attributes["name"] = name
+        found.append(field)
+    return found
 
 
 def _open(call: Call) -> Value:
@@ -329,6 +341,7 @@ FUNCTIONS: Mapping[str, Rule] = {
     "copy.copy": _copied,
     "copy.deepcopy": _copied_whole,
     "collections.OrderedDict": _dict,
+    "dataclasses.fields": _fields,
     "builtins.str": _str,
     "builtins.int": _number(int),
     "builtins.float": _number(float),

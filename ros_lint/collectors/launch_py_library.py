@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from ros_lint.collectors import launch_text
 from ros_lint.collectors.launch_py_builtins import FUNCTIONS
 from ros_lint.collectors.launch_py_call import Call, Rule, nothing, unknown, unknown_text
-from ros_lint.collectors.launch_py_methods import items
+from ros_lint.collectors.launch_py_methods import built_for, items
 from ros_lint.collectors.launch_py_misuse import note
 from ros_lint.collectors.launch_py_objects import (
     Api,
@@ -123,12 +123,8 @@ def _note_built(call: Call, owner: Made) -> None:
     position = _READ_BY_BUILDERS.get(call.name)
     if position is None or call.machine.guarded or owner.name not in ("MoveItConfigsBuilder", "ParameterBuilder"):
         return
-    package = owner.get(2 if owner.name == "MoveItConfigsBuilder" else 0, "package_name")
-    robot = owner.get(0, "robot_name")
-    if package is None and isinstance(robot, str):
-        package = f"{robot}_moveit_config"
-    given = call.get(position, "file_path")
-    if not (isinstance(package, str) and launch_text.is_plain(package) and isinstance(given, (str, FilePath))):
+    package, given = built_for(owner), call.get(position, "file_path")
+    if not package or not isinstance(given, (str, FilePath)):
         return
     at = argument_of(call.node, position, "file_path")
     for path in text_of(given):

@@ -29,7 +29,7 @@ from ros_lint.collectors.launch_py_objects import (
     written,
 )
 from ros_lint.collectors.launch_py_operations import hashable, may_have_more, text_of, texts_made, with_format
-from ros_lint.collectors.launch_text import LONGEST, UNKNOWN, is_plain, is_settled, joined
+from ros_lint.collectors.launch_text import LONGEST, UNKNOWN, is_plain, is_settled, joined, share
 from ros_lint.collectors.python_methods import CONSTANTS, NUMBERS, SPLITS, STRIPS, TEXT_METHODS, TRUTHS
 
 if TYPE_CHECKING:
@@ -76,7 +76,7 @@ def attribute(machine: Machine, owner: Value, node: ast.Attribute, frame: Frame)
             return CONSTANTS[full]
         return written(UNKNOWN, node, frame.source) if full == "sys.executable" else Api(full)
     if isinstance(owner, Instance):
-        return _of_instance(owner, name)
+        return of_instance(owner, name)
     if isinstance(owner, Class):
         found = owner.find(name)
         return found if found is not None else Unknown(f"attribute {name}")
@@ -84,17 +84,18 @@ def attribute(machine: Machine, owner: Value, node: ast.Attribute, frame: Frame)
         return owner.names.get(name, Unknown(f"{name} of a module"))
     if isinstance(owner, FilePath):
         return _of_path(owner, name)
-    if isinstance(owner, Made) and name == "entities" and owner.name == "LaunchDescription":
-        return owner.entities
+    if isinstance(owner, Made):
+        return _of_made(owner, name)
     if isinstance(owner, Context):
         return Api(f"context.{name}")
-    if isinstance(owner, (str, list, dict, tuple, set, Made)):
+    if isinstance(owner, (str, list, dict, tuple, set)):
         return Method(owner, name)
     machine.lose(owner)
     return Unknown(f"attribute {name} of what is not known")
 
 
-def _of_instance(owner: Instance, name: str) -> Value:
+def of_instance(owner: Instance, name: str) -> Value:
+    """Return an attribute of an object of the program."""
     if name in owner.attributes:
         return owner.attributes[name]
     found = owner.cls.find(name)
@@ -107,6 +108,26 @@ def _of_instance(owner: Instance, name: str) -> Value:
     if owner.made is not None:
         return Method(owner.made, name)
     return Unknown(f"attribute {name} of an object")
+
+
+def _of_made(owner: Made, name: str) -> Value:
+    match owner.name, name:
+        case "LaunchDescription", "entities":
+            return owner.entities
+        case "DeclareLaunchArgument", "name":
+            return owner.get(0, "name")
+        case "MoveItConfigsBuilder", "package_path" if package := built_for(owner):
+            return FilePath(share(package))
+    return Method(owner, name)
+
+
+def built_for(builder: Made) -> str:
+    """Return the package that one of MoveIt's builders is for, "" if it is not known: by the name of a robot, unless told."""
+    of_robots = builder.name == "MoveItConfigsBuilder"
+    package, robot = builder.get(2 if of_robots else 0, "package_name"), builder.get(0, "robot_name")
+    if package is None and of_robots and isinstance(robot, str):
+        package = f"{robot}_moveit_config"
+    return package if isinstance(package, str) and is_plain(package) else ""
 
 
 def _of_path(owner: FilePath, name: str) -> Value:

@@ -8,7 +8,18 @@ from typing import Literal
 
 from ros_lint.collectors.launch_py_events import later
 from ros_lint.collectors.launch_py_methods import items
-from ros_lint.collectors.launch_py_objects import PERHAPS, Conditions, FilePath, Guarded, Made, Value, alternatives, plain, union
+from ros_lint.collectors.launch_py_objects import (
+    PERHAPS,
+    Conditions,
+    FilePath,
+    Guarded,
+    Made,
+    Value,
+    Written,
+    alternatives,
+    plain,
+    union,
+)
 from ros_lint.collectors.launch_py_texts import is_text, texts
 from ros_lint.collectors.launch_py_walk import Rule, Walker, place_of, span_of
 from ros_lint.collectors.launch_text import UNKNOWN, named_in
@@ -97,7 +108,13 @@ def _started(kind: Literal["node", "component"], target: str, walker: Walker, ma
         parameters=_parameters(walker, made),
         remappings=_remappings(walker, made),
         conditions=conditions,
+        lent=made.source.lent and not _is_handed(made.get(-1, "package")),
     )
+
+
+def _is_handed(value: Value) -> bool:
+    """Whether a helper of a released package is given a text by who calls it."""
+    return all(isinstance(one.value, Written) and not one.value.source.lent for one in alternatives(value))
 
 
 def _apart(target: str, walker: Walker, made: Made, action: LaunchAction) -> list[LaunchAction]:

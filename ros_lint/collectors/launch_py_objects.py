@@ -37,11 +37,13 @@ Modules = Callable[[str, Text], "Module | None"]
 class Source:
     """A module: its text, and the names that it binds when it runs."""
 
-    __slots__ = ("ascii", "names", "text", "yields")
+    __slots__ = ("ascii", "lent", "names", "text", "yields")
 
-    def __init__(self, text: Text) -> None:
+    def __init__(self, text: Text, *, lent: bool = False) -> None:
         self.text = text
         self.ascii = text.text.isascii()
+        self.lent = lent
+        """Whether it is a helper of a released package: all of it stands where it is called, in the text of who calls it."""
         self.yields = "yield" in text.text
         self.names: dict[str, Value] = {}
 
@@ -167,6 +169,17 @@ class Function:
         self.keyword_defaults: dict[str, Value] = {}
         self.owner: Class | None = None
 
+    def yields(self) -> bool:
+        """Whether it is a generator: it yields itself, not just a function in it."""
+        waiting: list[ast.AST] = list(self.node.body) if isinstance(self.node.body, list) else []
+        while waiting:
+            inner = waiting.pop()
+            if isinstance(inner, (ast.Yield, ast.YieldFrom)):
+                return True
+            if not isinstance(inner, (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda, ast.ClassDef)):
+                waiting += ast.iter_child_nodes(inner)
+        return False
+
     def taking(self, arguments: list[Value], keywords: dict[str, Value]) -> dict[str, Value]:
         """Return what the names of a call stand for at its beginning."""
         spec = self.node.args
@@ -226,6 +239,11 @@ class Class:
             if isinstance(one, Class) and name in one.names:
                 return one.names[name]
         return None
+
+    def every_field(self) -> dict[str, None]:
+        """Return the fields of the class and of those above it, which come first."""
+        line = [one for one in self._line() if isinstance(one, Class)]
+        return dict.fromkeys(name for one in reversed(line) for name in one.fields)
 
     def library_base(self) -> Api | None:
         """Return the class of a library that it is made from."""

@@ -44,6 +44,7 @@ from ros_lint.collectors.launch_py_objects import (
     union,
 )
 from ros_lint.collectors.launch_py_operations import text_of
+from ros_lint.collectors.launch_py_released import HELPERS, helper, placed
 from ros_lint.collectors.launch_py_statements import LEAVE, execute
 from ros_lint.collectors.launch_py_texts import Within, texts
 from ros_lint.collectors.launch_text import UNKNOWN, fill, is_settled, joined
@@ -72,6 +73,8 @@ _KNOWN = sys.stdlib_module_names | frozenset(
 """Libraries of which it is known what their classes and functions do. In a workspace that builds ROS itself their sources
 lie around, and say less."""
 
+_Definition = ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
+
 
 class Machine:
     """Follows one launch file and the modules that it imports."""
@@ -80,6 +83,7 @@ class Machine:
         self._modules = modules
         self._files = files
         self._sources: dict[str, Source | None] = {}
+        self._placed: dict[tuple[int, int], tuple[_Definition, ast.AST, ast.AST]] = {}
         self._left = STEPS
         self._depth = 0
         self._branches = 0
@@ -98,6 +102,8 @@ class Machine:
         """Paths of files that are opened at once to be read, where, and under which conditions: those that must be there."""
         self.asked: dict[tuple[str, ...], tuple[str, ...]] = {}
         """Paths of files that it asks for, by what stands for the answer: it does without those that are not there."""
+        self.borrows = False
+        """Whether it calls helpers of released packages, of which not everything is known."""
         self.guarded = 0
         """How many statements around would catch that a file is missing."""
         self.lazily: set[str] = set()
@@ -172,21 +178,43 @@ class Machine:
         source.names = frame.names
         return frame
 
-    def module(self, name: str, importer: Source) -> Source | None:
-        """Return a module of the workspace, followed once; None for one of a library, wherever its sources are."""
-        if name.partition(".")[0] in _KNOWN:
+    def module(self, name: str, importer: Source, at: ast.stmt) -> Source | None:
+        """Return a module of the workspace, or what is known of a released one, followed once.
+
+        None for any other, and for the libraries of launch, wherever their sources are.
+        """
+        known = name.partition(".")[0] in _KNOWN
+        if known and name not in HELPERS:
             return None
         key = f"{importer.text.path}:{name}" if name.startswith(".") else name
         if key in self._sources:
             return self._sources[key]
         self._sources[key] = None  # while it is followed: modules may import each other
-        module = self._modules(name, importer.text)
-        if module is None:
+        module = None if known else self._modules(name, importer.text)
+        if module is not None:
+            found = self._sources[key] = Source(module.text)
+            self.run(module.tree, found)
+            return found
+        if not known:
             self.wanted.add(name)
-            return None
-        found = self._sources[key] = Source(module.text)
-        self.run(module.tree, found)
-        return found
+        if name in HELPERS:
+            self.borrows = True
+            found = self._sources[key] = Source(importer.text, lent=True)
+            self.run(helper(name, at), found)
+        return self._sources[key]
+
+    def _lent(self, function: Function, call: ast.Call, caller: Source) -> tuple[_Definition, Source]:
+        """Return what a helper of a released package does as if it stood where it is called, and the text around it."""
+        key = id(function.node), id(call)
+        if key not in self._placed:
+            self.spend(100)
+            self._placed[key] = (
+                placed(function.node, call),
+                function.node,
+                call,
+            )  # as long as they are here, no other has their ids
+        source = function.frame.source
+        return self._placed[key][0], source if source.text is caller.text else Source(caller.text, lent=True)
 
     # --- statements -----------------------------------------------------------------------------------------------
 
@@ -229,7 +257,7 @@ class Machine:
             return call_method(self, function, arguments, keywords, node, frame)
         if isinstance(function, Function):
             try:
-                return self._run_function(function, arguments, keywords)
+                return self._run_function(function, arguments, keywords, node, frame)
             except Raised:
                 if function.frame.source is frame.source:
                     raise
@@ -255,19 +283,23 @@ class Machine:
             made.made = result if isinstance(result, Made) else None
         init = cls.find("__init__")
         if isinstance(init, Function):
-            self._run_function(init, [made, *arguments], keywords)
+            self._run_function(init, [made, *arguments], keywords, node, frame)
         else:
             for name, value in zip(cls.fields, arguments, strict=False):
                 made.attributes[name] = value
             made.attributes.update({name: value for name, value in keywords.items() if name in cls.fields})
         return made
 
-    def _run_function(self, function: Function, arguments: list[Value], keywords: dict[str, Value]) -> Value:
-        node = function.node
+    def _run_function(
+        self, function: Function, arguments: list[Value], keywords: dict[str, Value], call: ast.Call, caller: Frame
+    ) -> Value:
+        node, source = function.node, function.frame.source
+        if source.lent:
+            node, source = self._lent(function, call, caller.source)
         if self._depth >= _DEEPEST_CALL:
             self.lose([arguments, keywords])
             return Unknown("calls that are nested too deeply")
-        frame = Frame(function.frame.source, function.frame, function.taking(arguments, keywords))
+        frame = Frame(source, function.frame, function.taking(arguments, keywords))
         if isinstance(node, ast.Lambda):
             self._depth += 1
             try:
@@ -293,7 +325,7 @@ class Machine:
             self._depth -= 1
             self._left = left - (allowed - self._left)
             self.conditions = before
-        if frame.source.yields and _yields(node):
+        if frame.source.yields and function.yields():
             return frame.yielded
         if signal != LEAVE and frame.returned:
             frame.returned.append(Guarded(None, (PERHAPS,)))
@@ -353,7 +385,7 @@ class Machine:
 
     def look_up(self, package: str, at: ast.expr, source: Source, eager: bool, conditions: Conditions) -> None:
         """Note that a package is looked up; ``conditions`` are those under which it is this one."""
-        if UNKNOWN not in package:
+        if UNKNOWN not in package and not source.lent:
             known = self.named.get(package)
             if known is None or (_says(at, package) and not _says(known[0], package)):
                 self.named[package] = (at, source)
@@ -368,15 +400,3 @@ class Machine:
 
 def _says(node: ast.expr, text: str) -> bool:
     return isinstance(node, ast.Constant) and node.value == text
-
-
-def _yields(node: ast.FunctionDef | ast.AsyncFunctionDef) -> bool:
-    """Whether a function is a generator: it yields itself, not just a function in it."""
-    waiting: list[ast.AST] = list(node.body)
-    while waiting:
-        inner = waiting.pop()
-        if isinstance(inner, (ast.Yield, ast.YieldFrom)):
-            return True
-        if not isinstance(inner, (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda, ast.ClassDef)):
-            waiting += ast.iter_child_nodes(inner)
-    return False

@@ -56,7 +56,7 @@ class References:
         self._carriers = carriers_of_places(self._held.values)
         self._known: dict[str, tuple[str, ...]] = {}
         self._narrowed: Mapping[str, tuple[str, ...]] = {}
-        self._asks = False
+        self._asks = self._lent = False
         self._distros = EVERYWHERE
         self._named_in: dict[tuple[str, Span], frozenset[str]] = {}
         self._named: set[str] = set()
@@ -66,24 +66,25 @@ class References:
             self._action(action, conditional=False)
 
     def _action(self, action: LaunchAction, conditional: bool) -> None:
-        if not action.conditions:
+        if not action.conditions and not action.lent:
             self._taken(action, conditional)
             return
-        with self._under(action.conditions) as somewhere:
+        with self._under(action.conditions, lent=action.lent) as somewhere:
             if somewhere:
-                self._taken(action, conditional=True)
+                self._taken(action, conditional or bool(action.conditions))
 
     @contextmanager
-    def _under(self, conditions: Sequence[LaunchCondition]) -> Iterator[bool]:
-        """Go under conditions for a while. Yields whether any distribution does."""
-        before = self._asks, self._distros, self._narrowed, self._known
+    def _under(self, conditions: Sequence[LaunchCondition], *, lent: bool = False) -> Iterator[bool]:
+        """Go under conditions, or into a helper, for a while. Yields whether any distribution does."""
+        before = self._asks, self._distros, self._narrowed, self._known, self._lent
+        self._lent = lent
         self._asks = self._asks or asks_first(conditions)
         self._distros &= distributions_under(conditions)
         self._narrow(conditions)
         try:
             yield bool(self._distros)
         finally:
-            self._asks, self._distros, self._narrowed, self._known = before
+            self._asks, self._distros, self._narrowed, self._known, self._lent = before
 
     def _taken(self, action: LaunchAction, conditional: bool) -> None:
         match action.kind:
@@ -301,7 +302,7 @@ class References:
             conditional,
             exact,
             package_exact,
-            self._asks or self._distros != EVERYWHERE,
+            self._asks or self._distros != EVERYWHERE or (self._lent and (conditional or package not in self._places)),
             by_default,
             package_by_default and package not in self._places,
             read,

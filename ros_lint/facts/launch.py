@@ -59,6 +59,8 @@ class LaunchAction(NamedTuple):
     children: tuple[LaunchAction, ...] = ()
     perhaps: tuple[str, ...] = ()
     """Names of what is passed to an included file only if something holds of which nothing is known."""
+    lent: bool = False
+    """Whether a helper of a released package names what is started: that is the need of the package that has the helper."""
 
 
 ReferenceKind = Literal["node", "component", "include", "command", "program", "file", "package"]
