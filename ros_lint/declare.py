@@ -113,8 +113,9 @@ def is_library(world: World, name: str) -> bool:
 def works_unseen(package: Package, workspace: Workspace, name: str) -> bool:
     """Whether a dependency of a package on a name can do its work without the name standing anywhere (reference, section F2).
 
-    True for what is no package that is known; for packages that bring others, give macros or plugins; for those whose name
-    says that they stand for something else; and for what generated interfaces need. See :func:`is_mostly_run`, too.
+    True for what is no package that is known; for packages that bring others, give macros or plugins, or are not there whole;
+    for those whose name says that they stand for something else; and for what generated interfaces need. See
+    :func:`is_mostly_run`, too.
     """
     world = workspace.world
     if is_unseen_by_name(workspace.world, name):
@@ -125,7 +126,7 @@ def works_unseen(package: Package, workspace: Workspace, name: str) -> bool:
         return True
     mine = workspace.by_name.get(name, ())
     if mine:
-        return any(_gives_macros(each) or not makes_something(each) for each in mine)
+        return any(_gives_macros(each) or not makes_something(each) or _lacks_parts(each, world) for each in mine)
     return _only_brings(world, name) or _stands_for_others(package, world, name)
 
 
@@ -229,6 +230,11 @@ def builds_something(package: Package) -> bool:
         return False
     made = script.targets or script.interfaces or script.python_packages or script.components
     return bool(made) or any(provided.path.startswith("include/") for provided in script.provides)
+
+
+def _lacks_parts(package: Package, world: World) -> bool:
+    """Whether a submodule that is not cloned lies in a package: what that has may be called anything."""
+    return any(folder.rpartition("/")[2] in world.awaited.uncloned for folder in package.unseen)
 
 
 def _gives_macros(package: Package) -> bool:
