@@ -55,6 +55,7 @@ from ros_lint.api import (
     Workspace,
     called,
     did_you_mean,
+    few,
     generated_from,
     interface_names,
     per_package,
@@ -84,12 +85,24 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     calls = list(called(package, _GENERATE, anywhere=True))
     if not calls or not script.interfaces:
         return
+    plain: dict[str, list[str]] = {}
     for file in package.files:
         interface = _interface(file) if file.count("/") == 1 else ""
-        name = interface.partition("/")[2]
-        if interface not in script.interfaces and name.isidentifier():
-            wanted = "" if file.endswith(".idl") or interface_names.is_message(name) else interface_names.camel(name)
-            yield _finding(package, calls, file, wanted, aside=interface in script.set_aside)
+        kind, _, name = interface.partition("/")
+        if interface in script.interfaces or not name.isidentifier():
+            continue
+        wanted = "" if file.endswith(".idl") or interface_names.is_message(name) else interface_names.camel(name)
+        refused = next(iter(_refused(package, file)), "")
+        aside = interface in script.set_aside
+        if wanted or refused or aside:
+            yield _finding(package, calls, file, wanted, refused, aside=aside)
+        else:
+            plain.setdefault(kind, []).append(file)
+    for files in plain.values():
+        if len(files) > _MANY:
+            yield _of_many(package, calls, files)
+        else:
+            yield from (_finding(package, calls, file) for file in files)
 
 
 def _of_python(package: Package) -> Iterator[Finding]:
@@ -275,36 +288,60 @@ def _here(package: Package, file: str) -> Related:
     return Related("this file", place_of(package, file))
 
 
-def _finding(package: Package, calls: list[Call], file: str, wanted: str, *, aside: bool) -> Finding:
+def _refused(package: Package, file: str) -> list[str]:
+    """Return why rosidl does not take a file."""
+    read = [each for each in package.interface_files if relative(package, each.path) == file]
+    return [problem.message for each in read for problem in each.problems]
+
+
+def _finding(
+    package: Package, calls: list[Call], file: str, wanted: str = "", refused: str = "", *, aside: bool = False
+) -> Finding:
     """``wanted``: what the file has to be called before anything can be generated from it, "" if it is.
 
-    ``aside``: a comment has it where a list had it, which is mostly meant so.
+    ``refused``: why rosidl does not take it, "" if it does; ``aside``: a comment has it where a list had it, which is
+    mostly meant so.
     """
-    read = [each for each in package.interface_files if relative(package, each.path) == file]
-    refused = [problem.message for each in read for problem in each.problems]
     way_out = f"rosidl wants it to be called {wanted}" if wanted else "add it, or remove it"
     if refused and not wanted:
-        way_out = f"remove it, or correct it, for rosidl does not take it: {refused[0]}"
+        way_out = f"remove it, or correct it, for rosidl does not take it: {refused}"
     return Finding(
         f"{file} is not given to {_GENERATE}(), so nothing is generated from it; {way_out}",
         calls[0].place,
         file,
         (_here(package, file),),
-        None if wanted or aside or refused else _fix(calls, file),
+        None if wanted or aside or refused else _fix(calls, [file]),
         Confidence.MEDIUM if aside or calls[0].blocks else Confidence.HIGH,
     )
 
 
-def _fix(calls: list[Call], file: str) -> Fix | None:
-    """Return how to add a file below the last one of its folder, None where none is written out."""
-    folder = f"{file.partition('/')[0]}/"
+_MANY = 5
+"""More files of one folder than these are told of at once."""
+
+
+def _of_many(package: Package, calls: list[Call], files: list[str]) -> Finding:
+    return Finding(
+        f"{files[0]} and {len(files) - 1} more are not given to {_GENERATE}(), so nothing is generated from them; add them, "
+        "or remove them",
+        calls[0].place,
+        f"{files[0].partition('/')[0]}/",
+        several(_here(package, file) for file in files),
+        _fix(calls, files),
+        Confidence.MEDIUM if calls[0].blocks else Confidence.HIGH,
+    )
+
+
+def _fix(calls: list[Call], files: list[str]) -> Fix | None:
+    """Return how to add files of one folder below the last one of it, None where none is written out."""
+    folder = f"{files[0].partition('/')[0]}/"
     for call in calls:
         at = max((index for index, text in enumerate(call.texts) if text.startswith(folder)), default=None)
         if at is not None:
             span = call.span(at)
             quote = '"' if span.end_column - span.column == len(call.texts[at]) + 2 else ""
             gap = " " if at and span.line == call.span(at - 1).line else "\n" + " " * (span.column - 1)
-            return Fix(f"generate {file}", (Edit(span.end(), f"{gap}{quote}{file}{quote}"),), safe=False)
+            added = "".join(f"{gap}{quote}{file}{quote}" for file in files)
+            return Fix(f"generate {few(files)}", (Edit(span.end(), added),), safe=False)
     return None
 
 
