@@ -9,7 +9,7 @@ from typing import Final
 from ros_lint.collectors.cmake_syntax import QUOTED, UNQUOTED
 from ros_lint.facts.sight import ANYTHING, Facet, Problem
 from ros_lint.facts.sources import Purpose
-from ros_lint.interpret.cmake_headers import ALL_TARGETS, FOREIGN_VARIABLE, given
+from ros_lint.interpret.cmake_headers import ALL_TARGETS, FOREIGN_VARIABLE, given, given_folders
 from ros_lint.interpret.cmake_include import include_foreign, include_own
 from ros_lint.interpret.cmake_run import Handler, Run, folded
 from ros_lint.interpret.cmake_values import ATOM, FOREIGN, HOLE, SOURCE, is_known, maybe, split, sure
@@ -202,21 +202,18 @@ def link(run: Run, args: list[str]) -> None:
 
 
 def _target_include_directories(run: Run, args: list[str]) -> None:
-    given(run, args[0] if args else ALL_TARGETS, [arg for arg in args[1:] if arg not in _WORDS])
+    given_folders(run, args[0] if args else ALL_TARGETS, args[1:])
     _include_directories(run, args)
 
 
 def _all_include_directories(run: Run, args: list[str]) -> None:
-    given(run, ALL_TARGETS, [arg for arg in args if arg not in _WORDS])
+    given_folders(run, ALL_TARGETS, args)
     _include_directories(run, args)
 
 
 def _include_directories(run: Run, args: list[str]) -> None:
     link(run, args)
     run.reaches_out = run.reaches_out or any(map(run.leads_out, args))
-
-
-_WORDS: Final = _VISIBILITY | {"BEFORE", "AFTER"}
 
 
 def _link_all(run: Run, args: list[str]) -> None:

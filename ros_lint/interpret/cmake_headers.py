@@ -27,13 +27,13 @@ ALL_TARGETS: Final = ""
 """What stands for every target, where include_directories() and link_libraries() give something."""
 
 _ANYTHING: Final = HOLE
-_NAME = re.compile(r"[A-Za-z_][\w.+-]*(?:::[\w.+-]+)*")
+_NAME = re.compile(r"(?<![\w./+\1-])[A-Za-z_][\w.+-]*(?:::[\w.+-]+)*(?![\w./+:-])")
 _OF_OURS: Final = (SOURCE, f"/{ATOM}build", f"/{ATOM}prefix", "/usr/")
 """Folders that hold no headers of other ROS packages."""
 
 
 def given(run: Run, target: str, args: Iterable[str]) -> None:
-    """Note what a target is given: targets, folders or libraries, as evaluated, and packages with ``::`` behind the name."""
+    """Note what a target is given: targets, libraries or whole paths, as evaluated, and packages with ``::`` behind the name."""
     have = run.headers.setdefault(target, {})
     known = True
     for arg in args:
@@ -42,6 +42,16 @@ def given(run: Run, target: str, args: Iterable[str]) -> None:
             have.update(dict.fromkeys(_names(run, each.lstrip(MAYBE))))
     if not known:
         have.update(dict.fromkeys(_written(run)))
+
+
+def given_folders(run: Run, target: str, args: Iterable[str]) -> None:
+    """Note the include directories that a target is given."""
+    words = ("BEFORE", "AFTER", "SYSTEM", "PUBLIC", "PRIVATE", "INTERFACE")
+    folders = (arg for arg in args if arg not in words and not arg.startswith("$<INSTALL_INTERFACE:"))
+    given(run, target, [f"{SOURCE}/{folder}" if _RELATIVE.match(folder) else folder for folder in folders])
+
+
+_RELATIVE = re.compile(r"[\w.]")
 
 
 def _names(run: Run, arg: str) -> tuple[str, ...]:
@@ -68,9 +78,10 @@ def _written(run: Run) -> list[str]:
 
 def _package(run: Run, variable: re.Match[str]) -> str:
     """Return the package whose variable a reference names: anything where none is found that sets it, or the script does."""
-    name = variable[0][2:-1]
-    set_by_package = folded(variable[1]) in map(folded, run.prefixes) and run.normal(name) is None
-    return f"{variable[1]}::" if set_by_package else _ANYTHING
+    if run.normal(variable[0][2:-1]) is not None:
+        return _ANYTHING
+    letters = folded(variable[1])
+    return next((f"{prefix}::" for prefix in run.prefixes if folded(prefix) == letters), _ANYTHING)
 
 
 def _given(run: Run, args: list[str]) -> None:
@@ -112,7 +123,7 @@ def reached(run: Run, name: str, targets: Mapping[str, Properties]) -> tuple[str
                 return None
             if target["KIND"] == "alias":
                 waiting.append(target["ALIASED"])
-        elif each not in (name, ALL_TARGETS):
+        elif each not in (name, ALL_TARGETS) and not each.startswith(f"{run.sources.name}_"):  # its interfaces aside
             found[each.partition("::")[0]] = None
         waiting += run.headers.get(each, ())
         if _ANYTHING in waiting:
