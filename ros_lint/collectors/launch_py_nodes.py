@@ -61,15 +61,16 @@ def _note_refused(walker: Walker, made: Made, conditions: Conditions, known: Col
         name = keyword.arg
         if name is None or name not in made.keywords or name in known:
             continue
+        place = span_of(keyword, made.source)
         if name in _REMOVED:
-            kind, message = "removed-keyword", f"{name}= of {made.name} is gone since Galactic: say {_REMOVED[name]}="
-        elif not itself:  # of a package, or of the file's own, that has keywords of its own
-            continue
-        elif near := _near(name, known):
-            kind, message = "misspelt-keyword", f"{made.name} takes no {name}={is_meant([f'{near}='])}"
-        else:
-            kind, message = "unexpected-keyword", f"{made.name} takes no {name}="
-        walker.problems.append(Problem(kind, message, span_of(keyword, made.source)))
+            message = f"{name}= of {made.name} is gone since Galactic: say {_REMOVED[name]}="
+            word = place._replace(end_line=place.line, end_column=place.column + len(name))
+            walker.problems.append(Problem("removed-keyword", message, word, subject=_REMOVED[name]))
+        elif itself:  # and not of a package, or of the file's own, that has keywords of its own
+            near = _near(name, known)
+            kind = "misspelt-keyword" if near else "unexpected-keyword"
+            meant = is_meant([f"{near}="]) if near else ""
+            walker.problems.append(Problem(kind, f"{made.name} takes no {name}={meant}", place))
 
 
 def _near(name: str, known: Collection[str]) -> str:

@@ -60,4 +60,4 @@ class Problem(NamedTuple):
     """What has taken the place of something that was right in ROS 1."""
     subject: str = ""
     """What it is about, where a rule asks for it: a path relative to the package, the pattern of a glob, a key, the format of
-    manifests that has the tag or attribute which the one that is used lacks."""
+    manifests that has the tag or attribute which the one that is used lacks, what a keyword is called now."""

@@ -24,7 +24,8 @@ warning.
 
 ## How to fix it
 
-The message names what is wrong. See the launch format of your distribution for tags and attributes.
+The message names what is wrong. See the launch format of your distribution for tags and attributes. Where a Python launch
+file has nothing worse than keywords that have another name since Galactic, such as `node_executable`, the fix renames them.
 
 ## When it keeps silent
 
@@ -45,7 +46,9 @@ from collections.abc import Iterable, Iterator
 
 from ros_lint.api import (
     Confidence,
+    Edit,
     Finding,
+    Fix,
     Package,
     Problem,
     Related,
@@ -75,7 +78,20 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             several(Related(_also(first, other), other.span) for other in others),
             confidence=max(_confidence(problem, launch.path, workspace) for problem in problems),
             severity=Severity.WARNING if all(problem.kind == "substitution-as-text" for problem in problems) else None,
+            fix=_fix(launch.path, problems),
         )
+
+
+def _fix(path: str, problems: Iterable[Problem]) -> Fix | None:
+    """Return how to give keywords their new names, where a file has no other problem."""
+    if any(problem.kind != "removed-keyword" for problem in problems):
+        return None
+    edits = dict.fromkeys(Edit(problem.span, problem.subject) for problem in problems)
+    return Fix("write the keywords that are there now", tuple(edits), safe=not _is_for_old(path))
+
+
+def _is_for_old(path: str) -> bool:
+    return _FOR_OLD.search(path.rpartition("/")[2]) is not None
 
 
 def _newer(problems: Iterable[Problem], target: Target) -> Iterator[Problem]:
@@ -96,7 +112,7 @@ def _message(problem: Problem) -> str:
 
 
 def _confidence(problem: Problem, path: str, workspace: Workspace) -> Confidence:
-    if problem.kind == "removed-keyword" and _FOR_OLD.search(path.rpartition("/")[2]):
+    if problem.kind == "removed-keyword" and _is_for_old(path):
         return Confidence.MEDIUM
     # A package or a newer release may have added what is not known here.
     if problem.instead or problem.kind not in _MAY_BE_NEWER:
@@ -112,5 +128,6 @@ RULE = Rule(
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,
+    fixable=True,
     package=check,
 )
