@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from ros_lint.interpret.cmake_run import Run
 
 _TESTS_WANTED: Final = Truth(LIKELY, test_if_true=True)
+_NO_TESTS: Final = Truth(UNLIKELY, test_if_true=True)
 
 
 _TEST_VARIABLE = re.compile(
@@ -186,7 +187,7 @@ def _word(run: Run, token: Token) -> Truth:
     """A constant, a variable or a string."""
     text = token.text
     if text == "BUILD_TESTING" and not token.quoted:
-        return _TESTS_WANTED
+        return _tests_wanted(run)
     if not is_fixed(text):
         return Truth(UNKNOWN)
     known = constant(text)
@@ -213,6 +214,12 @@ def _word(run: Run, token: Token) -> Truth:
 @lru_cache(maxsize=1024)
 def _asks_for_tests(name: str) -> bool:
     return _TEST_VARIABLE.search(name) is not None
+
+
+def _tests_wanted(run: Run) -> Truth:
+    """Tests are built, unless the script itself has them off before anything else asks: option() keeps what is set."""
+    value = run.get("BUILD_TESTING")
+    return _NO_TESTS if value and is_fixed(value) and is_off(value) else _TESTS_WANTED
 
 
 def _tests_enabled(run: Run, name: str) -> Truth:
