@@ -59,6 +59,7 @@ _FINDS_DECLARED = "ament_auto_find_build_dependencies"
 
 def check(workspace: Workspace) -> Iterator[Finding]:
     groups = {group for package in workspace.packages for group in package.groups}
+    renamed: dict[tuple[str, str], Stranger] = {}
     for name, packages in declared_names(workspace).items():
         if workspace.world.standing(name) == "unknown":
             for stranger in strangers(name, packages):
@@ -71,7 +72,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
                 elif workspace.world.meant(name, python=stranger.runs_python) is None and (own := _own(stranger)):
                     yield _needless(stranger, f"is a {own} of this package and no package")
                 else:
-                    yield _unknown(stranger, workspace)
+                    yield _unknown(stranger, workspace, renamed)
 
 
 def _build_type(stranger: Stranger) -> Finding:
@@ -104,7 +105,8 @@ def _own(stranger: Stranger) -> str:
     return "module" if any(f"{folder}/{name}.py" in package.files for folder in folders) else ""
 
 
-def _unknown(stranger: Stranger, workspace: Workspace) -> Finding:
+def _unknown(stranger: Stranger, workspace: Workspace, renamed: dict[tuple[str, str], Stranger]) -> Finding:
+    """Say what a name may stand for; ``renamed`` are those that a fix makes another of, by package and by what is meant."""
     name, world, target = stranger.name, workspace.world, workspace.target
     known = f"{target.distro}, as of {world.knowledge.date}"
     what = f"{name} is neither a package nor a rosdep key ({known})"
@@ -128,13 +130,18 @@ def _unknown(stranger: Stranger, workspace: Workspace) -> Finding:
         # What is written like a key is not what anybody calls it.
         caller = "" if name.startswith("python3-") else _caller(meant.by, meant.name)
         why = f", but what {caller} calls it" if caller else ""
-        again = stranger.package.declares(meant.name)
-        message = f"{what}{why}: " + (f"remove it, {meant.name} is declared, too" if again else f"write {meant.name}")
-        title = f"remove {name}" if again else f"write {meant.name} for {name}"
+        twin = renamed.get((stranger.package.name, meant.name))
+        other = f"{twin.name}, which is {meant.name}," if twin else ""
+        if stranger.package.declares(meant.name):
+            other = meant.name
+        message = f"{what}{why}: " + (f"remove it, {other} is declared, too" if other else f"write {meant.name}")
+        title = f"remove {name}" if other else f"write {meant.name} for {name}"
         alone = meant.by == "cmake" and _is_found_as_declared(stranger.package, name)
         if alone:
             message += f", and find_package({name}), which nothing but {_FINDS_DECLARED}() does"
-        fix = Fix.of(title, *_rename(stranger, meant.name), safe=sure == Confidence.HIGH and not alone)
+        fix = Fix.of(title, *_rename(stranger, meant.name, twin), safe=sure == Confidence.HIGH and not alone)
+        if fix and fix.safe:
+            renamed.setdefault((stranger.package.name, meant.name), stranger)
     return Finding(
         message,
         stranger.declared.depend.name_span,
@@ -184,10 +191,16 @@ def _removal(stranger: Stranger) -> tuple[Edit, ...]:
     return tuple(edit for tag in stranger.tags for edit in remove_dependency(stranger.package, tag))
 
 
-def _rename(stranger: Stranger, name: str) -> tuple[Edit, ...]:
-    """Return the edits that put another name into every tag. None where tags would then repeat each other."""
+def _rename(stranger: Stranger, name: str, twin: Stranger | None = None) -> tuple[Edit, ...]:
+    """Return the edits that put another name into every tag. None where tags would then repeat each other.
+
+    ``twin`` is what gets that name already.
+    """
     package = stranger.package
-    if have := {declared.depend.tag for declared in package.tags(name)}:
+    have = {declared.depend.tag for declared in package.tags(name)}
+    if twin is not None:
+        have.update([tag.tag for tag in twin.tags])
+    if have:
         if have <= {"depend"} or have == {tag.tag for tag in stranger.tags}:
             return _removal(stranger)
         return ()
