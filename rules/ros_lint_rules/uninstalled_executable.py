@@ -6,8 +6,9 @@ Programs that are built and land where nobody looks for them:
 - an executable that a launch file of the workspace starts and that is not installed at all;
 - a node, if nothing at all of what the package builds is installed, or if others of its nodes are;
 - an executable that is installed to `bin/` or `lib/` instead of `lib/<package>`, if it is a node (its sources or their own
-  headers include rclcpp) or a launch file starts it. Where only another header of the package includes rclcpp, and for other
-  programs in `lib/`, the confidence is medium.
+  headers include rclcpp) or a launch file starts it, and any other in `lib/` or `bin/<package>/`, where not even a shell looks.
+  Where only another header of the package includes rclcpp, and for other programs that go to `lib/` together with a library,
+  the confidence is medium.
 
 ## Why it matters
 
@@ -46,6 +47,7 @@ from ros_lint.api import (
     Workspace,
     called,
     cmake_edits,
+    evaluated_name,
     forgotten_nodes,
     hidden,
     installed_targets,
@@ -84,7 +86,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         launched = by_launch_files.get(found[0][1] if found else target.name, ())
         related = several(Related("a launch file starts it here", reference.span) for reference in launched)
         sure = bool(launched or target.name in nodes)
-        nowhere = all(folder == "lib" for folder, _, _ in found)
+        nowhere = all(folder in ("lib", f"bin/{package.name}") for folder, _, _ in found)
+        if found and nowhere:
+            sure = sure or all(folder != "lib" or _is_of_programs(package, span, script.targets) for folder, _, span in found)
         if found and (sure or nowhere or any(file.startswith("include/") for file in with_client(package))):
             span = found[0][2]
             where = f"{found[0][0]}/, where {'nobody looks' if nowhere else 'ros2 run and launch do not look'}"
@@ -125,6 +129,15 @@ def _kept_back(package: Package, name: str, launched: Sequence[LaunchReference],
 def _left(package: Package, script: BuildScript, target: BuildTarget, says: str) -> Finding:
     fix = Fix.of(f"install {target.name}", cmake_edits.install_program(script, "TARGETS", target.name))
     return Finding(f"{target.name} is built{says}; install it to lib/{package.name}", target.span, target.name, fix=fix)
+
+
+def _is_of_programs(package: Package, span: Span, targets: tuple[BuildTarget, ...]) -> bool:
+    """Whether the rule at a place installs nothing but programs."""
+    kinds = {target.name: target.kind for target in targets}
+    for call in called(package, "install"):
+        if call.whole.covers(span):
+            return all(kinds.get(evaluated_name(package, call.texts[at]) or "") == "executable" for at in installed_targets(call))
+    return False
 
 
 def _move(package: Package, span: Span, targets: tuple[BuildTarget, ...]) -> Fix | None:
