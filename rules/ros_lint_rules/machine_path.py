@@ -16,9 +16,10 @@ for whoever starts the program in the root of the workspace.
 A file of a package is found by the package: `get_package_share_directory('robot')` and `FindPackageShare` in Python,
 `$(find-pkg-share robot)` in XML and YAML launch files, `package://robot/` and `$(find robot)/` in models, `model://robot/` in
 those of Gazebo, or `model://box` for a model in a folder that is in its resource path, `${prefix}/` in what `package.xml`
-exports. Parameters cannot look up anything: the launch file gives such ones. A map finds its image beside it. A program is
-started by `ros2 run`, or as a node. What belongs to the machine, such as data, a device or what is written there, becomes a
-launch argument or a parameter without such a default.
+exports. A plugin that opens its parameters by itself gets `$(find robot)/`, which xacro fills in. Parameters cannot look up
+anything: the launch file gives such ones. A map finds its image beside it. A program is started by `ros2 run`, or as a node.
+What belongs to the machine, such as data, a device or what is written there, becomes a launch argument or a parameter
+without such a default.
 
 ## When it keeps silent
 
@@ -130,7 +131,8 @@ def _way_out(machine: MachinePath, inside: _Inside | None, file: str, package: P
         model = inside.rest.removeprefix("models/")
         return f"{it_is}; say model://{model}, with this folder of models in Gazebo's resource path"
     if scheme := _scheme(inside, file):
-        return f"{it_is}; say {scheme}/{inside.rest}"
+        filled_in = scheme.startswith("$") and not file.endswith(".xacro")
+        return f"{it_is}; say {scheme}/{inside.rest}" + (", and let xacro fill it in" if filled_in else "")
     if _is_yaml(file) and not _is_launched(machine, package):
         return f"{it_is}; let the launch file give it, from the share directory of {inside.package}"
     if inside.program:
@@ -164,11 +166,11 @@ def _is_launched(machine: MachinePath, package: Package) -> bool:
 
 def _scheme(inside: _Inside, file: str) -> str:
     """Return how a model says that a file is in a package, "" for other files. What it reads by itself xacro has to fill in."""
-    if file.endswith(_OF_GAZEBO):
-        return f"model://{inside.package}"
-    if file.endswith(_MODELS):
-        return f"$(find {inside.package})" if _is_yaml(inside.rest) else f"package://{inside.package}"
-    return ""
+    if not file.endswith((*_OF_GAZEBO, *_MODELS)):
+        return ""
+    if _is_yaml(inside.rest):  # parameters of a plugin, which opens what it is given
+        return f"$(find {inside.package})"
+    return f"{'model' if file.endswith(_OF_GAZEBO) else 'package'}://{inside.package}"
 
 
 def _is_yaml(file: str) -> bool:
