@@ -123,7 +123,7 @@ def reached(run: Run, name: str, targets: Mapping[str, Properties]) -> tuple[str
                 return None
             if target["KIND"] == "alias":
                 waiting.append(target["ALIASED"])
-        elif each not in (name, ALL_TARGETS) and not each.startswith(f"{run.sources.name}_"):  # its interfaces aside
+        elif each not in (name, ALL_TARGETS) and not each.startswith(f"{run.sources.name}__"):  # its interfaces aside
             found[each.partition("::")[0]] = None
         waiting += run.headers.get(each, ())
         if _ANYTHING in waiting:
