@@ -168,3 +168,54 @@ def test_installed_files_are_those_of_cmake(tmp_path: Path) -> None:
     ]
     assert not shown, shown[:5]
     assert len(real) > 1500
+
+
+_HEADERS = ("include/a/a.hpp", "include/a/sub/b.hpp", "src/c.hpp")
+_OF_TARGETS = """
+add_library(one INTERFACE)
+target_sources(one INTERFACE FILE_SET HEADERS BASE_DIRS include FILES include/a/a.hpp include/a/sub/b.hpp)
+install(TARGETS one RUNTIME DESTINATION bin FILE_SET HEADERS DESTINATION one/include)
+add_library(two INTERFACE)
+target_sources(two INTERFACE FILE_SET own TYPE HEADERS BASE_DIRS include src FILES include/a/a.hpp
+               INTERFACE FILE_SET HEADERS BASE_DIRS ${CMAKE_CURRENT_SOURCE_DIR}/src FILES src/c.hpp)
+target_sources(two INTERFACE FILE_SET own FILES src/c.hpp)
+install(TARGETS two FILE_SET own FILE_SET HEADERS DESTINATION two)
+add_library(three INTERFACE)
+target_sources(three INTERFACE FILE_SET HEADERS FILES src/c.hpp)
+install(TARGETS three FILE_SET HEADERS DESTINATION three)
+add_library(four INTERFACE)
+set_target_properties(four PROPERTIES PUBLIC_HEADER "include/a/a.hpp;src/c.hpp" PRIVATE_HEADER src/c.hpp)
+install(TARGETS four PUBLIC_HEADER DESTINATION four)
+"""
+
+
+@pytest.mark.skipif(CMAKE is None, reason="cmake is not installed")
+def test_headers_of_targets_are_those_of_cmake(tmp_path: Path) -> None:
+    script = f"cmake_minimum_required(VERSION 3.23)\nproject(p NONE)\n{_OF_TARGETS}"
+    folder = tmp_path / "p"
+    for path in _HEADERS:
+        place = folder / path
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_text("")
+    (folder / "CMakeLists.txt").write_text(script)
+    prefix = tmp_path / "prefix"
+    assert CMAKE is not None
+    command = [CMAKE, "-S", str(folder), "-B", str(tmp_path / "b"), f"-DCMAKE_INSTALL_PREFIX={prefix}"]
+    ran = subprocess.run(command, check=False, capture_output=True, text=True)
+    assert not ran.returncode, ran.stderr[:2000]
+    subprocess.run([CMAKE, "--install", str(tmp_path / "b")], check=True, capture_output=True)
+    real = {os.path.relpath(os.path.join(above, name), prefix) for above, _, names in os.walk(prefix) for name in names}
+
+    parsed = {"CMakeLists.txt": parse(Text("p/CMakeLists.txt", script))}
+    result = evaluate(Sources("p", "p", sorted(_HEADERS), parsed, frozenset()))
+    assert {provided.path for provided in result.provides} == real
+    assert len(real) == 8
+    assert not result.opaque
+
+
+def test_headers_of_a_set_that_nobody_knows_hide_what_there_is() -> None:
+    script = "add_library(one INTERFACE)\ntarget_sources(one INTERFACE FILE_SET HEADERS FILES ${GENERATED})\n"
+    script += "install(TARGETS one FILE_SET HEADERS)\n"
+    parsed = {"CMakeLists.txt": parse(Text("p/CMakeLists.txt", f"project(p)\nfile(READ a.txt GENERATED)\n{script}"))}
+    result = evaluate(Sources("p", "p", ["a.txt"], parsed, frozenset()))
+    assert any("headers of the target one" in opaque.reason for opaque in result.opaque)

@@ -12,6 +12,7 @@ from ros_lint.facts.sight import Facet, Opaque
 from ros_lint.interpret.cmake_arguments import sections
 from ros_lint.interpret.cmake_glob import glob_regex
 from ros_lint.interpret.cmake_run import Handler, InstalledTarget, Run
+from ros_lint.interpret.cmake_target_headers import DESTINATION, FILE_SET, installed_headers
 from ros_lint.interpret.cmake_targets import output_name, real_target
 from ros_lint.interpret.cmake_values import HOLE, is_fixed, is_known, sure
 from ros_lint.knowledge.cmake_commands import INSTALL_ARTIFACTS, INSTALL_TARGETS_WORDS, VARIABLES
@@ -101,6 +102,10 @@ def _install_targets(run: Run, args: list[str]) -> None:
             keyword = ""  # said again, which CMake allows; likewise with files
         elif not keyword:
             names.append(arg)
+        elif keyword == "FILE_SET" and room:
+            artifact = f"{FILE_SET}{arg}"
+            destinations[artifact] = DESTINATION
+            room -= 1
         elif keyword == "DESTINATION" and room:
             destinations[artifact] = arg
             room -= 1
@@ -112,6 +117,8 @@ def _install_targets(run: Run, args: list[str]) -> None:
     runtime = run.destination(sure(destinations.get("RUNTIME") or everywhere or "bin")[0])
     library = run.destination(sure(destinations.get("LIBRARY") or everywhere or "lib")[0])
     archive = run.destination(sure(destinations.get("ARCHIVE") or everywhere or "lib")[0])
+    of_headers = [artifact for artifact in destinations if artifact.startswith(FILE_SET) or artifact.endswith("_HEADER")]
+    headers = tuple([(artifact, run.destination(sure(destinations[artifact])[0])) for artifact in of_headers])
     for name in names:
         plain, certain = sure(name)
         if not is_known(plain):
@@ -119,7 +126,8 @@ def _install_targets(run: Run, args: list[str]) -> None:
         elif not run.muted:
             conditional = run.conditional or run.testing or not certain
             span = run.where(name)
-            run.installed_targets.append(InstalledTarget(plain, runtime, library, archive, conditional, span, exported_in))
+            made = InstalledTarget(plain, runtime, library, archive, conditional, span, exported_in, headers)
+            run.installed_targets.append(made)
 
 
 _PYTHON: Final = f"{VARIABLES['PYTHON_INSTALL_DIR']}/"
@@ -127,7 +135,7 @@ _PYTHON: Final = f"{VARIABLES['PYTHON_INSTALL_DIR']}/"
 
 def installed_targets(run: Run) -> Iterator[Provided]:
     """Return the files of the targets that were installed, after the whole script has run."""
-    for name, executables, libraries, archives, conditional, span, _ in run.installed_targets:
+    for name, executables, libraries, archives, conditional, span, _, headers in run.installed_targets:
         target = real_target(run, name)
         if target is None:
             if not run.open_world or "::" not in name:
@@ -137,6 +145,7 @@ def installed_targets(run: Run) -> Iterator[Provided]:
             if executables is not None:  # should it be there after all, it is most likely a program
                 yield Provided(join_path(executables, name), "", True, True, span, name)
             continue
+        yield from installed_headers(run, name, target, headers, conditional or "CONDITIONAL" in target, span)
         kind = target["KIND"]
         if kind in ("interface", "object", "other", "imported"):
             continue

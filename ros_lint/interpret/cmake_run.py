@@ -38,6 +38,8 @@ class InstalledTarget(NamedTuple):
     span: Span
     exported_in: str = ""
     """The set that it is exported in."""
+    headers: tuple[tuple[str, str | None], ...] = ()
+    """Where headers go that belong to it, by artifact."""
 
 
 @lru_cache(maxsize=4096)

@@ -9,6 +9,7 @@ from ros_lint.facts.sight import Facet
 from ros_lint.interpret.cmake_headers import reached
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_state import Properties
+from ros_lint.interpret.cmake_target_headers import file_sets
 from ros_lint.interpret.cmake_tools import started
 from ros_lint.interpret.cmake_truth import is_off
 from ros_lint.interpret.cmake_values import HOLE, elements, is_fixed, is_known, join, sure
@@ -86,8 +87,8 @@ def _add_sources(run: Run, target: Properties, sources: list[str]) -> None:
 def _target_sources(run: Run, args: list[str]) -> None:
     if not args or args[0] not in run.targets:
         return
-    words = ("PRIVATE", "PUBLIC", "INTERFACE", "FILE_SET", "TYPE", "HEADERS", "BASE_DIRS", "FILES")
-    _add_sources(run, run.targets[args[0]], [arg for arg in args[1:] if arg not in words])
+    target = run.targets[args[0]]
+    _add_sources(run, target, file_sets(run, target, args[1:]))
 
 
 def _set_target_properties(run: Run, args: list[str]) -> None:
