@@ -124,11 +124,28 @@ def reached(run: Run, name: str, targets: Mapping[str, Properties]) -> tuple[str
             if target["KIND"] == "alias":
                 waiting.append(target["ALIASED"])
         elif each not in (name, ALL_TARGETS) and not each.startswith(f"{run.sources.name}__"):  # its interfaces aside
-            found[each.partition("::")[0]] = None
+            owners = _owners(run, each)
+            if not owners:
+                return None
+            found.update(dict.fromkeys(owners))
         waiting += run.headers.get(each, ())
         if _ANYTHING in waiting:
             return None
     return tuple(sorted(found))
+
+
+def _owners(run: Run, name: str) -> tuple[str, ...]:
+    """Return what a target or library that is none of this package may be called after; () if that may be any package.
+
+    ``BT::behaviortree_cpp`` is of behaviortree_cpp.
+    """
+    space, sign, inner = name.partition("::")
+    if not sign or not inner:
+        return (space,)
+    letters = folded(space)
+    if inner in run.prefixes:
+        return (space, inner)
+    return (space,) if any(folded(found).startswith(letters) for found in run.prefixes) else ()
 
 
 COMMANDS: Final[Mapping[str, Handler]] = {
