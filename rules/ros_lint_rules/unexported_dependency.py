@@ -21,7 +21,7 @@ not `gz_sim_vendor`. The fix does this; it needs `--unsafe-fixes`, for whoever f
 - `ament_auto_package()` does the exporting, `rosidl_generate_interfaces()` that of its `DEPENDENCIES`, or a file of
   `CONFIG_EXTRAS` searches the other package itself.
 - The header is not installed, or perhaps not, or the script cannot be followed everywhere.
-- The script does not find the other package: that is another mistake.
+- The script does not find the other package, and the manifest does not declare it: that is another mistake.
 - Targets are handed on in functions or under conditions, or are those of a package that comes along with one that is exported.
 - What the header includes comes with the tools that tests are built with, such as `ament_cmake_gtest`.
 
@@ -183,18 +183,18 @@ def _included(package: Package, workspace: Workspace) -> Iterator[tuple[tuple[st
     usable = _usable(package, workspace, script)
     for name, uses in _public(package, workspace, script).items():
         found = [each for each in finds if each == name or name in by_cmake(each).names[:1]]
-        if name in exported_packages or not found:
+        if name in exported_packages or not (found or _is_to_be_found(package, workspace, name)):
             continue
         compiled = [use for use in uses if relative(package, use.span.path) in usable]
         first, *others = compiled or uses
         # A vendor package mostly hands on nothing but the folder in which CMake finds what it stands for.
-        written = next((each for each in found if each != name), name) if name.endswith(_VENDOR) else found[0]
-        way_out = f"add ament_export_dependencies({written})"
+        written = next((each for each in found if each != name), name) if not found or name.endswith(_VENDOR) else found[0]
+        way_out = f"add {'' if found else f'find_package({written} REQUIRED) and '}ament_export_dependencies({written})"
         if not compiled:
             way_out += ", or do not install it, for it includes what others do not have"
         confidence = _confidence(package, workspace, name, exported, compiled) if compiled else Confidence.LOW
         yield (
-            (written,) if confidence is Confidence.HIGH else (),
+            (written,) if found and confidence is Confidence.HIGH else (),
             Finding(
                 f"{name} is included by this installed header, but not exported: {way_out}",
                 first.span,
@@ -204,6 +204,14 @@ def _included(package: Package, workspace: Workspace) -> Iterator[tuple[tuple[st
                 confidence,
             ),
         )
+
+
+def _is_to_be_found(package: Package, workspace: Workspace, name: str) -> bool:
+    """Whether a package is declared for more than tests, and is one of ament, so that CMake calls it by its name."""
+    others = workspace.by_name.get(name, ())
+    released = workspace.world.released(name)
+    built = {other.builds_with for other in others} or {released.build_type if released else ""}
+    return built == {"ament_cmake"} and bool(package.declares(name) & ~Role.TEST)
 
 
 def _confidence(package: Package, workspace: Workspace, name: str, exported: set[str], uses: list[Use]) -> Confidence:
