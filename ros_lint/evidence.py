@@ -98,10 +98,11 @@ class Resolver:
     def __init__(self, sources: Sequence[Source], names: Names) -> None:
         self.names = names
         self._headers = include_index(sources)
+        self._sources = frozenset([source.name for source in sources])
         self._empty = frozenset([source.name for source in sources if source.built.makes_nothing])
         self._ask: Mapping[Via, Callable[[str], Answer]] = {
             "include": self._include,
-            "import": lambda name: self._told(self.names.by_import(name), name.partition(".")[0], name),
+            "import": self._imported,
             "cmake": self._found,
             "target": lambda name: self._told(self.names.by_cmake(name.partition("::")[0]), name.partition("::")[0]),
             "macro": lambda name: self._told(self.names.by_macro(name.partition("::")[0]), name.partition("::")[0]),
@@ -133,6 +134,13 @@ class Resolver:
             if known.known and not set(found).intersection(known.names):  # then this is a copy of what is known elsewhere
                 return Answer((*known.names, *found), known.sure)
         return Answer(tuple(sorted(found, key=lambda package: package != first)))
+
+    def _imported(self, module: str) -> Answer:
+        first = module.partition(".")[0]
+        found = self._told(self.names.by_import(module), first, module)
+        # Even a package without such a module is the one that is meant: interfaces have no other name.
+        meant = not found.providers and first in self._sources and _INTERFACES.match(module)
+        return Answer((first,)) if meant else found
 
     def _package(self, name: str) -> Answer:
         # Definitions that tests parse are full of names that nobody has, and so are look-ups in templates.

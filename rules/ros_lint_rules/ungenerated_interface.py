@@ -5,9 +5,9 @@ Messages, services and actions in `msg/`, `srv/` and `action/` of a package that
 while it is given others. And those of an `ament_python` package that says in `package.xml` that it generates interfaces:
 nothing is generated from them at all.
 
-And the reverse: what a package includes, imports by name or has in an interface of its own, and the package that it should be
-from does not have: itself, another one of the workspace, or one that is released. `Header header` in a definition means a
-`Header` of the same package, and not that of `std_msgs`.
+And the reverse: what a package includes, imports by name or has in an interface of its own, and the package that it should
+be from does not have: itself, another one of the workspace, or one that is released. Or one that generates nothing at all.
+`Header header` in a definition means a `Header` of the same package, and not that of `std_msgs`.
 
 ## Why it matters
 
@@ -22,11 +22,12 @@ defines has to move to one of `ament_cmake`. Of what is used and not there, corr
 
 ## When it keeps silent
 
-For packages that generate nothing, for files in other folders, and where the list of files cannot be followed. So it does of
-copies that were left lying, such as `State copy.msg` or `State.old.msg`. What a comment in a CMake file has where a list had it
-was set aside, and is told of with medium confidence, as is a call that stands under a condition. Of uses it does not speak in
-files that may be dead, where the import or include is optional, where any folder of the package offers what is named in another
-way, or two packages of the workspace have the name, and in packages with a file that cannot be read.
+For packages that generate nothing, unless others import from them or have it in interfaces, for files in other folders, and
+where the list of files cannot be followed. So it does of copies that were left lying, such as `State copy.msg` or
+`State.old.msg`. What a comment in a CMake file has where a list had it was set aside, and is told of with medium confidence,
+as is a call that stands under a condition. Of uses it does not speak in files that may be dead, where the import or include
+is optional, where any folder of the package offers what is named in another way, or two packages of the workspace have the
+name, and in packages with a file that cannot be read.
 
 Of a released package only where all of its interfaces are known. Where nobody said which distribution is meant, none that has
 it may have the interface, and another one is called nearly so: else a newer version may have it. The confidence is medium
@@ -58,6 +59,7 @@ from ros_lint.api import (
     few,
     generated_from,
     interface_names,
+    is_meant,
     per_package,
     place_of,
     relative,
@@ -145,13 +147,19 @@ def _of_users(package: Package, workspace: Workspace) -> Iterator[Finding]:
     told: dict[tuple[str, str, str, str, bool], list[Span]] = {}
     for used in _used(package):
         told.setdefault(used[:-1], []).append(used.place)
+    without: set[str] = set()
     for what, places in told.items():
         used = _Used(*what, places[0])
+        if used.maker in without:
+            continue
         makers = workspace.by_name.get(used.maker, ())
         maker = makers[0] if len(makers) == 1 else None
         wrong = _lacking(used, workspace) if not makers else _wrong(used, maker, workspace) if maker else None
         if wrong is None:
             continue
+        if maker and not maker.built.interfaces:  # it has none of all that is used
+            without.add(used.maker)
+            places = [place for (name, *_), those in told.items() if name == used.maker for place in those]  # noqa: PLW2901
         if used.bare:
             wrong = _qualified(used, package, workspace) or wrong
         made = next(called(maker, _GENERATE, anywhere=True), None) if maker else None
@@ -195,8 +203,10 @@ def _used(package: Package) -> Iterator[_Used]:
 def _wrong(used: _Used, maker: Package, workspace: Workspace) -> str | None:
     """Return what is wrong about a use of a package of the workspace, None if nothing is, or nobody can tell."""
     generated = maker.built.interfaces
-    if not generated or maker.builds_with != "ament_cmake" or maker.hidden(Facet.INTERFACES):
+    if maker.builds_with != "ament_cmake" or maker.hidden(Facet.INTERFACES):
         return None
+    if not generated:
+        return None if used.header else _of_nothing(used, maker, workspace)
     there = _there(maker, workspace)[used.kind, bool(used.header)]
     if _is_among(used, there):
         return None
@@ -204,6 +214,21 @@ def _wrong(used: _Used, maker: Package, workspace: Workspace) -> str | None:
     if any(f"/{file}".endswith(f"/{by_hand}") for file in maker.files):
         return None
     return _says(used, generated, there, "generates", "; correct the name, or add the file")
+
+
+def _of_nothing(used: _Used, maker: Package, workspace: Workspace) -> str | None:
+    """Return what is wrong about a use of a package that generates nothing and has no module of the name, None as above."""
+    kind = used.kind or "msg"
+    interface, file = f"{kind}/{used.name}", f"{kind}/{used.name}.{kind}"
+    if maker.script is None or next(called(maker, _GENERATE, anywhere=True), None):
+        return None
+    if file in maker.files:
+        return f"{used.maker} generates nothing from {file}; give it to {_GENERATE}()"
+    if any(each.endswith((f"{kind}.py", f"{kind}/__init__.py", f".{kind}", ".idl")) for each in maker.files):
+        return None
+    having = [each.name for each in workspace.packages if interface in each.built.interfaces]
+    way_out = is_meant([f"that of {name}" for name in having]) or "; correct the name"
+    return f"{used.maker} generates no interfaces, and so no {interface}{way_out}"
 
 
 def _lacking(used: _Used, workspace: Workspace) -> str | None:
