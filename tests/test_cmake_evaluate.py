@@ -221,6 +221,18 @@ def test_properties_of_a_target_from_a_branch() -> None:
     assert paths(script) == {"lib/liba.so": True, "lib/liba.so.1.2": True}
 
 
+@pytest.mark.parametrize(
+    ("before", "libraries"),
+    [
+        ("", {"lib/liba.a": False}),
+        ("set(BUILD_SHARED_LIBS ON)\n", {"lib/liba.so": False}),
+        ("unheard_of()\n", {"lib/liba.so": True, "lib/liba.a": True}),
+    ],
+)
+def test_a_library_of_no_kind_is_what_the_script_says(before: str, libraries: dict[str, bool]) -> None:
+    assert paths(run(f"{before}add_library(a a.cpp)\ninstall(TARGETS a)\n", ("a.cpp",))) == libraries
+
+
 def test_modules_in_c_plus_plus() -> None:
     text = "pybind11_add_module(_core core.cpp)\ninstall(TARGETS _core DESTINATION ${PYTHON_INSTALL_DIR}/pkg)\n"
     script = run(text, ("core.cpp",))

@@ -12,6 +12,7 @@ from ros_lint.facts.sight import Facet, Opaque
 from ros_lint.interpret.cmake_arguments import sections
 from ros_lint.interpret.cmake_glob import glob_regex
 from ros_lint.interpret.cmake_run import Handler, InstalledTarget, Run
+from ros_lint.interpret.cmake_state import Properties
 from ros_lint.interpret.cmake_target_headers import DESTINATION, FILE_SET, installed_headers
 from ros_lint.interpret.cmake_targets import output_name, real_target
 from ros_lint.interpret.cmake_values import HOLE, is_fixed, is_known, sure
@@ -135,35 +136,42 @@ _PYTHON: Final = f"{VARIABLES['PYTHON_INSTALL_DIR']}/"
 
 def installed_targets(run: Run) -> Iterator[Provided]:
     """Return the files of the targets that were installed, after the whole script has run."""
-    for name, executables, libraries, archives, conditional, span, _, headers in run.installed_targets:
+    for installed in run.installed_targets:
+        name, span, conditional = installed.target, installed.span, installed.conditional
         target = real_target(run, name)
         if target is None:
             if not run.open_world or "::" not in name:
                 run.undefined.append((name, span, conditional))
             reason = f"what the target {name} is, is not known"
             run.opaques.setdefault(Opaque(Facet.EXECUTABLES | Facet.LIBRARIES, reason, span, name))
-            if executables is not None:  # should it be there after all, it is most likely a program
-                yield Provided(join_path(executables, name), "", True, True, span, name)
+            if installed.executables is not None:  # should it be there after all, it is most likely a program
+                yield Provided(join_path(installed.executables, name), "", True, True, span, name)
             continue
-        yield from installed_headers(run, name, target, headers, conditional or "CONDITIONAL" in target, span)
-        kind = target["KIND"]
-        if kind in ("interface", "object", "other", "imported"):
-            continue
-        where = {"executable": executables, "static": archives}.get(kind, libraries)
-        file = output_name(target)
-        if where is None or file is None:
-            facet = Facet.EXECUTABLES if kind == "executable" else Facet.LIBRARIES | Facet.PYTHON
-            run.opaques.setdefault(Opaque(facet, f"where the target {name} is installed is not known", span))
-            continue
-        unsure = conditional or "CONDITIONAL" in target or "TEST" in target
-        path = join_path(where, file)
-        yield Provided(path, "", kind == "executable", unsure, span, name)
-        if path.startswith(_PYTHON) and not file.startswith("lib"):
-            run.python_packages[path[len(_PYTHON) :].partition(".")[0].replace("/", ".")] = None
-        if kind == "shared":
-            for number in {target.get("VERSION", ""), target.get("SOVERSION", "")} - {""}:
-                if is_known(number):
-                    yield Provided(join_path(where, f"{file}.{number}"), "", False, unsure, span, name)
+        yield from installed_headers(run, name, target, installed.headers, conditional or "CONDITIONAL" in target, span)
+        if target["KIND"] not in ("interface", "object", "other", "imported"):
+            unsure = conditional or not {"CONDITIONAL", "PERHAPS", "TEST"}.isdisjoint(target)
+            yield from _built_files(run, installed, target, unsure)
+            if "PERHAPS" in target:
+                yield from _built_files(run, installed, Properties(target, KIND=target["PERHAPS"]), unsure)
+
+
+def _built_files(run: Run, installed: InstalledTarget, target: Properties, unsure: bool) -> Iterator[Provided]:
+    """Return the files of an installed target that builds some."""
+    name, span, kind = installed.target, installed.span, target["KIND"]
+    where = {"executable": installed.executables, "static": installed.archives}.get(kind, installed.libraries)
+    file = output_name(target)
+    if where is None or file is None:
+        facet = Facet.EXECUTABLES if kind == "executable" else Facet.LIBRARIES | Facet.PYTHON
+        run.opaques.setdefault(Opaque(facet, f"where the target {name} is installed is not known", span))
+        return
+    path = join_path(where, file)
+    yield Provided(path, "", kind == "executable", unsure, span, name)
+    if path.startswith(_PYTHON) and not file.startswith("lib"):
+        run.python_packages[path[len(_PYTHON) :].partition(".")[0].replace("/", ".")] = None
+    if kind == "shared":
+        for number in {target.get("VERSION", ""), target.get("SOVERSION", "")} - {""}:
+            if is_known(number):
+                yield Provided(join_path(where, f"{file}.{number}"), "", False, unsure, span, name)
 
 
 # --- files ---------------------------------------------------------------------------------------------------------

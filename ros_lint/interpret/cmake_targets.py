@@ -29,10 +29,13 @@ def _add_executable(run: Run, args: list[str]) -> None:
 def _add_library(run: Run, args: list[str]) -> None:
     word = next(iter([word for word in args[1:3] if word in _LIBRARY_TYPES]), "")
     kind = word.lower()
+    shared: str | None = ""
     if not kind:
         shared = run.get("BUILD_SHARED_LIBS")
         kind = "static" if shared is None or is_off(shared) else "shared"
     _add(run, args, kind, (*_LIBRARY_TYPES, "EXCLUDE_FROM_ALL", "IMPORTED", "GLOBAL"))
+    if shared and not is_known(shared) and (target := run.targets.get(args[0])) is not None and target["KIND"] == kind:
+        target["PERHAPS"] = "static"
 
 
 def _add(run: Run, args: list[str], kind: str, keywords: tuple[str, ...]) -> None:
