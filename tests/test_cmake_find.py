@@ -64,6 +64,16 @@ def test_what_guards_a_mention(text: str, optional: bool | None, test: bool) -> 
     assert (mention.test if mention else False) == test
 
 
+@pytest.mark.parametrize("name", ["catkin", "roscpp"])
+def test_what_builds_for_ros_1_alone_is_not_found(name: str) -> None:
+    asked = f"find_package({name} QUIET)\nif({name}_FOUND)\ncatkin_package()\n"
+    script = run(f"{asked}find_package(a REQUIRED)\nelse()\nfind_package(b REQUIRED)\nendif()\n")
+    assert not script.opaque
+    found = mentioned(script)
+    assert ("cmake", "a") not in found
+    assert not found["cmake", "b"].optional
+
+
 def test_the_build_tool_that_the_manifest_names_is_found() -> None:
     asked = "find_package(ament_cmake QUIET)\nif(ament_cmake_FOUND)\n"
     text = f"{asked}find_package(a REQUIRED)\nelse()\nfind_package(b REQUIRED)\nendif()\n"

@@ -22,6 +22,8 @@ _FOREIGN_TARGET = re.compile(r"(?<!\w)(?<!::)[A-Za-z_][\w.+-]*::[\w.+:-]*\w")
 _SHARED_LIBRARIES: Final = frozenset({"ament_cmake_ros", "ament_cmake_ros_core"})
 """Packages that turn BUILD_SHARED_LIBS on (reference, section C1.6)."""
 _BUILD_TOOL: Final = "ament_cmake"
+_OF_ROS_1: Final = frozenset({"catkin", "roscpp"})
+"""What scripts for both ask for; a build for ROS 2 does not find it."""
 _FOUND_DECLARED: Final = f"{ATOM}found-build-depends"
 """What stands for all that ament_auto_find_build_dependencies() finds: a target that is given it uses none of it for sure."""
 _PYTHON: Final = frozenset({"Python", "Python3"})
@@ -65,6 +67,9 @@ def _may_become_package(name: str) -> bool:
 
 def found(run: Run, name: str, *, required: bool) -> None:
     """Take a package for found: what it sets is unknown from now on, and its CMake code runs if it is in sight."""
+    if name in _OF_ROS_1 and not required and name not in run.helpers:
+        run.set(f"{name}_FOUND", "0")
+        return
     # Scripts for several build tools ask whether it is there; it is, where the manifest names it for the build.
     if required or (name == _BUILD_TOOL and name in run.sources.build_depends):
         run.put(run.packages, name, "1")
