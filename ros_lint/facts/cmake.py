@@ -24,7 +24,8 @@ class Target(NamedTuple):
     whole: bool = True
     """Whether all of its sources are known."""
     headers: tuple[str, ...] | None = None
-    """What may give it headers that are not of the package, mostly as find_package() calls it; None if anything may."""
+    """What may give it headers that are not of the package, mostly as find_package() calls it; None if anything may, and for
+    tests and what has no sources."""
 
 
 class Call(NamedTuple):

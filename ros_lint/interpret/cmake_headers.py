@@ -37,11 +37,17 @@ def given(run: Run, target: str, args: Iterable[str]) -> None:
     have = run.headers.setdefault(target, {})
     known = True
     for arg in args:
+        if _PLAIN.match(arg):  # by far the most
+            have[arg] = None
+            continue
         known = known and HOLE not in arg
         for each in elements(arg):
             have.update(dict.fromkeys(_names(run, each.lstrip(MAYBE))))
     if not known:
         have.update(dict.fromkeys(_written(run)))
+
+
+_PLAIN = re.compile(r"\w[\w:.+-]*\Z")
 
 
 def given_folders(run: Run, target: str, args: Iterable[str]) -> None:
@@ -105,10 +111,13 @@ _PROPERTIES: Final = frozenset(
 )  # fmt: skip
 
 
+def are_in_flags(run: Run) -> bool:
+    """Whether the flags that every target is compiled with have include directories."""
+    return any(_FOLDER_OPTION.search(run.get(flags) or "") for flags in _FLAGS)
+
+
 def reached(run: Run, name: str, targets: Mapping[str, Properties]) -> tuple[str, ...] | None:
     """Return what a target may get headers from, as find_package() calls it or by another name; None if from anywhere."""
-    if any(_FOLDER_OPTION.search(run.get(flags) or "") for flags in _FLAGS):
-        return None
     found: dict[str, None] = {}
     waiting = [name, ALL_TARGETS]
     seen: set[str] = set()
@@ -142,9 +151,11 @@ def _owners(run: Run, name: str) -> tuple[str, ...]:
     space, sign, inner = name.partition("::")
     if not sign or not inner:
         return (space,)
-    letters = folded(space)
+    if space in run.prefixes:
+        return (space,)
     if inner in run.prefixes:
         return (space, inner)
+    letters = folded(space)
     return (space,) if any(folded(found).startswith(letters) for found in run.prefixes) else ()
 
 

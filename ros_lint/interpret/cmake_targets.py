@@ -6,7 +6,7 @@ from typing import Final, Literal
 
 from ros_lint.facts.cmake import Target
 from ros_lint.facts.sight import Facet
-from ros_lint.interpret.cmake_headers import reached
+from ros_lint.interpret.cmake_headers import are_in_flags, reached
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_state import Properties
 from ros_lint.interpret.cmake_target_headers import file_sets
@@ -212,6 +212,7 @@ def output_name(target: Properties) -> str | None:
 def targets(run: Run) -> tuple[Target, ...]:
     """Return the targets that the package builds, in the order of their definition."""
     found = []
+    anywhere = are_in_flags(run)
     for name, target, span in run.built:
         kind = target["KIND"]
         if kind == "imported":
@@ -223,7 +224,7 @@ def targets(run: Run) -> tuple[Target, ...]:
         optional = tuple([path for path in sources if path not in firm])
         links = _links(run, name) if name in run.links else ()
         whole = len(named) == len(listed)
-        headers = reached(run, name, run.targets)
+        headers = None if anywhere or not sources or "TEST" in target else reached(run, name, run.targets)
         found.append(Target(name, _KINDS.get(kind, "library"), sources, "TEST" in target, span, links, optional, whole, headers))
     return tuple(dict.fromkeys(found)) if len(found) > 1 else tuple(found)
 

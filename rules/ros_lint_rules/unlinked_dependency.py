@@ -68,37 +68,36 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if any(each.hidden(Facet.USES) for name in found for each in workspace.by_name.get(name, ())):
         return  # what it does to those who find it is not seen
     interfaces = [mention.name for mention in given_for(script, "interfaces")]
-    uses = _includes(package)
-    is_package = workspace.world.is_package
+    uses = _includes(package, frozenset([name for name in found if workspace.world.is_package(name)]))
     for target in script.targets:
-        if target.headers is None or target.test or target.kind not in ("executable", "library"):
+        if target.headers is None or target.kind == "interface":
             continue
-        missing: dict[str, list[Use]] = {}
+        needed: dict[str, list[Use]] = {}
         for source in target.sources:
             if source in package.compiled_along and source not in target.optional:
                 for path in (source, *sorted(package.compiled_along[source])):
                     for use in uses.get(path, ()):
-                        if use.package in found and found.isdisjoint(use.providers[1:]) and is_package(use.package):
-                            missing.setdefault(use.package, []).append(use)
-        if missing:
-            yield from _not_given(package, workspace, target, [*target.headers, *interfaces], missing)
+                        needed.setdefault(use.package, []).append(use)
+        if not needed.keys() <= set(target.headers):
+            yield from _not_given(package, workspace, target, [*target.headers, *interfaces], needed)
 
 
-def _includes(package: Package) -> dict[str, list[Use]]:
-    """Return the includes that every build compiles, by file."""
+def _includes(package: Package, wanted: frozenset[str]) -> dict[str, list[Use]]:
+    """Return the includes of some packages that every build compiles, by file."""
     found: dict[str, list[Use]] = {}
     for use in package.uses:
-        if use.via == "include" and use.sure and not use.optional:
+        compiled = use.via == "include" and use.sure and not use.optional
+        if compiled and use.package in wanted and wanted.isdisjoint(use.providers[1:]):
             found.setdefault(relative(package, use.span.path), []).append(use)
     return found
 
 
 def _not_given(
-    package: Package, workspace: Workspace, target: BuildTarget, given: list[str], missing: dict[str, list[Use]]
+    package: Package, workspace: Workspace, target: BuildTarget, given: list[str], needed: dict[str, list[Use]]
 ) -> Iterator[Finding]:
     """Yield what a target is not given, of the packages that its sources include."""
     along = found_along(workspace, given)
-    for name, uses in missing.items():
+    for name, uses in needed.items():
         if name in along or (not along.complete and may_bring(along.unknown, name, workspace)):
             continue
         first, *others = dict.fromkeys(uses)
