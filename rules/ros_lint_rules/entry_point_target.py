@@ -137,7 +137,7 @@ def _no_module(package: Package, entry: EntryPoint, name: str, function: str, wo
     modules = [module for module in known if "." in module and taken.isdisjoint((module, f"{module}:{function}"))]
     # What lies in a folder that is no Python package is put aside: setup.py never installs it.
     modules = [module for module in modules if _is_in_package(module, name, script, package.files)]
-    near = similar(name, modules, 1, 0.9)
+    near = [module for module in similar(name, modules, 3, 0.9) if _is_slip(name, module)][:1]
     if own not in tops and own != package.name and not similar(own, [*tops, package.name], 1, 0.85):
         # The name of a package that was copied, before a module that is here.
         near = [module for module in modules if module.partition(".")[2] == name.partition(".")[2]]
@@ -150,6 +150,16 @@ def _no_module(package: Package, entry: EntryPoint, name: str, function: str, wo
     yield Finding(
         f"{entry.name}: there is no module {name}{hint}", entry.span, entry.name, fix=_fix(entry, name, near[0] if near else "")
     )
+
+
+def _is_slip(name: str, module: str) -> bool:
+    """Whether a name like that of a module may be a slip for it, and does not say another thing of the same: _old, not _slow."""
+    said, there = (set(_WORDS.split(each)) for each in (name, module))
+    strange, instead = " ".join(sorted(said - there)), " ".join(sorted(there - said))
+    return not strange or not instead or bool(similar(strange, [instead]))
+
+
+_WORDS = re.compile(r"[._]")
 
 
 def _is_in_package(module: str, wanted: str, script: BuildScript, files: Sequence[str]) -> bool:
