@@ -62,6 +62,8 @@ class _Places:
         self._modules: dict[str, list[Around]] = {}
         self._provides: dict[str, dict[str, str]] = {}
         self._trees: dict[str, Module | None] = {}
+        self._on_path: set[str] = set()
+        """Modules that were found where Python was told to look: what lies beside them is found as well."""
         for package in packages:
             self._by_name.setdefault(package.name, []).append(package)
             script = package.script
@@ -120,9 +122,22 @@ class _Places:
                 folder = parent(folder)
             return self._existing(join(folder, rest) if rest else folder, package)
         owners = self._modules.get(rest.partition("/")[0], [])
-        if package in owners or "sys.path" in importer.text:
-            return self._existing(join(parent(importer.path), rest), package) or _shortest(package, rest)
+        if package in owners:
+            return self._sought(rest, importer, package)
+        if "sys.path" in importer.text or importer.path in self._on_path:
+            found = self._sought(rest, importer, package) or self._elsewhere(rest, importer)
+            self._on_path.add(found)
+            return found
         return _shortest(owners[0], rest) if len(owners) == 1 else ""
+
+    def _sought(self, module: str, importer: Text, package: Around) -> str:
+        return self._existing(join(parent(importer.path), module), package) or _shortest(package, module)
+
+    def _elsewhere(self, module: str, importer: Text) -> str:
+        """Return the path of a module in the folder of another package that is named: where Python was told to look, too."""
+        named = [one for one in self._by_path.values() if _is_quoted(one.name, importer.text)]
+        found = [path for one in named if (path := _shortest(one, module))]
+        return found[0] if len(found) == 1 else ""
 
     def _package_of(self, path: str) -> Around | None:
         while path:
@@ -189,6 +204,10 @@ def _module_of(text: Text) -> Module | None:
 def _sources(module: str) -> Iterator[str]:
     yield f"{module}.py"
     yield f"{module}/__init__.py"
+
+
+def _is_quoted(name: str, text: str) -> bool:
+    return f"'{name}'" in text or f'"{name}"' in text
 
 
 def _shortest(package: Around, module: str) -> str:

@@ -134,6 +134,37 @@ def generate_launch_description():
     assert action.package.texts == ("driver",)
 
 
+def test_module_in_the_folder_of_another_package() -> None:
+    text = """
+import sys
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+sys.path.append(get_package_share_directory("bringup") + "/launch")
+from agent import AgentLaunchDescription
+
+def generate_launch_description():
+    return AgentLaunchDescription("camera")
+"""
+    files = {"launch/a.launch.py": text}
+    library = {
+        "launch/names.py": "DRIVER = 'driver'\n",
+        "launch/agent.py": "from names import DRIVER\n"
+        + HELPER.replace("start", "AgentLaunchDescription").replace('"driver"', "DRIVER"),
+    }
+    alone = _completed((_package("app", files, {}), files))["app/launch/a.launch.py"]
+    assert [opaque.reason for opaque in alone.opaque] == [
+        "what is launched is not known: AgentLaunchDescription() cannot be followed"
+    ]
+    packages = [(_package("app", files, {}), files), (_package("bringup", library, {}), library)]
+    after = _completed(*packages)["app/launch/a.launch.py"]
+    assert not after.opaque
+    assert [(action.package and action.package.texts, action.target and action.target.texts) for action in after.actions] == [
+        (("driver",), ("camera",))
+    ]
+    other = (_package("other", library, {}), library)
+    assert _completed(packages[0], other)["app/launch/a.launch.py"].opaque, "nothing says that it is looked for there"
+
+
 def test_sibling_by_changed_path() -> None:
     files = {
         "launch/common.py": HELPER,

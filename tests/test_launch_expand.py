@@ -186,3 +186,51 @@ def test_branches_that_grow_without_end_are_cut() -> None:
     files = {f"f{n}": xml(f'<include file="/x/f{n + 1}.launch.xml"/>' * 4) for n in range(12)}
     found = run(files["f0"], **files)
     assert not found.complete
+
+
+def opaque(body: str, *arguments: str) -> LaunchFile:
+    """Return a launch file with a function that launch calls."""
+    indented = "".join(f"    {line}\n" for line in body.splitlines())
+    return collect(
+        "pkg/launch/a.launch.py",
+        "from launch import LaunchDescription\nfrom launch.actions import *\nfrom launch.substitutions import *\n"
+        f"from launch_ros.actions import *\ndef start(context):\n{indented}"
+        "def generate_launch_description():\n"
+        f"    return LaunchDescription([{', '.join(arguments)}, OpaqueFunction(function=start)])\n",
+    )[1]
+
+
+def test_a_dictionary_says_what_belongs_to_the_value_of_an_argument() -> None:
+    file = opaque(
+        "kind = LaunchConfiguration('kind').perform(context)\n"
+        "programs = {'arm': 'move', 'base': 'drive'}\n"
+        "return [Node(package='p', executable=programs[kind]), Node(package='q', executable=programs.get(kind, 'stand'))]",
+        "DeclareLaunchArgument('kind', default_value='base')",
+    )
+    assert said(run(file)) == ["node p drive", "node q drive"]
+    assert said(run(file, {"kind": "arm"})) == ["node p move", "node q move"]
+    assert said(run(file, {"kind": "head"})) == ["node q stand"]
+
+
+def test_methods_of_the_value_of_an_argument_wait_for_it() -> None:
+    file = opaque(
+        "mode = LaunchConfiguration('mode').perform(context).lower()\n"
+        "found = [Node(package='p', executable='on' if mode == 'on' else 'off')]\n"
+        "if mode.startswith('o'):\n"
+        "    found.append(Node(package='q', executable=mode))\n"
+        "return found",
+        "DeclareLaunchArgument('mode', default_value='ON')",
+    )
+    assert said(run(file)) == ["node p on", "node q on"]
+    assert said(run(file, {"mode": "Full"})) == ["node p off"]
+
+
+def test_lists_that_are_summed() -> None:
+    file = opaque(
+        "names = LaunchConfiguration('names').perform(context).split(' ')\n"
+        "both = sum([[Node(package='p', executable='a')], [Node(package='p', executable='b')]], [])\n"
+        "return both + sum(([Node(package='q', executable='c')] for name in names), [])",
+        "DeclareLaunchArgument('names', default_value='x')",
+    )
+    assert said(run(file)) == ["node p a", "node p b", "node q c ?"]
+    assert not file.opaque

@@ -67,6 +67,28 @@ OPEN = {
 }
 BOUNDED = {
     "huge ranges": _program("x = list(range(10 ** 12))\ny = 5 in range(10 ** 12)\nz = sorted(range(10 ** 9))"),
+    "copies that double": _program("import copy\nx = [1]\nfor i in range(60):\n    x = [x, copy.deepcopy(x)]"),
+    "an argument that is sought among many": _program(
+        "x = LaunchConfiguration('a').perform(None)\ny = [str(i) for i in range(4000)]\n"
+        "for i in range(1900):\n    if x in y:\n        z = 1"
+    ),
+    "what is sought among many": _program(
+        "y = [str(i) for i in range(4000)]\nfor i in range(1000):\n    for j in range(50):\n        z = 'q' in y"
+    ),
+    "an argument that chooses among many": _program(
+        "x = LaunchConfiguration('a').perform(None)\nd = {str(i): str(i) for i in range(4000)}\ne = {'a': 'b', 'b': 'a'}\n"
+        "for i in range(1900):\n    y = d[x]\n    z = d.get(x)\n    x = e.get(x, x)"
+    ),
+    "an argument that changes its letters again and again": _program(
+        "x = LaunchConfiguration('a').perform(None)\nfor i in range(1900):\n    x = x.lower() + x.upper()\n"
+        "return LaunchDescription([Node(package='a', executable=x)])"
+    ),
+    "lists that are summed": _program("x = [1]\nfor i in range(60):\n    x = sum([x, x], [])"),
+    "helpers of released packages": _program(
+        "d = LaunchDescription()\nfor i in range(1900):\n    add_debuggable_node(d, package='a', executable='b', arguments=[d])\n"
+        "return d",
+        "from moveit_configs_utils.launch_utils import *\n",
+    ),
     "huge powers": _program("x = 10 ** 10 ** 10\ny = 1 << (1 << 40)\nfor i in range(60):\n    x = x * x"),
     "huge texts": _program("x = 'a' * 10 ** 12\ny = 'a'.ljust(10 ** 11)\nz = f'{1:1000000000}'\nw = '%1000000000d' % 1"),
     "texts that double": _program(f"x = 'ab'\n{DOUBLE}f'{{x}}{{x}}'"),

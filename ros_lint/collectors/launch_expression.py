@@ -67,9 +67,9 @@ _COMPARE: Mapping[type[ast.cmpop], Callable[[Any, Any], Any]] = {
     ast.In: lambda a, b: a in b,
     ast.NotIn: lambda a, b: a not in b,
 }
-_METHODS = frozenset(
-    {"lower", "upper", "strip", "lstrip", "rstrip", "startswith", "endswith", "replace", "split", "find", "count"}
-)
+EVALUATED = frozenset({"capitalize", "casefold", "endswith", "lower", "startswith", "title", "upper"})
+"""Methods of texts that an expression may call, and that are no longer than these."""
+_METHODS = EVALUATED | {"strip", "lstrip", "rstrip", "replace", "split", "find", "count"}
 
 
 def _value(node: ast.expr) -> Any:

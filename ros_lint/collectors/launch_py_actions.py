@@ -139,6 +139,8 @@ def _other(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAct
         return started_node(walker, made, conditions)
     if made.name in SUBSTITUTIONS:
         return []
+    if made.name.endswith("LaunchDescription"):  # by its name a function that makes one
+        walker.blind.append((f"{made.name}() cannot be followed", place_of(made)))
     if _DECLARES.match(made.name):
         (action,) = _declare(walker, made, conditions)
         unknown = LaunchValue((UNKNOWN,), place_of(made))  # it has a default of its own, for all that can be seen

@@ -189,6 +189,22 @@ def _extreme(function: Callable[[Any], Any]) -> Rule:
     return rule
 
 
+def _sum(call: Call) -> Value:
+    if len(call.arguments) < 2 or not isinstance(plain(call.get(1)), list):
+        return _extreme(sum)(call)
+    found, parts = call.items(1), call.items(0)
+    if found is None or parts is None:
+        return unknown(call)
+    for part in parts:
+        inner = items(call.machine, part)
+        if inner is None:
+            return unknown(call)
+        conditions = part.conditions if isinstance(part, Guarded) else ()
+        call.machine.spend(len(inner))
+        found += [Guarded(one, conditions) for one in inner]
+    return found
+
+
 def _isinstance(call: Call) -> Value:
     value, kind = plain(call.get(0)), plain(call.get(1))
     kinds = kind if isinstance(kind, tuple) else (kind,)
@@ -285,27 +301,28 @@ def _copied(call: Call) -> Value:
 
 
 def _copied_whole(call: Call) -> Value:
-    return _deep(call.get(0), {})
+    return _deep(call.machine, call.get(0), {})
 
 
-def _deep(value: Value, done: dict[int, Value]) -> Value:
+def _deep(machine: Machine, value: Value, done: dict[int, Value]) -> Value:
     """Return a value with new lists and dictionaries all the way down, the same one where the same one was."""
     if isinstance(value, Guarded):
-        return Guarded(_deep(value.value, done), value.conditions)
+        return Guarded(_deep(machine, value.value, done), value.conditions)
     if isinstance(value, Union):
-        return Union(tuple([Guarded(_deep(one.value, done), one.conditions) for one in value.values]))
+        return Union(tuple([Guarded(_deep(machine, one.value, done), one.conditions) for one in value.values]))
     if isinstance(value, tuple):
-        return tuple([_deep(one, done) for one in value])
+        return tuple([_deep(machine, one, done) for one in value])
     if not isinstance(value, (list, dict)) or id(value) in done:
         return done.get(id(value), value)
+    machine.spend(1 + len(value) // 8)
     if isinstance(value, list):
         items: list[Value] = []
         done[id(value)] = items
-        items += [_deep(one, done) for one in value]
+        items += [_deep(machine, one, done) for one in value]
         return items
     entries: dict[Any, Value] = {}
     done[id(value)] = entries
-    entries.update({key: _deep(one, done) for key, one in value.items()})
+    entries.update({key: _deep(machine, one, done) for key, one in value.items()})
     return entries
 
 
@@ -363,7 +380,7 @@ FUNCTIONS: Mapping[str, Rule] = {
     "builtins.all": _any_all(False),
     "builtins.min": _extreme(min),
     "builtins.max": _extreme(max),
-    "builtins.sum": _extreme(sum),
+    "builtins.sum": _sum,
     "builtins.isinstance": _isinstance,
     "builtins.getattr": _getattr,
     "builtins.print": nothing,

@@ -177,7 +177,9 @@ def _compare(machine: Machine, node: ast.Compare, frame: Frame) -> Value:
     result: Value = True
     for op, right_node in zip(node.ops, node.comparators, strict=True):
         right = machine.evaluate(right_node, frame)
-        if isinstance(op, (ast.Eq, ast.NotEq)):
+        if isinstance(op, (ast.In, ast.NotIn)) and isinstance(right, (list, tuple, dict, str)):
+            machine.spend(len(right) // 8)
+        elif isinstance(op, (ast.Eq, ast.NotEq)):
             for one, other in ((left, right), (right, left)):
                 if isinstance(other, str):
                     note(machine, one, "compared", node, frame)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import posixpath
 from typing import TYPE_CHECKING, Any
 
+from ros_lint.collectors.launch_expression import EVALUATED
 from ros_lint.collectors.launch_py_misuse import note
 from ros_lint.collectors.launch_py_objects import (
     PERHAPS,
@@ -28,9 +29,29 @@ from ros_lint.collectors.launch_py_objects import (
     union,
     written,
 )
-from ros_lint.collectors.launch_py_operations import hashable, may_have_more, text_of, texts_made, with_format
-from ros_lint.collectors.launch_text import LONGEST, UNKNOWN, is_plain, is_settled, joined, share
+from ros_lint.collectors.launch_py_operations import (
+    chosen,
+    hashable,
+    may_have_more,
+    text_of,
+    texts_made,
+    waits,
+    with_format,
+    without,
+)
+from ros_lint.collectors.launch_text import (
+    LONGEST,
+    UNKNOWN,
+    expression,
+    is_plain,
+    is_settled,
+    joined,
+    names_places,
+    quoted,
+    share,
+)
 from ros_lint.collectors.python_methods import CONSTANTS, NUMBERS, SPLITS, STRIPS, TEXT_METHODS, TRUTHS
+from ros_lint.facts.launch import LaunchCondition
 
 if TYPE_CHECKING:
     import ast
@@ -195,8 +216,7 @@ def _of_text(
     values = [plain(argument) for argument in arguments]
     known = all(isinstance(value, (str, int, tuple, type(None))) for value in values) and not keywords
     known = known and all(is_plain(value) for value in values if isinstance(value, str))
-    known = known and (is_settled(owner) or name in STRIPS)
-    possible = name in _OF_MARKED or (name in _OF_PLAIN and is_plain(owner))
+    possible = (is_settled(owner) or name in STRIPS) and (name in _OF_MARKED or (name in _OF_PLAIN and is_plain(owner)))
     if possible and known and len(owner) <= LONGEST:
         if _grows(owner, name, values):
             return UNKNOWN
@@ -205,6 +225,9 @@ def _of_text(
         except (TypeError, ValueError):
             raise Raised from None
         return result if not isinstance(result, str) or len(result) <= LONGEST else UNKNOWN
+    if known and name in EVALUATED and len(owner) <= LONGEST and waits(owner) and not names_places(owner):
+        later = expression(f"{quoted(owner)}.{name}({', '.join(map(repr, values))})")
+        return Unknown("a truth", LaunchCondition((later,), None)) if name in TRUTHS else written(later, node, frame.source)
     if name in TRUTHS or name in NUMBERS:
         return Unknown(f"{name}() of a text that is not known")
     return written(UNKNOWN, node, frame.source) if name not in SPLITS else Unknown(f"{name}()")
@@ -317,7 +340,7 @@ def _of_dict(machine: Machine, owner: dict[Any, Value], name: str, arguments: li
         case "get" | "pop" | "setdefault":
             default = arguments[1] if len(arguments) > 1 else None
             if isinstance(key, str) and not is_plain(key):
-                return union([*owner.values(), default])
+                return union([*chosen(owner, key), Guarded(default, without(owner, key))])
             if key in owner:
                 return owner.pop(key) if name == "pop" else owner[key]
             if UNKNOWN in owner:

@@ -10,6 +10,7 @@ from ros_lint.collectors.launch_py_misuse import note
 from ros_lint.collectors.launch_py_objects import (
     PERHAPS,
     Api,
+    Conditions,
     FilePath,
     Frame,
     Guarded,
@@ -28,6 +29,7 @@ from ros_lint.collectors.launch_py_objects import (
 from ros_lint.collectors.launch_py_texts import texts
 from ros_lint.collectors.launch_text import (
     LONGEST,
+    MOST,
     UNKNOWN,
     certain_part,
     distinct,
@@ -312,7 +314,7 @@ def _contained(op: ast.cmpop, left: Value, right: Value) -> Value:
             return not wanted
         if known and len(inner) == 1 and isinstance(inner[0], str):
             return Unknown("comparison with an argument", LaunchCondition((str(left),), inner[0], wanted))
-        if known and isinstance(left, str):
+        if known and isinstance(left, str) and len(inner) <= _MOST_COMPARED:
             one_of = ", ".join([quoted(one) for one in inner if isinstance(one, str)])
             return _asked(f"{quoted(left)} {'in' if wanted else 'not in'} ({one_of},)")
     return Unknown("membership that is not known")
@@ -338,14 +340,32 @@ def sliced(owner: Value, parts: list[Value]) -> Value:
             return owner[slice(*parts)]
         except ValueError:
             raise Raised from None
-    if known and isinstance(owner, str) and _waits(owner):
+    if known and isinstance(owner, str) and waits(owner):
         return expression(f"{quoted(owner)}[{':'.join(['' if part is None else str(part) for part in parts])}]")
     return Unknown("part of what is not known")
 
 
-def _waits(text: str) -> bool:
+def waits(text: str) -> bool:
     """Whether a text is known as soon as the arguments and environment variables in it are."""
     return UNKNOWN not in text and bool(named_in(text))
+
+
+def chosen(owner: dict[Any, Value], key: str) -> list[Value]:
+    """Return what a dictionary has under a key that hangs on arguments: each value where the key is its own."""
+    if not _is_choice(owner, key):
+        return list(owner.values())
+    return [Guarded(value, (LaunchCondition((str(key),), str(name)),)) for name, value in owner.items()]
+
+
+def without(owner: dict[Any, Value], key: str) -> Conditions:
+    """Return what must be so for a dictionary to have nothing under a key that hangs on arguments."""
+    if not _is_choice(owner, key):
+        return ()
+    return tuple([LaunchCondition((str(key),), str(name), wanted=False) for name in owner])
+
+
+def _is_choice(owner: dict[Any, Value], key: str) -> bool:
+    return len(owner) <= MOST and waits(key) and all(isinstance(one, str) and is_plain(one) for one in owner)
 
 
 def may_have_more(values: Sequence[Value]) -> bool:
@@ -357,7 +377,7 @@ def subscript(machine: Machine, owner: Value, key: Value) -> Value:
     """Return an element of a value."""
     if isinstance(owner, dict):
         if isinstance(key, str) and not is_plain(key):
-            return union(owner.values()) if owner else Unknown("element of an empty dictionary")
+            return union(chosen(owner, key)) if owner else Unknown("element of an empty dictionary")
         name = hashable(key)
         if name in owner:
             return owner[name]
@@ -376,6 +396,6 @@ def subscript(machine: Machine, owner: Value, key: Value) -> Value:
             return owner[key]
         except IndexError:
             raise Raised from None
-    if isinstance(owner, str) and isinstance(key, int) and _waits(owner):
+    if isinstance(owner, str) and isinstance(key, int) and waits(owner):
         return expression(f"{quoted(owner)}[{key}]")
     return machine.subscript_of_library(owner, key)

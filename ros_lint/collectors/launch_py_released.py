@@ -180,21 +180,21 @@ from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 from moveit_configs_utils.launch_utils import add_debuggable_node
 
-def _told(names):
-    return [DeclareLaunchArgument(name, default_value=input()) for name in names.split()]
+def _told(**defaults):
+    return [DeclareLaunchArgument(name, default_value=default) for name, default in defaults.items()]
 
 def generate_rsp_launch(moveit_config):
     node = Node(package="robot_state_publisher", executable="robot_state_publisher",
                 parameters=[{"publish_frequency": LaunchConfiguration("publish_frequency")}])
-    return LaunchDescription(_told("publish_frequency") + [node])
+    return LaunchDescription(_told(publish_frequency="15.0") + [node])
 
 def generate_moveit_rviz_launch(moveit_config):
-    found = LaunchDescription(_told("debug rviz_config"))
+    found = LaunchDescription(_told(debug="False", rviz_config=input()))
     add_debuggable_node(found, package="rviz2", executable="rviz2", arguments=["-d", LaunchConfiguration("rviz_config")])
     return found
 
 def generate_setup_assistant_launch(moveit_config):
-    found = LaunchDescription(_told("debug"))
+    found = LaunchDescription(_told(debug="False"))
     add_debuggable_node(found, package="moveit_setup_assistant", executable="moveit_setup_assistant")
     return found
 
@@ -211,21 +211,22 @@ def _spawner(name):
     return Node(package="controller_manager", executable="spawner", arguments=[name])
 
 def generate_warehouse_db_launch(moveit_config):
-    found = LaunchDescription(_told("moveit_warehouse_database_path reset moveit_warehouse_port moveit_warehouse_host"))
+    found = LaunchDescription(_told(moveit_warehouse_database_path=input(), reset="False", moveit_warehouse_port="33829"))
+    found.extend(_told(moveit_warehouse_host="localhost"))
     found.add_action(Node(package="warehouse_ros_mongo", executable="mongo_wrapper_ros.py"))
     found.add_action(Node(package="moveit_ros_warehouse", executable="moveit_init_demo_warehouse",
                           condition=IfCondition(LaunchConfiguration("reset"))))
     return found
 
 def generate_move_group_launch(moveit_config):
-    found = LaunchDescription(_told("debug allow_trajectory_execution publish_monitored_planning_scene capabilities"))
-    found.extend(_told("disable_capabilities monitor_dynamics"))
+    found = LaunchDescription(_told(debug="False", allow_trajectory_execution="True", monitor_dynamics="False"))
+    found.extend(_told(publish_monitored_planning_scene="True", capabilities=input(), disable_capabilities=input()))
     add_debuggable_node(found, package="moveit_ros_move_group", executable="move_group", extra_debug_args=["--debug"])
     return found
 
 def generate_demo_launch(moveit_config, launch_package_path=None):
     folder = launch_package_path or moveit_config.package_path
-    found = LaunchDescription(_told("db debug use_rviz"))
+    found = LaunchDescription(_told(db="False", debug="False", use_rviz="True"))
     if (folder / "launch/static_virtual_joint_tfs.launch.py").exists():
         found.add_action(_included(folder, "static_virtual_joint_tfs"))
     found.add_action(_included(folder, "rsp"))
