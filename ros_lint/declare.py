@@ -127,10 +127,10 @@ def works_unseen(package: Package, workspace: Workspace, name: str) -> bool:
     mine = workspace.by_name.get(name, ())
     if mine:
         return any(_gives_macros(each) or not makes_something(each) or _lacks_parts(each, world) for each in mine)
-    return _only_brings(world, name) or _stands_for_others(package, world, name)
+    return only_brings(world, name) or _stands_for_others(package, world, name)
 
 
-def _only_brings(world: World, name: str) -> bool:
+def only_brings(world: World, name: str) -> bool:
     """Whether a released package is a metapackage: it says so, or has nothing but what it brings to be run."""
     released = world.released(name)
     if released is None or "m" in released.flags[1:]:

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from ros_lint.advice import circle
+from ros_lint.declare import only_brings
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Use, Via
 from ros_lint.knowledge.reach import Closure
@@ -206,7 +207,8 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
     What only launch files name, to start, include or look it up, is left out, unless these are tests: it has a rule of its
     own. So is what is declared by another name, and a command of CMake that comes with what is to be declared anyway. Of what
     modules with parts of launch files name, nobody knows who takes it. Nor is it known of files that need what is declared under
-    a condition, which does not hold here, whether they are for here; what CMake asks for is.
+    a condition, which does not hold here, whether they are for here; what CMake asks for is. A metapackage has no files that
+    could be looked up.
     """
     unknown = all_declared(package, workspace).unknown
     found = []
@@ -223,6 +225,7 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
             continue
         sure = need.sure and any(use.via != "launch" or use.role is _TEST for use in need.uses)
         sure = sure and (need.name not in elsewhere or any(use.via in _BUILT and use.sure for use in need.uses))
+        sure = sure and not _looks_into_nothing(need, workspace)
         if workspace.world.standing(need.name) != "known":
             if comes_elsewhere(package, workspace, need.name) or _is_declared_as_key(package, workspace, need.name):
                 continue
@@ -233,6 +236,13 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
 
 
 _BUILT = frozenset({"cmake", "macro", "target"})
+
+
+def _looks_into_nothing(need: Need, workspace: Workspace) -> bool:
+    """Whether only files of a metapackage are looked up, which has none: another package of its name is meant."""
+    if need.name in workspace.by_name or any(use.via not in ("package", "launch") for use in need.uses):
+        return False
+    return only_brings(workspace.world, need.name)
 
 
 def _is_declared_as_key(package: Package, workspace: Workspace, name: str) -> bool:
