@@ -34,6 +34,7 @@ Where a tag is there, under a condition that does not hold, widen the condition.
   then the confidence is medium.
 - All evidence is in files that are perhaps not built or installed: then, too, the confidence is medium. So it is with files
   that need what is declared under a condition which does not hold, unless CMake asks for it: they may be for where it does.
+  And with files that are looked up in a released metapackage, which has none: another package of its name is meant.
 - The package needs this one itself, in whatever tag, so that declaring it would close a cycle that colcon refuses: then,
   too, the confidence is medium, and nothing is fixed. Nor is it where no key resolves for the distribution, and for a project of
   the workspace without `package.xml`, which colcon builds and rosdep does not know.
