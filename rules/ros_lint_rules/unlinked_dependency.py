@@ -22,7 +22,7 @@ fix adds it to the call that has the others.
 - The package comes along, or may come along, with one that the target is given, itself or by targets of this package, under
   whatever condition.
 - The include or the source is not part of every build, or serves tests only.
-- Nothing finds the package: that is `missing-find-package`.
+- Nothing finds the package: that is `missing-find-package`. Or it is a vendor package: what it brings has names of its own.
 
 The confidence is medium for headers that need not lie in a folder of their own: those of released packages, generated ones
 aside, and of packages of the workspace where the target is given another one of it.
@@ -68,7 +68,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if any(each.hidden(Facet.USES) for name in found for each in workspace.by_name.get(name, ())):
         return  # what it does to those who find it is not seen
     interfaces = [mention.name for mention in given_for(script, "interfaces")]
-    uses = _includes(package, frozenset([name for name in found if workspace.world.is_package(name)]))
+    packages = [name for name in found if workspace.world.is_package(name) and not name.endswith(_VENDOR)]
+    uses = _includes(package, frozenset(packages))
     for target in script.targets:
         if target.headers is None or target.kind == "interface":
             continue
@@ -80,6 +81,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                         needed.setdefault(use.package, []).append(use)
         if not needed.keys() <= set(target.headers):
             yield from _not_given(package, workspace, target, [*target.headers, *interfaces], needed)
+
+
+_VENDOR = "_vendor"
+"""How packages are called whose headers and targets are those of a library, by names of its own."""
 
 
 def _includes(package: Package, wanted: frozenset[str]) -> dict[str, list[Use]]:
