@@ -166,6 +166,13 @@ def test_components_may_be_registered_by_code_that_ament_package_runs(point: str
     assert hidden(script) == unseen
 
 
+def test_code_for_others_may_be_made_by_the_build() -> None:
+    made = "configure_file(a.cmake.in a.cmake @ONLY)\n"
+    script = run(f"{made}ament_package(CONFIG_EXTRAS ${{CMAKE_CURRENT_BINARY_DIR}}/a.cmake gone.cmake)\n", ("a.cmake.in",))
+    assert "share/pkg/cmake/a.cmake" in paths(script)
+    assert "share/pkg/cmake/gone.cmake" not in paths(script)
+
+
 def test_media_for_rviz_are_installed_with_their_folders() -> None:
     script = run("register_rviz_ogre_media_exports(DIRECTORIES ogre/materials)\n", ("ogre/materials/a.material",))
     assert paths(script) == {

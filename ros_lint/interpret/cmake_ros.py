@@ -235,12 +235,16 @@ def _needed(run: Run, args: list[str]) -> None:
 def _extras(run: Run, name: str, files: list[str], conditional: bool) -> None:
     _needed(run, files)
     for file in files:
-        path = run.source(sure(file)[0])
+        plain, certain = sure(file)
+        path = run.source(plain)
         source = next((one for one in (path, f"{path}.in") if path is not None and one in run.files), None)
+        written = posixpath.basename(source or plain)
         if source is not None:
             run.extras.append(source)
-            installed = f"share/{name}/cmake/{posixpath.basename(source).removesuffix('.in')}"
-            run.installed.append(Provided(installed, source, False, conditional, run.where(file)))
+        elif path is not None or not is_known(written):
+            continue
+        installed = f"share/{name}/cmake/{written.removesuffix('.in')}"
+        run.installed.append(Provided(installed, source or "", False, conditional or not certain, run.where(file)))
 
 
 def _end(run: Run) -> None:
