@@ -52,7 +52,10 @@ def parse(source: Text) -> ast.Module:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # about escapes in somebody's strings
-            return ast.parse(source.text)
+            try:
+                return ast.parse(source.text)
+            except UnicodeEncodeError:  # Python takes bytes that are no UTF-8 in comments of what it imports
+                return ast.parse(raw(source.text))
     except SyntaxError as error:
         raise NotPythonError(error.msg, error.lineno or 1, error.offset or 1) from None
     except (ValueError, RecursionError, MemoryError) as error:
