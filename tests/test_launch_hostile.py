@@ -72,6 +72,10 @@ BOUNDED = {
         "x = LaunchConfiguration('a').perform(None)\ny = [str(i) for i in range(4000)]\n"
         "for i in range(1900):\n    if x in y:\n        z = 1"
     ),
+    "keywords in plenty": _program(
+        "for i in range(1900):\n    for j in range(50):\n        f(**d)",
+        "d = {str(i): i for i in range(4000)}\ndef f(**k):\n    return dict(**k)\n",
+    ),
     "what is sought among many": _program(
         "y = [str(i) for i in range(4000)]\nfor i in range(1000):\n    for j in range(50):\n        z = 'q' in y"
     ),

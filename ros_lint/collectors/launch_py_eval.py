@@ -245,6 +245,7 @@ def _call(machine: Machine, node: ast.Call, frame: Frame) -> Value:
             continue
         inner_value = plain(value)
         if isinstance(inner_value, dict):
+            machine.spend(len(inner_value) // 8)
             keywords.update({str(name): one for name, one in inner_value.items()})
         else:
             machine.lose(value)
