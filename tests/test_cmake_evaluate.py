@@ -222,6 +222,19 @@ def test_properties_of_a_target_from_a_branch() -> None:
 
 
 @pytest.mark.parametrize(
+    ("branch", "headers"),
+    [
+        ('option(SCOPED "" OFF)\nif(SCOPED)\n{}endif()\n', {"include/a.h": False}),
+        ('option(SCOPED "" ON)\nif(SCOPED)\n{}endif()\n', {"include/pkg/a.h": False}),
+    ],
+)
+def test_what_cmake_sets_is_there_where_a_branch_is_not_taken(branch: str, headers: dict[str, bool]) -> None:
+    scoped = 'set(CMAKE_INSTALL_INCLUDEDIR "${CMAKE_INSTALL_INCLUDEDIR}/pkg")\n'
+    script = run(branch.format(scoped) + "install(FILES a.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})\n", ("a.h",))
+    assert paths(script) == headers
+
+
+@pytest.mark.parametrize(
     ("before", "libraries"),
     [
         ("", {"lib/liba.a": False}),

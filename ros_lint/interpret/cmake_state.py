@@ -8,6 +8,7 @@ from typing import Any, Final, NamedTuple
 from ros_lint.collectors.cmake_syntax import Command
 from ros_lint.interpret.cmake_blocks import Body
 from ros_lint.interpret.cmake_values import HOLE, certainly_set, merge, unpaired
+from ros_lint.knowledge.cmake_commands import VARIABLES
 
 Exit = int
 """How a piece of script can end: a set of the bits below."""
@@ -230,13 +231,13 @@ class State:
                 self.put(mapping, key, HOLE)
 
     def _held(self, mapping: dict[str, Any], key: str) -> Any:
-        """Return an entry; what a scope does not hold itself is taken from the scopes around it."""
+        """Return an entry; what a scope does not hold itself is taken from the scopes around it, and from CMake."""
         value = mapping.get(key, MISSING)
         if value is MISSING and isinstance(mapping, Variables):
             for depth, scope in enumerate(self.scopes):
                 if scope is mapping:
                     outer = self.found(key, depth)
-                    return None if outer is MISSING else outer
+                    return VARIABLES.get(key) if outer is MISSING else outer
         return value
 
 
