@@ -194,10 +194,10 @@ _SMALL = (
     'if(NOT U1)\nelse()\nset(B "")\nendif()\nset(L "B;C")\nif(B IN_LIST L)\ntrace(1)\nendif()',
     'if(NOT U1)\nelse()\nset(A yes)\nendif()\nfunction(g)\nforeach(z IN LISTS ARGN)\nset(C "${C},${z}" PARENT_SCOPE)\n'
     'endforeach()\nendfunction()\ng(a "${A}")',
-    'function(f)\ncmake_parse_arguments(PARSE_ARGV 1 K "" "ONE" "MANY")\nset(A "${K_ONE}|${K_MANY}" PARENT_SCOPE)\nendfunction()\n'
-    "f(x MANY a ${U2} ONE b)",
-    'function(f)\ncmake_parse_arguments(PARSE_ARGV 2 K "" "ONE" "MANY")\nset(A "${K_ONE}|${K_MANY}" PARENT_SCOPE)\nendfunction()\n'
-    "f(${U2} x MANY a)",
+    'function(f)\ncmake_parse_arguments(PARSE_ARGV 1 K "" "ONE" "MANY")\nset(A "${K_ONE}|${K_MANY}" PARENT_SCOPE)\n'
+    "endfunction()\nf(x MANY a ${U2} ONE b)",
+    'function(f)\ncmake_parse_arguments(PARSE_ARGV 2 K "" "ONE" "MANY")\nset(A "${K_ONE}|${K_MANY}" PARENT_SCOPE)\n'
+    "endfunction()\nf(${U2} x MANY a)",
     'option(L "")\nforeach(i 1)\nif(L)\nelseif(1)\nif(NOT "${U1}" STREQUAL x)\nbreak()\nendif()\nendif()\nset(A y)\nendforeach()',
 )
 
