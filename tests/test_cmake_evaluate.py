@@ -221,6 +221,14 @@ def test_properties_of_a_target_from_a_branch() -> None:
     assert paths(script) == {"lib/liba.so": True, "lib/liba.so.1.2": True}
 
 
+@pytest.mark.parametrize("place", ["${WHERE}", '"${WHERE}"', "share/${WHERE}"])
+def test_a_place_that_is_one_of_two_is_not_known(place: str) -> None:
+    either = "set(WHERE a)\nif($ENV{OTHER})\nset(WHERE b)\nendif()\n"
+    script = run(f"{either}install(FILES a.h DESTINATION {place})\n", ("a.h",))
+    assert not paths(script)
+    assert hidden(script)
+
+
 @pytest.mark.parametrize(
     ("branch", "headers"),
     [

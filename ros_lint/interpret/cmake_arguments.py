@@ -83,3 +83,14 @@ def sections(args: Iterable[str], keywords: Mapping[str, int]) -> dict[str, list
             current.append(arg)
             room -= room > 0
     return found
+
+
+def with_one_destination(args: list[str]) -> list[str]:
+    """Return the arguments with a HOLE for a destination that is one of several, which the branches of a condition gave."""
+    result: list[str] = []
+    for arg in args:
+        if arg[:1] == MAYBE and result[-2:-1] == ["DESTINATION"] and result[-1][:1] in (MAYBE, HOLE):
+            result[-1] = HOLE
+        else:
+            result.append(arg)
+    return result

@@ -9,7 +9,7 @@ from typing import Final, NamedTuple
 
 from ros_lint.facts.build import Provided
 from ros_lint.facts.sight import Facet, Opaque
-from ros_lint.interpret.cmake_arguments import sections
+from ros_lint.interpret.cmake_arguments import sections, with_one_destination
 from ros_lint.interpret.cmake_glob import glob_regex
 from ros_lint.interpret.cmake_run import Handler, InstalledTarget, Run
 from ros_lint.interpret.cmake_state import Properties
@@ -65,6 +65,7 @@ def _hide(run: Run, destination: str | None, reason: str) -> None:
 
 def _install(run: Run, args: list[str]) -> None:
     mode = args[0] if args else ""
+    args = with_one_destination(args)
     if args[1:2] and (args[1] == "DESTINATION" or (mode == "TARGETS" and args[1] in INSTALL_ARTIFACTS)):
         return  # the list was empty, which CMake allows
     if mode in ("FILES", "PROGRAMS", "DIRECTORY") and (strange := next((arg for arg in args if arg in _OF_TARGETS), "")):

@@ -134,7 +134,7 @@ def _destination(value: str) -> str | None:
     if value.startswith(PREFIX):
         value = value[len(PREFIX) :].lstrip("/")
     value = _MODULES.sub(VARIABLES["PYTHON_INSTALL_DIR"], value)
-    if HOLE in value or "\1" in value or value.startswith("/") or "$<" in value:
+    if HOLE in value or MAYBE in value or "\1" in value or value.startswith("/") or "$<" in value:
         return None
     path = posixpath.normpath(value) if value else ""
     return "" if path == "." else path
