@@ -13,6 +13,7 @@ from ros_lint.interpret.cmake_headers import ALL_TARGETS, FOREIGN_VARIABLE, give
 from ros_lint.interpret.cmake_include import include_foreign, include_own
 from ros_lint.interpret.cmake_run import Handler, Run, folded
 from ros_lint.interpret.cmake_values import ATOM, FOREIGN, HOLE, SOURCE, is_known, maybe, split, sure
+from ros_lint.knowledge.cmake_commands import VISIBILITY
 from ros_lint.text import Span
 from ros_lint.wording import few
 
@@ -112,7 +113,7 @@ def _find_all(run: Run, args: list[str]) -> None:
             found(run, name, required=True)
 
 
-_VISIBILITY: Final = frozenset({"PUBLIC", "INTERFACE", "PRIVATE", "SYSTEM"})
+_NO_PACKAGES: Final = VISIBILITY | {"SYSTEM"}
 _PURPOSES: Final[Mapping[str, Purpose]] = {"-": "", "export": "export", "interfaces": "interfaces", "plugins": "plugins"}
 
 
@@ -122,7 +123,7 @@ def _uses(run: Run, args: list[str]) -> None:
     certainly: dict[str, Span] = {}
     for arg in args[2:]:
         name, certain = sure(arg)
-        if name in _VISIBILITY:
+        if name in _NO_PACKAGES:
             continue
         if name == _FOUND_DECLARED and purpose == "interfaces":
             _uses(run, [*args[:2], *map(maybe, run.sources.build_depends)])  # keys are not found
@@ -158,7 +159,7 @@ def _refuse(run: Run, command: str, what: str, span: Span, name: str) -> None:
 def _target_uses(run: Run, args: list[str]) -> None:
     """``ros_lint_target_uses(how target names...)``."""
     _give(run, args[0].partition(" ")[0], args[1:2])
-    names = [name for name in args[2:] if name not in _VISIBILITY]
+    names = [name for name in args[2:] if name not in _NO_PACKAGES]
     given(run, args[1] if len(args) > 1 else ALL_TARGETS, [name if HOLE in name else f"{name}::" for name in names])
     _uses(run, ["-", args[0], *args[2:]])
 
@@ -232,7 +233,7 @@ def _brings(run: Run, space: str, inner: str) -> bool:
     return run.is_bundled(space) or (space not in run.prefixes and inner in run.prefixes)
 
 
-_LINK_WORDS: Final = _VISIBILITY | {"LINK_PRIVATE", "LINK_PUBLIC", "LINK_INTERFACE_LIBRARIES", "debug", "optimized", "general"}
+_LINK_WORDS: Final = VISIBILITY | {"LINK_PRIVATE", "LINK_PUBLIC", "LINK_INTERFACE_LIBRARIES", "debug", "optimized", "general"}
 
 
 def _link_libraries(run: Run, args: list[str]) -> None:

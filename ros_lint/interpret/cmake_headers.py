@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Final
 from ros_lint.collectors.cmake_syntax import QUOTED, UNQUOTED
 from ros_lint.interpret.cmake_run import folded
 from ros_lint.interpret.cmake_values import ATOM, HOLE, MAYBE, SOURCE, elements
+from ros_lint.knowledge.cmake_commands import VISIBILITY
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -52,11 +53,11 @@ _PLAIN = re.compile(r"\w[\w:.+-]*\Z")
 
 def given_folders(run: Run, target: str, args: Iterable[str]) -> None:
     """Note the include directories that a target is given."""
-    words = ("BEFORE", "AFTER", "SYSTEM", "PUBLIC", "PRIVATE", "INTERFACE")
-    folders = (arg for arg in args if arg not in words and not arg.startswith("$<INSTALL_INTERFACE:"))
+    folders = (arg for arg in args if arg not in _NO_FOLDERS and not arg.startswith("$<INSTALL_INTERFACE:"))
     given(run, target, [f"{SOURCE}/{folder}" if _RELATIVE.match(folder) else folder for folder in folders])
 
 
+_NO_FOLDERS: Final = VISIBILITY | {"BEFORE", "AFTER", "SYSTEM"}
 _RELATIVE = re.compile(r"[\w.]")
 
 

@@ -12,6 +12,7 @@ from ros_lint.interpret.cmake_arguments import sections
 from ros_lint.interpret.cmake_run import Run
 from ros_lint.interpret.cmake_state import Properties
 from ros_lint.interpret.cmake_values import elements, join, sure
+from ros_lint.knowledge.cmake_commands import VISIBILITY
 from ros_lint.text import Span
 from ros_lint.tree import join as join_path
 
@@ -20,15 +21,14 @@ FILE_SET: Final = "FILE_SET "
 DESTINATION: Final = "include"
 """Where headers go of which install() does not say it."""
 _WORDS: Final = {"FILE_SET": 1, "TYPE": 1, "BASE_DIRS": -1, "FILES": -1}
-_VISIBILITY: Final = frozenset({"PRIVATE", "PUBLIC", "INTERFACE"})
 
 
 def file_sets(run: Run, target: Properties, args: list[str]) -> list[str]:
     """Note the file sets of a call of target_sources(), and return all sources in it, those of the sets included."""
     found: list[str] = []
-    starts = [index for index, arg in enumerate(args) if arg in _VISIBILITY or arg == "FILE_SET"]
+    starts = [index for index, arg in enumerate(args) if arg in VISIBILITY or arg == "FILE_SET"]
     for start, end in zip([0, *starts], [*starts, len(args)], strict=True):
-        parts = sections([arg for arg in args[start:end] if arg not in _VISIBILITY], _WORDS)
+        parts = sections([arg for arg in args[start:end] if arg not in VISIBILITY], _WORDS)
         files = [*parts[""], *parts.get("FILES", [])]
         found += files
         for name in parts.get("FILE_SET", []):

@@ -27,6 +27,9 @@ INSTALL_TARGETS_WORDS: Final[Mapping[str, int]] = {
 }  # fmt: skip
 """The other words of install(TARGETS), with how many arguments each takes, -1 for any number."""
 
+VISIBILITY: Final = frozenset({"INTERFACE", "PRIVATE", "PUBLIC"})
+"""Words of the commands for targets that say whom a thing is for."""
+
 VARIABLES: Final[Mapping[str, str]] = {
     "CMAKE_SOURCE_DIR": "/\1source",
     "CMAKE_CURRENT_SOURCE_DIR": "/\1source",
