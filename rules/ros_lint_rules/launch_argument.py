@@ -57,7 +57,7 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from ros_lint.api import (
@@ -116,17 +116,37 @@ def _folder(file: LaunchFile) -> str:
     return file.path.rpartition("/")[0]
 
 
-_After = Mapping[str, list[tuple[LaunchFile, list[LaunchAction]]]]
-"""The files that include a file, each with what it does after that."""
+class _Include(NamedTuple):
+    """An include in its place."""
+
+    action: LaunchAction
+    later: list[LaunchAction]
+    """What comes after it and sees what it leaves set: a group with a scope puts back at its end what was before."""
+    leaves: bool
+    """Whether what it sets is left so at the end of the file."""
+
+
+def _includes(actions: Sequence[LaunchAction], after: Sequence[LaunchAction] = (), *, leaves: bool = True) -> Iterator[_Include]:
+    for index, action in enumerate(actions):
+        if action.kind != "include" and not action.children:
+            continue
+        later = [*everything(actions[index + 1 :]), *after]
+        if action.kind == "include":
+            yield _Include(action, later, leaves)
+        scoped = action.kind == "group" and (action.name is None or action.name.texts != ("unscoped",))
+        yield from _includes(action.children, () if scoped else later, leaves=leaves and not scoped)
+
+
+_After = Mapping[str, list[tuple[LaunchFile, _Include]]]
+"""The files that include a file, each with how."""
 
 
 def _after(files: Iterable[LaunchFile], links: Links) -> _After:
-    found: dict[str, list[tuple[LaunchFile, list[LaunchAction]]]] = {}
+    found: dict[str, list[tuple[LaunchFile, _Include]]] = {}
     for file in files:
-        actions = list(everything(file.actions))
-        for index, action in enumerate(actions):
-            if action.kind == "include" and (target := links.target(action.target, file)) is not None:
-                found.setdefault(target.file.path, []).append((file, actions[index + 1 :]))
+        for include in _includes(file.actions):
+            if (target := links.target(include.action.target, file)) is not None:
+                found.setdefault(target.file.path, []).append((file, include))
     return found
 
 
@@ -141,11 +161,10 @@ def _of_file(
     whole: bool,
 ) -> Iterator[Finding]:
     """``whole``: all files can be read, and with them whoever includes this one; ``beside``: what those of its folder require."""
-    actions = list(everything(file.actions))
-    for index, action in enumerate(actions):
-        if action.kind == "include":
-            yield from _of_include(action, actions[index + 1 :], file, links, families, after, filled)
-        elif action.kind == "argument":
+    for include in _includes(file.actions):
+        yield from _of_include(include, file, links, families, after, filled)
+    for action in everything(file.actions):
+        if action.kind == "argument":
             yield from _of_choices(action)
     names, takes, above = families.names(file), links.takes(file), families.above(file)
     given = {name for one in above for name in one.made}
@@ -335,14 +354,14 @@ def _failing(broken: Broken, *, sure: bool) -> Finding:
 
 
 def _of_include(
-    action: LaunchAction,
-    later: list[LaunchAction],
+    include: _Include,
     source: LaunchFile,
     links: Links,
     families: Families,
     after: _After,
     filled: frozenset[str],
 ) -> Iterator[Finding]:
+    action = include.action
     target = links.target(action.target, source)
     places = action.argument_spans or [value.span for _, value in action.arguments]
     given = {name: place for (name, _), place in zip(action.arguments, places, strict=True) if name}
@@ -365,8 +384,9 @@ def _of_include(
     for name, place in given.items() if takes.complete else ():
         if name in takes.known or name in action.perhaps or (name in filled and not sure):
             continue
-        if not any(_may_take(other, name, source, links) for other in later):
-            yield _useless(file, name, place, left, sure=sure, alone=not _is_left_to(name, source, links, after))
+        if not any(_may_take(other, name, source, links) for other in include.later):
+            alone = not (include.leaves and _is_left_to(name, source, links, after))
+            yield _useless(file, name, place, left, sure=sure, alone=alone)
 
 
 def _may_take(action: LaunchAction, name: str, source: LaunchFile, links: Links) -> bool:
@@ -383,10 +403,10 @@ def _is_left_to(name: str, source: LaunchFile, links: Links, after: _After) -> b
     """Whether a file that includes this one, itself or by way of others, goes on with what may see what is set in here."""
     seen, waiting = {source.path}, [source.path]
     while waiting:
-        for file, later in after.get(waiting.pop(), ()):
-            if any(_may_take(action, name, file, links) for action in later):
+        for file, include in after.get(waiting.pop(), ()):
+            if any(_may_take(action, name, file, links) for action in include.later):
                 return True
-            if file.path not in seen:
+            if include.leaves and file.path not in seen:
                 seen.add(file.path)
                 waiting.append(file.path)
     return False
