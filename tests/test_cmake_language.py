@@ -198,6 +198,9 @@ _SMALL = (
     "endfunction()\nf(x MANY a ${U2} ONE b)",
     'function(f)\ncmake_parse_arguments(PARSE_ARGV 2 K "" "ONE" "MANY")\nset(A "${K_ONE}|${K_MANY}" PARENT_SCOPE)\n'
     "endfunction()\nf(${U2} x MANY a)",
+    'set(L "é;a")\nlist(TRANSFORM L APPEND x REGEX "^é" OUTPUT_VARIABLE A)\nlist(FILTER L EXCLUDE REGEX "é")',
+    "cmake_policy(VERSION 3.25)\nfunction(f)\nblock(SCOPE_FOR POLICIES)\nset(A 1)\nset(B 2)\nblock(PROPAGATE C)\nset(A 3)\n"
+    "return(PROPAGATE A B)\nendblock()\nendblock()\nendfunction()\nf()",
     'option(L "")\nforeach(i 1)\nif(L)\nelseif(1)\nif(NOT "${U1}" STREQUAL x)\nbreak()\nendif()\nendif()\nset(A y)\nendforeach()',
 )
 

@@ -126,9 +126,9 @@ def _message(_run: Run, args: list[str]) -> int | None:
 
 
 def _return(run: Run, args: list[str]) -> int:
-    if "PROPAGATE" in args:
+    if "PROPAGATE" in args and run.versions >= (3, 25):  # policy CMP0140
         for name in args[args.index("PROPAGATE") + 1 :]:
-            run.set_outer(name, run.get(name))
+            run.return_to_caller(name, run.get(name))
     return RETURN
 
 

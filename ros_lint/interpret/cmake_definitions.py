@@ -11,7 +11,7 @@ from ros_lint.facts.sight import Facet
 from ros_lint.interpret.cmake_blocks import Body, Definition, If, Scope, rewritten
 from ros_lint.interpret.cmake_flow import run_body
 from ros_lint.interpret.cmake_run import Run, substituted
-from ros_lint.interpret.cmake_state import NEXT, Exit, Procedure, Variables
+from ros_lint.interpret.cmake_state import NEXT, BlockVariables, Exit, Procedure
 from ros_lint.interpret.cmake_values import HOLE
 
 
@@ -76,7 +76,7 @@ def _run_scope(run: Run, node: Scope) -> Exit:
     if "SCOPE_FOR" in args and "VARIABLES" not in args:
         return run_body(run, node.body)
     names = args[args.index("PROPAGATE") + 1 :] if "PROPAGATE" in args else []
-    run.scopes.append(Variables())
+    run.scopes.append(BlockVariables())
     try:
         ended = run_body(run, node.body)
         kept = {name: run.scopes[-1][name] for name in names if name in run.scopes[-1]}

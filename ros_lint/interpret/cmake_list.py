@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Final
 
-from ros_lint.interpret.cmake_regex import RegexError, anywhere, forget, translated
+from ros_lint.interpret.cmake_regex import RegexError, anywhere, forget, is_in, translated
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_string import ascii_lower, ascii_upper, genex_strip, replace_all, strip
 from ros_lint.interpret.cmake_values import HOLE, MAYBE, elements, flat, glued, is_fixed, is_known, join, sure
@@ -122,7 +122,7 @@ def _filter(run: Run, name: str, args: list[str]) -> None:
         if HOLE in plain:
             kept.append(item)
             continue
-        answer = anywhere(lambda text: "1" if pattern.search(text) else "", plain)
+        answer = anywhere(lambda text: "1" if is_in(pattern, text) else "", plain)
         if answer == HOLE:
             run.set(name, HOLE)
             return
@@ -240,7 +240,7 @@ def _selected(items: list[str], selector: list[str]) -> Sequence[int]:
         pattern = translated(args[0])
         if pattern is None or not is_known(join(items)):
             raise ValueError(selector)
-        return [index for index, item in enumerate(items) if pattern.search(item)]
+        return [index for index, item in enumerate(items) if is_in(pattern, item)]
     numbers = [int(arg) for arg in args]
     placed = [number + len(items) if number < 0 else number for number in numbers]
     if mode == "AT" and all(0 <= number < len(items) for number in placed):

@@ -24,7 +24,7 @@ def _compiled(text: str) -> re.Pattern[str]:
 
 
 def translated(text: str) -> re.Pattern[str] | None:
-    """Return an expression for Python's re, to be used on plain ASCII text, or None when CMake would refuse it."""
+    """Return an expression for Python's re, to be used on the bytes of a text (:func:`is_in`); None when CMake refuses it."""
     try:
         return _compiled(text)
     except RegexError:
@@ -34,6 +34,11 @@ def translated(text: str) -> re.Pattern[str] | None:
 def _bytes(text: str) -> str:
     """Return a text with one character for each of its bytes."""
     return text if text.isascii() else raw(text).decode("latin-1")
+
+
+def is_in(pattern: re.Pattern[str], text: str) -> bool:
+    """Return whether a translated expression matches somewhere in a text."""
+    return pattern.search(_bytes(text)) is not None
 
 
 def _text(text: str) -> str:

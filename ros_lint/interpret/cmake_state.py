@@ -31,6 +31,12 @@ class Variables(dict[str, "str | None"]):
     __slots__ = ()
 
 
+class BlockVariables(Variables):
+    """The variables of a block() with a scope of its own."""
+
+    __slots__ = ()
+
+
 class Properties(dict[str, str]):
     """What is known of a target, a directory or the whole run: properties by name."""
 
@@ -147,6 +153,14 @@ class State:
                 seen = self.found(name)
                 self.put(self.scopes[-1], name, None if seen is MISSING else seen)
             self.put(self.scopes[-2], name, value)
+
+    def return_to_caller(self, name: str, value: str | None) -> None:
+        """Set a variable of the scope that a function is called from, whatever blocks of it are open (return(PROPAGATE))."""
+        inner = next((index for index in range(len(self.scopes) - 1, 0, -1) if type(self.scopes[index]) is Variables), 0)
+        if inner == len(self.scopes) - 1:
+            self.set_outer(name, value)
+        elif inner:
+            self.put(self.scopes[inner - 1], name, value)
 
     # --- reading
 
