@@ -44,9 +44,10 @@ Give the argument, or give it a default where it is declared; correct the name, 
 - What is asked for before it is declared is declared or set by a file that includes this one, or perhaps by one that it
   includes before. Where it is asked for under a condition, or the file requires other arguments, so that it is a part of
   others, the confidence is medium.
-- An argument that an include gives is left set: what stands further down in the same file may ask for it, or include what
-  takes it, such as a launch file that is not in the workspace. So may what stands further down in a file of the workspace
-  that includes this one: then the confidence is medium, unless it resembles an argument that is not given.
+- An argument that an include gives is left set, up to the end of a group with a scope around it: what stands further down
+  there may ask for it, or include what takes it, such as a launch file that is not in the workspace. So may what stands
+  further down in a file of the workspace that includes this one: then the confidence is medium, unless it resembles an
+  argument that is not given.
 - An argument that does nothing is empty by default, and another launch file of the folder requires it: this one may be put
   in the place of the other, and takes what that one takes.
 
