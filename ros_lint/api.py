@@ -81,6 +81,7 @@ from ros_lint.launch_files import (
     referred,
     started,
 )
+from ros_lint.launch_left import Include, Left, includes
 from ros_lint.launch_links import Links, defaults_of, everything, filled, texts_of
 from ros_lint.launch_names import Families, asked_at, needed
 from ros_lint.launch_parameters import Given, ParameterFiles
@@ -144,6 +145,7 @@ __all__ = [
     "Fix",
     "Given",
     "Graph",
+    "Include",
     "Knot",
     "LaunchAction",
     "LaunchCondition",
@@ -151,6 +153,7 @@ __all__ = [
     "LaunchReference",
     "LaunchValue",
     "Launchable",
+    "Left",
     "LeftBehind",
     "Links",
     "MachinePath",
@@ -221,6 +224,7 @@ __all__ = [
     "given_for",
     "has_header",
     "hidden",
+    "includes",
     "installed_targets",
     "installs_built",
     "interface_names",

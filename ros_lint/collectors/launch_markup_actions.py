@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from ros_lint.collectors.launch_entity import Entity, Rejected
 from ros_lint.collectors.launch_markup_read import Reader, Rule
 from ros_lint.collectors.launch_text import UNKNOWN
-from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchValue
+from ros_lint.facts.launch import UNSCOPED, LaunchAction, LaunchCondition, LaunchValue
 
 
 def _argument(reader: Reader, entity: Entity) -> LaunchAction:
@@ -99,7 +99,7 @@ def _group(reader: Reader, entity: Entity) -> LaunchAction:
     entity.get("forwarding", "bool")
     kept = reader.named(entity, "keep")
     children = reader.actions(child for child in entity.actions() if child.tag != "keep")
-    name = LaunchValue(("unscoped",), entity.span) if scoped is False else None
+    name = LaunchValue((UNSCOPED,), entity.span) if scoped is False else None
     return LaunchAction("group", entity.span, name=name, arguments=kept, conditions=conditions, children=tuple(children))
 
 
@@ -125,7 +125,7 @@ def _loop(reader: Reader, entity: Entity) -> LaunchAction:
         reader.text(entity, attribute)
     children = reader.actions(entity.actions())
     perhaps = LaunchCondition((UNKNOWN,), None)
-    unscoped = LaunchValue(("unscoped",), entity.span)
+    unscoped = LaunchValue((UNSCOPED,), entity.span)
     return LaunchAction("group", entity.span, name=unscoped, conditions=(*conditions, perhaps), children=tuple(children))
 
 

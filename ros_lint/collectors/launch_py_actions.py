@@ -14,7 +14,7 @@ from ros_lint.collectors.launch_py_run import Machine
 from ros_lint.collectors.launch_py_texts import SUBSTITUTIONS, is_text, texts
 from ros_lint.collectors.launch_py_walk import Rule, Walker, place_of
 from ros_lint.collectors.launch_text import UNKNOWN
-from ros_lint.facts.launch import LaunchAction, LaunchValue
+from ros_lint.facts.launch import UNSCOPED, LaunchAction, LaunchValue
 from ros_lint.text import Span
 
 _MOST_TEXTS = 2_000
@@ -123,7 +123,7 @@ def _group(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAct
     children = walker.actions(made.get(0, "actions"), (), place_of(made))
     scoped = plain(made.get(-1, "scoped")) is not False
     passed = tuple(_group_configurations(walker, made))
-    name = None if scoped else LaunchValue(("unscoped",), place_of(made))
+    name = None if scoped else LaunchValue((UNSCOPED,), place_of(made))
     return [LaunchAction("group", place_of(made), name=name, arguments=passed, conditions=conditions, children=tuple(children))]
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal, NamedTuple
+from typing import Final, Literal, NamedTuple
 
 from ros_lint.facts.sight import Opaque, Problem
 from ros_lint.text import Span
@@ -27,6 +27,10 @@ class LaunchCondition(NamedTuple):
     """The text must be this one; None: it must mean true, as IfCondition takes it."""
     wanted: bool = True
     """False: it must not."""
+
+
+UNSCOPED: Final = "unscoped"
+"""The ``name`` of a group that leaves set what is set in it."""
 
 
 class LaunchAction(NamedTuple):
@@ -61,6 +65,11 @@ class LaunchAction(NamedTuple):
     """Names of what is passed to an included file only if something holds of which nothing is known."""
     lent: bool = False
     """Whether a helper of a released package names what is started: that is the need of the package that has the helper."""
+
+    @property
+    def has_scope(self) -> bool:
+        """Whether what is set in it is put back at its end: a group that does not say otherwise."""
+        return self.kind == "group" and (self.name is None or self.name.texts != (UNSCOPED,))
 
 
 ReferenceKind = Literal["node", "component", "include", "command", "program", "file", "package"]

@@ -242,14 +242,13 @@ class _Run:
     def _group(self, action: LaunchAction, scope: Scope) -> Scope:
         """Do what a group does, and return what holds after it."""
         name = self._texts(action.name, scope)
-        scoped = name != ("unscoped",)
-        inner = scope._replace(values=dict(scope.values)) if scoped else scope
-        if scoped and name:
+        inner = scope._replace(values=dict(scope.values)) if action.has_scope else scope
+        if action.has_scope and name:
             inner = inner._replace(container=name)
         for given, value in action.arguments:
             self._set(inner, given, self._texts(value, scope), certain=True)
         after = self._actions(action.children, inner)
-        return scope if scoped else after
+        return scope if action.has_scope else after
 
     def _include(self, action: LaunchAction, scope: Scope) -> Scope:
         started = self._start(action, scope)

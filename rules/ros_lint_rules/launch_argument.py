@@ -58,7 +58,7 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping
 from typing import NamedTuple
 
 from ros_lint.api import (
@@ -66,8 +66,10 @@ from ros_lint.api import (
     Confidence,
     Families,
     Finding,
+    Include,
     LaunchAction,
     LaunchFile,
+    Left,
     Links,
     Related,
     Rule,
@@ -79,6 +81,7 @@ from ros_lint.api import (
     configurations,
     did_you_mean,
     everything,
+    includes,
     is_plain,
     launchable,
     needed,
@@ -100,7 +103,7 @@ _DIGITS = re.compile(r"\d+")
 def check(workspace: Workspace) -> Iterator[Finding]:
     links = workspace.links
     files = [file for package in workspace.packages for file in package.launch]
-    families, after = Families(files, links), _after(files, links)
+    families, left = Families(files, links), Left(files, links)
     filled = frozenset(name for package in workspace.packages for file in package.parameter_files for name in file.asks)
     whole = not workspace.unread()
     for package in workspace.packages:
@@ -109,7 +112,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
             required.setdefault(_folder(file), set()).update(links.takes(file).required)
         for launch in launchable(package):
             beside = required[_folder(launch.file)]
-            for finding in _of_file(launch.file, links, families, after, filled, beside, whole=whole):
+            for finding in _of_file(launch.file, links, families, left, filled, beside, whole=whole):
                 yield finding._replace(package=package.name)
 
 
@@ -117,53 +120,19 @@ def _folder(file: LaunchFile) -> str:
     return file.path.rpartition("/")[0]
 
 
-class _Include(NamedTuple):
-    """An include in its place."""
-
-    action: LaunchAction
-    later: list[LaunchAction]
-    """What comes after it and sees what it leaves set: a group with a scope puts back at its end what was before."""
-    leaves: bool
-    """Whether what it sets is left so at the end of the file."""
-
-
-def _includes(actions: Sequence[LaunchAction], after: Sequence[LaunchAction] = (), *, leaves: bool = True) -> Iterator[_Include]:
-    for index, action in enumerate(actions):
-        if action.kind != "include" and not action.children:
-            continue
-        later = [*everything(actions[index + 1 :]), *after]
-        if action.kind == "include":
-            yield _Include(action, later, leaves)
-        scoped = action.kind == "group" and (action.name is None or action.name.texts != ("unscoped",))
-        yield from _includes(action.children, () if scoped else later, leaves=leaves and not scoped)
-
-
-_After = Mapping[str, list[tuple[LaunchFile, _Include]]]
-"""The files that include a file, each with how."""
-
-
-def _after(files: Iterable[LaunchFile], links: Links) -> _After:
-    found: dict[str, list[tuple[LaunchFile, _Include]]] = {}
-    for file in files:
-        for include in _includes(file.actions):
-            if (target := links.target(include.action.target, file)) is not None:
-                found.setdefault(target.file.path, []).append((file, include))
-    return found
-
-
 def _of_file(
     file: LaunchFile,
     links: Links,
     families: Families,
-    after: _After,
+    left: Left,
     filled: frozenset[str],
     beside: Collection[str],
     *,
     whole: bool,
 ) -> Iterator[Finding]:
     """``whole``: all files can be read, and with them whoever includes this one; ``beside``: what those of its folder require."""
-    for include in _includes(file.actions):
-        yield from _of_include(include, file, links, families, after, filled)
+    for include in includes(file):
+        yield from _of_include(include, file, links, families, left, filled)
     for action in everything(file.actions):
         if action.kind == "argument":
             yield from _of_choices(action)
@@ -355,11 +324,11 @@ def _failing(broken: Broken, *, sure: bool) -> Finding:
 
 
 def _of_include(
-    include: _Include,
+    include: Include,
     source: LaunchFile,
     links: Links,
     families: Families,
-    after: _After,
+    left: Left,
     filled: frozenset[str],
 ) -> Iterator[Finding]:
     action = include.action
@@ -380,45 +349,22 @@ def _of_include(
                 (Related("declared here, without default", declared),),
                 severity=Severity.ERROR,
             )
-    left = takes.known - given.keys()
+    open_to = takes.known - given.keys()
     sure = not families.fill(target.file)
     for name, place in given.items() if takes.complete else ():
         if name in takes.known or name in action.perhaps or (name in filled and not sure):
             continue
-        if not any(_may_take(other, name, source, links) for other in include.later):
-            alone = not (include.leaves and _is_left_to(name, source, links, after))
-            yield _useless(file, name, place, left, sure=sure, alone=alone)
+        if not left.is_taken_later(name, include, source):
+            alone = not left.is_taken_above(name, include, source)
+            yield _useless(file, name, place, open_to, sure=sure, alone=alone)
 
 
-def _may_take(action: LaunchAction, name: str, source: LaunchFile, links: Links) -> bool:
-    """Whether an action asks, or may include what asks, for what an earlier include was given, which leaves it set."""
-    if any(name == asked for text, _ in texts_of(action) for asked, _, _ in configurations(text)):
-        return True
-    if action.kind != "include" or name in dict(action.arguments):
-        return False
-    target = links.target(action.target, source)
-    return target is None or not links.takes(target.file).complete or name in links.takes(target.file).known
-
-
-def _is_left_to(name: str, source: LaunchFile, links: Links, after: _After) -> bool:
-    """Whether a file that includes this one, itself or by way of others, goes on with what may see what is set in here."""
-    seen, waiting = {source.path}, [source.path]
-    while waiting:
-        for file, include in after.get(waiting.pop(), ()):
-            if any(_may_take(action, name, file, links) for action in include.later):
-                return True
-            if include.leaves and file.path not in seen:
-                seen.add(file.path)
-                waiting.append(file.path)
-    return False
-
-
-def _useless(file: str, name: str, place: Span, left: frozenset[str], *, sure: bool, alone: bool) -> Finding:
+def _useless(file: str, name: str, place: Span, open_to: frozenset[str], *, sure: bool, alone: bool) -> Finding:
     """Return the finding for an argument that nobody takes. One that resembles an argument not given was renamed.
 
     ``alone``: no file includes the one that gives it, and goes on with what may take it.
     """
-    near = similar(name, left, 1, 0.85)
+    near = similar(name, open_to, 1, 0.85)
     return Finding(
         f"{file} takes no argument {name}: it does nothing there{did_you_mean(near) or '; take it out'}",
         place,
