@@ -69,7 +69,7 @@ from ros_lint.facts.sight import ANYTHING, Facet, Opaque, Problem
 from ros_lint.facts.sources import MachinePath, Mention, PluginLoader, Registration, Use
 from ros_lint.graph import Edge, Graph, Reason
 from ros_lint.graph_cut import Knot, knots
-from ros_lint.knowledge.spelling import may_be_package, near_names
+from ros_lint.knowledge.spelling import VENDOR, may_be_package, near_names
 from ros_lint.launch_files import (
     Launchable,
     Programs,
@@ -125,6 +125,7 @@ __all__ = [
     "LINTERS",
     "PYTHON_LIKE",
     "REGISTERING",
+    "VENDOR",
     "Advice",
     "Broken",
     "BuildScript",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
+from ros_lint.build_scripts import FINDS_TESTS
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.sight import Facet
 from ros_lint.facts.sources import Mention, Purpose
@@ -14,7 +15,6 @@ if TYPE_CHECKING:
     from ros_lint.knowledge.reach import Closure
 
 _FIND_DECLARED = frozenset({"ament_auto_find_build_dependencies", "autoware_package"})
-_FIND_TESTS = frozenset({"ament_auto_find_test_dependencies", "ament_lint_auto_find_test_dependencies"})
 _AT_BUILD = ("depend", "build_depend", "buildtool_depend")
 
 
@@ -24,7 +24,7 @@ def found_names(package: Package, script: BuildScript) -> frozenset[str]:
     calls = frozenset(script.calls)
     if calls & _FIND_DECLARED:
         names.update(each.name for each in package.declared if each.depend.tag in _AT_BUILD)
-    if calls & _FIND_TESTS:
+    if calls & FINDS_TESTS:
         names.update(each.name for each in package.declared if each.depend.tag == "test_depend")
     return frozenset(names)
 

@@ -13,7 +13,7 @@ from ros_lint.declare import only_brings
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Use, Via
 from ros_lint.knowledge.reach import Closure
-from ros_lint.knowledge.spelling import is_part, is_vendor
+from ros_lint.knowledge.spelling import VENDOR, is_part, is_vendor
 from ros_lint.strangers import meant
 from ros_lint.text import Span
 from ros_lint.unknowns import may_bring
@@ -114,7 +114,7 @@ def _needs(
     if len(uses) > 1:
         uses.sort(key=_rank)
     answers = dict.fromkeys([use.providers for use in uses])
-    vendors = [] if name in declared else [each for each in declared if each.endswith("_vendor") and name in bring((each,))]
+    vendors = [] if name in declared else [each for each in declared if each.endswith(VENDOR) and name in bring((each,))]
     if not vendors and answers.keys() == {(name,)}:  # nearly always
         yield Need(name, tuple(uses), (name,) if name in declared else (), name in closure)
         return

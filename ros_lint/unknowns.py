@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ros_lint.knowledge.spelling import may_be_package
+from ros_lint.knowledge.spelling import VENDOR, may_be_package
 from ros_lint.strangers import is_near_tool
 from ros_lint.workspace import Workspace, per_workspace
 
@@ -23,7 +23,7 @@ def may_bring(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
     released = workspace.world.released(name)
     messages = bool(released and released.interfaces)
     strange = []
-    library = (workspace.world.is_key(name) and not name.startswith("python3-")) or name.endswith("_vendor")
+    library = (workspace.world.is_key(name) and not name.startswith("python3-")) or name.endswith(VENDOR)
     plumbing = name.startswith(("rosidl_", "builtin_", "action_msgs", "service_msgs", "unique_identifier_msgs"))
     for each in unknown:
         brings = workspace.world.knowledge.brings_elsewhere(each, name)

@@ -9,9 +9,9 @@ from typing import Final
 from ros_lint.collectors.cmake_syntax import QUOTED, UNQUOTED
 from ros_lint.facts.sight import ANYTHING, Facet, Problem
 from ros_lint.facts.sources import Purpose
-from ros_lint.interpret.cmake_headers import ALL_TARGETS, FOREIGN_VARIABLE, given, given_folders
+from ros_lint.interpret.cmake_headers import ALL_TARGETS, FOREIGN_VARIABLE, found_as, given, given_folders
 from ros_lint.interpret.cmake_include import include_foreign, include_own
-from ros_lint.interpret.cmake_run import Handler, Run, folded
+from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_values import ATOM, FOREIGN, HOLE, SOURCE, is_known, maybe, split, sure
 from ros_lint.knowledge.cmake_commands import VISIBILITY
 from ros_lint.text import Span
@@ -202,8 +202,8 @@ def link(run: Run, args: list[str]) -> None:
         for match in FOREIGN_VARIABLE.finditer(text):
             if match[1] in run.sources.name or match[1] == "PROJECT_NAME":
                 continue
-            package = _package_of(run, match[1])
-            if package:
+            package = found_as(run, match[1])
+            if package and run.prefixes[package]:  # and not by pkg-config, under a name of the script's own
                 run.mention(package, "target", command.span(frame.path, start, end), match[0])
 
 
@@ -247,14 +247,6 @@ def _link_libraries(run: Run, args: list[str]) -> None:
     links = run.links.setdefault(args[0], {})
     for arg in args[1:]:
         links.setdefault(arg, span)
-
-
-def _package_of(run: Run, prefix: str) -> str:
-    """Return the found package whose variables begin with a prefix, or ""."""
-    if run.prefixes.get(prefix):
-        return prefix
-    letters = folded(prefix)
-    return next((name for name, is_package in run.prefixes.items() if is_package and folded(name) == letters), "")
 
 
 def _hide(run: Run, args: list[str]) -> None:

@@ -85,10 +85,17 @@ def _written(run: Run) -> list[str]:
 
 def _package(run: Run, variable: re.Match[str]) -> str:
     """Return the package whose variable a reference names: anything where none is found that sets it, or the script does."""
-    if run.normal(variable[0][2:-1]) is not None:
-        return _ANYTHING
-    letters = folded(variable[1])
-    return next((f"{prefix}::" for prefix in run.prefixes if folded(prefix) == letters), _ANYTHING)
+    name = found_as(run, variable[1]) if run.normal(variable[0][2:-1]) is None else ""
+    return f"{name}::" if name else _ANYTHING
+
+
+def found_as(run: Run, prefix: str) -> str:
+    """Return by what name was found what sets variables with a prefix, whatever its case; "" for nothing that was."""
+    if run.prefixes.get(prefix):
+        return prefix
+    letters = folded(prefix)
+    names = [name for name in run.prefixes if folded(name) == letters]
+    return next((name for name in names if run.prefixes[name]), names[0] if names else "")
 
 
 def _given(run: Run, args: list[str]) -> None:

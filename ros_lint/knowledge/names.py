@@ -12,6 +12,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from ros_lint.knowledge.builtin import CMAKE_MODULES, CXX_HEADERS, PYTHON_MODULES, SYSTEM_HEADER_FOLDERS
+from ros_lint.knowledge.spelling import VENDOR
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -205,7 +206,7 @@ class Names:
         found: dict[str, tuple[str, ...]] = {}
         for names in self._cmake_system.values():
             for name in names:
-                if name.endswith("_vendor"):
+                if name.endswith(VENDOR):
                     found.setdefault(name, names)
         return {**found, **_SAME_MACROS}
 

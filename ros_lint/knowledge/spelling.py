@@ -127,14 +127,18 @@ def plain(name: str) -> str:
     return name.replace("-", "").replace("_", "").lower()
 
 
+VENDOR = "_vendor"
+"""How the names of packages end that bring a library, whose headers, targets and CMake name are the library's own."""
+
+
 def is_vendor(package: str, library: str) -> bool:
     """Return whether a package has the name of the vendor package of a library, by whatever name or key that goes.
 
     What stands before it says whose vendor package it is: rviz_assimp_vendor, google_benchmark_vendor.
     """
-    if not package.endswith("_vendor"):
+    if not package.endswith(VENDOR):
         return False
-    words = package.removesuffix("_vendor").split("_")
+    words = package.removesuffix(VENDOR).split("_")
     return _bare(library) in [_bare("_".join(words[start:])) for start in range(len(words))]
 
 

@@ -37,6 +37,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from ros_lint.api import (
+    VENDOR,
     Call,
     Confidence,
     Facet,
@@ -107,7 +108,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _gives_commands(name: str) -> bool:
     """Whether a package is called like those that are there for their commands, and come along with the build tool."""
-    return "cmake" in name or name.startswith(("ament_", "rosidl_")) or name.endswith("_vendor")
+    return "cmake" in name or name.startswith(("ament_", "rosidl_")) or name.endswith(VENDOR)
 
 
 def _included(package: Package, along: frozenset[str] | None, workspace: Workspace) -> Iterator[Finding]:

@@ -45,6 +45,7 @@ from collections.abc import Container, Iterator
 
 from ros_lint.api import (
     HEADERS,
+    VENDOR,
     BuildScript,
     Confidence,
     Facet,
@@ -74,7 +75,6 @@ from ros_lint.api import (
 _EXPORTS = frozenset({"ament_export_include_directories", "ament_export_targets", "ament_export_interfaces"})
 _EXPORTS_ALL = frozenset({"ament_auto_package", "autoware_ament_auto_package"})
 _OF_TOOLS = "ament_cmake_"
-_VENDOR = "_vendor"
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -188,7 +188,7 @@ def _included(package: Package, workspace: Workspace) -> Iterator[tuple[tuple[st
         compiled = [use for use in uses if relative(package, use.span.path) in usable]
         first, *others = compiled or uses
         # A vendor package mostly hands on nothing but the folder in which CMake finds what it stands for.
-        written = next((each for each in found if each != name), name) if not found or name.endswith(_VENDOR) else found[0]
+        written = next((each for each in found if each != name), name) if not found or name.endswith(VENDOR) else found[0]
         way_out = f"add {'' if found else f'find_package({written} REQUIRED) and '}ament_export_dependencies({written})"
         if not compiled:
             way_out += ", or do not install it, for it includes what others do not have"
@@ -266,7 +266,7 @@ def _public(package: Package, workspace: Workspace, script: BuildScript) -> dict
     installed = _installed(script)
     uses: dict[str, list[Use]] = {}
     for use in _includes(package):
-        known = any(is_package(name) for name in use.providers if name == use.package or name.endswith(_VENDOR))
+        known = any(is_package(name) for name in use.providers if name == use.package or name.endswith(VENDOR))
         tool = any(name.startswith(_OF_TOOLS) for name in use.providers)
         if use.sure and known and not tool and relative(package, use.span.path) in installed:
             uses.setdefault(use.package, []).append(use)

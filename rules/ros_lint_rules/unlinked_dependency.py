@@ -34,6 +34,7 @@ import re
 from collections.abc import Iterator
 
 from ros_lint.api import (
+    VENDOR,
     BuildTarget,
     Confidence,
     Edit,
@@ -68,7 +69,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if any(each.hidden(Facet.USES) for name in found for each in workspace.by_name.get(name, ())):
         return  # what it does to those who find it is not seen
     interfaces = [mention.name for mention in given_for(script, "interfaces")]
-    packages = [name for name in found if workspace.world.is_package(name) and not name.endswith(_VENDOR)]
+    packages = [name for name in found if workspace.world.is_package(name) and not name.endswith(VENDOR)]
     uses = _includes(package, frozenset(packages))
     for target in script.targets:
         if target.headers is None or target.kind == "interface":
@@ -81,10 +82,6 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                         needed.setdefault(use.package, []).append(use)
         if not needed.keys() <= set(target.headers):
             yield from _not_given(package, workspace, target, [*target.headers, *interfaces], needed)
-
-
-_VENDOR = "_vendor"
-"""How packages are called whose headers and targets are those of a library, by names of its own."""
 
 
 def _includes(package: Package, wanted: frozenset[str]) -> dict[str, list[Use]]:
@@ -102,10 +99,12 @@ def _not_given(
 ) -> Iterator[Finding]:
     """Yield what a target is not given, of the packages that its sources include."""
     along = found_along(workspace, given)
+    alone = not any(name in along for name in workspace.by_name)
     for name, uses in needed.items():
         if name in along or (not along.complete and may_bring(along.unknown, name, workspace)):
             continue
         first, *others = dict.fromkeys(uses)
+        apart = _GENERATED.match(first.name) or (alone and name in workspace.by_name)
         way_out, edit = _way_out(package, workspace, target, name)
         places = [Related(f"{target.name} is built here", target.span)]
         places += [Related(f"also {use.what}", use.span) for use in others]
@@ -115,15 +114,8 @@ def _not_given(
             name,
             tuple(places),
             Fix.of(f"give {name} to {target.name}", edit),
-            Confidence.HIGH if _apart(first, name, given, workspace) else Confidence.MEDIUM,
+            Confidence.HIGH if apart else Confidence.MEDIUM,
         )
-
-
-def _apart(use: Use, name: str, given: list[str], workspace: Workspace) -> bool:
-    """Whether the headers of a package are certainly in no folder that others add to the include directories."""
-    if _GENERATED.match(use.name):
-        return True
-    return name in workspace.by_name and workspace.by_name.keys().isdisjoint(found_along(workspace, given).names)
 
 
 _GENERATED = re.compile(r"\w+/(?:msg|srv|action)/\w+\.h(?:pp)?\Z")
