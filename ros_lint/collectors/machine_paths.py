@@ -12,8 +12,9 @@ from ros_lint.facts.sources import MachinePath
 from ros_lint.text import Text
 
 _PATH = re.compile(r"(?<![\w.$}~)*/-])(?:file://)?(?P<path>/(?:home|Users)/[\w.+-]+/[^\s\"'`<>|;:,()\[\]{}&$\\*?#]+)")
-_OF_WORKSPACE = re.compile(r"""(?<=["'])(?P<path>~/(?:[\w.+-]+/)+(?:src|install)/[^\s"'`<>|;:,()\[\]{}&$\\*?#%]+)(?=["'])""")
-_SOURCES = ("'src/", '"src/', "./src/")
+_HOME = re.compile(r"/(?:home|Users)/")
+_OF_WORKSPACE = re.compile(r"""(?P<path>~(?<=["']~)/(?:[\w.+-]+/)+(?:src|install)/[^\s"'`<>|;:,()\[\]{}&$\\*?#%]+)(?=["'])""")
+_SOURCES = ("'src/", '"src/', "'./src/", '"./src/')
 _RELATIVE = re.compile(
     r"""(?:[=(:\[{]|\breturn|["']\s*,)\s*[rbu]?(?P<quote>["'])"""
     r"""(?P<path>(?:\./)?src/[\w.+-]+/[^\s"'`<>|;:,()\[\]{}&$\\*?#%]+)(?P=quote)"""
@@ -33,8 +34,8 @@ def collect(text: Text) -> tuple[MachinePath, ...]:
     in. One that is put together (``"/home/" + user``, ``join(root, "src/robot")``) is none, nor are the folders of all users.
     """
     content = text.text
-    hits = list(_PATH.finditer(content)) if "/home/" in content or "/Users/" in content else []
-    if "~/" in content:
+    hits = list(_PATH.finditer(content)) if _HOME.search(content) else []
+    if "~" in content:  # one letter is found ten times as fast as two
         hits += _OF_WORKSPACE.finditer(content)
     if "src/" in content and any(start in content for start in _SOURCES):
         hits += [hit for hit in _RELATIVE.finditer(content) if not _JOINED.search(content, hit.start() - _NEAR, hit.start() + 1)]
