@@ -234,3 +234,30 @@ def test_lists_that_are_summed() -> None:
     )
     assert said(run(file)) == ["node p a", "node p b", "node q c ?"]
     assert not file.opaque
+
+
+def test_timers_and_events_see_what_is_set_after_them() -> None:
+    """They come when everything has been gone through, and groups with a scope have put back what they set (launch 3.7.1)."""
+    declared = "DeclareLaunchArgument('which', default_value='one')"
+    node = "Node(package='p', executable=LaunchConfiguration('which'))"
+    before = "Node(package='q', executable='first')"
+    after = "Node(package='q', executable='last')"
+    timer = f"TimerAction(period=2.0, actions=[{node}, TimerAction(period=1.0, actions=[{node}])])"
+    found = run(python(f"{before}, {timer}, {declared}, {timer}, {after}"))
+    assert said(found) == ["node q first", *["node p one"] * 4, "node q last"]
+    assert [one.later for one in found.started] == [False, *[True] * 4, False]
+    again = run(python(f"{declared}, {timer}, SetLaunchConfiguration('which', 'two')"))
+    assert said(again) == ["node p two"] * 2
+    grouped = f"GroupAction([SetLaunchConfiguration('which', 'two'), {timer}, {node}])"
+    assert said(run(python(f"{declared}, {grouped}, {node}"))) == ["node p one", "node p one", "node p two", "node p one"]
+    assert said(run(python(f"{grouped}"))) == ["node p two"] * 3
+
+
+def test_what_a_timer_starts_in_an_included_file_comes_by_it() -> None:
+    inner = python("TimerAction(period=1.0, actions=[Node(package='p', executable='a')])", "/x/inner.launch.py")
+    outer = xml('<include file="/x/inner.launch.py"/><node pkg="p" exec="b"/>')
+    found = expand(outer, {}, {"/x/inner.launch.py": inner}.get)
+    assert [(one.depth, one.via is not None, one.target) for one in found.started if one.kind == "node"] == [
+        (1, True, ("a",)),
+        (0, False, ("b",)),
+    ]

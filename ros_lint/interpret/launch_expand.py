@@ -138,6 +138,18 @@ def expand(
     )
 
 
+class _Waiting(NamedTuple):
+    """What a timer or an event starts."""
+
+    place: int
+    """How much has been started before."""
+    actions: tuple[LaunchAction, ...]
+    scope: Scope
+    open: tuple[tuple[str, dict[str, Texts]], ...]
+    """The files that are being included."""
+    via: Span | None
+
+
 class _Run:
     def __init__(self, files: Callable[[str], LaunchFile | None], brief: bool, environment: Mapping[str, Texts]) -> None:
         self._files = files
@@ -153,11 +165,33 @@ class _Run:
         self.complete = True
         self._left = _MOST_ACTIONS
         self._via: Span | None = None
+        self._waiting: list[_Waiting] = []
+        self._values: dict[str, Texts] = {}
+        """What is set where no group puts it back."""
 
     def file(self, file: LaunchFile, given: dict[str, Texts]) -> None:
         folder = file.path.rpartition("/")[0]
         self._open.append((file.path, dict(given)))
+        self._values = given
         self._actions(file.actions, Scope(given, (folder or ".",)))
+        self._wake()
+
+    def _wake(self) -> None:
+        """Do what timers and events start, and put it where they stand.
+
+        By then all files have been gone through, whatever is declared or set in them after a timer; and groups have put back
+        what they set. What nobody else sets is taken to be as it was in the group: launch would not find it.
+        """
+        waiting, self._waiting = self._waiting, []
+        for one in reversed(waiting):  # so that the places of those before it stay what they are
+            end = len(self.started)
+            self._open, self._via = list(one.open), one.via
+            values = {**one.scope.values, **self._values}
+            self._actions(one.actions, one.scope._replace(values=values, later=True))
+            self._wake()
+            new = self.started[end:]
+            del self.started[end:]
+            self.started[one.place : one.place] = new
 
     def _actions(self, actions: Iterable[LaunchAction], scope: Scope) -> Scope:
         for action in actions:
@@ -186,7 +220,7 @@ class _Run:
             case "group":
                 return outer.after(self._group(action, scope))
             case "later":
-                self._actions(action.children, scope._replace(values=dict(scope.values), later=True))
+                self._waiting.append(_Waiting(len(self.started), action.children, scope, tuple(self._open), self._via))
             case "include":
                 return outer.after(self._include(action, scope))
             case "node" | "component" | "process":
