@@ -13,7 +13,7 @@ from ros_lint.collectors.launch_asked import DISTRIBUTIONS
 from ros_lint.collectors.launch_py_released import HELPERS
 from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN, installed_place
 from ros_lint.facts.build import BuildScript
-from ros_lint.facts.launch import LaunchFile
+from ros_lint.facts.launch import LaunchAction, LaunchFile, LaunchValue
 from ros_lint.launch_links import everything
 from ros_lint.text import Text, read
 from ros_lint.tree import Tree, join, parent, seen_from, within
@@ -187,8 +187,13 @@ def _is_open(file: LaunchFile) -> bool:
         return False
     if file.opaque or not HELPERS.keys().isdisjoint(file.wants):
         return True
-    values = [value for action in everything(file.actions) for value in (action.package, action.target) if value is not None]
-    return any(UNKNOWN in text for value in values for text in value.texts)
+    return any(UNKNOWN in text for action in everything(file.actions) for value in _named_by(action) for text in value.texts)
+
+
+def _named_by(action: LaunchAction) -> Iterator[LaunchValue]:
+    """Yield what an action names: a package, what is started, files of parameters."""
+    yield from (value for value in (action.package, action.target) if value is not None)
+    yield from (value for name, value in action.parameters if not name)
 
 
 def _module_of(text: Text) -> Module | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from ros_lint import launch_around
 from ros_lint.collectors import launch
+from ros_lint.collectors.launch_text import share
 from ros_lint.facts.build import BuildScript, Provided
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.text import Span, Text
@@ -269,3 +270,23 @@ def generate_launch_description():
     }
     package = _package("app", files, {})
     assert launch_around.completed(MemoryTree({}), [package], "jazzy") == [package.launch]
+
+
+def test_files_of_parameters_that_a_module_names() -> None:
+    files = {
+        "app/places.py": "import os\nfrom ament_index_python import get_package_share_directory\n"
+        "CONFIG = os.path.join(get_package_share_directory('app'), 'config')\n",
+        "app/__init__.py": "",
+        "launch/a.launch.py": """
+from launch import LaunchDescription
+from launch_ros.actions import Node
+from app.places import CONFIG
+
+def generate_launch_description():
+    return LaunchDescription([Node(package="driver", executable="a", parameters=[f"{CONFIG}/a.yaml"])])
+""",
+    }
+    package = _package("app", files, {"share/app/launch/a.launch.py": "launch/a.launch.py"}, ("app", "app.places"))
+    done = _completed((package, files))
+    (node,) = [action for action in done["app/launch/a.launch.py"].actions if action.kind == "node"]
+    assert [(name, value.texts) for name, value in node.parameters] == [("", (share("app") + "/config/a.yaml",))]
