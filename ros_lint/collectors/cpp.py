@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from ros_lint.collectors.cpp_includes import Include, mentions
 from ros_lint.collectors.cpp_look_ups import loaders, look_ups
-from ros_lint.collectors.cpp_registrations import registrations
+from ros_lint.collectors.cpp_registrations import registrations, wrapped
 from ros_lint.collectors.cpp_symbols import symbols
 from ros_lint.facts.sight import Facet, Opaque
 from ros_lint.facts.sources import FileFacts, Mention
@@ -43,7 +43,7 @@ def collect(source: Text) -> FileFacts:
     if packages:
         included += packages
         included.sort(key=_place)
-    opaque = _opaque(source, found.computed) if found.computed else ()
+    opaque = (_opaque(source, found.computed) if found.computed else ()) + wrapped(source)
     return FileFacts(tuple(included), opaque, registrations(source, code), files, loaders=loading)
 
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Literal
 
 from ros_lint.collectors.cpp_includes import blanked, in_doubt
+from ros_lint.facts.sight import Facet, Opaque
 from ros_lint.facts.sources import Registration
 
 if TYPE_CHECKING:
@@ -34,6 +35,22 @@ def registrations(source: Text, code: Sequence[int] = ()) -> tuple[Registration,
     return tuple(found)
 
 
+_DEFINITION = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)((?:[^\\\n]|\\\r?\n|\\.)*)", re.MULTILINE)
+_NAME = re.compile(rf"\b(?:{'|'.join(_NAMES)})\b")
+
+
+def wrapped(source: Text) -> tuple[Opaque, ...]:
+    """Return where a C++ file defines a macro of its own that makes classes loadable: which ones, its calls say."""
+    text = source.text
+    if "define" not in text or not any(name in text for name in _NAMES):
+        return ()
+    return tuple(
+        Opaque(Facet.COMPONENTS, f"which classes {macro[1]}() makes loadable is not followed", source.span(*macro.span(1)))
+        for macro in _DEFINITION.finditer(text)
+        if macro[1] not in _NAMES and _NAME.search(macro[2])
+    )
+
+
 def _matches(text: str) -> Iterator[re.Match[str]]:
     """Yield the calls at the beginning of a line, those in the definition of a macro left out.
 
@@ -43,7 +60,7 @@ def _matches(text: str) -> Iterator[re.Match[str]]:
     for place in places:
         match = _MACRO.match(text, place)
         start = text.rfind("\n", 0, place) + 1
-        if match and not text[start:place].strip(" \t") and not text[:start].endswith(("\\\n", "\\\r\n")):
+        if match and not text[start:place].strip(" \t") and not text.endswith(("\\\n", "\\\r\n"), 0, start):
             yield match
 
 
