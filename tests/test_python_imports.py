@@ -173,7 +173,7 @@ def test_scan_and_tree_agree(seed: int) -> None:
         ("with suppress(ImportError):\n    from .a import b\n", (".a",)),
         ("try:\n    from .a import b\n    import c\nexcept ImportError:\n    pass\n", (".a", "c")),
         # The other branch may import the same file by another way.
-        ("try:\n    from .a import b\nexcept ImportError:\n    from a import b\n", ()),
+        ("try:\n    from .a import b\nexcept ImportError:\n    from a import b\n", ("a",)),
         ("try:\n    from .a import b\nexcept ImportError:\n    from robot.a import b\n", ("robot.a",)),
         ("try:\n    from .a import b\nexcept ImportError:\n    raise\n", ()),
         ("try:\n    from .a import b\nexcept Exception:\n    b = None\n", ()),

@@ -205,6 +205,9 @@ def _is_relative(statement: ast.Import | ast.ImportFrom) -> bool:
 
 
 def _roots(statement: ast.Import | ast.ImportFrom) -> set[str]:
+    """Return what an import needs. A neighbour by its own name and the same one by a relative import are two things."""
+    if _is_relative(statement):
+        return {"."}
     names = [alias.name for alias in statement.names] if isinstance(statement, ast.Import) else [statement.module or ""]
     return {name.partition(".")[0] for name in names}
 
