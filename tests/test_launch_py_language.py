@@ -42,6 +42,24 @@ last = numbers.pop(2)
 return [Node(package='a', executable='b', parameters=[{'datum': [numbers[0], numbers[1]]}])]
 => node a b
 
+def twice(function):
+    def wrapper(e):
+        return [function(e), function(e + '2')]
+    return wrapper
+@twice
+def make(e):
+    return Node(package='a', executable=e)
+return make('b')
+=> node a b2, node a b
+
+from functools import cache
+@cache
+@unheard_of('x')
+def make(e):
+    return Node(package='a', executable=e)
+return [make('b')]
+=> node a b
+
 make = partial(Node, package='a')
 return [make(executable='b')]
 => node a b

@@ -126,6 +126,9 @@ class _Reading:
             function = frame.names.get(name)
             if isinstance(function, Function):
                 self.actions += self._walker.actions(self._call(function, name, frame))
+                if function.changed:
+                    place = span_of(self._source.text, function.node)
+                    self._blind.append(Opaque(Facet.USES, f"what a decorator makes of {name}() is not followed", place))
         if helper:
             for name, function in list(frame.names.items()):
                 if isinstance(function, Function) and function.frame is frame:

@@ -160,7 +160,7 @@ class Made:
 class Function:
     """A function of the program. ``frame`` is where it was defined."""
 
-    __slots__ = ("defaults", "frame", "keyword_defaults", "node", "owner")
+    __slots__ = ("changed", "defaults", "frame", "keyword_defaults", "node", "owner")
 
     def __init__(self, node: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda, frame: Frame) -> None:
         self.node = node
@@ -168,6 +168,7 @@ class Function:
         self.defaults: list[Value] = []
         self.keyword_defaults: dict[str, Value] = {}
         self.owner: Class | None = None
+        self.changed = False  # whether a decorator that is not followed makes something else of it
 
     def yields(self) -> bool:
         """Whether it is a generator: it yields itself, not just a function in it."""

@@ -16,6 +16,7 @@ from ros_lint.collectors.launch_py_methods import items
 from ros_lint.collectors.launch_py_misuse import note
 from ros_lint.collectors.launch_py_objects import (
     PERHAPS,
+    Api,
     Bound,
     Class,
     Conditions,
@@ -256,12 +257,33 @@ def _match(machine: Machine, node: ast.Match, frame: Frame) -> int:
 
 def _function(machine: Machine, node: ast.FunctionDef | ast.AsyncFunctionDef, frame: Frame) -> int:
     found: Value = machine.function(node, frame)
-    for decorator in node.decorator_list:
+    for decorator in reversed(node.decorator_list):
         name = decorator.id if isinstance(decorator, ast.Name) else ""
         if name in ("classmethod", "staticmethod", "property"):
             found = Bound(found, [], {"": name})
+        elif isinstance(found, Function):
+            found = _decorated(machine, found, decorator, frame)
     frame.names[node.name] = found
     return NEXT
+
+
+_LEAVING = frozenset({"abc", "builtins", "contextlib", "functools", "launch_testing", "pytest", "typing", "unittest"})
+"""Modules whose decorators have a function do what it does."""
+
+
+def _decorated(machine: Machine, function: Function, decorator: ast.expr, frame: Frame) -> Value:
+    """Return what a decorator makes of a function; the function itself, marked as changed, if that is not followed."""
+    name = machine.evaluate(decorator.func if isinstance(decorator, ast.Call) else decorator, frame)
+    if isinstance(name, Api) and name.name.partition(".")[0] in _LEAVING:
+        return function
+    by = machine.evaluate(decorator, frame) if isinstance(decorator, ast.Call) else name
+    if isinstance(by, Function):
+        call = ast.copy_location(ast.Call(decorator, [], []), decorator)
+        made = machine.call(by, [function], {}, call, frame)
+        if isinstance(made, (Function, Bound)):
+            return made
+    function.changed = True
+    return function
 
 
 def _class(machine: Machine, node: ast.ClassDef, frame: Frame) -> int:
