@@ -52,6 +52,11 @@ def test_slips(wrong: str, right: str) -> None:
     assert Spelling(Knowledge("jazzy").index.names()).one_slip(wrong) == (right,)
 
 
+def test_the_same_words_in_another_order_are_nearest() -> None:
+    names = ["ament_cmake", "ament_cmake_auto", "ament_cmake_ros"]
+    assert Spelling(names).near("ament_auto_cmake") == ("ament_cmake_auto", "ament_cmake")
+
+
 @pytest.mark.parametrize("name", ["python3-pcl", "lcm", "mrpt2", "camera_2", "rclcpp"])
 def test_no_slips(name: str) -> None:
     assert Spelling(["python3-pil", "icm", "mrpt1", "camera_1", "rclcpp"]).one_slip(name) == ()

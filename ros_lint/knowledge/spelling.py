@@ -52,13 +52,14 @@ class Spelling:
         return tuple(sorted([other for other in near if -2 < len(other) - len(name) < 2 and _is_slip(name, other)]))
 
     def near(self, name: str) -> tuple[str, ...]:
-        """Return names that resemble a name, nearest first, at most three."""
+        """Return names that resemble a name, nearest first, at most three. Nearest are the same words in another order."""
         words = _words(name)
         alike = {other for word in words for other in self._having(word)}
         scored = [(-_overlap(words, _words(other)), other) for other in alike]
         candidates = [other for _, other in sorted(scored)[:30]]
+        moved = [other for other in candidates if sorted(_WORD.findall(name)) == sorted(_WORD.findall(other))]
         candidates += self.one_slip(name)
-        return tuple(near_names(name, dict.fromkeys(candidates), 3, 0.8))
+        return tuple(dict.fromkeys([*moved, *near_names(name, dict.fromkeys(candidates), 3, 0.8)]))[:3]
 
     def _having(self, word: str) -> list[str]:
         """Return the names that have a word. None for a word of very many: it tells nothing, and comparing takes long."""

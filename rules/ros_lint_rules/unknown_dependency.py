@@ -111,6 +111,9 @@ def _unknown(stranger: Stranger, workspace: Workspace, renamed: dict[tuple[str, 
     known = f"{target.distro}, as of {world.knowledge.date}"
     what = f"{name} is neither a package nor a rosdep key ({known})"
     meant = world.meant(name, python=stranger.runs_python)
+    other_library = ""
+    if meant and meant.by == "slip" and not world.is_package(meant.name) and _is_named(stranger):
+        other_library, meant = meant.name, None  # what the code calls so, too, is no slip for the library of somebody else
     fix = None
     of_cmake = not stranger.runs_python and bool(world.knowledge.names.cmake(name))
     installing = () if of_cmake else world.knowledge.rosdep.installing(name)
@@ -118,7 +121,7 @@ def _unknown(stranger: Stranger, workspace: Workspace, renamed: dict[tuple[str, 
     if meant is None and installing:
         message = f"{what}, but what {_caller('system', installing[0])} calls it: write {' or '.join(installing[:_MOST_KEYS])}"
     elif meant is None:
-        near = world.suggest(name, python=stranger.runs_python)
+        near = [other for other in world.suggest(name, python=stranger.runs_python) if other != other_library]
         lacking = [] if _is_named(stranger) else [other for other in near if _is_lacking(stranger.package, other)]
         hint = did_you_mean(near, "") or "correct it, or add what provides it"
         if len(lacking) == 1:
