@@ -22,7 +22,12 @@ _RELATIVE = re.compile(
 _JOINED = re.compile(r"join(?:path)?\([^()]*\Z")
 _NEAR = 200
 _WRITTEN = re.compile(r"""["']\s*,\s*(?:(?:mode\s*=\s*)?["'][wax]|std::ios(?:_base)?::(?:out|app|trunc)\b)""")
-_WRITES = re.compile(r"\bofstream\b[^;]*\Z|\b(?:imwrite|savefig|savetxt|to_csv|makedirs|mkdir)\(\s*f?[\"']\Z")
+_WRITES = re.compile(
+    r"\bofstream\b[^;]*\Z|\b(?:imwrite|imsave|save|savefig|savetxt|to_csv|makedirs|mkdir)\(\s*f?[\"']\Z"
+    r"|\b\w*(?:output|save)_(?:path|dir|directory|folder|file)[\"']?\s*[,:=]\s*(?:std::string\()?f?[\"']?\Z"
+)
+_BESIDE = re.compile(r"\b(?:mesh|texture|asset)dir\s*=\s*[\"']\Z")
+"""Attributes of models for MuJoCo, which seeks what is relative from the folder of the model."""
 _UNREAD = re.compile(r"^([ ]*)Description File:[^\n]*\n\1Description Source: Topic\b", re.MULTILINE)
 """What RViz keeps in a display of a robot whose description comes from a topic."""
 
@@ -52,8 +57,10 @@ def collect(text: Text) -> tuple[MachinePath, ...]:
 def _found(text: Text, hit: re.Match[str]) -> MachinePath:
     path = hit["path"].rstrip("./")
     start = hit.start("path")
-    written = _WRITTEN.match(text.text, hit.end("path")) or _WRITES.search(text.text, max(0, start - _NEAR), start)
-    return MachinePath(path, text.span(start, start + len(path)), bool(written))
+    before = max(0, start - _NEAR)
+    written = _WRITTEN.match(text.text, hit.end("path")) or _WRITES.search(text.text, before, start)
+    beside = _BESIDE.search(text.text, before, hit.start())
+    return MachinePath(path, text.span(start, start + len(path)), bool(written), bool(beside))
 
 
 def _docstrings(text: Text) -> list[tuple[int, int]]:

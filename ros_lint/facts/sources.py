@@ -70,7 +70,9 @@ class MachinePath(NamedTuple):
     """As ``/home/jay/ros2_ws/src/robot/config/robot.yaml`` or ``src/robot/config/robot.yaml``, without a slash at the end."""
     span: Span
     written: bool = False
-    """Whether a program opens it to write to it."""
+    """Whether a program opens it to write to it, or what is made goes there by the name of the variable."""
+    beside: bool = False
+    """Whether whoever reads it would seek a relative one from the folder of the file."""
 
 
 class ImportedType(NamedTuple):

@@ -19,12 +19,14 @@ those of Gazebo, or `model://box` for a model in a folder that is in its resourc
 exports. A plugin that opens its parameters by itself gets `$(find robot)/`, which xacro fills in. Parameters cannot look up
 anything: the launch file gives such ones. A map finds its image beside it. A program is started by `ros2 run`, or as a node.
 What belongs to the machine, such as data, a device or what is written there, becomes a launch argument or a parameter
-without such a default.
+without such a default. What the share directory lacks is installed first, as the message says. A model for MuJoCo looks up
+nothing: its `meshdir` counts from the folder of the file. One path in several files of a package is told once.
 
 ## When it keeps silent
 
-- In comments and docstrings, in tests, examples and documentation, in CMake files that are no part of the build, in launch
-  files of ROS 1. In a display of RViz whose robot comes from a topic: the file that it keeps is not read.
+- In comments and docstrings, in tests, examples and documentation, in CMake files that are no part of the build or that a
+  build has left, in launch files of ROS 1. In a display of RViz whose robot comes from a topic: the file that it keeps is not
+  read.
 - Of paths that are put together, such as `'/home/' + user` and `join(root, 'src/robot')`, and of `~`: these are meant for
   whoever runs it. But `~/ros2_ws/src/robot/map.yaml` is told where a package of the workspace has that file.
 - Of `src/` and `~` in build scripts, and where no package of the workspace has such a file.
@@ -36,11 +38,14 @@ without such a default.
 
 from __future__ import annotations
 
+import posixpath
+import re
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 from ros_lint.api import (
     Confidence,
+    Facet,
     Finding,
     MachinePath,
     Package,
@@ -84,23 +89,25 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     by_file: dict[tuple[str, str], list[tuple[MachinePath, _Inside | None]]] = {}
     for each in package.machine_paths:
         file = relative(package, each.span.path)
-        if is_apart(file) or (file not in used and file.endswith(".cmake")):  # builds leave such files behind
+        if is_apart(file) or (file.endswith(".cmake") and (file not in used or _STAGED.search(file))):  # builds leave those
             continue
         if file.endswith(".launch") and not _is_launched(each, package):  # a launch file of ROS 1
             continue
         inside = _inside(each.path, workspace)
         if each.path.startswith("/") or (inside and not file.endswith((*_BUILDING, "package.xml"))):
             by_file.setdefault((file, inside.package if inside else ""), []).append((each, inside))
+    told: dict[tuple[str, Confidence], list[tuple[MachinePath, _Inside | None]]] = {}
     for (file, _), found in by_file.items():
-        (first, inside), *others = found
+        first, inside = found[0]
         doubted = _is_of_container(first.path) or not _RECORDS.isdisjoint(file.split("/"))
-        yield Finding(
-            f"{first.path} {_where(first.path)}: {_way_out(first, inside, file, package)}",
-            first.span,
-            first.path,
-            several(Related(f"and {other.path}", other.span) for other, _ in others),
-            confidence=Confidence.HIGH if inside and file in used and not doubted else Confidence.MEDIUM,
+        sure = Confidence.HIGH if inside and file in used and not doubted else Confidence.MEDIUM
+        says = f"{first.path} {_where(first.path)}: {_way_out(first, inside, file, package, workspace)}"
+        told.setdefault((says, sure), []).extend(found)
+    for (says, sure), ((first, _), *others) in told.items():
+        related = several(
+            Related("and here" if other.path == first.path else f"and {other.path}", other.span) for other, _ in others
         )
+        yield Finding(says, first.span, first.path, related, confidence=sure)
 
 
 def _where(path: str) -> str:
@@ -109,7 +116,7 @@ def _where(path: str) -> str:
     return "is there on one machine only" if path.startswith("/") else "is found from the root of the workspace only"
 
 
-def _way_out(machine: MachinePath, inside: _Inside | None, file: str, package: Package) -> str:
+def _way_out(machine: MachinePath, inside: _Inside | None, file: str, package: Package, workspace: Workspace) -> str:
     if inside is None:
         return "make it an argument, or a file of a package"
     if machine.written:
@@ -125,19 +132,32 @@ def _way_out(machine: MachinePath, inside: _Inside | None, file: str, package: P
         return f"it is {inside.rest} of this package; write that"
     if file == "package.xml":
         return f"{it_is}; say ${{prefix}}/{inside.rest}"
+    if machine.beside:
+        below = posixpath.relpath(inside.rest, posixpath.dirname(file)) if inside.package == package.name else "a path"
+        return f"{it_is}; say {below}, which counts from the folder of this file"
     if inside.package == package.name and name.endswith(_IMAGES) and (folder, True) == (file.rpartition("/")[0], _is_yaml(file)):
         return f"{it_is}, beside this file; say {name}"
     if file.endswith(_OF_GAZEBO) and inside.rest.startswith("models/"):
         model = inside.rest.removeprefix("models/")
         return f"{it_is}; say model://{model}, with this folder of models in Gazebo's resource path"
-    if scheme := _scheme(inside, file):
-        filled_in = scheme.startswith("$") and not file.endswith(".xacro")
-        return f"{it_is}; say {scheme}/{inside.rest}" + (", and let xacro fill it in" if filled_in else "")
-    if _is_yaml(file) and not _is_launched(machine, package):
-        return f"{it_is}; let the launch file give it, from the share directory of {inside.package}"
     if inside.program:
         return f"{it_is}; start it with ros2 run {inside.package} {inside.program}, or as a node"
-    return f"{it_is}; look it up in the share directory of {inside.package}"
+    it_is += "; install it, and " if _is_left_out(inside, workspace) else "; "
+    if scheme := _scheme(inside, file):
+        filled_in = scheme.startswith("$") and not file.endswith(".xacro")
+        return f"{it_is}say {scheme}/{inside.rest}" + (", and let xacro fill it in" if filled_in else "")
+    if _is_yaml(file) and not _is_launched(machine, package):
+        return f"{it_is}let the launch file give it, from the share directory of {inside.package}"
+    return f"{it_is}look it up in the share directory of {inside.package}"
+
+
+def _is_left_out(inside: _Inside, workspace: Workspace) -> bool:
+    """Whether a package is seen not to install what it has at a place."""
+    for package in workspace.by_name[inside.package]:
+        below = [file for file in package.files if file == inside.rest or file.startswith((f"{inside.rest}/", f"{inside.rest}."))]
+        if not package.built.path or package.hidden(Facet.SHARE | Facet.PYTHON) or not _used(package).isdisjoint(below):
+            return False
+    return True
 
 
 def _without_file(machine: MachinePath, inside: _Inside, file: str, package: Package) -> str:
@@ -177,6 +197,8 @@ def _is_yaml(file: str) -> bool:
     return file.endswith((".yaml", ".yml"))
 
 
+_STAGED = re.compile(r"(?:^|/)share/[^/]+/cmake/")
+"""Where builds put the CMake files of a package, in a folder that is packed or installed."""
 _RECORDS = frozenset({"experiment", "experiments"})
 """Folders that say how something was tried."""
 
