@@ -12,8 +12,10 @@ EDITORS_COPIES = frozenset({".ipynb_checkpoints"})
 """Folders in which editors keep copies."""
 _PUT_ASIDE = frozenset({"attic", "backup", "backups", "deprecated", "legacy", "obsolete", "old", "unused"}) | EDITORS_COPIES
 _APART = frozenset({"example", "examples", "sample", "samples", "template", "templates", "doc", "docs"}) | _PUT_ASIDE
-_COPY = re.compile(r" (?:copy(?: \d+)?|\(\d+\))\.\w+\Z|[ _.-](?:backup|bak|old)(?:[ _.-]?v?\d+)*(?:\.launch)?\.\w+\Z")
-"""What editors and file managers call the copy of a file, and people what they keep."""
+_COPY = re.compile(r" (?:copy(?: \d+)?|\((?:\d+|(?:another |\d+\w\w )?copy)\))\.\w+\Z")
+"""What editors and file managers call the copy of a file."""
+_KEPT = re.compile(r"[ _.-](?:backup|bak|old)(?:[ _.-]?v?\d+)*(?:\.launch)?\.\w+\Z")
+"""What people call a file that they keep."""
 
 _OF_TESTS = re.compile(r"(?:^|_)(?:tests?|testing)(?:_|$)")
 
@@ -27,7 +29,12 @@ def is_apart(path: str) -> bool:
     """Return whether a file serves tests, shows something, is to be filled in, or kept for later, by its path."""
     name = path.rpartition("/")[2]
     of_tests = name.startswith("test_") or "_test." in name or ".test." in name
-    return of_tests or lies_apart(path) or _COPY.search(name) is not None
+    return of_tests or lies_apart(path) or is_copy(path) or _KEPT.search(name) is not None
+
+
+def is_copy(path: str) -> bool:
+    """Return whether a file is one that an editor or a file manager has copied, by its name: nobody is to start it."""
+    return " " in path and _COPY.search(path) is not None
 
 
 def lies_apart(path: str) -> bool:

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Container, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
-from ros_lint.apart import is_apart, lies_apart
+from ros_lint.apart import is_apart, is_copy, lies_apart
 from ros_lint.facts.launch import LaunchFile, LaunchReference
 from ros_lint.facts.sight import Facet
 from ros_lint.facts.sources import LookUp
@@ -42,7 +42,8 @@ def launchable(package: Package, *, apart: bool = False) -> Iterator[Launchable]
             continue
         is_installed = path in installed or path.startswith(modules)
         # What is merely called a test, and always installed, is for people to start.
-        aside = file.test or (lies_apart(path) if is_installed and not installed.get(path) else is_apart(path))
+        started = is_installed and not (installed.get(path) or is_copy(path))
+        aside = file.test or (lies_apart(path) if started else is_apart(path))
         if apart or not aside:
             yield Launchable(file, path, is_installed, not aside or path in tests)
 

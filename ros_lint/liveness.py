@@ -121,7 +121,7 @@ class Liveness:
             alive = not (self._sees_compiled or resource or self._is_left_out(path))
             return Role.TEST, (taken or self._may_be_launched(path)) if python else alive
         if path in self._launched and (path in self._installed or path in self._installed_python):
-            return Role.EXEC, True
+            return Role.EXEC, not apart.is_copy(path)
         idle = bool(_IDLE_FOLDERS & folders)
         if path in self._launched:
             return Role.EXEC, not (self._sees_share or idle)
@@ -350,6 +350,8 @@ class Liveness:
         inside = (*(f"{package}/" for package in packages), *(each for each in moved if each.endswith("/")))
         modules = frozenset([*moved, *(f"{package}{suffix}" for package in packages for suffix in (".py", ".py.in"))])
         below = [file for file in self._files if file.startswith(inside)]
+        if projects := self._idle.difference(packages):  # what lies there is installed by another setup.py, if at all
+            below = [file for file in below if projects.isdisjoint(folders_of(file))]
         unseen = self._unseen_folders([file for file in below if file.endswith(".py")], inside)
         kept = [file for file in below if not file.endswith(".py") or _is_of_modules(file, unseen)]
         return modules.intersection(self._files).union(kept)

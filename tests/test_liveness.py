@@ -245,6 +245,8 @@ def test_a_header_of_ros_1_that_nothing_includes_is_left_over(header: str, sourc
         ("packages=['robot']", {"robot/tools/__init__.py": ""}, True),
         ("packages=['robot']", {"robot/node.py": "from robot.tools.learn import main\n"}, True),
         ("packages=['robot']", {"robot/node.py": "from other.tools import main\n"}, False),
+        ("packages=['robot']", {"robot/tools/__init__.py": "", "robot/tools/setup.py": ""}, False),
+        ("packages=['robot', 'robot.tools']", {"robot/tools/__init__.py": "", "robot/tools/setup.py": ""}, True),
         ("packages=['robot', 'robot.tools']", {}, True),
         ("packages=['robot'], entry_points={'console_scripts': ['learn = robot.tools.learn:main']}", {}, True),
     ],
@@ -258,6 +260,13 @@ def test_a_folder_in_a_python_package_is_none_by_itself(options: str, more: dict
 def test_what_nobody_can_import_is_put_aside(name: str, sure: bool) -> None:
     files = {"robot/__init__.py": "", f"robot/{name}": "import nav_msgs.msg\n"}
     assert placed(load_python("packages=['robot']", files), "nav_msgs") == (Role.EXEC, sure, False)
+
+
+@pytest.mark.parametrize(("name", "sure"), [("a.launch.py", True), ("a.launch (copy).py", False), ("a (2).launch.py", True)])
+def test_nobody_starts_what_a_file_manager_has_copied(name: str, sure: bool) -> None:
+    text = "import nav_msgs.msg\n\ndef generate_launch_description():\n    return LaunchDescription([])\n"
+    workspace = load("install(DIRECTORY launch DESTINATION share/robot)", {f"launch/{name}": text})
+    assert placed(workspace, "nav_msgs") == (Role.EXEC, sure, False)
 
 
 def test_headers_that_are_installed_for_tests_serve_tests() -> None:

@@ -23,8 +23,8 @@ Add `<exec_depend>` to `package.xml`. The fix does this.
   `PackageNotFoundError`).
 - The package exists nowhere: that is `launch-unknown-package`. Where nobody said which distribution is meant, a package of
   any will do, what brings it along there counts, and the message says which have it.
-- Launch files of tests and examples, and those that are not installed. What the package declares for its tests, where the
-  launch file is merely called one (`test_arm.launch.py`).
+- Launch files of tests and examples, those that a file manager has copied (`arm.launch (copy).py`), and those that are not
+  installed. What the package declares for its tests, where the launch file is merely called one (`test_arm.launch.py`).
 - What a declared dependency brings along is not known, or a file of the package cannot be read, which may be the script that
   runs the launch file as a test: then the confidence is medium.
 - What nodes are started with only under a condition, mostly to find a mistake, has medium confidence.
