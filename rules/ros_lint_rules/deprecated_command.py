@@ -28,9 +28,23 @@ with an error.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
-from ros_lint.api import Call, Edit, Finding, Fix, Package, Related, Rule, Severity, Workspace, called, cmake_edits, several
+from ros_lint.api import (
+    Call,
+    Edit,
+    Finding,
+    Fix,
+    Package,
+    Problem,
+    Related,
+    Rule,
+    Severity,
+    Workspace,
+    called,
+    cmake_edits,
+    several,
+)
 
 _ALWAYS = {
     "rosidl_target_interfaces": (
@@ -61,12 +75,19 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 fix = Fix("call ament_export_targets()", tuple(Edit(call.place, "ament_export_targets") for call in calls))
             related = several(Related("also here", call.place) for call in others)
             yield Finding(f"{name}() is deprecated; {instead}", first.place, name, related, fix)
-    for problem in script.problems:
-        if problem.kind == "dashed-key":
-            written = problem.subject
-            better = written.replace("-", "_")
-            fix = Fix(f"write {better}", (Edit(problem.span, better),))
-            yield Finding(f"the key {written} is deprecated; write {better}", problem.span, written, fix=fix)
+    dashed = [problem for problem in script.problems if problem.kind == "dashed-key"]
+    if dashed:
+        yield _dashed(dashed)
+
+
+def _dashed(keys: Sequence[Problem]) -> Finding:
+    """Speak of all keys with a dash at once: they are deprecated for one reason."""
+    first, *others = keys
+    better = " and ".join(dict.fromkeys(key.subject.replace("-", "_") for key in keys))
+    fix = Fix(f"write {better}", tuple(Edit(key.span, key.subject.replace("-", "_")) for key in keys))
+    what = f"the keys {' and '.join(dict.fromkeys(key.subject for key in keys))} are" if others else f"the key {first.subject} is"
+    related = several(Related("and here", key.span) for key in others)
+    return Finding(f"{what} deprecated; write {better}", first.span, first.subject, related, fix)
 
 
 def _is_switched(call: Call) -> bool:

@@ -103,7 +103,7 @@ def _lacking(
         elif runs:
             way_out = f"write {name}:main"
             if module is not None and not module.open and "main" not in module.names:
-                way_out = f"{module.path} has no main, so define one there and {way_out}"
+                way_out = f"{module.path} has no main, so define one there and {way_out}, or take the entry point out"
             yield Finding(f"{entry.name} names a module and no function; {way_out}", entry.span, entry.name)
         return
     if module is None:

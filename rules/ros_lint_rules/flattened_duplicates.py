@@ -22,7 +22,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Finding, Package, Provided, Related, Rule, Severity, Workspace, few, several
+from ros_lint.api import Finding, Package, Provided, Related, Rule, Severity, Span, Workspace, few, several
 
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
@@ -33,17 +33,22 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     for provided in script.provides:
         if provided.source and not (provided.conditional or provided.path.endswith("__init__.py")):
             by_path.setdefault(provided.path, {}).setdefault(provided.source, provided)
+    by_place: dict[tuple[Span, ...], list[str]] = {}
     for path, sources in by_path.items():
         if len(sources) > 1:
-            yield _finding(path, sources)
+            by_place.setdefault(tuple([each.span for each in sources.values()]), []).append(path)
+    yield from (_finding(paths, by_path[paths[0]]) for paths in by_place.values())
 
 
-def _finding(path: str, sources: dict[str, Provided]) -> Finding:
+def _finding(paths: list[str], sources: dict[str, Provided]) -> Finding:
+    """Speak of files that are installed to one path; with the ``paths`` after the first one it is the same."""
+    path, *more = paths
     *others, last = sources.values()
     which = f"{' and '.join(sources)} are both" if len(sources) == 2 else f"{few(sources)} ({len(sources)} files) are all"
     places = {each.span: f"{each.source} is installed here" for each in reversed(others) if each.span != last.span}
+    as_well = f"; so it is with {few(more)}" if more else ""
     return Finding(
-        f"{which} installed as {path}; the last one wins",
+        f"{which} installed as {path}; the last one wins{as_well}",
         last.span,
         path,
         several(Related(message, span) for span, message in sorted(places.items())),
