@@ -4,7 +4,7 @@
 A dependency in `package.xml` whose name means nothing to anybody: no package of the workspace, of an underlay or of any
 distribution has it, and no rosdep key is called so. Misspelt packages, the name that CMake, Python, apt or pip use instead
 of the rosdep key, modules of Python itself, programs and modules of the package, groups of packages, and `ament_python`, which
-is a build type and no package.
+is a build type and no package. And a tag without a name.
 
 ## Why it matters
 
@@ -63,32 +63,37 @@ def check(workspace: Workspace) -> Iterator[Finding]:
     for name, packages in declared_names(workspace).items():
         if workspace.world.standing(name) == "unknown":
             for stranger in strangers(name, packages):
-                if name == _PYTHON_BUILD:
+                if not name:
+                    yield _needless(
+                        stranger, f"an empty <{stranger.declared.depend.tag}> declares nothing, and rosdep stops at it"
+                    )
+                elif name == _PYTHON_BUILD:
                     yield _build_type(stranger)
                 elif name in groups:
-                    yield _needless(stranger, "is a group of packages and none itself")
+                    yield _needless(stranger, f"{name} is a group of packages and none itself")
                 elif stranger.runs_python and workspace.world.by_import(name).none_needed:
-                    yield _needless(stranger, "is a module of Python itself, so there is nothing that rosdep could install")
+                    why = f"{name} is a module of Python itself, so there is nothing that rosdep could install"
+                    yield _needless(stranger, why)
                 elif workspace.world.meant(name, python=stranger.runs_python) is None and (own := _own(stranger)):
-                    yield _needless(stranger, f"is a {own} of this package and no package")
+                    yield _needless(stranger, f"{name} is a {own} of this package and no package")
                 else:
                     yield _unknown(stranger, workspace, renamed)
 
 
 def _build_type(stranger: Stranger) -> Finding:
     package, name = stranger.package, stranger.name
-    why = "is a build type and no package, so rosdep cannot resolve it"
+    why = f"{name} is a build type and no package, so rosdep cannot resolve it"
     if package.builds_with != "ament_cmake" or "ament_python_install_package" not in package.built.calls:
         return _needless(stranger, why)
     way_out = f"write {_PYTHON_IN_CMAKE}"
     fix = Fix.of(way_out, *_rename(stranger, _PYTHON_IN_CMAKE))
-    return Finding(f"{name} {why}: {way_out}", stranger.declared.depend.span, name, fix=fix, package=package.name)
+    return Finding(f"{why}: {way_out}", stranger.declared.depend.span, name, fix=fix, package=package.name)
 
 
 def _needless(stranger: Stranger, why: str) -> Finding:
-    package, name = stranger.package, stranger.name
-    fix = Fix(f"remove the dependency on {name}", _removal(stranger))
-    return Finding(f"{name} {why}: remove the tag", stranger.declared.depend.span, name, fix=fix, package=package.name)
+    package, depend = stranger.package, stranger.declared.depend
+    fix = Fix(f"remove {f'the dependency on {stranger.name}' if stranger.name else 'the empty tag'}", _removal(stranger))
+    return Finding(f"{why}: remove the tag", depend.span, stranger.name or depend.tag, fix=fix, package=package.name)
 
 
 def _own(stranger: Stranger) -> str:
