@@ -191,6 +191,8 @@ def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: W
         hint = f" in {distro}, it was last released for {ended[0]} (data of {date}){use}"
         return _Verdict(hint, Confidence.MEDIUM, resembles=False, known=bool(use))
     near = [other for other in world.suggest(name) if world.is_package(other)]
+    if own and places[0].reference.kind == "node":  # it installs no such program, as was seen above
+        near = [other for other in near if other != package.name]
     reordered = [] if near else _reordered(name, workspace)
     nowhere = f" in the workspace, the underlays or {distro} (data of {date})"
     # As sure as unknown-dependency is of what package.xml declares.
