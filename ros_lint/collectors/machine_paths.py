@@ -28,6 +28,7 @@ _WRITES = re.compile(
 )
 _BESIDE = re.compile(r"\b(?:mesh|texture|asset)dir\s*=\s*[\"']\Z")
 """Attributes of models for MuJoCo, which seeks what is relative from the folder of the model."""
+_DEFAULT = re.compile(r"\bdeclare_parameter(?:<[\w:]+>)?\(\s*[\"'][\w./-]+[\"']\s*,\s*(?:std::string\(|\{)?\s*[\"']\Z")
 _UNREAD = re.compile(r"^([ ]*)Description File:[^\n]*\n\1Description Source: Topic\b", re.MULTILINE)
 """What RViz keeps in a display of a robot whose description comes from a topic."""
 
@@ -60,7 +61,8 @@ def _found(text: Text, hit: re.Match[str]) -> MachinePath:
     before = max(0, start - _NEAR)
     written = _WRITTEN.match(text.text, hit.end("path")) or _WRITES.search(text.text, before, start)
     beside = _BESIDE.search(text.text, before, hit.start())
-    return MachinePath(path, text.span(start, start + len(path)), bool(written), bool(beside))
+    default = _DEFAULT.search(text.text, before, start)
+    return MachinePath(path, text.span(start, start + len(path)), bool(written), bool(beside), bool(default))
 
 
 def _docstrings(text: Text) -> list[tuple[int, int]]:

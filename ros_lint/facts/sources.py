@@ -73,6 +73,8 @@ class MachinePath(NamedTuple):
     """Whether a program opens it to write to it, or what is made goes there by the name of the variable."""
     beside: bool = False
     """Whether whoever reads it would seek a relative one from the folder of the file."""
+    default: bool = False
+    """Whether it is the default of a parameter that a program declares."""
 
 
 class ImportedType(NamedTuple):

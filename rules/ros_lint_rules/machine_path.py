@@ -173,6 +173,8 @@ def _without_file(machine: MachinePath, inside: _Inside, file: str, package: Pac
     ]
     if any(machine.path in text for default in defaults for text in default.texts):
         return "the argument needs another default, or none"
+    if machine.default:
+        return "the parameter needs another default, or none"
     if _is_yaml(file) and not _is_launched(machine, package):
         return "let the launch file give it"
     program = file.endswith(_PROGRAMS) and not file.endswith(_BUILDING) and not _is_launched(machine, package)
