@@ -8,7 +8,7 @@ Where the package of the launch file installs what is started from the unknown o
 renamed, or the launch file was copied.
 
 A name without the first word that the packages of a project share, `planner_utils` for `acme_planner_utils` in a package
-`acme_bringup`, is taken for that package where it exists.
+`acme_bringup`, is taken for that package where it exists, unless nothing of what is named is in there.
 
 ## Why it matters
 
@@ -169,7 +169,7 @@ def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: W
     if meant is not None and world.is_package(meant.name):
         return _Verdict(f": {meant.name} is meant", Confidence.HIGH, meant.name)
     renamed = [other for other in workspace.by_name if other.endswith(f"_{name}")]
-    if len(renamed) == 1:
+    if len(renamed) == 1 and _may_have(renamed[0], places, workspace):
         return _Verdict(f": the workspace has {renamed[0]}", Confidence.HIGH, renamed[0])
     distro, date = workspace.target.distro, world.knowledge.date
     elsewhere = world.where_else(name)
@@ -182,7 +182,7 @@ def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: W
     if own and own.names.issuperset(wanted) and places[0].reference.kind == "node":
         return _Verdict(f": {package.name} itself installs {few(list(wanted))}", Confidence.HIGH, package.name)
     family = f"{package.name.partition('_')[0]}_{name}"
-    if "_" in name and world.is_package(family):
+    if "_" in name and world.is_package(family) and _may_have(family, places, workspace):
         return _Verdict(f": {family} is meant", Confidence.HIGH, family)
     ended = world.knowledge.names.end_of_life(name)
     if ended:
@@ -190,16 +190,37 @@ def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: W
         use = f": use {successor}" if successor else ""
         hint = f" in {distro}, it was last released for {ended[0]} (data of {date}){use}"
         return _Verdict(hint, Confidence.MEDIUM, resembles=False, known=bool(use))
-    near = [other for other in world.suggest(name) if world.is_package(other)]
-    if own and places[0].reference.kind == "node":  # it installs no such program, as was seen above
-        near = [other for other in near if other != package.name]
-    reordered = [] if near else _reordered(name, workspace)
+    known = [other for other in world.suggest(name) if world.is_package(other)]
+    near = [other for other in known if other not in workspace.by_name or _may_have(other, places, workspace)]
+    reordered = [] if near else [other for other in _reordered(name, workspace) if _may_have(other, places, workspace)]
     nowhere = f" in the workspace, the underlays or {distro} (data of {date})"
     # As sure as unknown-dependency is of what package.xml declares.
     strange = package.declares(name) and not may_be_package(name)
     hint = f"{nowhere}{did_you_mean(near or reordered)}"
     confidence = Confidence.HIGH if strange else Confidence.MEDIUM
     return _Verdict(hint, confidence, resembles=bool(near or reordered), known=bool(reordered))
+
+
+def _may_have(other: str, places: Sequence[_Place], workspace: Workspace) -> bool:
+    """Whether a package may have any of what is named of one that does not exist, if anything is."""
+    named = [place.reference for place in places if place.reference.name]
+    return not named or any(_may_offer(other, reference, workspace) for reference in named)
+
+
+def _may_offer(other: str, reference: LaunchReference, workspace: Workspace) -> bool:
+    packages = workspace.by_name.get(other, ())
+    name = reference.name
+    if not packages:
+        known = {"node": workspace.world.executables, "include": workspace.world.launch_files}.get(reference.kind)
+        return known is None or known(other).ask(name) != "missing"
+    if reference.kind == "node":
+        return any((found := programs(one)) is None or name in found.names or name in found.elsewhere for one in packages)
+    if reference.kind not in ("include", "file"):
+        return True
+    return any(
+        one.hidden(Facet.SHARE) or name in one.files or any(each.path == f"share/{other}/{name}" for each in one.built.provides)
+        for one in packages
+    )
 
 
 def _reordered(name: str, workspace: Workspace) -> list[str]:
