@@ -156,7 +156,7 @@ def _offers_nothing(world: World, released: Released) -> bool:
     if released.build_type != "ament_cmake" or released.interfaces:
         return False
     known = (world.executables, world.launch_files, world.components, world.plugins, world.python_modules, world.programs)
-    return not any(provides(released.name).names or provides(released.name).maybe for provides in known)
+    return not any(provides(released.name).possible for provides in known)
 
 
 def is_mostly_run(workspace: Workspace, name: str) -> bool:

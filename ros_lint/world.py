@@ -232,9 +232,9 @@ class World:
             known = [own]
             if name not in self._members and (everywhere or own == NOTHING_KNOWN):
                 known += self.knowledge.known_elsewhere(name, "interfaces")
-            whole = known[-1].complete and all(one.complete and one.names for one in known if one != NOTHING_KNOWN)
+            whole = known[-1].complete and all(one.complete and one.possible for one in known if one != NOTHING_KNOWN)
             self._interfaces[key] = (
-                frozenset([each for one in known for each in (*one.names, *one.maybe)]) if whole else frozenset()
+                frozenset([each for one in known for each in one.possible]) if whole else frozenset()
             )
         return self._interfaces[key]
 
@@ -338,7 +338,7 @@ class World:
         if name in self._members:
             return NOTHING_KNOWN
         installed = self._installed.get(name)
-        return installed.known(offer) if installed is not None else self.knowledge.provides.known(name, offer)
+        return installed.known(offer) if installed is not None else self.knowledge.provided(name, offer)
 
     def _brings(self, name: str) -> tuple[str, ...] | None:
         member = self._members.get(name)

@@ -140,7 +140,31 @@ def test_absence_is_claimed_from_solid_lines_only(origin: str, answer: str) -> N
     assert found.known("executables").ask("speaker") == answer
     assert found.known("executables").ask("listener") == "unknowable"
     assert found.known("modules").ask("demo") == "exists"
-    assert Knowledge("jazzy").provides.known("no_such_package", "executables").ask("x") == "unknowable"
+    assert Knowledge("jazzy").provided("no_such_package", "executables").ask("x") == "unknowable"
+
+
+def test_what_is_known_before_and_after_tells_of_a_distribution_between(tmp_path: Path) -> None:
+    lines = {
+        "humble": ["both\t=\tX:talker old?", "later\t~\tX:talker", "silent\tb\tX:talker"],
+        "jazzy": ["both\t~\tX:talker", "later\t~\tX:talker"],
+        "kilted": ["both\t~\tX:talker newer", "later\tb\tX:talker", "silent\t=\tX:talker"],
+        "lyrical": ["both\tb\tX:talker"],
+    }
+    for distro, own in lines.items():
+        names = ["both", "later", "silent"]
+        rows = [f"{name}\t1.0.0\tc\t" for name in names]
+        (tmp_path / f"{distro}.idx").write_text("\n".join([f"#ros-index 1 distro={distro} date=2026-01-01 packages=3", *rows, ""]))
+        (tmp_path / f"{distro}.prov").write_text("\n".join([f"#ros-provides 1 distro={distro} packages={len(own)}", *own, ""]))
+    jazzy = Knowledge("jazzy", [str(tmp_path)])
+
+    def asked(package: str, *names: str) -> list[str]:
+        return [jazzy.provided(package, "executables").ask(name) for name in names]
+
+    assert asked("both", "talker", "old", "newer", "speaker") == ["exists", "unknowable", "unknowable", "missing"]
+    assert asked("later", "talker", "speaker") == ["exists", "unknowable"]
+    assert asked("silent", "talker", "speaker") == ["unknowable", "missing"]
+    assert not jazzy.offered_elsewhere("both", "executables", "speaker")
+    assert jazzy.offered_elsewhere("later", "executables", "speaker")
 
 
 def test_a_distribution_without_an_index_is_not_covered() -> None:
@@ -222,7 +246,7 @@ def test_cmake_names() -> None:
 def test_loading_needs_nothing_heavy() -> None:
     code = (
         "import sys; from ros_lint.knowledge import Knowledge; known = Knowledge('jazzy'); known.index.get('rclcpp');"
-        "known.rosdep.get('eigen'); known.names.header('Eigen/Dense'); known.provides.get('rclcpp');"
+        "known.rosdep.get('eigen'); known.names.header('Eigen/Dense'); known.provided('rclcpp', 'executables');"
         "print(sorted({'yaml', 'json', 'networkx', 'libcst', 'importlib.metadata', 'dataclasses', 'urllib.request',"
         " 'importlib.resources', 'difflib'} & set(sys.modules)))"
     )

@@ -63,6 +63,8 @@ class Knowledge:
         self._store = Store(places)
         self._elsewhere: dict[str, frozenset[str]] = {}
         self._having: dict[str, tuple[Index, ...]] = {}
+        self._installed: dict[str, Provides] = {}
+        self._between: dict[tuple[str, str, Offer], Known] = {}
 
     @property
     def covered(self) -> bool:
@@ -79,9 +81,36 @@ class Knowledge:
     def index(self) -> Index:
         return index.load(self._store, self.distro)
 
-    @cached_property
-    def provides(self) -> Provides:
-        return provides.load(self._store, self.distro)
+    def provided(self, package: str, offer: Offer) -> Known:
+        """Return what is known of one side of a package: whole only where nothing else can be there.
+
+        Where the sources of its release were not read, those of an earlier and of a later distribution tell, too: what none
+        has, and no other one that is known, is not there either. What any of them has may be there. (Of 995 executables, 304
+        components, 1,182 plugins, 772 launch files and 1,855 interfaces of packages whose sources were read for three
+        distributions, 0, 0, 0, 2 and 4 are in none but the one between.)
+        """
+        return self._provided(self.distro, package, offer)
+
+    def _provided(self, distro: str, package: str, offer: Offer) -> Known:
+        own = self._provides(distro).known(package, offer)
+        if own.complete or package not in self._index(distro):
+            return own
+        key = (distro, package, offer)
+        if key not in self._between:
+            self._between[key] = own.between(*self._around(distro, package, offer))
+        return self._between[key]
+
+    def _around(self, distro: str, package: str, offer: Offer) -> tuple[list[Known], list[Known]]:
+        """Return what is known of a package in the distributions before another one, and in those after it."""
+        at = self._order.index(distro)
+        parts = self._order[:at], self._order[at + 1 :]
+        before, after = ([self._provides(each).known(package, offer) for each in part] for part in parts)
+        return before, after
+
+    def _provides(self, distro: str) -> Provides:
+        if distro not in self._installed:
+            self._installed[distro] = provides.load(self._store, distro)
+        return self._installed[distro]
 
     @cached_property
     def rosdep(self) -> Rosdep:
@@ -94,8 +123,15 @@ class Knowledge:
     @cached_property
     def others(self) -> tuple[Index, ...]:
         """Return the indexes of the other distributions, oldest first."""
-        places = self._store.places
-        return tuple(index.load(self._store, distro.name) for distro in distros(places) if distro.name != self.distro)
+        return tuple(index.load(self._store, distro) for distro in self._order if distro != self.distro)
+
+    @cached_property
+    def _order(self) -> tuple[str, ...]:
+        """Return all distributions that there is an index of, oldest first."""
+        return tuple(distro.name for distro in distros(self._store.places))
+
+    def _index(self, distro: str) -> Index:
+        return self.index if distro == self.distro else next(other for other in self.others if other.distro == distro)
 
     def elsewhere(self, name: str) -> tuple[str, ...]:
         """Return the other distributions that have a package, oldest first."""
@@ -113,7 +149,7 @@ class Knowledge:
 
     def known_elsewhere(self, package: str, offer: Offer) -> tuple[Known, ...]:
         """Return what is known of one side of a package in each of the other distributions that have it."""
-        return tuple([provides.load(self._store, other.distro).known(package, offer) for other in self._where(package)])
+        return tuple([self._provided(other.distro, package, offer) for other in self._where(package)])
 
     def brings_elsewhere(self, package: str, name: str) -> bool | None:
         """Return whether a name comes along with a package in any of the other distributions that have it.

@@ -39,6 +39,11 @@ class Known(NamedTuple):
     endings: tuple[str, ...] = ()
     """With any, only of names that end so was a list made: nothing is known of others."""
 
+    @property
+    def possible(self) -> tuple[str, ...]:
+        """Return all names that may be there."""
+        return (*self.names, *self.maybe)
+
     def ask(self, name: str) -> Answer:
         """Return what is known of a name."""
         if name in self.names:
@@ -46,6 +51,20 @@ class Known(NamedTuple):
         if not self.complete or name in self.maybe or (self.endings and not name.endswith(self.endings)):
             return "unknowable"
         return "missing"
+
+    def between(self, before: Iterable[Known], after: Iterable[Known]) -> Known:
+        """Return what can be told from what is known of the same in earlier and in later distributions.
+
+        It is whole where one before and one after are; what any of them has may be there.
+        """
+        earlier, later = list(before), list(after)
+        sides = [next((one for one in side if one.complete), None) for side in (earlier, later)]
+        if None in sides:
+            return self
+        others = [name for one in (*earlier, *later) for name in one.possible]
+        maybe = dict.fromkeys(name for name in (*self.maybe, *others) if name not in self.names)
+        endings = next((one.endings for one in sides if one), ())
+        return Known(self.names, tuple(maybe), True, endings)
 
 
 NOTHING_KNOWN = Known()

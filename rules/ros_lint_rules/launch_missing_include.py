@@ -28,8 +28,9 @@ Correct the path; the message names files of the same name that the package does
   for certain: parameters, the displays of rviz2. Maps, which people make with the robot, what lies in a
   folder for what is made (`temp`, `tmp`, `generated`), and what git ignores have medium confidence, and so have records beside
   which one of nearly the same name is installed; unless that one is the only one that nothing names.
-- For a released package: its launch files are not known whole; other files of it are not known at all. Where nobody said
-  which distribution is meant, the confidence is medium as long as one of them may have the file.
+- For a released package: neither are its launch files known whole, nor those for an earlier and a later distribution, or
+  one of these has the file; other files of it are not known at all. Where nobody said which distribution is meant, the
+  confidence is medium as long as one of them may have it.
 - The launch file asks first if the package is there, or the file (`os.path.exists`), unless it stops where it is not; or it
   writes the file itself (`open(path, 'w')`, `xacro.open_output(path)`), or by a command (`xacro ... > path`).
 - Models, displays and parameters that are not installed, or not in every build, and what xacro includes as `optional`. Where
@@ -256,7 +257,7 @@ def _files_without(owner: str, path: str, kind: str, workspace: Workspace) -> tu
     owners = workspace.by_name.get(owner, ())
     if not owners:
         known = workspace.world.launch_files(owner)
-        return known.names if kind == "include" and known.ask(path) == "missing" else None
+        return known.possible if kind == "include" and known.ask(path) == "missing" else None
     share = f"share/{owner}/"
     names: set[str] = set()
     for one in owners:

@@ -16,8 +16,9 @@ or `rclcpp_components_register_nodes(library "ns::Class")`. The fix corrects the
 ## When it keeps silent
 
 - A part of the package's build script that cannot be followed may register the class.
-- For a released package: the sources of its release are not known whole. Where nobody said which distribution is meant, the
-  confidence is medium as long as one of them may have the class.
+- For a released package: neither the sources of its release are known whole, nor those for an earlier and a later
+  distribution; or one of these has it. Where nobody said which one is meant, the confidence is medium as long as one of
+  them may have the class.
 - Launch files of tests and examples.
 """
 
@@ -68,7 +69,7 @@ def _names_without(owner: str, name: str, workspace: Workspace) -> tuple[str, ..
     owners = workspace.by_name.get(owner, ())
     if not owners:
         known = workspace.world.components(owner)
-        return known.names if known.ask(name) == "missing" else None
+        return known.possible if known.ask(name) == "missing" else None
     names: set[str] = set()
     for one in owners:
         if one.script is None or one.hidden(Facet.COMPONENTS):

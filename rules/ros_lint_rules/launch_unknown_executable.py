@@ -19,8 +19,9 @@ executable must be meant.
 ## When it keeps silent
 
 - A part of the package's build script that cannot be followed may make the executable.
-- For a released package: the sources of its release are not known whole. What is known of another distribution's
-  release does not count; where nobody said which one is meant, the confidence is medium as long as one of them may have it.
+- For a released package: neither the sources of its release are known whole, nor those for an earlier and a later
+  distribution; or one of these has it. Where nobody said which one is meant, the confidence is medium as long as one of
+  them may have it.
 - Only other distributions come there: `'spawner' if os.environ['ROS_DISTRO'] > 'foxy' else 'spawner.py'`.
 - In launch files of examples, and of tests that the build script is not seen to run, the confidence is medium; one that is
   merely called a test and always installed counts like any other.
@@ -87,7 +88,7 @@ def _missing(owner: str, name: str, workspace: Workspace) -> _Missing | None:
         sure = workspace.surely_lacks(owner, "executables", name)
         meant = _meant(name, known.names)
         return _Missing(
-            f" in {workspace.target.distro}{_hint(name, meant, known.names)}",
+            f" in {workspace.target.distro}{_hint(name, meant, known.possible)}",
             meant,
             (),
             Confidence.HIGH if sure else Confidence.MEDIUM,
