@@ -2,24 +2,28 @@
 ## What it finds
 
 CMake targets that a CMakeLists.txt installs, links, or gives properties to, and that nothing defines. Sets of targets that
-`ament_export_targets()` exports, and that no `install(TARGETS ... EXPORT ...)` fills. Libraries that
+`ament_export_targets()` exports, and that no `install(TARGETS ... EXPORT ...)` fills. Targets `other::name` of another package
+of the workspace that it does not export. Libraries that
 `ament_export_libraries()` names after the project or nearly like one that is built, and that are not built.
 
 ## Why it matters
 
 CMake stops: "install TARGETS given target "x" which does not exist", "Cannot specify link libraries for target "x" which
-is not built by this project", or "install(EXPORT) given unknown export "x"". With a library that is not there, it is the
+is not built by this project", "Target "x" links to: other::name but the target was not found", or "install(EXPORT) given
+unknown export "x"". With a library that is not there, it is the
 packages that depend on this one that are told "exports the library 'x' which couldn't be found" and then do not link.
 
 ## How to fix it
 
-Correct the name, or define the target before. Where one defined target has nearly the same name, the fix takes that.
+Correct the name, or define the target before. Where one defined target has nearly the same name, the fix takes that. In the
+other package: `install(TARGETS ... EXPORT export_other)` and `ament_export_targets(export_other)`.
 
 ## When it keeps silent
 
 Where a command, a name or an included file cannot be followed; under conditions; in functions and loops, but for what
 `target_link_libraries()` and `ament_target_dependencies()` are given there for sure; about libraries that may be the
-system's; where a package is found that nobody knows, which may define targets.
+system's; where a package is found that nobody knows, which may define targets. About the targets of packages of interfaces, of
+those with `CONFIG_EXTRAS`, and where the other package may export it.
 """
 
 from __future__ import annotations
@@ -28,9 +32,11 @@ from collections.abc import Collection, Iterator, Sequence
 
 from ros_lint.api import (
     ANYTHING,
+    BuildScript,
     Call,
     Finding,
     Fix,
+    Mention,
     Package,
     Related,
     Rule,
@@ -38,7 +44,10 @@ from ros_lint.api import (
     Workspace,
     called,
     cmake_edits,
+    did_you_mean,
     evaluated_name,
+    few,
+    found_names,
     hidden,
     installed_targets,
     is_meant,
@@ -87,6 +96,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             if near or not finds_strangers or workspace.world.is_package(name):  # no target has the bare name of a package
                 yield Finding(problem.message + is_meant(near), problem.span, name)
     yield from _unfilled(package)
+    yield from _of_others(package, script, workspace)
     yield from _no_libraries(package, defined)
 
 
@@ -110,6 +120,50 @@ def _unfilled(package: Package) -> Iterator[Finding]:
                 continue
             says = f"{call.name}() of {name}, and no install(TARGETS ... EXPORT {name}) puts a target there"
             yield _finding(says, name, filled, [(call, index)])
+
+
+def _of_others(package: Package, script: BuildScript, workspace: Workspace) -> Iterator[Finding]:
+    """Yield what is to say of targets of other packages of the workspace, which are there only if these export them."""
+    found = found_names(package, script)
+    wrong: dict[str, list[Mention]] = {}
+    for mention in script.mentions:
+        owner, colons, target = mention.name.partition("::")
+        if mention.via == "target" and colons and not mention.optional and owner in found and owner != package.name:
+            others = workspace.by_name.get(owner, ())
+            if others and not any(_may_export(other, target) for other in others):
+                wrong.setdefault(owner, []).append(mention)
+    for owner, mentions in wrong.items():
+        names = list(dict.fromkeys(mention.name.partition("::")[2] for mention in mentions))
+        exported = sorted({one.target for other in workspace.by_name[owner] for one in other.built.exported})
+        near = similar(names[0], exported, 3, 0.6) if len(names) == 1 else []
+        hint = did_you_mean(near) if near else f"; it exports {few(exported)}" if exported else ", and no other either"
+        first, *more = [mention.span for mention in mentions]
+        related = [*several(Related("also linked here", span) for span in more), *_made_here(workspace.by_name[owner], names)]
+        yield Finding(f"{owner} exports no target {few(names)}{hint}", first, f"{owner}::{names[0]}", tuple(related))
+
+
+def _may_export(package: Package, target: str) -> bool:
+    script = package.script
+    if script is None or package.builds_with != "ament_cmake" or script.extras or script.interfaces or hidden(package, ANYTHING):
+        return True
+    return any(one.target == target for one in package.built.exported) or _names_otherwise(package)
+
+
+def _names_otherwise(package: Package) -> bool:
+    """Whether targets may have other names where they are found, or the package a configuration of its own."""
+    calls = called(package, "ament_export_targets", "install", "export", "set_target_properties", "set_property", anywhere=True)
+    if any("NAMESPACE" in call.texts or "EXPORT_NAME" in call.texts for call in calls):
+        return True
+    files = package.built.provides
+    return any(file.source and file.path.lower().endswith(("-config.cmake", "config.cmake")) for file in files)
+
+
+def _made_here(owners: Sequence[Package], names: Collection[str]) -> Iterator[Related]:
+    """Yield where the owner of targets makes them, for itself alone."""
+    for owner in owners:
+        for target in owner.built.targets:
+            if target.name in names:
+                yield Related("made here, and not exported", target.span)
 
 
 def _no_libraries(package: Package, defined: Collection[str]) -> Iterator[Finding]:
