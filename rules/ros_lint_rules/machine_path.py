@@ -140,6 +140,8 @@ def _way_out(machine: MachinePath, inside: _Inside | None, file: str, package: P
     if file.endswith(_OF_GAZEBO) and inside.rest.startswith("models/"):
         model = inside.rest.removeprefix("models/")
         return f"{it_is}; say model://{model}, with this folder of models in Gazebo's resource path"
+    if file.endswith(".py") and (modules := _as_modules(inside, workspace)):
+        return f"{it_is}; {modules}"
     if inside.program:
         return f"{it_is}; start it with ros2 run {inside.package} {inside.program}, or as a node"
     it_is += "; install it, and " if _is_left_out(inside, workspace) else "; "
@@ -149,6 +151,16 @@ def _way_out(machine: MachinePath, inside: _Inside | None, file: str, package: P
     if _is_yaml(file) and not _is_launched(machine, package):
         return f"{it_is}let the launch file give it, from the share directory of {inside.package}"
     return f"{it_is}look it up in the share directory of {inside.package}"
+
+
+def _as_modules(inside: _Inside, workspace: Workspace) -> str:
+    """Return what to do about a folder of modules that is named for Python to look there, "" for any other place."""
+    below = [file for package in workspace.by_name[inside.package] for file in package.files if file.startswith(f"{inside.rest}/")]
+    if f"{inside.rest}/__init__.py" in below:
+        return f"import what is in it as modules of {inside.rest.removeprefix('src/').replace('/', '.')}"
+    if below and all(file.endswith(".py") for file in below):
+        return "Python finds what is installed beside a program without it"
+    return ""
 
 
 def _is_left_out(inside: _Inside, workspace: Workspace) -> bool:
