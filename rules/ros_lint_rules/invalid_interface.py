@@ -38,7 +38,9 @@ from ros_lint.api import Edit, Finding, Fix, Package, Rule, Severity, Workspace,
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
     given = generated_from(package)
-    if given and package.manifest and not interface_names.is_field(package.name):
+    # A folder with a project() of its own generates for that one.
+    own = any(p.source in given and p.path.startswith(f"share/{package.name}/") for p in package.built.provides)
+    if own and package.manifest and not interface_names.is_field(package.name):
         yield Finding(
             f"rosidl generates nothing for a package called {package.name}: "
             "its name has to have lower-case letters, digits and single underscores",
