@@ -155,7 +155,9 @@ def _way_out(machine: MachinePath, inside: _Inside | None, file: str, package: P
 
 def _as_modules(inside: _Inside, workspace: Workspace) -> str:
     """Return what to do about a folder of modules that is named for Python to look there, "" for any other place."""
-    below = [file for package in workspace.by_name[inside.package] for file in package.files if file.startswith(f"{inside.rest}/")]
+    below = [
+        file for package in workspace.by_name[inside.package] for file in package.files if file.startswith(f"{inside.rest}/")
+    ]
     if f"{inside.rest}/__init__.py" in below:
         return f"import what is in it as modules of {inside.rest.removeprefix('src/').replace('/', '.')}"
     if below and all(file.endswith(".py") for file in below):
