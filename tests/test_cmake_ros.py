@@ -232,6 +232,13 @@ def test_version_header() -> None:
     assert paths(run(text)) == {"include/pkg/pkg/version.h": False, "include/b.h": False}
 
 
+def test_what_implementations_of_the_middleware_call_hides_nothing() -> None:
+    text = 'find_package(rmw)\nregister_rmw_implementation("c:a:b" "cpp:c:d")\nconfigure_rmw_library(a)\n'
+    done = run(text)
+    assert not done.opaque
+    assert paths(done) == {"share/ament_index/resource_index/rmw_typesupport/pkg": False}
+
+
 def test_no_command_minds_that_it_is_given_nothing() -> None:
     for name in sorted({*HANDLERS, *macros()}):
         if not name.startswith(("ros_lint_", "end", "else")):

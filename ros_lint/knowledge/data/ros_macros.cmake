@@ -500,6 +500,13 @@ macro(get_rmw_typesupport var)
   ros_lint_unknown(${var})
 endmacro()
 
+package(rmw)
+macro(register_rmw_implementation)
+  ros_lint_provide(share/ament_index/resource_index/rmw_typesupport/${PROJECT_NAME})
+endmacro()
+function(configure_rmw_library library)
+endfunction()
+
 package(rosidl_generator_py OPAQUE)
 macro(rosidl_generator_py_get_typesupports var)
   ros_lint_unknown(${var})
