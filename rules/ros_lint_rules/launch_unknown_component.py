@@ -37,6 +37,7 @@ from ros_lint.api import (
     Workspace,
     corrected,
     did_you_mean,
+    few,
     referred,
     several,
     similar,
@@ -50,8 +51,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             continue
         best, *others = sorted(references, key=lambda reference: (reference.by_default, reference.span))
         meant = [other for other in names if other.lower() == name.lower()]
-        near = meant or similar(name, names, 2, 0.75)
-        hint = did_you_mean(near) if names else ", and no other either"
+        near = meant or [other for other in similar(name, names, 4, 0.75) if similar(_class(name), [_class(other)], 1, 0.75)][:2]
+        hint = did_you_mean(near) or (f"; it registers {few(names)}" if names else ", and no other either")
         only = meant[0] if len(meant) == 1 else ""
         sure = workspace.surely_lacks(owner, "components", name)
         yield Finding(
@@ -62,6 +63,11 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             corrected(f"load {only}", only, [(reference.span, reference.exact) for reference in references]),
             Confidence.HIGH if sure and not best.by_default else Confidence.MEDIUM,
         )
+
+
+def _class(name: str) -> str:
+    """Return the name of a component without its namespace, which all components of a package may share."""
+    return name.rpartition("::")[2]
 
 
 def _names_without(owner: str, name: str, workspace: Workspace) -> tuple[str, ...] | None:

@@ -55,13 +55,18 @@ from ros_lint.api import (
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     idle = frozenset(launch.file.path for launch in launchable(package, apart=True) if not launch.run)
-    for (owner, name), references in referred(package, ("node",), apart=True).items():
+    started = referred(package, ("node",), apart=True)
+    for (owner, name), references in started.items():
         if "/" in name:
             continue
         missing = _missing(owner, name, workspace)
         if missing is None:
             continue
         best, *others = sorted(references, key=lambda one: (one.span.path in idle, one.by_default, one.span))
+        same = [one for one in started.get((owner, missing.meant), ()) if one.conditional and one.span.path == best.span.path]
+        if same and best.conditional:  # one or the other, so that this is another program
+            instead = (Related("started otherwise", same[0].span), *missing.related)
+            missing = missing._replace(hint=f"; it installs {missing.meant}", meant="", related=instead)
         yield Finding(
             f"{owner} installs no executable {name}{missing.hint}",
             best.span,
