@@ -22,7 +22,7 @@ from ros_lint.identify import (
 )
 from ros_lint.report import NotChecked
 from ros_lint.text import beginning, read
-from ros_lint.tree import join, parent, seen_from
+from ros_lint.tree import is_below, join, parent, seen_from
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from ros_lint.facts.manifest import ColconDepend, ColconMeta, ColconSettings, Manifest
     from ros_lint.tree import Entry, Kind, Tree
 
-_NEVER = frozenset((".git", ".hg", ".svn", "node_modules", "__pycache__"))
+NEVER = frozenset((".git", ".hg", ".svn", "node_modules", "__pycache__"))
 """Folders that no one looks for sources in."""
 
 _TELLING = frozenset((*SIGNS, "package.xml", "manifest.xml", "CMakeLists.txt", "setup.py", "colcon.pkg"))
@@ -128,10 +128,10 @@ class _Walk:
             if entries is None or self._is_package(path, identity, entries):
                 continue
             for name, kind, link in reversed(entries):
-                if kind == "directory" and not name.startswith(".") and name not in _NEVER:
+                if kind == "directory" and not name.startswith(".") and name not in NEVER:
                     child = join(path, name)
                     target = self._tree.identity(child) if link else join(identity, name)
-                    if link and target != self._base and _is_below(self._base, target):
+                    if link and target != self._base and is_below(self._base, target):
                         # colcon would go through everything around the workspace, and be it the whole disk.
                         self._skipped.append(Skipped(child, "a link to a folder that the workspace lies in", link=True))
                     else:
@@ -233,7 +233,7 @@ class _Files:
             for name, kind, link in entries:
                 if kind == "file":
                     self.found.append(prefix + name)
-                if kind != "directory" or name in _NEVER:
+                if kind != "directory" or name in NEVER:
                     continue
                 child, child_crossed = prefix + name, (*crossed, identity) if link else crossed
                 child_identity = self._tree.identity(join(self._package, child)) if link else f"{identity}/{name}"
@@ -287,18 +287,14 @@ class _Files:
 
     def _not_followed(self, target: str, crossed: tuple[str, ...]) -> str:
         """Return why a link is not followed, or "". ``crossed`` are the folders with it and the links on the way."""
-        if any(_is_below(place, target) for place in crossed):
+        if any(is_below(place, target) for place in crossed):
             return "a link to a folder that it lies in"
-        if not any(_is_below(target, place) for place in self._inside):
+        if not any(is_below(target, place) for place in self._inside):
             return "a link that leads out of the workspace"
         if len(crossed) > 1 and target in self._linked:
             return "a link to a folder that was reached by another link"
         self._linked.add(target)
         return ""
-
-
-def _is_below(path: str, folder: str) -> bool:
-    return path == folder or path.startswith(f"{folder.rstrip('/')}/" if folder else "")
 
 
 def _unread(path: str, error: OSError) -> NotChecked:

@@ -176,7 +176,7 @@ class _Places:
         found = self._provides.get(package.path)
         if found is None:
             provides = package.script.provides if package.script else ()
-            found = {one.path: join(package.path, one.source) for one in provides if one.source}
+            found = {one.path: seen_from(package.path, one.source) for one in provides if one.source}
             self._provides[package.path] = found
         return found
 

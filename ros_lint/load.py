@@ -32,6 +32,7 @@ from ros_lint.knowledge import Knowledge
 from ros_lint.knowledge.index import TAG_KINDS
 from ros_lint.providers import offered
 from ros_lint.report import NotChecked, Target
+from ros_lint.script_sources import Parts
 from ros_lint.suppress import Suppression
 from ros_lint.text import Text, beginning
 from ros_lint.tree import OverlayTree, Tree, join, text_of, within
@@ -145,7 +146,7 @@ class Loader:
         ]
         declared_by = [self._declared(found.manifest) for found in founds]
         parts = [
-            scripts.Parts(
+            Parts(
                 found,
                 {file: c.commands for file, c in files.items() if c.commands is not None},
                 _kinds(declared),

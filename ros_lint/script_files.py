@@ -14,7 +14,7 @@ from ros_lint.discover import Found
 from ros_lint.facts.build import BuildScript, ScriptFile
 from ros_lint.facts.sight import Facet
 from ros_lint.text import Span, Text, from_raw, raw, span_in
-from ros_lint.tree import Tree, contents, folders_of, join, parent, text_of
+from ros_lint.tree import Tree, contents, folders_of, join, parent, seen_from, text_of
 
 _PLUGIN_FILE = re.compile(r"plugin.*\.xml\Z", re.IGNORECASE)
 _SCRIPTS = re.compile(r"(?:scripts|nodes|bin|script)/[^/]+\Z")
@@ -267,7 +267,7 @@ def text_in(tree: Tree, found: Found, file: str) -> Text | None:
 
 
 class Executables(Set[str]):
-    """The files of a package that have the executable bit. The system is asked when a script is."""
+    """The files of a package, and those around it, that have the executable bit. The system is asked when a script is."""
 
     def __init__(self, tree: Tree, found: Found) -> None:
         self._tree = tree
@@ -275,7 +275,7 @@ class Executables(Set[str]):
 
     def __contains__(self, file: object) -> bool:
         try:
-            return self._tree.stamp(join(self._found.path, str(file))).executable
+            return self._tree.stamp(seen_from(self._found.path, str(file))).executable
         except OSError:
             return False
 

@@ -2,49 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from functools import partial
+from collections.abc import Iterator, Sequence
 from itertools import chain
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from ros_lint.collect import FAILED
 from ros_lint.collectors import cmake_calls, python_names, setup_layout, setup_texts
-from ros_lint.collectors.cmake_syntax import Parsed, parse
 from ros_lint.discover import Found
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.setup_py import PythonModule
 from ros_lint.facts.sight import ANYTHING, Opaque
 from ros_lint.script_files import Executables, text_in, with_files
+from ros_lint.script_sources import Parts, Surroundings, sources
 from ros_lint.text import beginning
 from ros_lint.tree import Tree, join
 
 if TYPE_CHECKING:
-    from ros_lint.interpret.cmake_sources import Helper, Sources
+    from ros_lint.interpret.cmake_sources import Helper
 
-_MOST_UNSEEN = 5_000
 _PYTHON = ("setup.py", "setup.cfg", "pyproject.toml")
-
-
-class Parts(NamedTuple):
-    """What the scripts of a package can see of it."""
-
-    found: Found
-    commands: Mapping[str, Parsed]
-    """Its CMake files, by path relative to the package."""
-    depends: Mapping[str, tuple[str, ...]]
-    """What it declares, by kind letters as in the index."""
 
 
 def evaluate(tree: Tree, packages: Sequence[Parts], distro: str) -> list[BuildScript | None]:
     """Return the evaluated script of each package, in the order given, None where there is none to evaluate."""
     result: list[BuildScript | None] = [None] * len(packages)
     helpers: dict[str, Helper] = {}
+    around = Surroundings(tree)
     in_order = [*_helping(packages), *(number for number, parts in enumerate(packages) if not _helps(parts))]
     for number in in_order:
         parts = packages[number]
         try:
             if "CMakeLists.txt" in parts.commands and parts.found.type != "ros.ament_python":
-                result[number] = with_files(tree, parts.found, parts.commands, _cmake(tree, parts, distro, helpers))
+                result[number] = with_files(tree, parts.found, parts.commands, _cmake(tree, parts, distro, helpers, around))
             elif script := _python(tree, parts.found):
                 result[number] = with_files(tree, parts.found, parts.commands, script)
         except Exception as error:  # a mistake of ours in one script must not cost the user all the others
@@ -52,15 +41,15 @@ def evaluate(tree: Tree, packages: Sequence[Parts], distro: str) -> list[BuildSc
     return result
 
 
-def _cmake(tree: Tree, parts: Parts, distro: str, helpers: dict[str, Helper]) -> BuildScript:
+def _cmake(tree: Tree, parts: Parts, distro: str, helpers: dict[str, Helper], around: Surroundings) -> BuildScript:
     from ros_lint.interpret import cmake  # noqa: PLC0415
     from ros_lint.interpret.cmake_sources import Helper  # noqa: PLC0415
     from ros_lint.knowledge.cmake_commands import opaque_packages  # noqa: PLC0415
 
-    sources = _sources(tree, parts)
-    script = cmake.evaluate(sources, distro, helpers)
+    seen = sources(tree, parts, around)
+    script = cmake.evaluate(seen, distro, helpers)
     if script.extras and parts.found.name not in opaque_packages():
-        helpers[parts.found.name] = Helper(sources, script)
+        helpers[parts.found.name] = Helper(seen, script)
     folder = parts.found.path
     written = (cmake_calls.collect(join(folder, file), parsed) for file, parsed in sorted(parts.commands.items()))
     return script._replace(written=tuple(chain.from_iterable(written)))
@@ -69,74 +58,6 @@ def _cmake(tree: Tree, parts: Parts, distro: str, helpers: dict[str, Helper]) ->
 def _failed(parts: Parts, reason: str) -> BuildScript:
     path = join(parts.found.path, "CMakeLists.txt" if "CMakeLists.txt" in parts.commands else "setup.py")
     return BuildScript(path, opaque=(Opaque(ANYTHING, reason, beginning(path)),), failed=True)
-
-
-def _sources(tree: Tree, parts: Parts) -> Sources:
-    from ros_lint.interpret.cmake_sources import Sources  # noqa: PLC0415
-
-    found, depends = parts.found, parts.depends
-    built = tuple(dict.fromkeys((*depends.get("b", ()), *depends.get("t", ()))))
-    version = found.manifest.version if found.manifest else ""
-    executables = Executables(tree, found)
-    unseen = tuple(skipped.path for skipped in found.unseen)
-    config = text_in(tree, found, "setup.cfg")
-    texts = {"setup.cfg": config.text} if config else {}
-    return Sources(
-        found.name,
-        found.path,
-        found.files,
-        _Scripts(tree, found, parts.commands),
-        executables,
-        version,
-        built,
-        depends.get("s", ()),
-        unseen,
-        texts,
-        partial(_look, tree, found),
-    )
-
-
-class _Scripts(Mapping[str, Parsed]):
-    """The CMake files of a package. Others are read when they are asked for: a script may have any name."""
-
-    def __init__(self, tree: Tree, found: Found, parsed: Mapping[str, Parsed]) -> None:
-        self._tree = tree
-        self._found = found
-        self._parsed = dict(parsed)
-
-    def __contains__(self, path: object) -> bool:
-        return path in self._parsed or path in self._found.files
-
-    def __getitem__(self, path: str) -> Parsed:
-        if path not in self._parsed:
-            text = text_in(self._tree, self._found, path)
-            if text is None:
-                raise KeyError(path)
-            self._parsed[path] = parse(text)
-        return self._parsed[path]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._parsed)
-
-    def __len__(self) -> int:
-        return len(self._parsed)
-
-
-def _look(tree: Tree, found: Found, folder: str) -> list[str]:
-    """Return the files below a folder that was not looked into, nothing when it cannot be read or has too many."""
-    files: list[str] = []
-    todo = [folder]
-    if any(skipped.path == folder and skipped.link for skipped in found.unseen):
-        return files
-    while todo and len(files) < _MOST_UNSEEN:
-        place = todo.pop()
-        try:
-            entries = tree.list(join(found.path, place))
-        except OSError:
-            return []
-        files += [join(place, entry.name) for entry in entries if entry.kind == "file"]
-        todo += [join(place, entry.name) for entry in entries if entry.kind == "directory" and not entry.link]
-    return [] if todo else sorted(files)
 
 
 def _python(tree: Tree, found: Found) -> BuildScript | None:

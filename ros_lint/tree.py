@@ -66,6 +66,16 @@ def seen_from(directory: str, path: str) -> str:
     return posixpath.normpath(join(directory, path))
 
 
+def towards(directory: str, path: str) -> str:
+    """Return the relative path, which may lead upwards, by which a directory means a path: the reverse of :func:`seen_from`."""
+    return posixpath.relpath(f"/{path}", f"/{directory}")
+
+
+def is_outside(path: str) -> bool:
+    """Return whether a relative path leads out of the directory that it is relative to."""
+    return path == ".." or path.startswith("../")
+
+
 def within(directory: str, path: str) -> str:
     """Return a path as it is in a directory that it lies in: the reverse of :func:`join`. Others stay as they are."""
     return path.removeprefix(f"{directory}/") if directory else path
@@ -91,6 +101,11 @@ def contents(tree: Tree, folder: str, files: Iterable[str]) -> Iterator[tuple[st
 def parent(path: str) -> str:
     """Return the directory that a path lies in."""
     return path.rpartition("/")[0]
+
+
+def is_below(path: str, folder: str) -> bool:
+    """Return whether a path is that of a directory, or of something that lies in it. The empty one holds everything."""
+    return path == folder or path.startswith(f"{folder.rstrip('/')}/" if folder else "")
 
 
 def folders_of(path: str) -> Iterator[str]:

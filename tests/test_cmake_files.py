@@ -13,10 +13,12 @@ import ros_lint.interpret.cmake  # noqa: F401  (it fills the tables of commands)
 from ros_lint.collectors.cmake_syntax import parse
 from ros_lint.interpret import cmake_flow
 from ros_lint.interpret.cmake_run import Run
-from ros_lint.interpret.cmake_sources import Sources
+from ros_lint.interpret.cmake_sources import Around, Sources
 from ros_lint.interpret.cmake_state import Frame
-from ros_lint.interpret.cmake_values import HOLE, SOURCE, is_fixed
+from ros_lint.interpret.cmake_values import HOLE, TREE, is_fixed
+from ros_lint.script_sources import Surroundings
 from ros_lint.text import Text
+from ros_lint.tree import DiskTree
 
 try:
     from cmake import CMAKE_BIN_DIR  # type: ignore[import-not-found, unused-ignore]  # of the wheel on PyPI
@@ -29,6 +31,8 @@ FILES = (
     "src/a.cpp", "src/b.cpp", "src/b.hpp", "src/sub/c.cpp", "src/sub/deep/d.cpp", "src/a-1.cpp", "src/.hidden.cpp", "src/[x].cpp",
     "launch/a.launch.py", "launch/B.launch.py", "launch/é.launch.py", "a.txt", "b.c.txt", "a b/c.txt", "script",
 )  # fmt: skip
+AROUND = ("config/a.yaml", "config/deep/b.yaml", "other/src/z.cpp", "top.txt", "pack/x.txt")
+"""Files beside the folder of the package, ``package``."""
 
 
 def _line(choice: random.Random) -> str:
@@ -37,10 +41,12 @@ def _line(choice: random.Random) -> str:
     patterns = (
         "src/*.cpp", "src/*", "*", "src/[ab].cpp", "src/?.*pp", "src/*/*.cpp", "*/*.cpp", "launch/*.launch.py", "*.txt",
         "src/sub", "src/[!a]*.cpp", "sr?/sub/*", "nothing/*", "src/[a-b]*", "src/../*.txt", "src/a.cpp", "launch/[A-Z]*",
+        "../config/*", "../*.txt", "../*/*.yaml", "../other/../package/*.txt", "src/../../other/src/*", "../*", "../pack/x.txt",
     )  # fmt: skip
     paths = (
         "src/a.cpp", "src/sub/c.tar.gz", "/abs/path/x.y.z", "a.txt", ".hidden", "dir.d/file", "../up.txt", "src/./a/../b.cpp",
-        "noext", "${CMAKE_CURRENT_SOURCE_DIR}/src/a.cpp", "dir/", "x..y", "", "/",
+        "noext", "${CMAKE_CURRENT_SOURCE_DIR}/src/a.cpp", "dir/", "x..y", "", "/", "${CMAKE_CURRENT_SOURCE_DIR}",
+        "${CMAKE_CURRENT_SOURCE_DIR}/..", "${CMAKE_CURRENT_SOURCE_DIR}/../package/a.txt",
     )  # fmt: skip
     roll = choice.random()
     if roll < 0.5:
@@ -57,7 +63,10 @@ def _line(choice: random.Random) -> str:
         mode = some(("NAME", "NAME_WE", "EXT", "LAST_EXT", "NAME_WLE", "DIRECTORY", "PATH", "ABSOLUTE"))
         base = some(("", "", " BASE_DIR /base", " BASE_DIR ${CMAKE_CURRENT_SOURCE_DIR}/src")) if mode == "ABSOLUTE" else ""
         return f'get_filename_component(V "{some(paths)}" {mode}{base})'
-    absolute = ("${CMAKE_CURRENT_SOURCE_DIR}/src/a.cpp", "${CMAKE_CURRENT_SOURCE_DIR}/b", "${CMAKE_CURRENT_SOURCE_DIR}")
+    absolute = (
+        "${CMAKE_CURRENT_SOURCE_DIR}/src/a.cpp", "${CMAKE_CURRENT_SOURCE_DIR}/b", "${CMAKE_CURRENT_SOURCE_DIR}",
+        "${CMAKE_CURRENT_SOURCE_DIR}/../config", "${CMAKE_CURRENT_SOURCE_DIR}/../package",
+    )  # fmt: skip
     return f'file(RELATIVE_PATH V "{some(absolute)}" "{some(absolute)}")'
 
 
@@ -65,10 +74,11 @@ def _line(choice: random.Random) -> str:
 def test_files_and_paths_are_those_of_cmake(tmp_path: Path) -> None:
     choice = random.Random(5)
     lines = list(dict.fromkeys(_line(choice) for _ in range(800)))
-    folder = tmp_path / "package"
-    for path in FILES:
-        (folder / path).parent.mkdir(parents=True, exist_ok=True)
-        (folder / path).write_text("")
+    tree = tmp_path / "tree"
+    folder = tree / "package"
+    for path in (*(folder / path for path in FILES), *(tree / path for path in AROUND)):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("")
     script = tmp_path / "script.cmake"
     dumps = "\n".join(f'set(V)\n{line}\nfile(APPEND "${{OUT}}" "{number} ${{V}}\\n")' for number, line in enumerate(lines))
     script.write_text(
@@ -82,14 +92,15 @@ def test_files_and_paths_are_those_of_cmake(tmp_path: Path) -> None:
 
     wrong = []
     unknown = 0
+    seen = Surroundings(DiskTree(str(tree)))
+    around = Around(seen.kind, seen.below, seen.script)
     for number, line in enumerate(lines):
-        run = Run(Sources("p", "package", sorted(FILES), {}), "", {}, lambda *_: None)
+        run = Run(Sources("p", "package", sorted(FILES), {}, around=around), "", {}, lambda *_: None)
         run.versions = (3, 20)
-        run.enter_directory("")
-        cmake_flow.run_file(run, parse(Text("x", line)).commands, Frame(True, "", f"{SOURCE}/CMakeLists.txt"))
+        cmake_flow.run_file(run, parse(Text("x", line)).commands, Frame(True, "", run.named("CMakeLists.txt")))
         value = run.get("V") or ""
         unknown += HOLE in value
-        if is_fixed(value) and value.replace(SOURCE, str(folder)) != real[str(number)]:
+        if is_fixed(value) and value.replace(TREE, str(tree)) != real[str(number)]:
             wrong.append((line, value, real[str(number)]))
     assert not wrong, "\n".join(map(str, wrong[:12]))
     assert unknown < len(lines) / 20

@@ -50,7 +50,6 @@ def evaluated(script: Script) -> Outcome:
     assert not parsed.problems, parsed.problems
     run = Run(Sources("p", "", (), {}), "", {}, trace)
     run.versions = (3, 20)
-    run.enter_directory("")
     run.scopes.append(Variables(ARGC="0", ARGN="", ARGV=""))  # the scripts run within a function
     for name in UNKNOWN:
         run.set(name, HOLE)

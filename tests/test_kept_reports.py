@@ -96,6 +96,26 @@ def test_what_changes_is_seen(workspace: Path, monkeypatch: pytest.MonkeyPatch, 
     assert (said(workspace), runs.count) == (after, 3)
 
 
+AROUND: dict[str, Callable[[Path], object]] = {
+    "a script": _append("src/shared/x.cmake", "find_package(nav_msgs REQUIRED)\n"),
+    "a file that joins": _write("src/shared/launch/b.launch.py", ""),
+    "a file that goes": lambda workspace: (workspace / "src/shared/launch/a.launch.py").unlink(),
+    "a file that comes": _write("src/shared/y.cmake", "find_package(nav_msgs REQUIRED)\n"),
+}
+
+
+@pytest.mark.parametrize("change", AROUND.values(), ids=AROUND)
+def test_what_scripts_name_around_a_package_is_watched(
+    workspace: Path, monkeypatch: pytest.MonkeyPatch, change: Callable[[Path], object]
+) -> None:
+    includes = "include(../shared/x.cmake)\ninclude(../shared/y.cmake OPTIONAL)\n"
+    _append(f"{DRIVER}/CMakeLists.txt", f"{includes}install(DIRECTORY ../shared/launch DESTINATION share)\n")(workspace)
+    _write("src/shared/COLCON_IGNORE", "")(workspace)  # so that nobody else looks into it
+    _write("src/shared/x.cmake", "find_package(std_srvs REQUIRED)\n")(workspace)
+    _write("src/shared/launch/a.launch.py", "")(workspace)
+    test_what_changes_is_seen(workspace, monkeypatch, change)
+
+
 ASKED = [["--pedantic"], ["--ignore", "ROS2"], ["--exclude", "rover_driver"], ["--distro", "humble"], ["--select", "all"]]
 
 

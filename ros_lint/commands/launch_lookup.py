@@ -12,7 +12,7 @@ from ros_lint.launch_links import Links, Takes, everything, values
 from ros_lint.opening import UsageError
 from ros_lint.slips import did_you_mean, similar
 from ros_lint.text import read
-from ros_lint.tree import join, within
+from ros_lint.tree import seen_from, within
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -140,7 +140,7 @@ class LookUp:
                 if provided.path == path:
                     if not provided.source:
                         return Absent("it is made when the package is built", surely=False)
-                    source = join(one.path, provided.source)
+                    source = seen_from(one.path, provided.source)
                     return self._sources.get(source) or self._read(source)
         if packages:
             if any(one.script is None or one.hidden(Facet.SHARE, path) for one in packages):

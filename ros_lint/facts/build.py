@@ -18,7 +18,7 @@ class Provided(NamedTuple):
     path: str
     """Relative to the install prefix: ``lib/<package>/talker``, ``share/<package>/launch/a.launch.py``."""
     source: str
-    """Relative to the package, "" when it is built or generated."""
+    """Relative to the package, "" when it is built or generated. It leads upwards where it lies around the package."""
     program: bool
     """Whether it is installed with the executable bit."""
     conditional: bool

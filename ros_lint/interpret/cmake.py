@@ -34,10 +34,10 @@ from ros_lint.interpret.cmake_released import released
 from ros_lint.interpret.cmake_run import Run, folded
 from ros_lint.interpret.cmake_sources import Helper, Sources
 from ros_lint.interpret.cmake_state import STOP, BudgetError, Frame
-from ros_lint.interpret.cmake_values import SOURCE, is_known
+from ros_lint.interpret.cmake_values import is_known
 from ros_lint.knowledge.cmake_commands import macros
 from ros_lint.text import Span, beginning
-from ros_lint.tree import join
+from ros_lint.tree import is_outside, join
 
 for _module in (
     cmake_answers,
@@ -79,8 +79,7 @@ def evaluate(sources: Sources, distro: str = "", helpers: Mapping[str, Helper] =
     parsed = sources.scripts.get(_TOP)
     if parsed is None:
         return BuildScript(path, opaque=(Opaque(ANYTHING, "there is no CMakeLists.txt to read", beginning(path)),))
-    run.enter_directory("")
-    frame = Frame(True, path, f"{SOURCE}/{_TOP}")
+    frame = Frame(True, path, run.named(_TOP))
     try:
         ended = cmake_flow.run_file(run, parsed.commands, frame)
     except (BudgetError, RecursionError):
@@ -210,7 +209,7 @@ def _installed_files(run: Run) -> list[Provided]:
     files, generated = run.files, run.generated
     found = []
     for provided in run.installed:
-        if not provided.source or provided.source in files:
+        if not provided.source or is_outside(provided.source) or provided.source in files:
             found.append(provided)
         elif provided.source in generated:
             found.append(provided._replace(source=""))
@@ -266,7 +265,7 @@ def _unnamed(run: Run, names: Iterable[str]) -> list[str]:
     left = list(names)
     if not left:
         return left
-    commands = (command for parsed in run.sources.scripts.values() for command in parsed.commands)
+    commands = (command for parsed in (*run.sources.scripts.values(), *run.around) for command in parsed.commands)
     words = [argument[0] for command in commands if command.name != "find_package" for argument in command.args]
     text = "\n".join(words).replace("_", "").replace("-", "").lower()
     return [name for name in left if folded(name) not in text]

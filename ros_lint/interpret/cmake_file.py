@@ -12,8 +12,9 @@ from ros_lint.interpret.cmake_glob import glob_regex
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_targets import generate
 from ros_lint.interpret.cmake_truth import TRUE_WORDS
-from ros_lint.interpret.cmake_values import ATOM, HOLE, SOURCE, is_fixed, is_known, join
+from ros_lint.interpret.cmake_values import ATOM, HOLE, TREE, is_fixed, is_known, join
 from ros_lint.text import raw
+from ros_lint.tree import is_outside, within
 
 
 def _file(run: Run, args: list[str]) -> None:
@@ -81,7 +82,7 @@ def _glob(run: Run, args: list[str], recurse: bool) -> None:
             patterns.append(word)
     found: list[str] = []
     for pattern in patterns:
-        if HOLE in pattern or (pattern.startswith("/") and not pattern.startswith(SOURCE)):
+        if HOLE in pattern or (pattern.startswith("/") and not pattern.startswith(TREE)):
             run.set(args[0], HOLE)
             return
         found += _matches(run, pattern, recurse, folders)
@@ -92,18 +93,17 @@ def _glob(run: Run, args: list[str], recurse: bool) -> None:
 
 def _matches(run: Run, pattern: str, recurse: bool, folders: bool) -> list[str]:
     """Return the files, and folders if they are wanted, that a pattern matches, as paths that begin as the pattern does."""
-    path = pattern if pattern.startswith(SOURCE) else f"{run.places['CMAKE_CURRENT_SOURCE_DIR']}/{pattern}"
+    path = pattern if pattern.startswith(TREE) else f"{run.places['CMAKE_CURRENT_SOURCE_DIR']}/{pattern}"
     parts = path.split("/")
     fixed = next((index for index, part in enumerate(parts) if any(letter in part for letter in "*?[")), len(parts) - 1)
     fixed = min(fixed, len(parts) - 1)
     top = "/".join(parts[:fixed])
-    folder = run.source(top)
-    if folder is None:
+    folder = run.reached(top)
+    if folder is None or (is_outside(folder) and not run.below(folder)):
         return [HOLE]
     *heads, last = map(glob_regex, parts[fixed:])
     whole = re.compile("".join(f"{head}/" for head in heads) + ("(?:[^/]+/)*" if recurse else "") + last)
-    skip = len(folder) + 1 if folder else 0
-    files = [file[skip:] for file in run.below(folder)]
+    files = [within(folder, file) for file in run.below(folder)]
     found = [file for file in files if whole.fullmatch(file)]
     if folders:
         above = {file[:end] for file in files for end in range(len(file)) if file[end] == "/"}
@@ -122,6 +122,8 @@ def _relative(path: str, base: str) -> str:
     found = posixpath.relpath(path, base)
     if found == ".":
         return ""
+    if ATOM in found and found.startswith(".."):
+        return HOLE  # from above what is looked at, whose name is not known
     return f"{found}/" if found.endswith("..") else found
 
 
@@ -145,13 +147,13 @@ def _component(run: Run, args: list[str]) -> None:
     if "PROGRAM_ARGS" in args[3:-1]:
         run.set(args[args.index("PROGRAM_ARGS") + 1], HOLE)
     base = args[args.index("BASE_DIR") + 1] if "BASE_DIR" in args[:-1] else run.places["CMAKE_CURRENT_SOURCE_DIR"]
-    run.set(name, _part(run, path, mode, base))
+    run.set(name, _part(path, mode, base))
 
 
 _DRIVE: Final = re.compile("[A-Za-z]:")
 
 
-def _part(run: Run, path: str, mode: str, base: str) -> str:
+def _part(path: str, mode: str, base: str) -> str:
     if mode in ("ABSOLUTE", "REALPATH"):
         return _absolute(path, base)
     if mode in ("PROGRAM", "PROGRAM_ARGS") or "\2" in path or "\\" in path or _DRIVE.match(path):
@@ -160,9 +162,7 @@ def _part(run: Run, path: str, mode: str, base: str) -> str:
         path = re.sub("/{2,}", "/", path).rstrip("/") or path[:1]
     folder, slash, last = path.rpartition("/")
     if mode in ("DIRECTORY", "PATH"):
-        return HOLE if HOLE in last or path == SOURCE else (folder or ("/" if slash else ""))
-    if path == SOURCE:
-        last = posixpath.basename(run.sources.path) or HOLE
+        return HOLE if HOLE in last or path == TREE else (folder or ("/" if slash else ""))
     if HOLE in last or "\1" in last:
         return HOLE
     stem, dot, end = last.partition(".")

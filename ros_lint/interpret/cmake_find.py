@@ -12,7 +12,7 @@ from ros_lint.facts.sources import Purpose
 from ros_lint.interpret.cmake_headers import ALL_TARGETS, FOREIGN_VARIABLE, found_as, given, given_folders
 from ros_lint.interpret.cmake_include import include_foreign, include_own
 from ros_lint.interpret.cmake_run import Handler, Run
-from ros_lint.interpret.cmake_values import ATOM, FOREIGN, HOLE, SOURCE, is_known, maybe, split, sure
+from ros_lint.interpret.cmake_values import ATOM, FOREIGN, HOLE, TREE, is_known, maybe, split, sure
 from ros_lint.knowledge.cmake_commands import VISIBILITY
 from ros_lint.text import Span
 from ros_lint.wording import few
@@ -39,7 +39,7 @@ def find_package(run: Run, args: list[str]) -> int | None:
         if _may_become_package(name):
             run.hide(Facet.USES, "find_package() of a name that is not known")
         return None
-    if (run.get(f"{name}_DIR") or "").startswith(f"{SOURCE}/") and not run.muted:
+    if (run.get(f"{name}_DIR") or "").startswith(f"{TREE}/") and not run.muted:
         run.bundled[name] = None  # the script says where it lies among the sources
     required = "REQUIRED" in args
     module = run.modules.get(name) if run.modules and "CONFIG" not in args and "NO_MODULE" not in args else None
@@ -56,7 +56,7 @@ def find_package(run: Run, args: list[str]) -> int | None:
             says = f"find_package() of {name}, which is this package: it is not there before it is built, so link its targets"
             run.refused[Problem("no-package", says, span, subject=name)] = None
     found(run, name, required=required and certain)
-    if module is not None and all(frame.file != f"{SOURCE}/{module}" for frame in run.frames):
+    if module is not None and all(frame.file != run.named(module) for frame in run.frames):
         return include_own(run, module)
     return None
 
@@ -204,7 +204,8 @@ def link(run: Run, args: list[str]) -> None:
                 continue
             package = found_as(run, match[1])
             if package and run.prefixes[package]:  # and not by pkg-config, under a name of the script's own
-                run.mention(package, "target", command.span(frame.path, start, end), match[0])
+                place = command.span(frame.path, start, end) if frame.own else run.here()
+                run.mention(package, "target", place, match[0])
 
 
 def _target_include_directories(run: Run, args: list[str]) -> None:

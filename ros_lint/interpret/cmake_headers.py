@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final
 
 from ros_lint.collectors.cmake_syntax import QUOTED, UNQUOTED
 from ros_lint.interpret.cmake_run import folded
-from ros_lint.interpret.cmake_values import ATOM, HOLE, MAYBE, SOURCE, elements
+from ros_lint.interpret.cmake_values import ATOM, HOLE, MAYBE, TREE, elements
 from ros_lint.knowledge.cmake_commands import VISIBILITY
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ ALL_TARGETS: Final = ""
 
 _ANYTHING: Final = HOLE
 _NAME = re.compile(r"(?<![\w./+\1-])[A-Za-z_][\w.+-]*(?:::[\w.+-]+)*(?![\w./+:-])")
-_OF_OURS: Final = (SOURCE, f"/{ATOM}build", f"/{ATOM}prefix", "/usr/")
+_OF_OURS: Final = (TREE, f"/{ATOM}build", f"/{ATOM}prefix", "/usr/")
 """Folders that hold no headers of other ROS packages."""
 
 
@@ -54,7 +54,8 @@ _PLAIN = re.compile(r"\w[\w:.+-]*\Z")
 def given_folders(run: Run, target: str, args: Iterable[str]) -> None:
     """Note the include directories that a target is given."""
     folders = (arg for arg in args if arg not in _NO_FOLDERS and not arg.startswith("$<INSTALL_INTERFACE:"))
-    given(run, target, [f"{SOURCE}/{folder}" if _RELATIVE.match(folder) else folder for folder in folders])
+    here = run.places["CMAKE_CURRENT_SOURCE_DIR"]
+    given(run, target, [f"{here}/{folder}" if _RELATIVE.match(folder) else folder for folder in folders])
 
 
 _NO_FOLDERS: Final = VISIBILITY | {"BEFORE", "AFTER", "SYSTEM"}

@@ -5,12 +5,14 @@ from __future__ import annotations
 import posixpath
 from typing import Final
 
-from ros_lint.collectors.cmake_syntax import Command
+from ros_lint.collectors.cmake_syntax import Command, Parsed
 from ros_lint.facts.sight import ANYTHING, Facet
 from ros_lint.interpret.cmake_flow import run_file
 from ros_lint.interpret.cmake_run import Handler, Run
+from ros_lint.interpret.cmake_sources import AROUND
 from ros_lint.interpret.cmake_state import Frame, Variables
-from ros_lint.interpret.cmake_values import BINARY, FOREIGN, HOLE, SOURCE, is_fixed
+from ros_lint.interpret.cmake_values import BINARY, FOREIGN, HOLE, is_fixed
+from ros_lint.tree import is_outside, towards
 from ros_lint.tree import join as join_path
 
 
@@ -39,9 +41,10 @@ def _include_file(run: Run, name: str, optional: bool) -> int | None:
     if not name.startswith("/"):
         candidates[:0] = [f"{folder}/{name}.cmake" for folder in folders.split(";") if is_fixed(folder)]
     for candidate in candidates:
-        path = run.source(candidate)
-        if path is not None and path in run.sources.scripts:
-            return include_own(run, path)
+        path = run.reached(candidate)
+        parsed = run.script(path) if path is not None else None
+        if path is not None and parsed is not None:
+            return _run_script(run, path, parsed)
     if optional:
         return None
     if is_module:
@@ -55,14 +58,25 @@ def _include_file(run: Run, name: str, optional: bool) -> int | None:
         run.problem("missing-file", f"include() of {path}, which does not exist", run.where(name), path)
         return None
     run.open_world = run.wild = True
-    run.hide(ANYTHING, f"include() of {readable(name)} cannot be followed")
+    shown = run.relative(name) or name.replace(BINARY, "the build folder").replace("\1", "")
+    run.hide(ANYTHING, f"include() of {shown} cannot be followed")
     return None
 
 
 def include_own(run: Run, path: str) -> int | None:
     """Run a script of the package in the current scope."""
-    frame = Frame(True, join_path(run.sources.path, path), f"{SOURCE}/{path}")
-    return run_file(run, run.sources.scripts[path].commands, frame)
+    return _run_script(run, path, run.sources.scripts[path])
+
+
+def _run_script(run: Run, path: str, parsed: Parsed) -> int | None:
+    """Run a script of the package or of the tree around it, given by its path relative to the package."""
+    around = is_outside(path)
+    if around:
+        run.around.append(parsed)
+        if parsed.problems:
+            run.hide(ANYTHING, f"{path} cannot be read to its end")
+    frame = Frame(not around, run.place(path), run.named(path), provider=AROUND if around else "")
+    return run_file(run, parsed.commands, frame)
 
 
 def _include_foreign(run: Run, name: str) -> int | None:
@@ -116,41 +130,48 @@ def _module(run: Run, name: str) -> None:
 
 def _add_subdirectory(run: Run, args: list[str]) -> int | None:
     name = args[0] if args else ""
-    path = run.source(name) if is_fixed(name) else None
-    if path is None:
+    path = run.reached(name) if is_fixed(name) else None
+    script = join_path(path or "", _TOP)
+    parsed = run.script(script) if path is not None else None
+    if path is None or (parsed is None and is_outside(path)):
         run.open_world = run.wild = True
         run.hide(ANYTHING, "add_subdirectory() of a folder that is not in sight")
         return None
-    script = f"{path}/CMakeLists.txt" if path else "CMakeLists.txt"
-    if not run.unsure and not run.muted:
+    if not (run.unsure or run.muted or is_outside(path)):
         run.entered[path] = None
-    if run.testing:
+    if run.testing and not is_outside(path):
         run.entered_for_tests[path] = None
-    last = posixpath.basename(path)
-    if last and (script not in run.sources.scripts or run.is_folder(f"{path}/include/{last}")):
+    last = posixpath.basename(run.place(path))
+    if path and (parsed is None or run.is_folder(f"{path}/include/{last}")):
         run.bundled[last] = None  # a library with a folder of its own, or one that is not checked out
-    if script not in run.sources.scripts:
+    if parsed is None:
         if run.is_folder(path):
             run.open_world = run.wild = True
             run.hide(ANYTHING, f"add_subdirectory() of {path}, which has no CMakeLists.txt in sight", inside=path)
         else:
             run.problem("missing-folder", f"add_subdirectory() of {path}, which does not exist", run.where(name), path)
         return None
-    run.enter_directory(path)
+    run.enter_directory(path, _built_in(run, path, args[1:]))
     run.scopes.append(Variables())
     kept = run.versions
-    frame = Frame(True, join_path(run.sources.path, script), f"{SOURCE}/{script}")
     try:
-        return run_file(run, run.sources.scripts[script].commands, frame)
+        return _run_script(run, script, parsed)
     finally:
         run.versions = kept
         run.scopes.pop()
         run.leave_directory()
 
 
-def readable(value: str) -> str:
-    """Return a value for a message."""
-    return value.replace(f"{SOURCE}/", "").replace(BINARY, "the build folder").replace(HOLE, "…").replace("\1", "")
+_TOP: Final = "CMakeLists.txt"
+
+
+def _built_in(run: Run, path: str, args: list[str]) -> str:
+    """Return where a folder is built: below where the current one is, as the arguments behind its name say, or as its path."""
+    told = next((arg for arg in args if arg not in ("EXCLUDE_FROM_ALL", "SYSTEM")), "")
+    below = told or towards(run.place(run.directory), run.place(path))
+    if not is_fixed(below) or (is_outside(below) and not told):
+        return HOLE
+    return below if below.startswith("/") else posixpath.normpath(f"{run.places['CMAKE_CURRENT_BINARY_DIR']}/{below}")
 
 
 COMMANDS: Final[dict[str, Handler]] = {"include": _include, "add_subdirectory": _add_subdirectory}

@@ -18,6 +18,7 @@ from ros_lint.interpret.cmake_targets import output_name, real_target
 from ros_lint.interpret.cmake_values import HOLE, is_fixed, is_known, sure
 from ros_lint.knowledge.cmake_commands import INSTALL_ARTIFACTS, INSTALL_TARGETS_WORDS, VARIABLES
 from ros_lint.text import Span
+from ros_lint.tree import is_outside
 from ros_lint.tree import join as join_path
 
 _ANYWHERE: Final = Facet.EXECUTABLES | Facet.SHARE | Facet.LIBRARIES | Facet.PYTHON
@@ -200,9 +201,11 @@ def _install_file(run: Run, value: str, path: str, program: bool, certain: bool,
     span = run.where(value)
     source = run.source(plain)
     conditional = run.conditional or run.testing or not certain
-    if source is not None and run.is_unseen(source):
+    if source is None:
+        source = run.beside(plain)
+    elif run.is_unseen(source):
         source = None
-    if source is not None and source not in run.files:
+    if source is not None and not run.is_file(source):
         if run.is_folder(source) and source:
             run.problem("file-is-directory", f"install(FILES) of {source}, which is a directory", span, source)
             return
@@ -260,27 +263,25 @@ def _install_directories(run: Run, args: list[str]) -> None:
     rule = _Rule(patterns, "FILES_MATCHING" in parts or "FILES_MATCHING" in args[at:], executable, "OPTIONAL" in parts)
     for value in parts[""]:
         plain = sure(value)[0]
-        source = run.source(plain)
+        source = run.reached(plain)
         if destination is None or HOLE in plain:
             name = posixpath.basename(plain)  # that of the folder is kept, wherever it lies
             known = destination is not None and name not in ("", ".", "..") and HOLE not in name
             place = join_path(destination or "", name) if known else destination
             _hide(run, place, "install(DIRECTORY) of a folder or to a place that is not known")
-        elif source is None:
+        elif source is None or (is_outside(source) and not (run.below(source) or run.is_file(source))):
             _hide(run, destination, "install(DIRECTORY) of a folder that is not in the sources")
             _install_configured(run, value, destination, rule)
         elif not run.muted:
-            target = destination
-            if not plain.endswith("/") and source and plain not in (".", ".."):
-                target = join_path(destination, posixpath.basename(source))
-            _install_directory(run, value, source, target, rule)
+            target = posixpath.normpath(join_path(destination, posixpath.basename(plain)))
+            _install_directory(run, value, source, "" if target == "." else target, rule)
 
 
 def _install_directory(run: Run, value: str, source: str, target: str, rule: _Rule) -> None:
     plain, certain = sure(value)
     span = run.where(value)
     conditional = run.conditional or run.testing or not certain
-    if source in run.files:
+    if run.is_file(source):
         run.problem("directory-is-file", f"install(DIRECTORY) of {source}, which is a file", span, source)
         return
     more = unlisted(run, source, facet_of(run, target), span) if run.sources.unseen else []
@@ -304,8 +305,8 @@ def _install_directory(run: Run, value: str, source: str, target: str, rule: _Ru
             if not wanted:
                 continue
             program = program if given is None else given
-        source = file if file in run.files else ""
-        run.installed.append(Provided(f"{start}{file[skip:]}", source, program, conditional, span, test=run.testing))
+        path = f"{start}{file[skip:]}"
+        run.installed.append(Provided(path, run.listed(file), program, conditional, span, test=run.testing))
 
 
 def _made(run: Run, folder: str) -> tuple[list[str], bool]:

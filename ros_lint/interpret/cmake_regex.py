@@ -7,7 +7,7 @@ from collections.abc import Callable
 from functools import lru_cache
 from typing import TYPE_CHECKING, Final
 
-from ros_lint.interpret.cmake_values import BINARY, HOLE, PREFIX, SOURCE, is_fixed, is_known
+from ros_lint.interpret.cmake_values import BINARY, HOLE, PREFIX, TREE, is_fixed, is_known
 from ros_lint.text import from_raw, raw
 
 if TYPE_CHECKING:
@@ -221,7 +221,7 @@ def anywhere(compute: Callable[..., str], *values: str) -> str:
         return HOLE
     results = []
     for number, stand_in in enumerate(_STAND_INS):
-        pairs = [(root, f"{stand_in}{number}{name}") for root, name in ((SOURCE, "s"), (BINARY, "b"), (PREFIX, "p"))]
+        pairs = [(root, f"{stand_in}{number}{name}") for root, name in ((TREE, "s"), (BINARY, "b"), (PREFIX, "p"))]
         placed = list(values)
         for root, place in pairs:
             placed = [value.replace(root, place) for value in placed]

@@ -18,6 +18,7 @@ from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_state import Properties
 from ros_lint.interpret.cmake_targets import SOURCES, generate
 from ros_lint.interpret.cmake_values import HOLE, MAYBE, elements, is_known, sure
+from ros_lint.tree import is_outside
 from ros_lint.tree import join as join_path
 
 _PRODUCER = re.compile(r"install|program|executable|node|script|package|component|launch|resource|share|deploy|xacro|module")
@@ -33,11 +34,10 @@ def foreign(run: Run, name: str, args: list[str]) -> int | None:
     """Carry out a command that neither CMake nor the package defines."""
     macro = released(name)
     if macro is not None:
-        frame = run.frames[-1]
         provider = macro.procedure.provider
-        if frame.own and provider and frame.command is not None:
+        if provider and run.at_home():
             purpose: Purpose = "interfaces" if name == _GENERATES else ""
-            run.mention(provider, "macro", frame.command.place(frame.path), f"{name}()", purpose=purpose)
+            run.mention(provider, "macro", run.here(), f"{name}()", purpose=purpose)
         return run_released(run, macro, args)
     if name.startswith("_") and name[1:] in HANDLERS and name[1:] in run.procedures:
         return HANDLERS[name[1:]](run, args)  # the original of an overridden command
@@ -123,9 +123,9 @@ def _python(run: Run, args: list[str]) -> None:
         return
     name = args[0].replace("/", ".")
     run.python_packages[name] = None
-    folder = run.source(args[1]) if len(args) > 1 else None
-    if folder is None:
-        if len(args) > 1 and HOLE in args[1]:
+    folder = run.reached(args[1]) if len(args) > 1 else None
+    if folder is None or (is_outside(folder) and not run.below(folder)):
+        if len(args) > 1 and (HOLE in args[1] or run.leads_out(args[1])):
             run.hide(Facet.PYTHON, "the folder of a Python package is not known")
         return
     span = run.where(args[0])
@@ -140,7 +140,7 @@ def _python(run: Run, args: list[str]) -> None:
                 run.python_packages[f"{name}.{inner.replace('/', '.')}"] = None
         path = join_path(join_path(base, args[0]), file[skip:])
         if is_known(path) and not file.endswith((".pyc", ".pyo")):
-            run.installed.append(Provided(path, file if file in run.files else "", False, conditional, span))
+            run.installed.append(Provided(path, run.listed(file), False, conditional, span))
 
 
 def _scripts(run: Run, args: list[str]) -> None:

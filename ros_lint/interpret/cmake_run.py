@@ -7,16 +7,16 @@ from collections.abc import Callable, Iterable, Mapping
 from functools import lru_cache
 from typing import Final, NamedTuple
 
-from ros_lint.collectors.cmake_syntax import LITERAL, OPEN, PLAIN, QUOTED, UNQUOTED, Argument, Command
+from ros_lint.collectors.cmake_syntax import LITERAL, OPEN, PLAIN, QUOTED, UNQUOTED, Argument, Command, Parsed
 from ros_lint.facts.build import REPOSITORIES, Component, Provided
 from ros_lint.facts.sight import Facet, Opaque, Problem
 from ros_lint.facts.sources import Mention, Purpose, Via
 from ros_lint.interpret.cmake_expand import ExpansionError, expand, template, templates
 from ros_lint.interpret.cmake_paths import Paths
-from ros_lint.interpret.cmake_sources import Helper, Sources
+from ros_lint.interpret.cmake_sources import AROUND, Helper, Sources
 from ros_lint.interpret.cmake_state import MISSING, Frame, Properties, Variables
 from ros_lint.interpret.cmake_values import ATOM, HOLE, MAYBE, flat, split, wild
-from ros_lint.knowledge.cmake_commands import SOFT_VARIABLES, UNKNOWN_VARIABLES, VARIABLES
+from ros_lint.knowledge.cmake_commands import SOFT_VARIABLES, UNKNOWN_VARIABLES
 from ros_lint.text import Span
 
 MOST_STEPS: Final = 50_000
@@ -117,6 +117,8 @@ class Run(Paths):
         self.configured: dict[str, bool] = {}
         """Files that configure_file() puts below the build folder, and whether it does so for sure."""
         self.calls: set[str] = set()
+        self.around: list[Parsed] = []
+        """Scripts around the package that have run."""
         self.mentions: dict[Mention, None] = {}
         self.opaques: dict[Opaque, None] = {}
         self.problems: dict[Problem, None] = {}
@@ -185,9 +187,7 @@ class Run(Paths):
 
     def default(self, name: str) -> str | None:
         """Return what a variable holds that no script has set."""
-        value = self.places.get(name)
-        if value is None:
-            value = VARIABLES.get(name)
+        value = self.brought(name)
         if value is not None:
             return value
         if name in UNKNOWN_VARIABLES:
@@ -372,11 +372,12 @@ class Run(Paths):
         return command is not None and any(f"${{{variable}}}" in text for variable in lists for text, *_ in command.args)
 
     def is_helped(self) -> bool:
-        """Whether a command runs that another package of the workspace gives."""
+        """Whether a command runs that another package of the workspace gives, or a script around the package."""
         for frame in reversed(self.frames):
             if frame.own:
                 return False
-            if (frame.procedure.provider if frame.procedure else frame.provider) in self.helpers:
+            provider = frame.procedure.provider if frame.procedure else frame.provider
+            if provider == AROUND or provider in self.helpers:
                 return True
         return False
 

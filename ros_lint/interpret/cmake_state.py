@@ -102,6 +102,8 @@ class State:
         self.procedures: dict[str, Procedure | Choice] = {}
         self.targets: dict[str, Properties] = {}
         self.globals: Properties = Properties()
+        self.places: dict[str, str] = {}
+        """Variables that say where the sources lie, and which directory and which file is being run."""
         self.for_tests: dict[str, str] = {}
         """Variables that become true only where tests are wanted, with the value that they get there."""
         self.gained: dict[str, frozenset[str]] = {}
@@ -163,6 +165,10 @@ class State:
             self.put(self.scopes[inner - 1], name, value)
 
     # --- reading
+
+    def brought(self, name: str) -> str | None:
+        """Return what CMake itself sets a variable to, None when it does not, or nobody knows to what."""
+        return self.places.get(name) or VARIABLES.get(name)
 
     def normal(self, name: str) -> str | None:
         """Return a variable as the scopes hold it, without the cache."""
@@ -251,7 +257,7 @@ class State:
             for depth, scope in enumerate(self.scopes):
                 if scope is mapping:
                     outer = self.found(key, depth)
-                    return VARIABLES.get(key) if outer is MISSING else outer
+                    return self.brought(key) if outer is MISSING else outer
         return value
 
 

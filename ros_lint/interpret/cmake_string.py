@@ -8,7 +8,7 @@ from typing import Final
 
 from ros_lint.interpret.cmake_regex import RegexError, anywhere, clear, every, find, forget, store
 from ros_lint.interpret.cmake_run import Handler, Run
-from ros_lint.interpret.cmake_values import ATOM, BINARY, HOLE, LONGEST, PREFIX, SOURCE, glued, is_fixed, is_known, join
+from ros_lint.interpret.cmake_values import ATOM, BINARY, HOLE, LONGEST, PREFIX, TREE, glued, is_fixed, is_known, join
 from ros_lint.interpret.cmake_values import flat as flat_value
 from ros_lint.text import raw
 
@@ -96,7 +96,7 @@ def _replace(old: str, new: str, *inputs: str) -> str:
     text = "".join(inputs)
     if not old or not is_fixed(old) or not is_fixed(text) or text.count(old) * len(new) > LONGEST:
         return HOLE
-    if ATOM not in text or old in (SOURCE, BINARY, PREFIX) or old.startswith((f"{SOURCE}/", f"{BINARY}/", f"{PREFIX}/")):
+    if ATOM not in text or old in (TREE, BINARY, PREFIX) or old.startswith((f"{TREE}/", f"{BINARY}/", f"{PREFIX}/")):
         return text.replace(old, flat_value(new))
     return anywhere(lambda given: given.replace(old, new), text) if is_fixed(new) and ATOM not in new else HOLE
 

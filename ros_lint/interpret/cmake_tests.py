@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Final
 
 from ros_lint.interpret.cmake_truth import FALSE, LIKELY, NUMBER, TRUE, UNKNOWN, UNLIKELY, Token, Truth, number_of
-from ros_lint.interpret.cmake_values import HOLE, SOURCE, certainly_set, elements, is_fixed, is_known
+from ros_lint.interpret.cmake_values import HOLE, TREE, certainly_set, elements, is_fixed, is_known
 from ros_lint.text import raw
 
 if TYPE_CHECKING:
@@ -45,14 +45,14 @@ def _command(run: Run, token: Token) -> Truth:
 
 
 def _exists(run: Run, token: Token) -> Truth:
-    path = run.source(token.text) if token.text.startswith(SOURCE) else None
+    path = run.reached(token.text) if token.text.startswith(TREE) else None
     if path is None:
         return Truth(UNKNOWN)
-    return Truth(TRUE if path in run.files or run.is_folder(path) else UNLIKELY)
+    return Truth(TRUE if run.is_file(path) or run.is_folder(path) else UNLIKELY)
 
 
 def _is_directory(run: Run, token: Token) -> Truth:
-    path = run.source(token.text) if token.text.startswith(SOURCE) else None
+    path = run.reached(token.text) if token.text.startswith(TREE) else None
     if path is None:
         return Truth(UNKNOWN)
     return Truth(TRUE if run.is_folder(path) else UNLIKELY)

@@ -19,8 +19,8 @@ ATOM: Final = "\1"
 MAYBE: Final = "\2"
 WILD: Final = f"{HOLE}\3{HOLE}"  # whoever looks for a HOLE, also at the ends of a text, finds one
 
-SOURCE: Final = f"/{ATOM}source"
-"""The folder of the package."""
+TREE: Final = f"/{ATOM}source"
+"""Where the tree that is looked at lies. The folder of the package is in it."""
 BINARY: Final = f"/{ATOM}build"
 """The build folder of the package."""
 PREFIX: Final = f"/{ATOM}prefix"

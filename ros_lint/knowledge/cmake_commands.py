@@ -31,9 +31,6 @@ VISIBILITY: Final = frozenset({"INTERFACE", "PRIVATE", "PUBLIC"})
 """Words of the commands for targets that say whom a thing is for."""
 
 VARIABLES: Final[Mapping[str, str]] = {
-    "CMAKE_SOURCE_DIR": "/\1source",
-    "CMAKE_CURRENT_SOURCE_DIR": "/\1source",
-    "PROJECT_SOURCE_DIR": "/\1source",
     "CMAKE_BINARY_DIR": "/\1build",
     "CMAKE_CURRENT_BINARY_DIR": "/\1build",
     "PROJECT_BINARY_DIR": "/\1build",
