@@ -104,3 +104,18 @@ def test_files_and_paths_are_those_of_cmake(tmp_path: Path) -> None:
             wrong.append((line, value, real[str(number)]))
     assert not wrong, "\n".join(map(str, wrong[:12]))
     assert unknown < len(lines) / 20
+
+
+@pytest.mark.parametrize(
+    ("line", "expected"),
+    [
+        (r'get_filename_component(V "/x\\y\\..\\z" ABSOLUTE)', "/x/z"),
+        (r'get_filename_component(V "y\\z" ABSOLUTE BASE_DIR "/a\\b")', "/a/b/y/z"),
+        (r'set(A "a\;b")' '\nget_filename_component(V "/x/${A}" REALPATH)', "/x/a/;b"),
+        (r'file(REAL_PATH "/x\\y" V)', HOLE),  # a policy of its own
+    ],
+)
+def test_a_backslash_parts_folders_where_a_path_is_made_a_whole_one(line: str, expected: str) -> None:
+    run = Run(Sources("p", "", (), {}), "", {}, lambda *_: None)
+    cmake_flow.run_file(run, parse(Text("x", line)).commands, Frame(True, "", run.named("CMakeLists.txt")))
+    assert run.get("V") == expected

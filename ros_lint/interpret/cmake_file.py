@@ -46,7 +46,8 @@ def _file(run: Run, args: list[str]) -> None:
     elif mode in ("TO_CMAKE_PATH", "TO_NATIVE_PATH") and len(args) > 2:
         run.set(args[2], args[1] if _SAME_EVERYWHERE.fullmatch(args[1]) else HOLE)
     elif mode == "REAL_PATH" and len(args) > 2:
-        run.set(args[2], _absolute(args[1], run.places["CMAKE_CURRENT_SOURCE_DIR"]))
+        # Whether a backslash parts folders depends on a policy (CMP0152).
+        run.set(args[2], HOLE if "\\" in args[1] else _absolute(args[1], run.places["CMAKE_CURRENT_SOURCE_DIR"]))
     elif mode in ("READ", "SIZE", "TIMESTAMP", "READ_SYMLINK", "MD5", "SHA1", "SHA256", "STRINGS"):
         run.set(args[2] if len(args) > 2 else "", HOLE)
 
@@ -133,6 +134,7 @@ _ROOTS: Final = ("/\1source", "/\1build", "/\1prefix")
 def _absolute(path: str, base: str) -> str:
     if not is_fixed(path) or not is_fixed(base) or _DRIVE.match(path):
         return HOLE
+    path, base = path.replace("\\", "/"), base.replace("\\", "/")  # on every system, where a path is made a whole one
     whole = path if path.startswith("/") else posixpath.join(base, path)
     found = posixpath.normpath(whole)
     # What lies above the package is not known.
