@@ -88,6 +88,8 @@ class Answer(NamedTuple):
 _NOBODY = Answer(())
 _INTERFACES = re.compile(r"[a-z][a-z0-9_]*[./](?:msg|srv|action)(?:[./]|\Z)")
 """Headers and modules of messages: only packages of ROS have them, whoever has the package."""
+_OF_ROS_1 = re.compile(r"[a-z][a-z0-9_]*_(?:msgs|srvs)/[A-Z]\w*\.h")
+"""Headers of messages as ROS 1 makes them; ROS 2 makes others, in a folder ``msg``, for those with the same name."""
 _OF_TESTS = ("gtest/", "gmock/")
 """Headers that a header without a source of its own can include for nobody but tests."""
 
@@ -126,8 +128,8 @@ class Resolver:
         found = self._headers.get(header)
         first, slash, _ = header.partition("/")
         if not found:
-            if slash and first in self._empty:
-                return _NOBODY  # the headers of a library that is called like a metapackage
+            if (slash and first in self._empty) or _OF_ROS_1.fullmatch(header):
+                return _NOBODY  # the headers of a library that is called like a metapackage, and those of ROS 1
             return self._told(self.names.by_include(header), first if slash else "", header)
         if slash and first not in found:
             known = self.names.by_include(header)

@@ -73,6 +73,20 @@ def test_a_metapackage_has_no_headers(lines: str, found: bool) -> None:
     assert bool(uses(workspace, "robot")) == found
 
 
+@pytest.mark.parametrize(
+    ("header", "found"),
+    [
+        ("geometry_msgs/Pose.h", False),
+        ("geometry_msgs/msg/pose.h", True),
+        ("sensor_msgs/image_encodings.hpp", True),
+        ("std_srvs/Empty.h", False),
+    ],
+)
+def test_a_header_of_a_message_of_ros_1_is_of_no_package_of_ros_2(header: str, found: bool) -> None:
+    workspace = loaded(cmake("bridge", "", "add_executable(bridge bridge.cpp)", bridge_dot_cpp=f"#include <{header}>\n"))
+    assert bool(uses(workspace, header.partition("/")[0])) is found
+
+
 def test_what_a_hand_wrote_into_a_map_is_less_than_sure() -> None:
     workspace = loaded(cmake("talker", "", "find_package(CUDA REQUIRED)\nfind_package(Eigen3 REQUIRED)"))
     assert [use.sure for use in uses(workspace, "nvidia-cuda")] == [False]

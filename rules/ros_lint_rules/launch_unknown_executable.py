@@ -18,7 +18,8 @@ executable must be meant.
 
 ## When it keeps silent
 
-- A part of the package's build script that cannot be followed may make the executable.
+- A part of the package's build script that cannot be followed may make the executable, or it installs a file of that name
+  which is not in the sources: `missing-file` tells of it.
 - For a released package: neither the sources of its release are known whole, nor those for an earlier and a later
   distribution; or one of these has it. Where nobody said which one is meant, the confidence is medium as long as one of
   them may have it.
@@ -101,7 +102,7 @@ def _missing(owner: str, name: str, workspace: Workspace) -> _Missing | None:
     names: set[str] = set()
     for one in owners:
         found = programs(one)
-        if found is None or name in found.names or stranded(one, name):
+        if found is None or name in found.names or stranded(one, name) or _is_lost(one, name):
             return None
         if name in found.elsewhere:
             path = found.elsewhere[name]
@@ -115,6 +116,12 @@ def _missing(owner: str, name: str, workspace: Workspace) -> _Missing | None:
         return running
     related = tuple(Related("its build script", one.script.end) for one in owners if one.script and one.script.end)
     return _Missing(_hint(name, meant, tuple(sorted(names))), meant, related[:1])
+
+
+def _is_lost(package: Package, name: str) -> bool:
+    """Whether the build script installs a program that is not in the sources: missing-file tells, unless git leaves it out."""
+    lost = [problem.subject.rpartition("/")[2] for problem in package.built.problems if problem.kind == "missing-file"]
+    return name in lost
 
 
 def _built(package: Package, name: str) -> _Missing | None:
