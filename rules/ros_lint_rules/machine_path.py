@@ -166,10 +166,13 @@ def _as_modules(inside: _Inside, workspace: Workspace) -> str:
 
 
 def _is_left_out(inside: _Inside, workspace: Workspace) -> bool:
-    """Whether a package is seen not to install what it has at a place."""
+    """Whether a package is seen not to install what it has at a place to where it is looked up."""
+    below = (f"{inside.rest}/", f"{inside.rest}.")
     for package in workspace.by_name[inside.package]:
-        below = [file for file in package.files if file == inside.rest or file.startswith((f"{inside.rest}/", f"{inside.rest}."))]
-        if not package.built.path or package.hidden(Facet.SHARE | Facet.PYTHON) or not _used(package).isdisjoint(below):
+        there = [each.source for each in package.built.provides if each.path.startswith("share/")]
+        if not package.built.path or package.hidden(Facet.SHARE):
+            return False
+        if any(source == inside.rest or source.startswith(below) for source in there):
             return False
     return True
 
