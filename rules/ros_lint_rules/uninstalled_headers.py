@@ -10,6 +10,9 @@ programs only with low confidence, unless they export a folder that is not there
 Also a package that installs its headers and exports nothing at all, while another package of the workspace finds it with
 `find_package()` and includes them.
 
+And headers that another package of the workspace includes by a folder which they lose when they are installed, as by
+`install(DIRECTORY include/robot/ DESTINATION include)`.
+
 ## Why it matters
 
 Packages that depend on it find the library and not its headers: "fatal error: robot/robot.hpp: No such file or directory".
@@ -81,10 +84,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     installed = any(
         provided.path.endswith(HEADERS) and (provided.source or _name(provided.path) in names) for provided in script.provides
     )
-    if installed and _tells(package):
-        return
     takers = _wanted(workspace).get(package.name, ())
     wanted = [(other, use) for other, use in takers if any(file.endswith(f"/{use.name}") for file in headers)]
+    if installed:
+        yield from _misplaced(package, wanted)
+    if installed and _tells(package):
+        return
     if installed:
         yield from _unexported(package, wanted)
         return
@@ -117,6 +122,28 @@ _GAZEBO = re.compile(r"(?:gazebo|gz|ignition)(?!.*_msgs$)", re.IGNORECASE)
 
 def _name(path: str) -> str:
     return path.rpartition("/")[2]
+
+
+def _misplaced(package: Package, wanted: list[tuple[Package, Use]]) -> Iterator[Finding]:
+    """Speak of headers that other packages include by a folder which is not there where they are installed."""
+    provided = {each.source: each for each in package.built.provides if each.source.endswith(HEADERS) and not each.conditional}
+    paths = [each.path for each in package.built.provides]
+    lost = [
+        (file, other, use)
+        for other, use in wanted
+        for file in [f"include/{use.name}"]
+        if file in provided and "/" in use.name and not any(path.endswith(f"/{use.name}") for path in paths)
+    ]
+    if lost:
+        (file, other, use), *_ = lost
+        folder = provided[file].path.rpartition("/")[0]
+        yield Finding(
+            f"{file} is installed to {folder}, and {other.name} includes it as {use.name}, which nobody finds there; "
+            f"install it to {folder}/{use.name.rpartition('/')[0]}",
+            provided[file].span,
+            file,
+            _included_here([(other, use) for _, other, use in lost]),
+        )
 
 
 def _for_nobody(headers: Sequence[str], exports: Sequence[Call]) -> Iterator[Finding]:
