@@ -7,8 +7,9 @@ of which another package of the workspace includes a header. Packages that insta
 medium confidence, so are those that export plugins or components, or build plugins of Gazebo, which nobody links; those with
 programs only with low confidence, unless they export a folder that is not there once they are installed.
 
-Also a package that installs its headers and exports nothing at all, while another package of the workspace finds it with
-`find_package()` and includes them.
+Also a package that installs its headers and tells nobody where they are, while another package of the workspace finds it with
+`find_package()` and includes them: libraries and dependencies that it exports, and a set of targets that it does not, do not
+say so.
 
 And headers that another package of the workspace includes by a folder which they lose when they are installed, as by
 `install(DIRECTORY include/robot/ DESTINATION include)`.
@@ -66,8 +67,8 @@ from ros_lint.api import (
 _LINKED = ("ament_export_interfaces", "ament_export_libraries", "ament_export_targets")
 _FOLDERS = ("include_directories", "target_include_directories")
 _EXPORTS = (
-    "ament_auto_package", "ament_export_", "configure_package_config_file", "export", "install_basic_package_files", "rosidl_",
-    "write_basic_package_version_file",
+    "ament_auto_package", "ament_export_include_directories", "ament_export_interfaces", "ament_export_targets",
+    "configure_package_config_file", "export", "install_basic_package_files", "rosidl_", "write_basic_package_version_file",
 )  # fmt: skip
 """How the names begin of commands that may tell others of a package where its headers are."""
 
@@ -163,9 +164,11 @@ def _unexported(package: Package, wanted: list[tuple[Package, Use]]) -> Iterator
     """Speak of a package that tells nobody of its headers, if another one looks for them in what it exports."""
     takers = [(other, use) for other, use in wanted if other.script and package.name in found_names(other, other.script)]
     if takers and package.script and package.script.end:
+        libraries = "" if any(True for _ in called(package, "ament_export_libraries")) else " and ament_export_libraries()"
+        what = "no include directories" if any(name.startswith("ament_export_") for name in package.script.calls) else "nothing"
         yield Finding(
-            f"{package.name} exports nothing, and {takers[0][0].name} includes its headers; add "
-            "ament_export_include_directories() and ament_export_libraries(), or ament_export_targets()",
+            f"{package.name} exports {what}, and {takers[0][0].name} includes its headers; add "
+            f"ament_export_include_directories(){libraries}, or ament_export_targets()",
             package.script.end,
             package.name,
             _included_here(takers),
@@ -178,7 +181,7 @@ def _tells(package: Package) -> bool:
     if script is None or script.extras or package.opaque or any(name.startswith(_EXPORTS) for name in script.calls):
         return True
     calls = [call for call in called(package, "ament_package", "install", anywhere=True) if _is_read(package, call)]
-    return any(text == "EXPORT" or "CONFIG_EXTRAS" in text for call in calls for text in call.texts)
+    return any(call.texts[:1] == ("EXPORT",) or any("CONFIG_EXTRAS" in text for text in call.texts) for call in calls)
 
 
 def _is_read(package: Package, call: Call) -> bool:
