@@ -133,6 +133,12 @@ def test_a_key_brings_the_keys_of_the_packages_that_its_own_depends_on() -> None
     assert [need.brought for need in needs(workspace.packages[0], workspace) if need.name == "eigen"] == [True]
 
 
+@pytest.mark.parametrize(("key", "library"), [("ffmpeg-dev", "FFMPEG"), ("python3-qt5-bindings", "Qt5")])
+def test_any_key_that_installs_a_library_will_do(key: str, library: str) -> None:
+    workspace = loaded(cmake("talker", f"<depend>{key}</depend>", f"find_package({library} REQUIRED)"))
+    assert {need.name for need, _ in undeclared(workspace.packages[0], workspace)}.isdisjoint({"ffmpeg", "qtbase5-dev"})
+
+
 def test_an_unknown_name_can_bring_some_things_only() -> None:
     workspace = loaded(cmake("talker", "", "") | cmake("base", "", ""))
     assert not may_bring(("strange",), "base", workspace)  # a repository elsewhere needs none of this workspace
