@@ -179,15 +179,14 @@ class _Run:
     def _wake(self) -> None:
         """Do what timers and events start, and put it where they stand.
 
-        By then all files have been gone through, whatever is declared or set in them after a timer; and groups have put back
-        what they set. What nobody else sets is taken to be as it was in the group: launch would not find it.
+        By then all files have been gone through: what is declared or set after a timer counts, too. What was set before is
+        taken to be as it was there, since a function may have asked for it by then.
         """
         waiting, self._waiting = self._waiting, []
         for one in reversed(waiting):  # so that the places of those before it stay what they are
             end = len(self.started)
             self._open, self._via = list(one.open), one.via
-            values = {**one.scope.values, **self._values}
-            self._actions(one.actions, one.scope._replace(values=values, later=True))
+            self._actions(one.actions, one.scope._replace(values={**self._values, **one.scope.values}, later=True))
             self._wake()
             new = self.started[end:]
             del self.started[end:]
@@ -220,7 +219,8 @@ class _Run:
             case "group":
                 return outer.after(self._group(action, scope))
             case "later":
-                self._waiting.append(_Waiting(len(self.started), action.children, scope, tuple(self._open), self._via))
+                seen = scope._replace(values=dict(scope.values))
+                self._waiting.append(_Waiting(len(self.started), action.children, seen, tuple(self._open), self._via))
             case "include":
                 return outer.after(self._include(action, scope))
             case "node" | "component" | "process":
