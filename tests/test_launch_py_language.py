@@ -52,6 +52,36 @@ def make(e):
 return make('b')
 => node a b2, node a b
 
+def pick(kind):
+    match kind:
+        case 'one' | 'two' if kind != 'two':
+            return 'first'
+        case 'two':
+            return 'second'
+        case None:
+            return 'none'
+        case (one, _) | [one]:
+            return 'pair'
+        case other:
+            return other
+return [Node(package='a', executable=pick(kind)) for kind in ('one', 'two', None, 'three')]
+=> node a first, node a second, node a none, node? a pair, node? a three
+
+def start(context):
+    match LaunchConfiguration('kind').perform(context):
+        case 'one':
+            return [Node(package='a', executable='b')]
+        case _:
+            return [Node(package='a', executable='c')]
+return [DeclareLaunchArgument('kind', default_value='two'), OpaqueFunction(function=start)]
+=> node? a b, node? a c
+
+os.environ['ROBOT'] = 'waffle'
+os.environ['ROBOT'] += '_pi'
+os.environ.setdefault('ROBOT', 'burger')
+return [Node(package='a', executable=os.environ['ROBOT']), Node(package='a', executable=os.getenv('ROBOT'))]
+=> node a waffle_pi, node a waffle_pi
+
 from functools import cache
 @cache
 @unheard_of('x')
@@ -350,3 +380,38 @@ if {question.format("os.getenv('ROS_DISTRO')")}:
 return [Node(package='a', executable='new'), Node(package='a', executable=name)]"""
     _, file = collect("a.launch.py", body(program))
     assert [one.target for one in expand(file, {}, distro=distro).started if one.certain][:1] == [(wanted,)]
+
+
+def test_branches_on_an_argument_by_its_patterns() -> None:
+    text = (
+        HEAD
+        + """
+    def start(context):
+        match LaunchConfiguration('kind').perform(context):
+            case 'one' | 'two':
+                return [Node(package='a', executable='b')]
+            case 'three':
+                return [Node(package='a', executable='c')]
+    return LaunchDescription([DeclareLaunchArgument('kind', default_value='two'), OpaqueFunction(function=start)])
+"""
+    )
+    _, file = collect("launch/a.launch.py", text)
+    assert [(one.target, one.certain) for one in expand(file, {}).started] == [(("b",), True)]
+    assert [(one.target, one.certain) for one in expand(file, {"kind": "three"}).started] == [(("c",), True)]
+    assert not expand(file, {"kind": "four"}).started
+
+
+def test_variables_that_the_file_sets_itself() -> None:
+    """They are those of all that is launched, and of what launch looks up."""
+    text = (
+        HEAD
+        + """
+    os.environ['PLACE'] = '/maps'
+    map = [EnvironmentVariable('PLACE'), '/hall.yaml']
+    return LaunchDescription([Node(package='a', executable='b', parameters=[map])])
+"""
+    )
+    _, file = collect("launch/a.launch.py", text)
+    (started,) = expand(file, {}).started
+    assert started.parameters == (("", ("/maps/hall.yaml",)),)
+    assert started.environment == (("PLACE", ("/maps",)),)

@@ -125,7 +125,8 @@ class _Reading:
         for name in ("generate_launch_description", "generate_test_description"):
             function = frame.names.get(name)
             if isinstance(function, Function):
-                self.actions += self._walker.actions(self._call(function, name, frame))
+                started = self._walker.actions(self._call(function, name, frame))
+                self.actions += [*self._walker.actions(self._machine.variables), *started]
                 if function.changed:
                     place = span_of(self._source.text, function.node)
                     self._blind.append(Opaque(Facet.USES, f"what a decorator makes of {name}() is not followed", place))

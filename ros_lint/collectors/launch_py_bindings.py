@@ -10,6 +10,7 @@ from ros_lint.collectors.launch_py_methods import items
 from ros_lint.collectors.launch_py_objects import Api, Frame, Instance, Made, Unknown, Value, Written, alternatives, plain, union
 from ros_lint.collectors.launch_py_operations import hashable, operation
 from ros_lint.collectors.launch_py_texts import SUBSTITUTIONS
+from ros_lint.collectors.launch_text import is_plain
 
 if TYPE_CHECKING:
     from ros_lint.collectors.launch_py_run import Machine
@@ -91,8 +92,16 @@ def _store(machine: Machine, target: ast.Subscript, value: Value, frame: Frame) 
                 owner[name] = value
         elif isinstance(owner, list) and isinstance(key, int) and -len(owner) <= key < len(owner):
             owner[key] = value
+        elif isinstance(owner, Api) and owner.name == "os.environ":
+            _set_variable(machine, target, key, value, frame)
         else:
             machine.lose(value)
+
+
+def _set_variable(machine: Machine, target: ast.Subscript, name: Value, value: Value, frame: Frame) -> None:
+    if isinstance(name, str) and is_plain(name):
+        call = ast.copy_location(ast.Call(target, [target.slice, target], []), target)
+        machine.set_variable(name, value, call, frame.source)
 
 
 def _import(machine: Machine, node: ast.Import, frame: Frame) -> None:

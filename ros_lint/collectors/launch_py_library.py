@@ -212,6 +212,8 @@ def _path(call: Call) -> Value:
 def _variable(call: Call) -> Value:
     default = call.get(1, "default")
     names = call.texts(0, "key")
+    if call.machine.sets(names):
+        return union(call.machine.variable(name) for name in names)
     # ROS sets its distribution wherever something is launched; any other variable may be missing.
     if default is None and call.name != "os.environ" and names != ("ROS_DISTRO",):
         return Unknown("an environment variable")
@@ -281,7 +283,7 @@ def subscript_library(machine: Machine, owner: Value, key: Value) -> Value:
     """Return an element of something that a library has."""
     if isinstance(owner, Api):
         if owner.name == "os.environ":
-            return union(environment(name, None) for name in text_of(key))
+            return union(machine.variable(name) for name in text_of(key))
         if owner.name == "context.launch_configurations":
             return union(launch_text.configuration(name) for name in text_of(key))
     if isinstance(owner, (Unknown, Api)):

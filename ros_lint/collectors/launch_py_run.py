@@ -18,13 +18,12 @@ from ros_lint.collectors.launch_py_builtins import BUILTINS
 from ros_lint.collectors.launch_py_eval import EVALUATE
 from ros_lint.collectors.launch_py_library import call_library, subscript_library
 from ros_lint.collectors.launch_py_methods import call_method
-from ros_lint.collectors.launch_py_misuse import Misused
+from ros_lint.collectors.launch_py_noted import Notes
 from ros_lint.collectors.launch_py_objects import (
     PERHAPS,
     Api,
     Bound,
     Class,
-    Conditions,
     FilePath,
     Frame,
     Function,
@@ -36,7 +35,6 @@ from ros_lint.collectors.launch_py_objects import (
     OutOfBudget,
     Raised,
     Source,
-    Union,
     Unknown,
     Value,
     guarded_text,
@@ -47,7 +45,7 @@ from ros_lint.collectors.launch_py_operations import text_of
 from ros_lint.collectors.launch_py_released import HELPERS, helper, placed
 from ros_lint.collectors.launch_py_statements import LEAVE, execute
 from ros_lint.collectors.launch_py_texts import Within, texts
-from ros_lint.collectors.launch_text import UNKNOWN, fill, is_settled, joined
+from ros_lint.collectors.launch_text import fill, is_settled, joined
 from ros_lint.facts.launch import LaunchCondition
 
 STEPS = 150_000
@@ -76,40 +74,17 @@ lie around, and say less."""
 _Definition = ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
 
 
-class Machine:
+class Machine(Notes):
     """Follows one launch file and the modules that it imports."""
 
     def __init__(self, modules: Modules, files: Callable[[str], Value]) -> None:
+        super().__init__()
         self._modules = modules
         self._files = files
         self._sources: dict[str, Source | None] = {}
         self._placed: dict[tuple[int, int], tuple[_Definition, ast.AST, ast.AST]] = {}
         self._left = STEPS
         self._depth = 0
-        self._branches = 0
-        self.conditions: Conditions = ()
-        self.made: list[Made] = []
-        """Everything made of the classes of the launch libraries, in order."""
-        self.looked_up: list[tuple[str, ast.expr, Source, Conditions]] = []
-        """Packages looked up at once, where, and under which conditions."""
-        self.unbound: list[tuple[ast.Name, Source]] = []
-        """Names met that nothing has bound so far."""
-        self.misused: list[Misused] = []
-        """Substitutions that were taken for texts."""
-        self.wanted: set[str] = set()
-        """Modules and files that are read and were not at hand."""
-        self.opened: list[tuple[str, ast.expr, Source, Conditions]] = []
-        """Paths of files that are opened at once to be read, where, and under which conditions: those that must be there."""
-        self.asked: dict[tuple[str, ...], tuple[str, ...]] = {}
-        """Paths of files that it asks for, by what stands for the answer: it does without those that are not there."""
-        self.borrows = False
-        """Whether it calls helpers of released packages, of which not everything is known."""
-        self.guarded = 0
-        """How many statements around would catch that a file is missing."""
-        self.lazily: set[str] = set()
-        """Packages that are looked up when something is launched."""
-        self.named: dict[str, tuple[ast.expr, Source]] = {}
-        """Where each package that is looked up is written first, by its name or, if it hangs on arguments, by its text."""
 
     # --- bounds and conditions ------------------------------------------------------------------------------------
 
@@ -132,40 +107,6 @@ class Machine:
             yield
         finally:
             self.conditions = before
-
-    def fresh(self, condition: LaunchCondition) -> LaunchCondition:
-        """Return a condition of which nothing is known as one that its own opposite can be told from."""
-        return condition if condition is not PERHAPS else LaunchCondition((self.another(),), None)
-
-    def another(self) -> str:
-        """Return a text of which nothing is known but that it is no other one."""
-        self._branches += 1
-        return f"{UNKNOWN}{self._branches}"
-
-    def guard(self, value: Value) -> Value:
-        """Return a value as it goes into a collection now."""
-        return Guarded(value, self.conditions) if self.conditions else value
-
-    def lose(self, value: Value) -> None:
-        """Note that a value goes where it cannot be followed: what it holds may be launched."""
-        waiting, count = [value], 0
-        while waiting and count < 1_000:
-            one = waiting.pop()
-            count += 1
-            if isinstance(one, Made):
-                if not one.lost:
-                    one.lost = True
-                    waiting += [*one.arguments, *one.keywords.values(), *one.entities]
-            elif isinstance(one, Guarded):
-                waiting.append(one.value)
-            elif isinstance(one, Union):
-                waiting += one.values
-            elif isinstance(one, (list, tuple)):
-                waiting += one
-            elif isinstance(one, dict):
-                waiting += one.values()
-            elif isinstance(one, Instance):
-                waiting += [one.made, *one.attributes.values()] if one.made is not None else one.attributes.values()
 
     # --- modules --------------------------------------------------------------------------------------------------
 
@@ -377,26 +318,5 @@ class Machine:
         """Return an element of something that a library has."""
         return subscript_library(self, owner, key)
 
-    def ask(self, paths: tuple[str, ...]) -> Value:
-        """Return whether a file is there, which is not known."""
-        answer = LaunchCondition((self.another(),), None)
-        self.asked[answer.texts] = paths
-        return Unknown("whether a file is there", answer)
-
-    def look_up(self, package: str, at: ast.expr, source: Source, eager: bool, conditions: Conditions) -> None:
-        """Note that a package is looked up; ``conditions`` are those under which it is this one."""
-        if UNKNOWN not in package and not source.lent:
-            known = self.named.get(package)
-            if known is None or (_says(at, package) and not _says(known[0], package)):
-                self.named[package] = (at, source)
-        if eager:
-            self.looked_up.append((package, at, source, (*self.conditions, *conditions)))
-        else:
-            self.lazily.add(package)
-
     def texts(self, value: Value) -> tuple[str, ...]:
         return texts(value, Within(self.spend))
-
-
-def _says(node: ast.expr, text: str) -> bool:
-    return isinstance(node, ast.Constant) and node.value == text

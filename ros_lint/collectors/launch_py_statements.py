@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from ros_lint.collectors import launch_py_bindings
 from ros_lint.collectors.launch_py_bindings import bind
@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from ros_lint.collectors.launch_py_run import Machine
 
 _MOST_TURNS = 2_000
+_Node = TypeVar("_Node", bound=ast.AST)
 
 NEXT, BREAK, CONTINUE, LEAVE = range(4)
 """How a statement ends: with the next one, or by leaving a turn, a loop or the function."""
@@ -244,15 +245,43 @@ def _continue(_machine: Machine, _node: ast.Continue, _frame: Frame) -> int:
     return CONTINUE
 
 
+_SUBJECT, _ANYTHING = "<subject>", "<anything>"
+"""Names that no program has."""
+
+
 def _match(machine: Machine, node: ast.Match, frame: Frame) -> int:
-    subject = machine.evaluate(node.subject, frame)
-    for case in node.cases:
+    subject = frame.names[_SUBJECT] = machine.evaluate(node.subject, frame)
+    frame.names[_ANYTHING] = Unknown("whether a pattern fits")
+    chain: list[ast.stmt] = []
+    for case in reversed(node.cases):
         for inner in ast.walk(case.pattern):
             if isinstance(inner, (ast.MatchAs, ast.MatchStar)) and inner.name:
                 frame.names[inner.name] = subject
-        if _perhaps(machine, case.body, frame) == LEAVE:
-            return LEAVE
-    return NEXT
+        tests = [_fits(case.pattern)] if case.guard is None else [_fits(case.pattern), case.guard]
+        test = ast.BoolOp(ast.And(), tests) if case.guard is not None else tests[0]
+        chain = [_at(ast.If(_at(test, case.pattern), case.body, chain), case.pattern)]
+    return execute(machine, chain, frame)
+
+
+def _fits(pattern: ast.pattern) -> ast.expr:
+    """Return what is asked of the subject by a pattern."""
+    subject: ast.expr = _at(ast.Name(_SUBJECT), pattern)
+    match pattern:
+        case ast.MatchValue(value=value):
+            return _at(ast.Compare(subject, [ast.Eq()], [value]), pattern)
+        case ast.MatchSingleton(value=value):
+            return _at(ast.Compare(subject, [ast.Is()], [_at(ast.Constant(value), pattern)]), pattern)
+        case ast.MatchOr(patterns=patterns):
+            return _at(ast.BoolOp(ast.Or(), [_fits(one) for one in patterns]), pattern)
+        case ast.MatchAs(pattern=None):
+            return _at(ast.Constant(value=True), pattern)
+        case ast.MatchAs(pattern=inner) if inner is not None:
+            return _fits(inner)
+    return _at(ast.Name(_ANYTHING), pattern)
+
+
+def _at(made: _Node, place: ast.AST) -> _Node:
+    return ast.copy_location(made, place)
 
 
 def _function(machine: Machine, node: ast.FunctionDef | ast.AsyncFunctionDef, frame: Frame) -> int:
