@@ -93,3 +93,9 @@ def test_an_alias_bomb_and_depth_end() -> None:
     assert said(*collect("a.launch.yaml", "launch: &a\n- group: *a\n- group: *a\n")) == []
     deep = "launch:\n- " + "[" * 3000
     assert collect("a.launch.yaml", deep)[1].problems
+
+
+def test_children_that_are_an_empty_text_are_none() -> None:
+    """As launch_yaml takes them, which goes through them as through a list (launch 3.7.1)."""
+    assert not collect("a.launch.yaml", "launch:\n- timer: {period: '1', children: ''}\n")[1].problems
+    assert collect("a.launch.yaml", "launch:\n- timer: {period: '1', children: 'a'}\n")[1].problems

@@ -204,6 +204,9 @@ class Entity:
             self._read_children = None
             return self.children
         if self.form == "mapping":
+            if self.attributes.get("children") == "":
+                self.read.add("children")
+                return []  # a text without letters is gone through as well
             if "children" in self.attributes:
                 raise Rejected("wrong-type", f"children of <{self.tag}> is no list of mappings", self.place("children"))
             self._read_children = (self._read_children or set()) | {CHILDREN}
