@@ -328,3 +328,15 @@ def test_a_long_list_joined_by_a_long_text_becomes_unknown() -> None:
     text = 'set(L "a;a")\nforeach(i RANGE 17)\nset(L ${L} ${L})\nendforeach()\nlist(JOIN L "${L}" L)\n'
     script = run(text + "install(FILES ${L} DESTINATION share/pkg)\n")
     assert hidden(script) & Facet.SHARE
+
+
+@pytest.mark.parametrize(
+    ("body", "longer"),
+    [
+        ("set(a ${i})\nset(b ${i})", False),
+        ("list(APPEND l ${i}.launch.py)\nlist(LENGTH l n)", True),  # every round takes longer than the one before
+    ],
+)
+def test_commands_on_long_lists_count_for_what_they_cost(body: str, longer: bool) -> None:
+    script = run(f"foreach(i RANGE 20000)\n{body}\nendforeach()")
+    assert [opaque.reason for opaque in script.opaque] == ["the script runs longer than can be followed"] * longer

@@ -18,6 +18,8 @@ def _list(run: Run, args: list[str]) -> None:
     mode, name, rest = args[0], args[1], args[2:]
     for text in rest:
         run.notice(text)
+    value = run.get(name) or ""
+    run.steps += len(value) >> 10  # one that is very long takes as much time as many commands
     change = _CHANGES.get(mode)
     if change is not None:
         change(run, name, rest)
@@ -25,7 +27,6 @@ def _list(run: Run, args: list[str]) -> None:
     read = _READS.get(mode)
     if read is None:
         return
-    value = run.get(name) or ""
     if not rest or HOLE in rest[-1]:
         return
     try:
