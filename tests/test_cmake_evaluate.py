@@ -45,6 +45,8 @@ def test_an_unknown_name_is_none() -> None:
             "install(FILES ${found} DESTINATION share/pkg)", {"share/pkg/a.launch.py": False}),
         ("install(FILES ${CMAKE_CURRENT_BINARY_DIR}/made.yaml DESTINATION share/pkg)", {"share/pkg/made.yaml": False}),
         ("install(FILES gone.yaml DESTINATION share/pkg OPTIONAL)", {}),
+        ("include(GNUInstallDirs)\ninstall(FILES package.xml DESTINATION ${CMAKE_INSTALL_DOCDIR})",
+         {"share/doc/pkg/package.xml": False}),
         ("if($ENV{SOMETHING})\ninstall(DIRECTORY launch DESTINATION share/pkg)\n"
             "endif()", {"share/pkg/launch/a.launch.py": True}),
         ("set(dirs launch)\nif($ENV{SOMETHING})\nlist(APPEND dirs scripts)\nendif()\n"
@@ -340,3 +342,21 @@ def test_a_long_list_joined_by_a_long_text_becomes_unknown() -> None:
 def test_commands_on_long_lists_count_for_what_they_cost(body: str, longer: bool) -> None:
     script = run(f"foreach(i RANGE 20000)\n{body}\nendforeach()")
     assert [opaque.reason for opaque in script.opaque] == ["the script runs longer than can be followed"] * longer
+
+
+@pytest.mark.parametrize(
+    ("path", "unsure"),
+    [
+        ("${CMAKE_CURRENT_SOURCE_DIR}/lib/${ARCH}/liba.so", False),  # CMake stops where it is not there
+        ("lib/${ARCH}/liba.so", False),
+        ("lib/$ENV{HOME}/libb.so", True),  # nothing there is called so
+        ("${CMAKE_CURRENT_SOURCE_DIR}/lib/${Acme_VERSION}/x86/libb.so", True),
+        ("${Acme_DIR}/lib/libb.so", False),
+        ("${CMAKE_CURRENT_BINARY_DIR}/libb.so", False),
+        ("${CMAKE_CURRENT_BINARY_DIR}/libb.so OPTIONAL", True),
+    ],
+)
+def test_a_file_in_a_folder_that_is_not_known(path: str, unsure: bool) -> None:
+    arch = "find_package(Acme REQUIRED)\nset(ARCH x86)\nif(CMAKE_SYSTEM_PROCESSOR STREQUAL arm)\nset(ARCH arm)\nendif()\n"
+    script = run(f"{arch}install(FILES {path} DESTINATION lib)", ("lib/x86/liba.so", "lib/arm/liba.so"))
+    assert list(paths(script).values()) == [unsure]

@@ -70,6 +70,14 @@ def test_a_folder_may_hold_the_package_itself() -> None:
     assert installed(script) == {**BOTH, "share/p/p/own.yaml": "own.yaml"}
 
 
+def test_a_folder_keeps_its_name_where_it_is_known() -> None:
+    lines = "install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} DESTINATION share/q)"
+    assert installed(run(f"{lines[:-1]} FILES_MATCHING PATTERN *.yaml)", {})) == {"share/q/p/own.yaml": "own.yaml"}
+    at_the_base = {"package.xml": manifest_text("p"), "CMakeLists.txt": HEAD + lines, "own.yaml": ""}
+    script = script_of(MemoryTree(at_the_base), "")
+    assert (script.provides, [opaque.below for opaque in script.opaque]) == ((), ["share/q"])
+
+
 def test_programs_keep_their_permissions() -> None:
     files = {"ws/scripts/run.py": "", "ws/scripts/data.py": ""}
     lines = "install(DIRECTORY ../scripts/ DESTINATION lib/p USE_SOURCE_PERMISSIONS)"

@@ -22,6 +22,7 @@ from ros_lint.interpret import (
     cmake_headers,
     cmake_include,
     cmake_install,
+    cmake_install_targets,
     cmake_list,
     cmake_loops,
     cmake_math,
@@ -93,7 +94,7 @@ def evaluate(sources: Sources, distro: str = "", helpers: Mapping[str, Helper] =
 
 
 def _result(run: Run, path: str) -> BuildScript:
-    provides = [*_installed_files(run), *cmake_install.installed_targets(run)]
+    provides = [*_installed_files(run), *cmake_install_targets.installed_targets(run)]
     undefined = _undefined(run)
     taken = _taken(run) if run.loose else {}
     problems = [*run.problems, *_missing(run), *undefined]

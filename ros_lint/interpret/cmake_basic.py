@@ -177,6 +177,7 @@ def _project(run: Run, args: list[str]) -> None:
         if is_known(number) and number:
             run.version, run.version_span = number, run.where(number)
         run.set("CMAKE_PROJECT_NAME", name)
+        run.places["CMAKE_INSTALL_DOCDIR"] = f"share/doc/{name}"
     folder, build = run.places["CMAKE_CURRENT_SOURCE_DIR"], run.places["CMAKE_CURRENT_BINARY_DIR"]
     values: dict[str, str | None] = {
         "PROJECT_NAME": name,

@@ -12,7 +12,7 @@ from ros_lint.facts.sight import ANYTHING, Facet
 from ros_lint.facts.sources import Purpose
 from ros_lint.interpret.cmake_arguments import sections
 from ros_lint.interpret.cmake_flow import HANDLERS
-from ros_lint.interpret.cmake_install import unlisted
+from ros_lint.interpret.cmake_install_folders import unlisted
 from ros_lint.interpret.cmake_released import released, run_released
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_state import Properties

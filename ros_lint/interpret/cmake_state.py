@@ -103,7 +103,7 @@ class State:
         self.targets: dict[str, Properties] = {}
         self.globals: Properties = Properties()
         self.places: dict[str, str] = {}
-        """Variables that say where the sources lie, and which directory and which file is being run."""
+        """Variables that say where the sources lie, which directory and which file is being run, and where pages go."""
         self.for_tests: dict[str, str] = {}
         """Variables that become true only where tests are wanted, with the value that they get there."""
         self.gained: dict[str, frozenset[str]] = {}

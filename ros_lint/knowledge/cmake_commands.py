@@ -42,7 +42,6 @@ VARIABLES: Final[Mapping[str, str]] = {
     "CMAKE_INSTALL_INCLUDEDIR": "include",
     "CMAKE_INSTALL_DATAROOTDIR": "share",
     "CMAKE_INSTALL_DATADIR": "share",
-    "CMAKE_INSTALL_DOCDIR": "share/doc",
     "CMAKE_INSTALL_MANDIR": "share/man",
     "CMAKE_INSTALL_SYSCONFDIR": "etc",
     "CMAKE_INSTALL_FULL_BINDIR": "/\1prefix/bin",
