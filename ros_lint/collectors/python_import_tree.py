@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.collectors.python_syntax import start_of
@@ -47,7 +48,7 @@ def walk(source: Text, tree: ast.Module) -> list[Import]:
     ``importlib.import_module()`` and the like are imports, too; whoever calls one is taken to be able to go without.
     A test that is skipped without a module goes without whatever it imports of it afterwards.
     """
-    walker = _Walker(_off(tree))
+    walker = _Walker(tree)
     found = [
         Import(start, module, bool(optional), optional == _CAUGHT)
         for statement, optional in walker.imports(tree.body, inside=False)
@@ -115,10 +116,14 @@ _CAUGHT = 2
 
 
 class _Walker:
-    """Walks through statements. ``off`` are names that are always false."""
+    """Walks through the statements of a module."""
 
-    def __init__(self, off: frozenset[str]) -> None:
-        self._off = off
+    def __init__(self, tree: ast.Module) -> None:
+        self._tree = tree
+
+    @cached_property
+    def _off(self) -> frozenset[str]:
+        return _off(self._tree)
 
     def imports(self, body: Iterable[ast.stmt], inside: bool = True) -> Iterator[_Found]:
         for statement in body:
@@ -137,21 +142,24 @@ class _Walker:
                     yield from self.imports(case.body)
 
     def _conditional(self, statement: ast.If) -> Iterator[_Found]:
+        body, orelse = list(self.imports(statement.body)), list(self.imports(statement.orelse))
+        if not body and not orelse:
+            return
         test = statement.test
         words = {
             str(getattr(node, "id", None) or getattr(node, "attr", None) or getattr(node, "value", "")) for node in ast.walk(test)
         }
         if _is_off(test, self._off) or (isinstance(test, (ast.Name, ast.Attribute)) and "TYPE_CHECKING" in words):
-            yield from ((found, optional or 1) for found, optional in self.imports(statement.body))
-            yield from self.imports(statement.orelse)
+            yield from ((found, optional or 1) for found, optional in body)
+            yield from orelse
         elif (of_ros_2 := _tells_ros_2(test, words)) is not None:
-            for body, runs in ((statement.body, of_ros_2), (statement.orelse, not of_ros_2)):
-                yield from ((found, optional or (0 if runs else 1)) for found, optional in self.imports(body))
+            for branch, runs in ((body, of_ros_2), (orelse, not of_ros_2)):
+                yield from ((found, optional or (0 if runs else 1)) for found, optional in branch)
         elif not GUARD.search(" ".join(words)):
-            yield from self.imports(statement.body)
-            yield from self.imports(statement.orelse)
+            yield from body
+            yield from orelse
         else:
-            yield from _alternatives([list(self.imports(statement.body)), list(self.imports(statement.orelse))], 1)
+            yield from _alternatives([body, orelse], 1)
 
     def _try(self, statement: ast.Try, inside: bool) -> Iterator[_Found]:
         branches = [[*self.imports(statement.body), *self.imports(statement.orelse)]]
