@@ -21,6 +21,7 @@ from ros_lint.build_scripts import (
     hidden,
     installed_targets,
     installs_built,
+    is_cut_short,
     is_on_request,
     is_shared_by_words,
     left_out_nodes,
@@ -103,7 +104,7 @@ from ros_lint.report import Target
 from ros_lint.resource_files import uninstalled as uninstalled_resources
 from ros_lint.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
 from ros_lint.slips import did_you_mean, is_meant, similar
-from ros_lint.strangers import Stranger, declared_names, is_near_tool, meant, strangers
+from ros_lint.strangers import Stranger, declared_names, is_named, is_near_tool, meant, strangers, used_instead
 from ros_lint.suffixes import HEADERS
 from ros_lint.suppress import Outcome
 from ros_lint.text import Span, beginning
@@ -231,11 +232,13 @@ __all__ = [
     "interface_names",
     "is_apart",
     "is_built_in_sight",
+    "is_cut_short",
     "is_for_tests",
     "is_kept_back",
     "is_library",
     "is_meant",
     "is_mostly_run",
+    "is_named",
     "is_near_tool",
     "is_on_request",
     "is_plain",
@@ -289,6 +292,7 @@ __all__ = [
     "undeclared",
     "unguarded_tests",
     "uninstalled_resources",
+    "used_instead",
     "used_names",
     "wishes",
     "with_client",

@@ -47,6 +47,15 @@ def called(package: Package, *names: str, anywhere: bool = False) -> Iterator[Ca
         yield from (call for call in found if call.path == top)
 
 
+def is_cut_short(script: BuildScript) -> bool:
+    """Whether CMake stops where a script is not to be seen: at a mistake in its syntax, a script or a folder that is not there.
+
+    A file that is to be installed and is not there hides nothing.
+    """
+    stops = ("cmake-syntax", "missing-folder")
+    return any(problem.kind in stops or problem.subject.endswith(".cmake") for problem in script.problems)
+
+
 def installed_targets(call: Call) -> tuple[int, ...]:
     """Return the indexes of the arguments that are names of targets, in a call of install(TARGETS) and in no other."""
     texts = call.texts

@@ -23,12 +23,26 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import ANYTHING, ENDS, Edit, Finding, Fix, Package, Rule, Severity, Workspace, beginning, called, top_file
+from ros_lint.api import (
+    ANYTHING,
+    ENDS,
+    Edit,
+    Finding,
+    Fix,
+    Package,
+    Rule,
+    Severity,
+    Workspace,
+    beginning,
+    called,
+    is_cut_short,
+    top_file,
+)
 
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
     script = package.script
-    if package.builds_with != "ament_cmake" or script is None or script.problems:
+    if package.builds_with != "ament_cmake" or script is None or is_cut_short(script):
         return
     if script.is_empty:
         yield Finding(

@@ -54,6 +54,7 @@ from ros_lint.api import (
     come_along,
     few,
     found_names,
+    is_cut_short,
     is_meant,
     relative,
     several,
@@ -70,7 +71,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if script is None or package.builds_with != "ament_cmake":
         return
     yield from (Finding(it.message, it.span, it.subject) for it in script.refused if it.kind == "no-package")
-    if script.problems or script.hides(Facet.USES):
+    if is_cut_short(script) or script.hides(Facet.USES):
         return
     found = found_names(package, script)
     spelt = {name.lower() for name in found}  # namespaces of targets may be spelt another way: RTABMap, rtabmap::core

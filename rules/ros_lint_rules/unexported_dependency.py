@@ -66,6 +66,7 @@ from ros_lint.api import (
     found_along,
     found_names,
     given_for,
+    is_cut_short,
     may_bring,
     relative,
     several,
@@ -90,7 +91,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 def _is_seen(package: Package) -> bool:
     """Whether all that a script exports is seen, and written there."""
     script = package.script
-    if script is None or script.problems or package.builds_with != "ament_cmake":
+    if script is None or is_cut_short(script) or package.builds_with != "ament_cmake":
         return False
     return not (script.hides(Facet.USES) or _EXPORTS_ALL.intersection(script.calls))
 
