@@ -112,6 +112,8 @@ def _interfaces(run: Run, args: list[str]) -> None:
                 run.installed.append(Provided(f"share/{package}/{place}/{stem}.{end}", made, False, conditional, span))
     if not run.muted and len(args) > 1:
         run.python_packages[package] = None
+    elif not run.wild:
+        run.problem("no-interfaces", f"{_GENERATES}() is given no interface file", run.here(), package)
 
 
 def _python(run: Run, args: list[str]) -> None:

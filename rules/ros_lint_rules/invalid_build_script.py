@@ -2,9 +2,9 @@
 ## What it finds
 
 Build scripts that their tools refuse: syntax errors in `CMakeLists.txt`, `*.cmake`, `setup.py` and `setup.cfg`, marks of a
-merge conflict among them; names in a `setup.py` that nothing defines, and calls of what cannot be called: a module, or the
-tuple before a comma that is missing; entries of `data_files` that are no pair of a folder and a list, and destinations outside
-the install prefix.
+merge conflict among them; `rosidl_generate_interfaces()` without any interface file; names in a `setup.py` that nothing
+defines, and calls of what cannot be called: a module, or the tuple before a comma that is missing; entries of `data_files`
+that are no pair of a folder and a list, and destinations outside the install prefix.
 
 ## Why it matters
 
@@ -18,7 +18,8 @@ prefix and a list of files.
 ## When it keeps silent
 
 For templates, for Python 2, and for Python that is newer than what can be read here. About names and calls where an error is
-caught, or where it is not known whether `setup.py` comes there.
+caught, or where it is not known whether `setup.py` comes there. About interfaces where a folder of the package has not been
+fetched, such as a submodule.
 """
 
 from __future__ import annotations
@@ -29,6 +30,7 @@ from ros_lint.api import Finding, Package, Rule, Severity, Workspace, relative
 
 _KINDS = {
     "cmake-syntax": "CMake stops here: ",
+    "no-interfaces": "CMake stops here: ",
     "syntax": "",
     "undefined-name": "",
     "no-function": "",
@@ -43,7 +45,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     if script is None or package.builds_with not in ("ament_cmake", "ament_python", "cmake"):
         return
     for problem in script.problems:
-        if problem.kind in _KINDS:
+        if problem.kind in _KINDS and not (problem.kind == "no-interfaces" and package.unseen):
             path = relative(package, problem.span.path)
             yield Finding(f"{_KINDS[problem.kind]}{problem.message}", problem.span, path)
 
