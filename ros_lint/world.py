@@ -233,17 +233,22 @@ class World:
             if name not in self._members and (everywhere or own == NOTHING_KNOWN):
                 known += self.knowledge.known_elsewhere(name, "interfaces")
             whole = known[-1].complete and all(one.complete and one.possible for one in known if one != NOTHING_KNOWN)
-            self._interfaces[key] = (
-                frozenset([each for one in known for each in one.possible]) if whole else frozenset()
-            )
+            self._interfaces[key] = frozenset([each for one in known for each in one.possible]) if whole else frozenset()
         return self._interfaces[key]
 
     def python_modules(self, name: str) -> Known:
-        """Return the top-level Python modules. Interface packages have one of their own name."""
+        """Return the top-level Python modules. Interface packages have one of their own name.
+
+        One that is so only in other distributions may have it: people import from turtlesim what turtlesim_msgs has now.
+        """
         known = self._known(name, "modules")
         released = self.released(name) if self.layer(name) in ("underlay", "index") else None
-        if released is not None and released.interfaces and name not in known.names:
+        if released is None or name in known.names:
+            return known
+        if released.interfaces:
             return known._replace(names=(*known.names, name))
+        if known.complete and any(one.possible for one in self.knowledge.known_elsewhere(name, "interfaces")):
+            return known._replace(maybe=(*known.maybe, name))
         return known
 
     # --- names that are none of packages --------------------------------------------------------------------------

@@ -18,6 +18,12 @@ def prefix(tmp_path: Path) -> str:
     return write_prefix(tmp_path)
 
 
+@pytest.mark.parametrize("distro", ["humble", "jazzy", "kilted", "lyrical"])
+def test_what_is_an_interface_package_in_some_distribution_provides_its_module(distro: str) -> None:
+    # The messages of turtlesim have moved to turtlesim_msgs; tutorials and students import them from turtlesim as ever.
+    assert world(distro=distro).by_import("turtlesim.msg").names == ("turtlesim",)
+
+
 @pytest.mark.parametrize(
     ("header", "package"),
     [
