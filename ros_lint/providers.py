@@ -149,7 +149,7 @@ def _installed_modules(script: BuildScript) -> Iterator[str]:
     """Yield the modules whose files are put by themselves where Python looks for them."""
     for provided in script.provides:
         if provided.path.endswith(".py") and provided.importable:
-            top = provided.path.rpartition("-packages/")[2].partition("/")[0].removesuffix(".py")
+            top = provided.path.partition("-packages/")[2].partition("/")[0].removesuffix(".py")
             if top != "__init__":
                 yield top
 
