@@ -3,13 +3,16 @@
 
 A path below somebody's home directory (`/home/jay/ros2_ws/src/robot/config/robot.yaml`), written out in a launch file, a
 program, a model, parameters or a build script. And a path to a file of a package from the folder that its sources are in
-(`src/robot/config/robot.yaml`), or from the workspace in whoever's home (`~/ros2_ws/src/robot/config/robot.yaml`).
+(`src/robot/config/robot.yaml`), or from the workspace in whoever's home (`~/ros2_ws/src/robot/config/robot.yaml`). And one
+from the folder of the package, `config/robot.yaml`, that a launch file gives to a node for its parameters, gives to RViz, or
+includes.
 
 ## Why it matters
 
 It is there on one machine only. On the next one, in a container and on the robot the launch stops, or a node starts without
 its parameters; and where the path leads into the sources, it passes by what is installed. One that begins with `src/` is there
-for whoever starts the program in the root of the workspace.
+for whoever starts the program in the root of the workspace, and `config/robot.yaml` for whoever launches in the folder of the
+package: it counts from there, and not from the launch file.
 
 ## How to fix it
 
@@ -29,7 +32,9 @@ nothing: its `meshdir` counts from the folder of the file. One path in several f
   read.
 - Of paths that are put together, such as `'/home/' + user` and `join(root, 'src/robot')`, and of `~`: these are meant for
   whoever runs it. But `~/ros2_ws/src/robot/map.yaml` is told where a package of the workspace has that file.
-- Of `src/` and `~` in build scripts, and where no package of the workspace has such a file.
+- Of `src/` and `~` in build scripts, and where no package of the workspace has such a file. Of `config/robot.yaml` where the
+  package has no such file, for a process whose folder the launch file sets (`cwd`), and among arguments that only the program
+  knows.
 - The confidence is high where the path leads to a file of this workspace, or into a folder of its sources, and the file that
   names it is used: installed, built or launched. It is medium for other paths, which may be right on the machine that the
   package is made for, for a workspace beside the homes of users (`/home/ws/src`), which is one of a container, in records of
@@ -41,19 +46,25 @@ from __future__ import annotations
 import posixpath
 import re
 from collections.abc import Iterator, Mapping
+from itertools import pairwise
 from typing import NamedTuple
 
 from ros_lint.api import (
     Confidence,
     Facet,
     Finding,
+    LaunchAction,
+    LaunchValue,
     MachinePath,
     Package,
     Related,
     Rule,
     Severity,
+    Span,
     Workspace,
+    defaults_of,
     everything,
+    filled,
     folders_of,
     is_apart,
     launchable,
@@ -83,8 +94,13 @@ class _Inside(NamedTuple):
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    if not package.machine_paths:
-        return
+    if package.machine_paths:
+        yield from _written_out(package, workspace)
+    yield from _from_the_package(package, workspace)
+
+
+def _written_out(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    """Speak of paths below a home directory, and of those that begin with ``src/``."""
     used = _used(package)
     by_file: dict[tuple[str, str], list[tuple[MachinePath, _Inside | None]]] = {}
     for each in package.machine_paths:
@@ -108,6 +124,48 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             Related("and here" if other.path == first.path else f"and {other.path}", other.span) for other, _ in others
         )
         yield Finding(says, first.span, first.path, related, confidence=sure)
+
+
+def _from_the_package(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    """Speak of files of the package that launch files name as they lie in it: such a path counts from where people launch."""
+    if not package.launch:
+        return
+    files = frozenset(package.files)
+    named: dict[str, list[tuple[bool, Span]]] = {}
+    for launch in launchable(package):
+        defaults = defaults_of(launch.file)
+        for action in everything(launch.file.actions):
+            for value in _read_by_path(action):
+                texts = filled(value, defaults)
+                path = posixpath.normpath(texts[0]) if len(texts) == 1 else ""
+                if path in files and all(name != "cwd" for name, _ in action.arguments):
+                    named.setdefault(path, []).append((launch.installed, value.span))
+    for path, places in named.items():
+        inside = _Inside(package.name, path, whole=False, program="")
+        install = "install it, and " if _is_left_out(inside, workspace) else ""
+        # Of one path in several places, the finding lies where a launch file is installed that says it.
+        (installed, first), *others = sorted(places, key=lambda place: not place[0])
+        yield Finding(
+            f"{path} is found from the folder of {package.name} only: {install}look it up in its share directory",
+            first,
+            path,
+            tuple(Related("and here", each) for _, each in others),
+            confidence=Confidence.HIGH if installed else Confidence.MEDIUM,
+        )
+
+
+def _read_by_path(action: LaunchAction) -> Iterator[LaunchValue]:
+    """Yield what names a file that is opened where the launch is started: parameters, displays and included launch files."""
+    if action.kind == "include" and action.target is not None:
+        yield action.target
+    if action.kind in ("node", "component"):
+        yield from (value for name, value in action.parameters if not name)
+    words = [value for name, value in action.arguments if not name] if action.kind == "node" else []
+    yield from (file for flag, file in pairwise(words) if _GIVES_FILE.issuperset(flag.texts))
+
+
+_GIVES_FILE = frozenset({"-d", "--display-config", "--params-file"})
+"""Options of RViz and of every node."""
 
 
 def _where(path: str) -> str:
