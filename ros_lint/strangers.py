@@ -82,5 +82,41 @@ def meant(package: Package, workspace: Workspace) -> frozenset[str]:
         if workspace.world.standing(name) == "unknown" and package in known.get(name, ()):
             for stranger in strangers(name, [package]):
                 what = workspace.world.meant(name, python=stranger.runs_python)
-                found.update([what.name] if what else ())
-    return frozenset(found)
+                found.add(what.name if what else used_instead(stranger, workspace))
+    return frozenset(found - {""})
+
+
+def used_instead(stranger: Stranger, workspace: Workspace) -> str:
+    """Return what a name must mean that CMake does not know: the only one like it that is used and not declared, or "".
+
+    The same words, in whatever order, are meant for sure; another name is where nothing but the manifest has the wrong one.
+    """
+    package, name = stranger.package, stranger.name
+    words = _words(name)
+    near = [use.package for use in package.uses if len(use.package) == len(name) and _words(use.package) == words]
+    near += workspace.world.suggest(name, python=stranger.runs_python)
+    lacking = [other for other in dict.fromkeys(near) if _is_lacking(package, other)]
+    same = [other for other in lacking if _words(other) == words]
+    if len(same) == 1 and name not in _mentioned(package):
+        return same[0]
+    return lacking[0] if len(lacking) == 1 and not is_named(stranger) else ""
+
+
+def is_named(stranger: Stranger) -> bool:
+    """Whether anything but the manifest names it, so that there may be such a package after all."""
+    package, name = stranger.package, stranger.name
+    return name in _mentioned(package) or name in package.traces or any(name in use.providers for use in package.uses)
+
+
+def _mentioned(package: Package) -> set[str]:
+    return {mention.name.partition("::")[0] for mention in package.built.mentions}
+
+
+def _words(name: str) -> list[str]:
+    return sorted(name.lower().replace("-", "_").split("_"))
+
+
+def _is_lacking(package: Package, name: str) -> bool:
+    """Whether a package needs another one for sure, and does not declare it."""
+    needed = any(use.package == name and use.sure and not use.optional for use in package.uses)
+    return needed and not package.declares(name)

@@ -8,6 +8,7 @@ from ros_lint.evidence import used_names
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Use
 from ros_lint.needs import covered, needs, undeclared
+from ros_lint.strangers import meant
 from ros_lint.unknowns import may_bring
 from ros_lint.workspace import Workspace
 from tests.one_package import loaded
@@ -131,6 +132,15 @@ def test_a_key_brings_the_keys_of_the_packages_that_its_own_depends_on() -> None
     workspace = loaded(cmake("talker", "<depend>libpcl-all-dev</depend>", "find_package(Eigen3 REQUIRED)"))
     assert "eigen" not in [need.name for need, _ in undeclared(workspace.packages[0], workspace)]
     assert [need.brought for need in needs(workspace.packages[0], workspace) if need.name == "eigen"] == [True]
+
+
+@pytest.mark.parametrize(("declared", "used"), [("ament_auto_cmake", "ament_cmake_auto"), ("nimbus-msgs", "nimbus_msgs")])
+def test_what_a_wrong_name_must_mean_is_told_of_once(declared: str, used: str) -> None:
+    lines = f"find_package({used} REQUIRED)\nadd_executable(talker talker.cpp)"
+    code = {"talker_dot_cpp": f"#include <{used}/msg/state.hpp>\n"}
+    workspace = loaded(cmake("talker", f"<depend>{declared}</depend>", lines, **code))
+    assert used not in [need.name for need, _ in undeclared(workspace.packages[0], workspace)]
+    assert used in meant(workspace.packages[0], workspace)
 
 
 @pytest.mark.parametrize(("key", "library"), [("ffmpeg-dev", "FFMPEG"), ("python3-qt5-bindings", "Qt5")])

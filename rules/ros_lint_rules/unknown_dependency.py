@@ -43,11 +43,13 @@ from ros_lint.api import (
     called,
     declared_names,
     did_you_mean,
+    is_named,
     is_near_tool,
     may_be_package,
     programs,
     remove_dependency,
     strangers,
+    used_instead,
 )
 
 _CALLED_SO_BY = {"cmake": "find_package", "python": "Python", "system": "the system's package manager"}
@@ -117,7 +119,7 @@ def _unknown(stranger: Stranger, workspace: Workspace, renamed: dict[tuple[str, 
     what = f"{name} is neither a package nor a rosdep key ({known})"
     meant = world.meant(name, python=stranger.runs_python)
     other_library = ""
-    if meant and meant.by == "slip" and not world.is_package(meant.name) and _is_named(stranger):
+    if meant and meant.by == "slip" and not world.is_package(meant.name) and is_named(stranger):
         other_library, meant = meant.name, None  # what the code calls so, too, is no slip for the library of somebody else
     fix = None
     of_cmake = not stranger.runs_python and bool(world.knowledge.names.cmake(name))
@@ -127,12 +129,11 @@ def _unknown(stranger: Stranger, workspace: Workspace, renamed: dict[tuple[str, 
         message = f"{what}, but what {_caller('system', installing[0])} calls it: write {' or '.join(installing[:_MOST_KEYS])}"
     elif meant is None:
         near = [other for other in world.suggest(name, python=stranger.runs_python) if other != other_library]
-        lacking = [] if _is_named(stranger) else [other for other in near if _is_lacking(stranger.package, other)]
         hint = did_you_mean(near, "") or "correct it, or add what provides it"
-        if len(lacking) == 1:
-            hint = f"write {lacking[0]}, which is used and not declared"
+        if lacking := used_instead(stranger, workspace):
+            hint = f"write {lacking}, which is used and not declared"
             sure = Confidence.HIGH
-            fix = Fix.of(f"write {lacking[0]} for {name}", *_rename(stranger, lacking[0]))
+            fix = Fix.of(f"write {lacking} for {name}", *_rename(stranger, lacking))
         message = f"{what}: {hint}"
     else:
         # What is written like a key is not what anybody calls it.
@@ -158,19 +159,6 @@ def _unknown(stranger: Stranger, workspace: Workspace, renamed: dict[tuple[str, 
         confidence=sure,
         package=stranger.package.name,
     )
-
-
-def _is_named(stranger: Stranger) -> bool:
-    """Whether anything but the manifest names it, so that there may be such a package after all."""
-    package, name = stranger.package, stranger.name
-    mentions = {mention.name.partition("::")[0] for mention in package.built.mentions}
-    return name in mentions or name in package.traces or any(name in use.providers for use in package.uses)
-
-
-def _is_lacking(package: Package, name: str) -> bool:
-    """Whether a package needs another one for sure, and does not declare it."""
-    needed = any(use.package == name and use.sure and not use.optional for use in package.uses)
-    return needed and not package.declares(name)
 
 
 def _caller(by: str, key: str) -> str:
