@@ -344,6 +344,14 @@ def test_two_findings_of_a_rule_on_a_line_are_one_result() -> None:
     assert len(result["fixes"]) == 1
 
 
+def test_a_fix_of_several_findings_on_a_line_is_there_once() -> None:
+    issues = [issue for issue in ISSUES if issue.rule.name == "undeclared-dependency"]
+    (fix,) = [issue.finding.fix for issue in issues if issue.finding.fix]
+    both = tuple(issue._replace(finding=issue.finding._replace(fix=fix)) for issue in issues)
+    (result,) = run_of(EVERYTHING._replace(issues=both))["results"]
+    assert len(result["fixes"]) == 1
+
+
 @pytest.mark.parametrize(
     ("version", "semantic"),
     [("1.2.3", "1.2.3"), ("1.2", "1.2.0"), ("1.2.3rc1", "1.2.3-rc1"), ("1.2.3.dev4+gabc", "1.2.3-dev4.gabc"), ("x", "0.0.0-x")],

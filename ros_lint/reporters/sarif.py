@@ -152,8 +152,8 @@ def _result(group: Group, codes: dict[str, int], texts: Texts, hashes: dict[tupl
         ]
     if finding.steps:
         result["codeFlows"] = [{"threadFlows": [{"locations": list(_steps(finding))}]}]
-    if fixes := [_fix(issue.finding.fix) for issue in group if issue.finding.fix]:
-        result["fixes"] = fixes
+    if fixes := dict.fromkeys(issue.finding.fix for issue in group if issue.finding.fix):
+        result["fixes"] = [_fix(fix) for fix in fixes]  # each once: the schema asks for it, and one edit may mend several
     return result
 
 
