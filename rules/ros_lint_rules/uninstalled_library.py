@@ -15,7 +15,8 @@ stop: "exports the library 'x' which couldn't be found".
 
 ## How to fix it
 
-`install(TARGETS x ARCHIVE DESTINATION lib LIBRARY DESTINATION lib RUNTIME DESTINATION bin)`. The fix adds this rule.
+`install(TARGETS x ARCHIVE DESTINATION lib LIBRARY DESTINATION lib RUNTIME DESTINATION bin)`. The fix adds this rule. Of a
+library with plugins, which nobody links, the export can be taken away instead.
 
 ## When it keeps silent
 
@@ -29,6 +30,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros_lint.api import (
+    EXPORTING_PLUGINS,
     HEADERS,
     REGISTERING,
     BuildScript,
@@ -97,11 +99,12 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
 
 def _astray(package: Package) -> Iterator[Finding]:
     """Speak of exported libraries that are installed where ament_cmake_export_libraries does not look for them."""
+    loaded = EXPORTING_PLUGINS in package.built.calls
     for name, place in astray(package, (".so", ".a")).items():
         if exported := _exported(package, name):
             yield Finding(
                 f"the library {name} is exported, but installed to lib/{package.name}, where find_package() does not look; "
-                "install it to lib",
+                f"install it to lib{', or take the export away, as plugins are loaded and not linked' if loaded else ''}",
                 place.span,
                 name,
                 (Related("it is exported here", exported),),
