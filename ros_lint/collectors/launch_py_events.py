@@ -69,8 +69,8 @@ def later(walker: Walker, made: Made, *names: str) -> list[LaunchAction]:
 def _opaque_function(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
     arguments = items(walker.machine, made.get(-1, "args")) if made.get(-1, "args") is not None else []
     keywords = plain(made.get(-1, "kwargs"))
-    before = walker.machine.conditions
-    walker.machine.conditions = ()
+    before, variables = walker.machine.conditions, walker.machine.variables
+    walker.machine.conditions, walker.machine.variables = (), []
     try:
         result = walker.run(
             made.get(0, "function"),
@@ -79,8 +79,11 @@ def _opaque_function(walker: Walker, made: Made, conditions: Conditions) -> list
             made,
         )
     finally:
-        walker.machine.conditions = before
-    return walker.actions(result, conditions, place_of(made)) if result is not None else []
+        walker.machine.conditions, its_own = before, walker.machine.variables
+        walker.machine.variables = variables
+    # What it sets may hang on arguments that are declared by then, and on none that come later.
+    found = walker.actions(its_own, conditions, place_of(made))
+    return [*found, *walker.actions(result, conditions, place_of(made))] if result is not None else found
 
 
 def _for_each(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
