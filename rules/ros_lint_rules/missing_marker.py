@@ -50,7 +50,8 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             fix = _add(slot, f"({setup_edits.quoted(slot, _MARKERS)}, [{marker_too}])")
         astray = next((provided for provided in script.provides if provided.source == marker), None)
         where = f"installed to {astray.path.rpartition('/')[0]}" if astray else "not installed"
-        way_out = f"install it to {_MARKERS}" if astray else f"add {marker} to data_files"
+        adds = f"add {marker}" if marker in package.files else f"create an empty file {marker}, and add it"
+        way_out = f"install it to {_MARKERS}" if astray else f"{adds} to data_files"
         yield Finding(
             f"the marker of the package is {where}, so ROS finds it only where colcon adds one; {way_out}",
             astray.span if astray else place,
