@@ -415,3 +415,43 @@ def test_variables_that_the_file_sets_itself() -> None:
     (started,) = expand(file, {}).started
     assert started.parameters == (("", ("/maps/hall.yaml",)),)
     assert started.environment == (("PLACE", ("/maps",)),)
+
+
+def test_parameters_that_are_given_under_conditions() -> None:
+    text = (
+        HEAD
+        + """
+    files = {'indoor': '/in.yaml', 'outdoor': '/out.yaml'}
+
+    def start(context):
+        place = LaunchConfiguration('place').perform(context)
+        parameters = [files[place], '/fast.yaml' if LaunchConfiguration('fast').perform(context) == 'true' else '/slow.yaml']
+        if place == 'outdoor':
+            parameters.append({'rain': True})
+        return [Node(package='a', executable='b', parameters=parameters)]
+
+    places = DeclareLaunchArgument('place', default_value='indoor')
+    speeds = DeclareLaunchArgument('fast', default_value='false')
+    return LaunchDescription([places, speeds, OpaqueFunction(function=start)])
+"""
+    )
+    _, file = collect("launch/a.launch.py", text)
+    (started,) = expand(file, {}).started
+    assert started.parameters == (("", ("/in.yaml",)), ("", ("/slow.yaml",)))
+    (started,) = expand(file, {"place": "outdoor", "fast": "true"}).started
+    assert started.parameters == (("", ("/out.yaml",)), ("", ("/fast.yaml",)), ("rain", ("True",)))
+
+
+def test_a_file_of_parameters_under_a_condition_is_named_under_it() -> None:
+    text = (
+        HEAD
+        + """
+    share = get_package_share_directory('p')
+    file = share + ('/humble.yaml' if os.environ['ROS_DISTRO'] == 'humble' else '/later.yaml')
+    more = share + '/more.yaml'
+    return LaunchDescription([Node(package='a', executable='b', parameters=[file, more])])
+"""
+    )
+    _, file = collect("launch/a.launch.py", text)
+    named = {one.name: (one.conditional, one.distros == ("humble",)) for one in file.references if one.kind == "file"}
+    assert named == {"humble.yaml": (True, True), "later.yaml": (True, False), "more.yaml": (False, False)}

@@ -172,11 +172,15 @@ def _parameters(walker: Walker, made: Made) -> tuple[tuple[str, LaunchValue], ..
     every = items(walker.machine, made.keywords["parameters"]) or [made.keywords["parameters"]]
     for given, node in zip(every, _elements(made.written(-1, "parameters"), len(every)), strict=True):
         for one in alternatives(given):
-            _parameter(walker, one.value, node, made, found)
+            parameters = _parameter(walker, one.value, node, made)
+            if one.conditions:
+                parameters = [(name, value._replace(conditions=one.conditions)) for name, value in parameters]
+            found += parameters
     return tuple(found)
 
 
-def _parameter(walker: Walker, value: Value, node: ast.expr, made: Made, found: list[tuple[str, LaunchValue]]) -> None:
+def _parameter(walker: Walker, value: Value, node: ast.expr, made: Made) -> list[tuple[str, LaunchValue]]:
+    found: list[tuple[str, LaunchValue]] = []
     waiting = [("", value, node)]
     for _ in range(_MOST_PARAMETERS):
         if not waiting:
@@ -196,6 +200,7 @@ def _parameter(walker: Walker, value: Value, node: ast.expr, made: Made, found: 
             # What is not known is mostly a dictionary of parameters, and no file.
             known = isinstance(one, (list, tuple)) or _names_file(one)
             found.append(("" if known else UNKNOWN, walker.text(one, place, made.source)))
+    return found
 
 
 def _elements(node: ast.expr, count: int) -> list[ast.expr]:

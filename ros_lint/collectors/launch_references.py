@@ -98,8 +98,14 @@ class References:
             if name == "prefix":
                 self._prefix(value, conditional)
         for value, reads in values_of(action):
-            if not _is_dull(value.texts, self._carriers):
+            if _is_dull(value.texts, self._carriers):
+                continue
+            if not value.conditions:
                 self._paths(value, action.package_span, conditional, reads)
+                continue
+            with self._under(value.conditions, lent=self._lent) as somewhere:
+                if somewhere:
+                    self._paths(value, action.package_span, conditional=True, reads=reads)
         for child in action.children:
             self._action(child, conditional)
 

@@ -16,6 +16,8 @@ class LaunchValue(NamedTuple):
     span: Span
     exact: bool = False
     """Whether ``span`` covers the only text and nothing else, so that a fix can put another one there."""
+    conditions: tuple[LaunchCondition, ...] = ()
+    """Of a parameter or a file of them: what must be so for it to be given. All of them must hold."""
 
 
 class LaunchCondition(NamedTuple):

@@ -330,7 +330,11 @@ class _Run:
             _joined_namespaces(scope.namespace, self._texts(action.namespace, scope) or ("",)),
             (
                 *(scope.parameters if is_node else ()),
-                *((name, self._texts(value, scope)) for name, value in action.parameters),
+                *(
+                    (name, self._texts(value, scope))
+                    for name, value in action.parameters
+                    if not value.conditions or self._filling.truth(value.conditions, scope)[0] is not False
+                ),
             ),
             (
                 *(scope.remappings if is_node else ()),
