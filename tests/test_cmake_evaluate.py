@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from ros_lint.facts.sight import Facet
+from ros_lint.facts.sight import ANYTHING, Facet
 from ros_lint.interpret.cmake import evaluate
 from ros_lint.interpret.cmake_sources import Sources
 from tests.cmake_runs import HEAD, hidden, mentioned, paths, run, sources
@@ -360,3 +360,21 @@ def test_a_file_in_a_folder_that_is_not_known(path: str, unsure: bool) -> None:
     arch = "find_package(Acme REQUIRED)\nset(ARCH x86)\nif(CMAKE_SYSTEM_PROCESSOR STREQUAL arm)\nset(ARCH arm)\nendif()\n"
     script = run(f"{arch}install(FILES {path} DESTINATION lib)", ("lib/x86/liba.so", "lib/arm/liba.so"))
     assert list(paths(script).values()) == [unsure]
+
+
+@pytest.mark.parametrize(
+    ("name", "hides"),
+    [
+        ('ament_index_get_resource(AT at acme)\ninclude("${AT}/acme-version.cmake")', Facet.USES),
+        ("include(${acme_DIR}/acme-version.cmake)", Facet.USES),
+        ("include(${acme_DIR}/../more.cmake)", Facet.USES),
+        ('ament_index_get_resource(AT at acme)\ninclude("${AT}/${UNKNOWN}.cmake")', ANYTHING),
+        ("include(${CMAKE_CURRENT_BINARY_DIR}/made.cmake)", ANYTHING),
+        ("include(${acme_FILES}/acme-version.cmake)", ANYTHING),
+    ],
+)
+def test_scripts_of_other_packages_are_made_to_be_called(name: str, hides: Facet) -> None:
+    unknown = "if($ENV{X})\nset(UNKNOWN a)\nelse()\nset(UNKNOWN b)\nendif()\n"
+    script = run(f"find_package(acme REQUIRED)\n{unknown}{name}\ninstall(FILES package.xml DESTINATION share/pkg)")
+    assert hidden(script) == hides
+    assert paths(script) == {"share/pkg/package.xml": False}

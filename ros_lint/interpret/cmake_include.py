@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import posixpath
+import re
 from typing import Final
 
 from ros_lint.collectors.cmake_syntax import Command, Parsed
@@ -10,8 +11,8 @@ from ros_lint.facts.sight import ANYTHING, Facet
 from ros_lint.interpret.cmake_flow import run_file
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_sources import AROUND
-from ros_lint.interpret.cmake_state import Frame, Variables
-from ros_lint.interpret.cmake_values import BINARY, FOREIGN, HOLE, is_fixed
+from ros_lint.interpret.cmake_state import NEXT, Frame, Variables
+from ros_lint.interpret.cmake_values import ATOM, BINARY, FOREIGN, HOLE, PREFIX, TREE, is_fixed
 from ros_lint.tree import is_outside, towards
 from ros_lint.tree import join as join_path
 
@@ -26,6 +27,8 @@ def _include(run: Run, args: list[str]) -> int | None:
             _module(run, name)
         return None
     if not is_fixed(name):
+        if _is_registered(run):
+            return _skip(run, "a file that another package has registered")
         run.hide(ANYTHING, "include() of a file whose name is not known")
         run.open_world = True
         return None
@@ -53,6 +56,8 @@ def _include_file(run: Run, name: str, optional: bool) -> int | None:
         if not folders or HOLE not in folders:
             run.hide(Facet.USES, f"include() of the module {name}, which is not in sight")
         return None
+    if name.startswith(f"/{ATOM}") and not name.startswith((TREE, BINARY, PREFIX)):
+        return _skip(run, f"{posixpath.basename(name)} of another package")
     path = run.source(name)
     if path is not None and not name.startswith(BINARY) and path not in run.files:
         run.problem("missing-file", f"include() of {path}, which does not exist", run.where(name), path)
@@ -86,9 +91,24 @@ def _include_foreign(run: Run, name: str) -> int | None:
         source = next((file.source for file in helper.script.provides if file.path == installed), None)
         if source is not None and source in helper.sources.scripts:
             return include_foreign(run, package, source)
+    return _skip(run, f"{installed} of {package}")
+
+
+def _skip(run: Run, what: str) -> int:
+    """Pass over a file of another package: it is made to be called, as a module is, and not to install things itself."""
     run.open_world = True
-    run.hide(Facet.USES, f"include() of {installed} of {package} cannot be followed")
-    return None
+    run.hide(Facet.USES, f"include() of {what} cannot be followed")
+    return NEXT
+
+
+def _is_registered(run: Run) -> bool:
+    """Return whether include() is given a path that begins with what another package has put into the index."""
+    command = run.frames[-1].command
+    match = _BEGINS.match(command.args[0][0]) if command is not None and command.args else None
+    return match is not None and match[1] in run.of_index
+
+
+_BEGINS: Final = re.compile(r"\$\{(\w+)\}/[\w./-]+\Z")
 
 
 def include_foreign(run: Run, package: str, source: str) -> int | None:

@@ -60,7 +60,7 @@ def _install_files(run: Run, args: list[str], program: bool) -> None:
     for value in parts[""]:
         plain, certain = sure(value)
         name = rename or posixpath.basename(plain)
-        if destination is None or HOLE in name or not is_fixed(name):
+        if destination is None or "$<" in name or not is_fixed(name):
             hide(run, destination, "install() of files whose names or place are not known")
             continue
         _install_file(run, value, join_path(destination, name), program, certain, "OPTIONAL" in parts)

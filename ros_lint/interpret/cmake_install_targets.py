@@ -7,8 +7,8 @@ from typing import Final
 
 from ros_lint.facts.build import Provided
 from ros_lint.facts.sight import Facet, Opaque
-from ros_lint.interpret.cmake_run import InstalledTarget, Run
-from ros_lint.interpret.cmake_state import Properties
+from ros_lint.interpret.cmake_run import Run
+from ros_lint.interpret.cmake_state import InstalledTarget, Properties
 from ros_lint.interpret.cmake_target_headers import DESTINATION, FILE_SET, installed_headers
 from ros_lint.interpret.cmake_targets import output_name, real_target
 from ros_lint.interpret.cmake_values import is_known, sure

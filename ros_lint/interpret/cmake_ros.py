@@ -270,6 +270,12 @@ def _unknown(run: Run, args: list[str]) -> None:
             run.set(arg, HOLE)
 
 
+def _of_index(run: Run, args: list[str]) -> None:
+    """``ros_lint_of_index(variable)``: a variable holds what some package has registered in the index."""
+    _unknown(run, args)
+    run.of_index.update(args)
+
+
 def _package_xml(run: Run, _args: list[str]) -> None:
     """``ros_lint_package_xml()``: the manifest gives name and version."""
     name = run.sources.name
@@ -332,6 +338,7 @@ COMMANDS: Final[dict[str, Handler]] = {
     "ros_lint_needed": _needed,
     "ros_lint_package": _package,
     "ros_lint_unknown": _unknown,
+    "ros_lint_of_index": _of_index,
     "ros_lint_package_xml": _package_xml,
     "ros_lint_test_executable": _test_executable,
     "ros_lint_vendor": _vendor,

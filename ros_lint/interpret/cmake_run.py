@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Mapping
 from functools import lru_cache
-from typing import Final, NamedTuple
+from typing import Final
 
 from ros_lint.collectors.cmake_syntax import LITERAL, OPEN, PLAIN, QUOTED, UNQUOTED, Argument, Command, Parsed
 from ros_lint.facts.build import REPOSITORIES, Component, Provided
@@ -14,7 +14,7 @@ from ros_lint.facts.sources import Mention, Purpose, Via
 from ros_lint.interpret.cmake_expand import ExpansionError, expand, template, templates
 from ros_lint.interpret.cmake_paths import Paths
 from ros_lint.interpret.cmake_sources import AROUND, Helper, Sources
-from ros_lint.interpret.cmake_state import MISSING, Frame, Properties, Variables
+from ros_lint.interpret.cmake_state import MISSING, Frame, InstalledTarget, Properties, Variables
 from ros_lint.interpret.cmake_values import ATOM, HOLE, MAYBE, flat, split, wild
 from ros_lint.knowledge.cmake_commands import SOFT_VARIABLES, UNKNOWN_VARIABLES
 from ros_lint.text import Span
@@ -24,22 +24,6 @@ MOST_STEPS: Final = 100_000
 DEEPEST: Final = 60
 """Calls within calls. CMake allows 1,000; real packages need less than 20."""
 _OF_ROS: Final = frozenset({"ROS_DISTRO", "ROS_VERSION", "ROS_PYTHON_VERSION"})
-
-
-class InstalledTarget(NamedTuple):
-    """A target to install. Its file name is known only when the whole script has run."""
-
-    target: str
-    executables: str | None
-    """Where an executable goes, None when it is not installed."""
-    libraries: str | None
-    archives: str | None
-    conditional: bool
-    span: Span
-    exported_in: str = ""
-    """The set that it is exported in."""
-    headers: tuple[tuple[str, str | None], ...] = ()
-    """Where headers go that belong to it, by artifact."""
 
 
 @lru_cache(maxsize=4096)
@@ -111,6 +95,8 @@ class Run(Paths):
         """Up to which CMake the policies are new."""
         self.included: Properties = Properties()
         """Packages of the workspace whose CMake code has run."""
+        self.of_index: set[str] = set()
+        """Variables that were set to what some package has put into the index."""
         self.loose: dict[str, list[Span]] = {}
         """Where packages are searched without being required."""
         self.generated: set[str] = set()

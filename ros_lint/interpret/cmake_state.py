@@ -9,6 +9,7 @@ from ros_lint.collectors.cmake_syntax import Command
 from ros_lint.interpret.cmake_blocks import Body
 from ros_lint.interpret.cmake_values import HOLE, certainly_set, merge, unpaired
 from ros_lint.knowledge.cmake_commands import VARIABLES
+from ros_lint.text import Span
 
 Exit = int
 """How a piece of script can end: a set of the bits below."""
@@ -281,6 +282,22 @@ def _merged(mapping: Mapping[str, Any], values: Sequence[Any], default: int | No
                 usual = next(at for at, one in enumerate(alternatives) if one is options[wanted])
         return Choice(tuple(alternatives), usual)
     return there[0]
+
+
+class InstalledTarget(NamedTuple):
+    """A target to install. Its file name is known only when the whole script has run."""
+
+    target: str
+    executables: str | None
+    """Where an executable goes, None when it is not installed."""
+    libraries: str | None
+    archives: str | None
+    conditional: bool
+    span: Span
+    exported_in: str = ""
+    """The set that it is exported in."""
+    headers: tuple[tuple[str, str | None], ...] = ()
+    """Where headers go that belong to it, by artifact."""
 
 
 class Frame:

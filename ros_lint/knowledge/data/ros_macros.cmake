@@ -51,7 +51,7 @@ function(ament_index_register_resource resource_name)
 endfunction()
 
 function(ament_index_get_resource var)
-  ros_lint_unknown(${var})
+  ros_lint_of_index(${var})
   set(${var} "${${var}}" PARENT_SCOPE)
 endfunction()
 
