@@ -378,3 +378,9 @@ def test_scripts_of_other_packages_are_made_to_be_called(name: str, hides: Facet
     script = run(f"find_package(acme REQUIRED)\n{unknown}{name}\ninstall(FILES package.xml DESTINATION share/pkg)")
     assert hidden(script) == hides
     assert paths(script) == {"share/pkg/package.xml": False}
+
+
+@pytest.mark.parametrize("regex", ["(x+)+y", "((x|z)*)*y", "(a|x+)+z"])
+def test_an_expression_that_would_take_for_ever_is_not_tried(regex: str) -> None:
+    script = run(f'string(REGEX REPLACE "{regex}" "" name "{"x" * 200}")\ninstall(FILES ${{name}} DESTINATION share/pkg)')
+    assert hidden(script) == Facet.SHARE

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class RegexError(Exception):
-    """CMake refuses the expression, or does something else with it in other versions."""
+    """CMake refuses the expression, does something else with it in other versions, or takes for ever with it, as we would."""
 
 
 @lru_cache(maxsize=512)
@@ -45,10 +45,16 @@ def _text(text: str) -> str:
     return text if text.isascii() else from_raw(text.encode("latin-1"))
 
 
+_MOST_MATCHES: Final = 10_000
+"""Of one expression in a text. More are taken for unknown."""
+
+
 class _Translator:
     def __init__(self, text: str) -> None:
         self.text = text
         self.at = 0
+        self.repeats = 0
+        """How many pieces so far may be there any number of times."""
 
     def whole(self) -> str:
         found = self.branches()
@@ -75,6 +81,7 @@ class _Translator:
         return "".join(pieces), empty
 
     def piece(self) -> tuple[str, bool]:
+        before = self.repeats
         atom, empty = self.atom()
         sign = self.text[self.at : self.at + 1]
         if sign not in ("*", "+", "?"):
@@ -84,6 +91,10 @@ class _Translator:
         self.at += 1
         if self.text[self.at : self.at + 1] in ("*", "+", "?"):
             raise RegexError(self.text)
+        if sign != "?":
+            if self.repeats > before:
+                raise RegexError(self.text)  # (a+)+ tries every way to part a text
+            self.repeats += 1
         return f"{atom}{sign}", empty or sign != "+"
 
     def atom(self) -> tuple[str, bool]:
@@ -193,16 +204,18 @@ def every(regex: str, text: str) -> list[tuple[str, str, tuple[str, ...]]]:
     pattern = translated(regex)
     if pattern is None:
         raise RegexError(regex)
-    rest = _bytes(text)
+    whole = _bytes(text)
+    anchored = "^" in regex.replace("[^", "")
+    at = 0
     found: list[tuple[str, str, tuple[str, ...]]] = []
-    while match := pattern.search(rest):
-        if not match[0]:
+    while match := pattern.search(whole, at):
+        if not match[0] or len(found) > _MOST_MATCHES:
             raise RegexError(regex)
-        if found and "^" in regex.replace("[^", ""):
+        found.append((_text(whole[at : match.start()]), _text(match[0]), _groups(match)))
+        at = match.end()
+        if anchored and pattern.search(whole[at:]):
             raise RegexError(regex)
-        found.append((_text(rest[: match.start()]), _text(match[0]), _groups(match)))
-        rest = rest[match.end() :]
-    found.append((_text(rest), "", ()))
+    found.append((_text(whole[at:]), "", ()))
     return found
 
 
