@@ -244,3 +244,17 @@ def test_no_command_minds_that_it_is_given_nothing() -> None:
         if not name.startswith(("ros_lint_", "end", "else")):
             for arguments in ("", "${EMPTY}", "${EMPTY} ${EMPTY}", '""', "a", "a ${EMPTY} b"):
                 run(f"add_library(a a.cpp)\n{name}({arguments})\n", ("a.cpp",))
+
+
+@pytest.mark.parametrize(
+    ("command", "hides"),
+    [
+        ("acme_set_compile_options(a)", Facet.USES),
+        ("pkg_acme_version(${PROJECT_NAME})", Facet.USES),
+        ("acme_add_filter(a)", Facet.USES | Facet.EXECUTABLES | Facet.LIBRARIES),
+        ("acme_static_library(a)", Facet.USES | Facet.EXECUTABLES | Facet.LIBRARIES),
+    ],
+)
+def test_what_ament_auto_installs_where_unknown_commands_run(command: str, hides: Facet) -> None:
+    script = run(f"find_package(ament_cmake_auto REQUIRED)\nfind_package(pk REQUIRED)\n{command}\nament_auto_package()")
+    assert hidden(script) == hides

@@ -246,7 +246,7 @@ def _language(run: Run, args: list[str]) -> int | None:
         commands = parse(Text(frame.path, " ".join(args[2:]))).commands
         return run_file(run, commands, Frame(False, frame.path, frame.file, provider=frame.provider))
     if mode in ("CALL", "EVAL", "DEFER"):
-        run.open_world = run.wild = True
+        run.open_world = run.wild = run.builds = True
         run.hide(ANYTHING, f"what cmake_language({mode}) runs is not known")
     elif len(args) > 1:
         run.set(args[-1], HOLE)

@@ -62,7 +62,7 @@ def _include_file(run: Run, name: str, optional: bool) -> int | None:
     if path is not None and not name.startswith(BINARY) and path not in run.files:
         run.problem("missing-file", f"include() of {path}, which does not exist", run.where(name), path)
         return None
-    run.open_world = run.wild = True
+    run.open_world = run.wild = run.builds = True
     shown = run.relative(name) or name.replace(BINARY, "the build folder").replace("\1", "")
     run.hide(ANYTHING, f"include() of {shown} cannot be followed")
     return None
@@ -154,7 +154,7 @@ def _add_subdirectory(run: Run, args: list[str]) -> int | None:
     script = join_path(path or "", _TOP)
     parsed = run.script(script) if path is not None else None
     if path is None or (parsed is None and is_outside(path)):
-        run.open_world = run.wild = True
+        run.open_world = run.wild = run.builds = True
         run.hide(ANYTHING, "add_subdirectory() of a folder that is not in sight")
         return None
     if not (run.unsure or run.muted or is_outside(path)):
@@ -166,7 +166,7 @@ def _add_subdirectory(run: Run, args: list[str]) -> int | None:
         run.bundled[last] = None  # a library with a folder of its own, or one that is not checked out
     if parsed is None:
         if run.is_folder(path):
-            run.open_world = run.wild = True
+            run.open_world = run.wild = run.builds = True
             run.hide(ANYTHING, f"add_subdirectory() of {path}, which has no CMakeLists.txt in sight", inside=path)
         else:
             run.problem("missing-folder", f"add_subdirectory() of {path}, which does not exist", run.where(name), path)

@@ -23,6 +23,8 @@ from ros_lint.tree import join as join_path
 
 _PRODUCER = re.compile(r"install|program|executable|node|script|package|component|launch|resource|share|deploy|xacro|module")
 """Names of unknown commands that may well install something."""
+_BUILDER = re.compile(r"librar|executable|target|plugin|component|node|kernel|module|build|(?:\A|_)add(?:_|\Z)")
+"""Names of unknown commands that may well build something."""
 _TESTER = re.compile(
     r"(?:\A|_)(?:\w*test\w*|lint\w*|gmock|pytest|coverage|benchmark\w*|check\w*|cpplint|cppcheck|flake8)(?:_|\Z)"
 )
@@ -45,6 +47,7 @@ def foreign(run: Run, name: str, args: list[str]) -> int | None:
     hidden = Facet.USES
     if not _TESTER.search(name):
         run.wild = True
+        run.builds = run.builds or _BUILDER.search(name) is not None
         if _PRODUCER.search(name):
             hidden = ANYTHING
         elif _is_given_data(run, args):

@@ -85,6 +85,8 @@ class Run(Paths):
         """Whether code that is not in sight has run."""
         self.wild = False
         """Whether that code may have set any variable."""
+        self.builds = False
+        """Whether that code may have built targets."""
         self.settable: set[str] = set()
         """Variables that the user may set from outside: options and cache entries."""
         self.tested: set[str] = set()
@@ -182,6 +184,8 @@ class Run(Paths):
             return None
         if name.endswith("_FOUND") and self.packages.get(name[:-6]) == "1":
             return "1"
+        if name in (f"{self.name}_LIBRARIES", f"{self.name}_EXECUTABLES"):
+            return HOLE if self.builds else None  # where ament_auto notes what the package builds
         if self.wild and not name.startswith("CMAKE_"):
             return HOLE
         if len(self.prefixes) != len(self._folded):
