@@ -455,3 +455,20 @@ def test_a_file_of_parameters_under_a_condition_is_named_under_it() -> None:
     _, file = collect("launch/a.launch.py", text)
     named = {one.name: (one.conditional, one.distros == ("humble",)) for one in file.references if one.kind == "file"}
     assert named == {"humble.yaml": (True, True), "later.yaml": (True, False), "more.yaml": (False, False)}
+
+
+def test_an_empty_text_in_place_of_what_is_not_known_names_nothing() -> None:
+    text = (
+        HEAD
+        + """
+    name = (unknown() or '').strip()
+    robot = os.getenv('ROBOT') or 'burger'
+    share = Path(get_package_share_directory('p'))
+    (share / 'models' / name / 'model.sdf').read_text()
+    (share / 'models' / robot / 'model.sdf').read_text()
+    return LaunchDescription([])
+"""
+    )
+    _, file = collect("launch/a.launch.py", text)
+    named = {one.name: one.conditional for one in file.references if one.kind == "file"}
+    assert named == {"models/burger/model.sdf": True}

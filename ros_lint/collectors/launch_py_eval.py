@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from ros_lint.collectors.launch_py_bindings import bind
@@ -15,9 +16,11 @@ from ros_lint.collectors.launch_py_objects import (
     Conditions,
     Frame,
     Guarded,
+    Raised,
     Union,
     Unknown,
     Value,
+    alternatives,
     plain,
     union,
     written,
@@ -145,18 +148,25 @@ def _unary(machine: Machine, node: ast.UnaryOp, frame: Frame) -> Value:
 def _boolean(machine: Machine, node: ast.BoolOp, frame: Frame) -> Value:
     stop_at = isinstance(node.op, ast.Or)
     perhaps: list[Value] = []
+    passed: Conditions = ()
     for part in node.values:
-        value = machine.evaluate(part, frame)
+        with machine.under(*passed):
+            value = machine.evaluate(part, frame)
         if part is not node.values[-1]:
             note(machine, value, "tested", part, frame)
-        answer, _ = truth(machine, value)
-        if answer is stop_at:
-            return union([*perhaps, value]) if perhaps else value
-        if answer is None or part is node.values[-1]:
-            perhaps.append(value)
+        answer, condition = truth(machine, value)
+        if part is node.values[-1] or answer is stop_at:
+            if not (value == "" and any(isinstance(plain(one), Unknown) for one in perhaps)):  # any value, and so an empty text
+                perhaps.append(Guarded(value, passed) if passed else value)
+            break
+        if answer is None:
+            condition = machine.fresh(condition)
+            ends = condition if stop_at else opposite_of(condition)
+            perhaps.append(Guarded(value, (*passed, ends)))
+            passed = (*passed, opposite_of(ends))
     if len(perhaps) == 1:
         return perhaps[0]
-    together = _together(perhaps, "or" if stop_at else "and")
+    together = _together([plain(one) for one in perhaps], "or" if stop_at else "and")
     return union(perhaps) if together is None else together
 
 
@@ -251,7 +261,14 @@ def _call(machine: Machine, node: ast.Call, frame: Frame) -> Value:
             machine.lose(value)
     if not isinstance(function, (Guarded, Union)):
         return machine.call(function, arguments, keywords, node, frame)
-    return each(function, lambda one: machine.call(one, arguments, keywords, node, frame))
+    # Each is called only where it is the one.
+    found: list[Value] = []
+    for one in alternatives(plain(function)):
+        with suppress(Raised), machine.under(*one.conditions):
+            found.append(Guarded(machine.call(one.value, arguments, keywords, node, frame), one.conditions))
+    if not found:
+        raise Raised
+    return union(found)
 
 
 def _lambda(machine: Machine, node: ast.Lambda, frame: Frame) -> Value:
