@@ -265,13 +265,24 @@ def _public(package: Package, workspace: Workspace, script: BuildScript) -> dict
     """Return what installed headers include of ROS packages, and of libraries that vendor packages wrap, with the places."""
     is_package = workspace.world.is_package
     installed = _installed(script)
+    finds = found_names(package, script)
     uses: dict[str, list[Use]] = {}
     for use in _includes(package):
         known = any(is_package(name) for name in use.providers if name == use.package or name.endswith(VENDOR))
+        known = known or (use.package in finds and _is_not_here(package, workspace, use))
         tool = any(name.startswith(_OF_TOOLS) for name in use.providers)
         if use.sure and known and not tool and relative(package, use.span.path) in installed:
             uses.setdefault(use.package, []).append(use)
     return uses
+
+
+def _is_not_here(package: Package, workspace: Workspace, use: Use) -> bool:
+    """Whether a header is of a package that is neither here nor released: it is declared by the name that its headers have.
+
+    Only headers of interfaces, and those that packages of other distributions have, are known to be of a package.
+    """
+    away = workspace.world.standing(use.package) in ("unknown", "elsewhere")
+    return away and use.name.startswith(f"{use.package}/") and bool(package.declares(use.package) & ~Role.TEST)
 
 
 def _usable(package: Package, workspace: Workspace, script: BuildScript) -> set[str]:
