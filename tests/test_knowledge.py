@@ -195,6 +195,8 @@ def test_rosdep_keys_are_asked_for_the_platform_of_the_distribution() -> None:
         ("OgreVector3.h", "rviz_ogre_vendor"),
         ("moveit/benchmarks/server.h", "moveit_ros_benchmarks"),
         ("autoware/adapi_specs/routing.hpp", "autoware_adapi_specs"),
+        ("mosquitto.h", "mosquitto-dev"),
+        ("cxxopts.hpp", "libcxxopts-dev"),
         ("vector", "-"),
         ("sys/types.h", "-"),
         ("unistd.h", "-"),
