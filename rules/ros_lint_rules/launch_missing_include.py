@@ -18,7 +18,7 @@ mesh that is not there, RViz and Gazebo show nothing.
 
 ## How to fix it
 
-Correct the path; the message names files of the same name that the package does install.
+Correct the path; the message names files of the same name that the package does install, or the package that has the file.
 
 ## When it keeps silent
 
@@ -139,7 +139,7 @@ def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
         meant = written or _is_left_over(twin, owner, others_there, workspace)
         sure = meant and workspace.surely_lacks(owner, "launch", path)
         yield Finding(
-            f"{owner} has no {path}{_hint(path, others_there)}",
+            f"{owner} has no {path}{_hint(path, others_there) or _owner(package, path, workspace)}",
             best.span,
             path,
             several(Related("also named here", other.span) for other in others),
@@ -275,6 +275,15 @@ def _files_without(owner: str, path: str, kind: str, workspace: Workspace) -> tu
     if path in names or any(name.startswith(f"{path}/") for name in names):
         return None
     return tuple(sorted(names))
+
+
+def _owner(package: Package, path: str, workspace: Workspace) -> str:
+    """Return that another package has a file: the one that names it, or else the only one of the workspace."""
+    packages = [one for one in workspace.packages if any(p.path == f"share/{one.name}/{path}" for p in one.built.provides)]
+    owners = {one.name for one in packages}
+    if package.name in owners:
+        return f"; {package.name} has it"
+    return f"; {owners.pop()} has it" if len(owners) == 1 else ""
 
 
 def _hint(path: str, names: tuple[str, ...]) -> str:
