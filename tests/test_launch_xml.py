@@ -19,6 +19,8 @@ def xml(body: str) -> list[str]:
         ("a.launch", '<launch><node pkg="a" type="b" name="c"/></launch>', None),
         ("a.launch", '<launch><include file="$(find a)/launch/b.launch"/></launch>', None),
         ("a.launch", "<launch><rosparam file='x'/></launch>", None),
+        ("a.launch", "<launch><group ns='a'><!-- x --> <param name='b' value='1'/></group></launch>", None),
+        ("a.launch", "<launch><group><node pkg='a' exec='b'><param name='b' value='1'/></node></group></launch>", "xml"),
         ("a.launch.xml", '<launch><node pkg="a" exec="b"/><include file="$(find a)/b"/></launch>', "xml"),
         ("package.xml", "<package><description><launch/></description></package>", None),
         ("a.xml", "<!-- <launch> --><library/>", None),

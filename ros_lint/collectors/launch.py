@@ -27,7 +27,8 @@ _ROOT = re.compile(r"<launch(?=[\s/>])")
 # What only ROS 1 understands, and what only ROS 2 does. A file with both is ROS 2 with leftovers.
 _ROS1 = re.compile(
     r"<(?:rosparam|machine)\b|<(?:node|test)\b[^>]*?\stype\s*=|\$\((?:arg|find|optenv)\s"
-    r"|\spass_all_args\s*=|\sclear_params\s*=|<arg\b[^>]*?\sdoc\s*=|<launch>\s*(?:<!--(?:[^-]|-(?!->))*-->\s*)*<param\b"
+    r"|\spass_all_args\s*=|\sclear_params\s*=|<arg\b[^>]*?\sdoc\s*="
+    r"|<(?:launch|group\b[^>]*)>\s*(?:<!--(?:[^-]|-(?!->))*-->\s*)*<param\b"
     r"|<param\b[^>]*?\s(?:command|textfile|binfile)\s*="
 )
 _ROS2 = re.compile(
