@@ -16,6 +16,7 @@
 #   ros_lint_headers(scoped)                 include/ is installed, to include/<package> if scoped or as of Kilted
 #   ros_lint_generate(paths...)              files come into being during the build
 #   ros_lint_unknown(variables...)           variables hold something that cannot be known here
+#   ros_lint_of_index(variables...)          likewise, and it is what some package has put into the index
 #   ros_lint_extras(files...)                CMake code for packages that find this one
 #   ros_lint_test_executable(target ...)     a program that tests; options of the ament test commands are left out
 #   ros_lint_runs(files or folders...)       an interpreter runs these as tests
