@@ -23,7 +23,8 @@ exports. A plugin that opens its parameters by itself gets `$(find robot)/`, whi
 anything: the launch file gives such ones. A map finds its image beside it. A program is started by `ros2 run`, or as a node.
 What belongs to the machine, such as data, a device or what is written there, becomes a launch argument or a parameter
 without such a default. What the share directory lacks is installed first, as the message says. A model for MuJoCo looks up
-nothing: its `meshdir` counts from the folder of the file. One path in several files of a package is told once.
+nothing: its `meshdir` counts from the folder of the file. The Python of an environment, as `executable` in `setup.cfg`, is
+`/usr/bin/env python3`: the one that is active. One path in several files of a package is told once.
 
 ## When it keeps silent
 
@@ -116,7 +117,8 @@ def _written_out(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for (file, _), found in by_file.items():
         first, inside = found[0]
         doubted = _is_of_container(first.path) or not _RECORDS.isdisjoint(file.split("/"))
-        sure = Confidence.HIGH if inside and file in used and not doubted else Confidence.MEDIUM
+        found_here = inside is not None and file in used and not doubted
+        sure = Confidence.HIGH if found_here or _is_interpreter(first, file) else Confidence.MEDIUM
         says = f"{first.path} {_where(first.path)}: {_way_out(first, inside, file, package, workspace)}"
         told.setdefault((says, sure), []).extend(found)
     for (says, sure), ((first, _), *others) in told.items():
@@ -168,6 +170,14 @@ _GIVES_FILE = frozenset({"-d", "--display-config", "--params-file"})
 """Options of RViz and of every node."""
 
 
+def _is_interpreter(machine: MachinePath, file: str) -> bool:
+    """Whether a path is what the programs of a Python package are started with: ``[build_scripts] executable``."""
+    return file == "setup.cfg" and _PYTHON.search(machine.path) is not None
+
+
+_PYTHON = re.compile(r"/bin/python[\d.]*\Z")
+
+
 def _where(path: str) -> str:
     if path.startswith("~"):
         return "is there only for whoever calls the workspace so"
@@ -175,6 +185,8 @@ def _where(path: str) -> str:
 
 
 def _way_out(machine: MachinePath, inside: _Inside | None, file: str, package: Package, workspace: Workspace) -> str:
+    if _is_interpreter(machine, file):
+        return "all programs of the package would start with it; write /usr/bin/env python3, or take it out"
     if inside is None:
         return "make it an argument, or a file of a package"
     if machine.written:
