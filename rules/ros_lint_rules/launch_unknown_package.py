@@ -41,7 +41,7 @@ elsewhere, check with the workspace that holds it as `--underlay`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from ros_lint.api import (
@@ -169,7 +169,7 @@ def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: W
     if meant is not None and world.is_package(meant.name):
         return _Verdict(f": {meant.name} is meant", Confidence.HIGH, meant.name)
     renamed = [other for other in workspace.by_name if other.endswith(f"_{name}")]
-    if len(renamed) == 1 and _may_have(renamed[0], places, workspace):
+    if len(renamed) == 1 and _may_have(renamed[0], places, workspace, all):
         return _Verdict(f": the workspace has {renamed[0]}", Confidence.HIGH, renamed[0])
     distro, date = workspace.target.distro, world.knowledge.date
     elsewhere = world.where_else(name)
@@ -182,7 +182,7 @@ def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: W
     if own and own.names.issuperset(wanted) and places[0].reference.kind == "node":
         return _Verdict(f": {package.name} itself installs {few(list(wanted))}", Confidence.HIGH, package.name)
     family = f"{package.name.partition('_')[0]}_{name}"
-    if "_" in name and world.is_package(family) and _may_have(family, places, workspace):
+    if "_" in name and world.is_package(family) and _may_have(family, places, workspace, all):
         return _Verdict(f": {family} is meant", Confidence.HIGH, family)
     ended = world.knowledge.names.end_of_life(name)
     if ended:
@@ -201,10 +201,12 @@ def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: W
     return _Verdict(hint, confidence, resembles=bool(near or reordered), known=bool(reordered))
 
 
-def _may_have(other: str, places: Sequence[_Place], workspace: Workspace) -> bool:
-    """Whether a package may have any of what is named of one that does not exist, if anything is."""
+def _may_have(
+    other: str, places: Sequence[_Place], workspace: Workspace, how_many: Callable[[Iterable[bool]], bool] = any
+) -> bool:
+    """Whether a package may have what is named of one that does not exist, any or all of it, if there is something."""
     named = [place.reference for place in places if place.reference.name]
-    return not named or any(_may_offer(other, reference, workspace) for reference in named)
+    return not named or how_many(_may_offer(other, reference, workspace) for reference in named)
 
 
 def _may_offer(other: str, reference: LaunchReference, workspace: Workspace) -> bool:
