@@ -286,8 +286,8 @@ def _is_yaml(file: str) -> bool:
     return file.endswith((".yaml", ".yml"))
 
 
-_STAGED = re.compile(r"(?:^|/)share/[^/]+/cmake/")
-"""Where builds put the CMake files of a package, in a folder that is packed or installed."""
+_STAGED = re.compile(r"(?:^|/)(?:build|share/[^/]+/cmake)/")
+"""Where builds put the CMake files of a package: their own folder, and one that is packed or installed."""
 _RECORDS = frozenset({"experiment", "experiments"})
 """Folders that say how something was tried."""
 
