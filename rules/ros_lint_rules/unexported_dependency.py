@@ -3,23 +3,27 @@
 
 Installed headers that include another package which `ament_export_dependencies()` does not name, and exported libraries that
 hand on targets of one: what `target_link_libraries()` is given without `PRIVATE`, and `ament_target_dependencies()` of packages
-that are known to export targets.
+that are known to export targets. And Qt where it is exported by its name alone, which says nothing of components.
 
 ## Why it matters
 
 Whoever finds this package gets neither the include directories nor the targets of the other one: its headers do not
 compile there, unless they happen to find the other package themselves. Where a library that `ament_export_targets()` exports
 hands on targets of the other one, `find_package()` of this package stops: "imported targets are referenced, but are missing".
+Qt5 and Qt6 are not found without components: then `find_package()` of this package stops as well.
 
 ## How to fix it
 
 Add `ament_export_dependencies(other)` before `ament_package()`, with the name that `find_package()` calls it by: `gz-sim` and
 not `gz_sim_vendor`. The fix does this; it needs `--unsafe-fixes`, for whoever finds this package then finds the other, too.
+Of Qt, which `ament_export_dependencies()` can give no components, write `find_package(Qt5 REQUIRED COMPONENTS Widgets)` into a
+CMake file, and give that to `ament_package(CONFIG_EXTRAS file.cmake)`, as `rviz_common` does.
 
 ## When it keeps silent
 
 - `ament_auto_package()` does the exporting, `rosidl_generate_interfaces()` that of its `DEPENDENCIES`, or a file of
   `CONFIG_EXTRAS` searches the other package itself.
+- Something that depends on Qt is exported before it, and finds it.
 - The header is not installed, or perhaps not, or the script cannot be followed everywhere.
 - The script does not find the other package, and the manifest does not declare it: that is another mistake.
 - Targets are handed on in functions or under conditions, or are those of a package that comes along with one that is exported.
@@ -41,7 +45,7 @@ has.
 from __future__ import annotations
 
 import re
-from collections.abc import Container, Iterator
+from collections.abc import Container, Iterable, Iterator
 
 from ros_lint.api import (
     HEADERS,
@@ -86,6 +90,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         together = sure if finding.confidence is Confidence.HIGH else names
         edit = cmake_edits.export_dependencies(package, " ".join(names), together) if names else None
         yield finding._replace(fix=Fix.of(f"export {few(names)}", edit, safe=False))
+    yield from _without_components(package, workspace)
 
 
 def _is_seen(package: Package) -> bool:
@@ -129,6 +134,40 @@ def _linked(package: Package, workspace: Workspace, told: Container[str]) -> Ite
         )
         related = several(Related("also handed on", span) for span in others)
         yield tuple(some) if some is sure else (), Finding(says, first, some[0], related, confidence=confidence)
+
+
+def _without_components(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    """Yield what is exported and found with components only, of which ament_export_dependencies() says none."""
+    script = package.script
+    if script is None or not _is_seen(package) or script.extras:
+        return
+    if any("EXTRAS" in text for call in called(package, "ament_package", anywhere=True) for text in call.texts):
+        return
+    before: list[str] = []
+    for call in called(package, "ament_export_dependencies", anywhere=True):
+        if call.blocks:
+            return
+        for index, name in enumerate(call.texts):
+            if name in _COMPONENTS_ONLY and _is_without(workspace, before, _COMPONENTS_ONLY[name]):
+                yield Finding(
+                    f"{name} is not found without components, and {call.name}() names none: whoever finds {package.name} stops; "
+                    "find it with them in a file that ament_package(CONFIG_EXTRAS) is given",
+                    call.span(index),
+                    name,
+                    confidence=Confidence.HIGH if _has_headers(script) else Confidence.MEDIUM,
+                )
+            before.append(name)
+
+
+def _is_without(workspace: Workspace, names: Iterable[str], keys: re.Pattern[str]) -> bool:
+    """Whether nothing that comes along with what CMake finds is a library of Qt, as far as that is known."""
+    packages = [provider for name in names for provider in workspace.world.by_cmake(name).names or (name,)]
+    closure = workspace.world.closure(packages)
+    return closure.complete and not any(keys.match(each) for each in closure)
+
+
+_COMPONENTS_ONLY = {"Qt5": re.compile("qt.*5|libqt5|rviz_"), "Qt6": re.compile("libqt6|qt6-|rviz_")}
+"""What CMake finds with components only, and what brings them: keys, and packages that find them for others."""
 
 
 def _has_headers(script: BuildScript) -> bool:
