@@ -3,8 +3,8 @@
 
 A dependency in `package.xml` whose name means nothing to anybody: no package of the workspace, of an underlay or of any
 distribution has it, and no rosdep key is called so. Misspelt packages, the name that CMake, Python, apt or pip use instead
-of the rosdep key, modules of Python itself, programs and modules of the package, groups of packages, and `ament_python`, which
-is a build type and no package. And a tag without a name.
+of the rosdep key, the folder that a package of the workspace lies in, modules of Python itself, programs and modules of the
+package, groups of packages, and `ament_python`, which is a build type and no package. And a tag without a name.
 
 ## Why it matters
 
@@ -121,6 +121,8 @@ def _unknown(stranger: Stranger, workspace: Workspace, renamed: dict[tuple[str, 
     other_library = ""
     if meant and meant.by == "slip" and not world.is_package(meant.name) and is_named(stranger):
         other_library, meant = meant.name, None  # what the code calls so, too, is no slip for the library of somebody else
+    if (meant is None or meant.by == "slip") and (lying := _in_folder(name, workspace)):
+        return _of_folder(stranger, f"{what}, but the folder of {lying}", lying)
     fix = None
     of_cmake = not stranger.runs_python and bool(world.knowledge.names.cmake(name))
     installing = () if of_cmake else world.knowledge.rosdep.installing(name)
@@ -159,6 +161,23 @@ def _unknown(stranger: Stranger, workspace: Workspace, renamed: dict[tuple[str, 
         confidence=sure,
         package=stranger.package.name,
     )
+
+
+def _in_folder(name: str, workspace: Workspace) -> str:
+    """Return the only package that lies in a folder of a name, "" if there is none or several."""
+    lying = {package.name for package in workspace.packages if package.path.rpartition("/")[2] == name}
+    return lying.pop() if len(lying) == 1 else ""
+
+
+def _of_folder(stranger: Stranger, what: str, meant: str) -> Finding:
+    package = stranger.package
+    own = meant == package.name
+    other = own or package.declares(meant)
+    way_out = f"remove it{'' if own else f', {meant} is declared, too'}" if other else f"write {meant}"
+    title = f"remove {stranger.name}" if other else f"write {meant} for {stranger.name}"
+    edits = _removal(stranger) if own else _rename(stranger, meant)
+    place = stranger.declared.depend.name_span
+    return Finding(f"{what}: {way_out}", place, stranger.name, fix=Fix.of(title, *edits), package=package.name)
 
 
 def _caller(by: str, key: str) -> str:
