@@ -12,8 +12,10 @@ import pytest
 
 from ros_lint.collectors.cmake_syntax import parse
 from ros_lint.interpret.cmake import evaluate
-from ros_lint.interpret.cmake_sources import Sources
+from ros_lint.interpret.cmake_sources import Around, Sources
+from ros_lint.script_sources import Surroundings
 from ros_lint.text import Text
+from ros_lint.tree import DiskTree
 
 FILES = {
     "CMakeLists.txt": False,
@@ -32,6 +34,10 @@ FILES = {
     "meshes/x.stl": False,
     "a b/c d.txt": False,
     "top.py": True,
+    "../shared/a.yaml": False,
+    "../shared/sub/tool.py": True,
+    "../shared/sub/c.launch.py": False,
+    "../more.py": True,
 }
 """Files, and whether they have the executable bit."""
 
@@ -50,8 +56,16 @@ _FOLDERS = (
     "meshes",
     "made",
     "made/sub/",
+    "../shared",
+    "../shared/",
+    "${CMAKE_CURRENT_SOURCE_DIR}/../shared/sub",
+    "../p/config",
+    "launch/../../shared/sub/",
 )
-_FILES = ("top.py", "scripts/run", "scripts/lib.py", "config/a.yaml", "launch/sub/c.launch.py", '"a b/c d.txt"', "./top.py")
+_FILES = (
+    "top.py", "scripts/run", "scripts/lib.py", "config/a.yaml", "launch/sub/c.launch.py", '"a b/c d.txt"', "./top.py",
+    "../more.py", "../shared/a.yaml",
+)  # fmt: skip
 _PATTERNS = (
     "*.py",
     "*.yaml",
@@ -135,7 +149,8 @@ def test_installed_files_are_those_of_cmake(tmp_path: Path) -> None:
     choice = random.Random(4)
     rules = [_rule(choice, number) for number in range(600)]
     script = "cmake_minimum_required(VERSION 3.16)\nproject(p NONE)\n" + _MADE + "\n".join(rules) + "\n"
-    folder = tmp_path / "p"
+    folder = tmp_path / "tree" / "p"
+    folder.mkdir(parents=True)
     for path, executable in FILES.items():
         place = folder / path
         place.parent.mkdir(parents=True, exist_ok=True)
@@ -156,7 +171,10 @@ def test_installed_files_are_those_of_cmake(tmp_path: Path) -> None:
 
     parsed = {"CMakeLists.txt": parse(Text("p/CMakeLists.txt", script))}
     executables = frozenset(path for path, executable in FILES.items() if executable)
-    result = evaluate(Sources("p", "p", sorted(FILES), parsed, executables))
+    seen = Surroundings(DiskTree(str(tmp_path / "tree")))
+    around = Around(seen.kind, seen.below, seen.script)
+    own = sorted(path for path in FILES if not path.startswith("../"))
+    result = evaluate(Sources("p", "p", own, parsed, executables, around=around))
     found = {provided.path: provided.program for provided in result.provides}
     assert not result.opaque
     assert not any(provided.conditional for provided in result.provides)
