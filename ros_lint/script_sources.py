@@ -30,7 +30,8 @@ class Parts(NamedTuple):
 class Surroundings:
     """A tree as the scripts of its packages see it; the methods are described where :class:`Around` is.
 
-    What lies behind a link that leads out of the tree is not in sight.
+    What lies behind a link that leads out of the tree is not in sight, nor what lies around a package that is reached by a
+    link: what ``..`` means there depends on who asks.
     """
 
     def __init__(self, tree: Tree) -> None:
@@ -39,6 +40,11 @@ class Surroundings:
         self._entries: dict[str, Mapping[str, Entry]] = {}
         self._files: dict[str, Sequence[str]] = {}
         self._scripts: dict[str, Parsed | None] = {}
+
+    def of(self, package: str) -> Around:
+        """Return what the scripts of a package see, given its path."""
+        plain = not package or self._tree.identity(package) == join(self._base, package)
+        return Around(self.kind, self.below, self.script) if plain else Around()
 
     def kind(self, path: str) -> str:
         folder, _, name = path.rpartition("/")
@@ -54,7 +60,8 @@ class Surroundings:
 
     def script(self, path: str) -> Parsed | None:
         if path not in self._scripts:
-            text = text_of(self._tree, path) if self.kind(path) == "file" else None
+            inside = self.kind(path) == "file" and is_below(self._tree.identity(path), self._base)
+            text = text_of(self._tree, path) if inside else None
             self._scripts[path] = parse(text) if text is not None else None
         return self._scripts[path]
 
@@ -104,7 +111,7 @@ def sources(tree: Tree, parts: Parts, around: Surroundings) -> Sources:
         unseen,
         texts,
         partial(_look, found, around),
-        Around(around.kind, around.below, around.script),
+        around.of(found.path),
     )
 
 

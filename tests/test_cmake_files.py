@@ -13,7 +13,7 @@ import ros_lint.interpret.cmake  # noqa: F401  (it fills the tables of commands)
 from ros_lint.collectors.cmake_syntax import parse
 from ros_lint.interpret import cmake_flow
 from ros_lint.interpret.cmake_run import Run
-from ros_lint.interpret.cmake_sources import Around, Sources
+from ros_lint.interpret.cmake_sources import Sources
 from ros_lint.interpret.cmake_state import Frame
 from ros_lint.interpret.cmake_values import HOLE, TREE, is_fixed
 from ros_lint.script_sources import Surroundings
@@ -92,8 +92,7 @@ def test_files_and_paths_are_those_of_cmake(tmp_path: Path) -> None:
 
     wrong = []
     unknown = 0
-    seen = Surroundings(DiskTree(str(tree)))
-    around = Around(seen.kind, seen.below, seen.script)
+    around = Surroundings(DiskTree(str(tree))).of("package")
     for number, line in enumerate(lines):
         run = Run(Sources("p", "package", sorted(FILES), {}, around=around), "", {}, lambda *_: None)
         run.versions = (3, 20)

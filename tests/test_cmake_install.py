@@ -12,7 +12,7 @@ import pytest
 
 from ros_lint.collectors.cmake_syntax import parse
 from ros_lint.interpret.cmake import evaluate
-from ros_lint.interpret.cmake_sources import Around, Sources
+from ros_lint.interpret.cmake_sources import Sources
 from ros_lint.script_sources import Surroundings
 from ros_lint.text import Text
 from ros_lint.tree import DiskTree
@@ -171,8 +171,7 @@ def test_installed_files_are_those_of_cmake(tmp_path: Path) -> None:
 
     parsed = {"CMakeLists.txt": parse(Text("p/CMakeLists.txt", script))}
     executables = frozenset(path for path, executable in FILES.items() if executable)
-    seen = Surroundings(DiskTree(str(tmp_path / "tree")))
-    around = Around(seen.kind, seen.below, seen.script)
+    around = Surroundings(DiskTree(str(tmp_path / "tree"))).of("p")
     own = sorted(path for path in FILES if not path.startswith("../"))
     result = evaluate(Sources("p", "p", own, parsed, executables, around=around))
     found = {provided.path: provided.program for provided in result.provides}

@@ -159,3 +159,25 @@ def test_a_link_out_of_the_tree_is_not_followed(tmp_path: Path) -> None:
         (package / "CMakeLists.txt").write_text(HEAD + INSTALL.format(f"../{folder}/config"))
         script = script_of(DiskTree(str(tmp_path / "tree")))
         assert ({one.path for one in script.provides}, bool(script.opaque)) == (paths, not paths)
+
+
+def test_a_script_that_is_a_link_out_of_the_tree_is_not_read(tmp_path: Path) -> None:
+    (tmp_path / "tree" / "p").mkdir(parents=True)
+    (tmp_path / "out.cmake").write_text(INSTALL.format("x"))
+    (tmp_path / "tree" / "x.cmake").symlink_to(tmp_path / "out.cmake")
+    (tmp_path / "tree" / "p" / "package.xml").write_text(manifest_text("p"))
+    (tmp_path / "tree" / "p" / "CMakeLists.txt").write_text(f"{HEAD}include(../x.cmake)\n")
+    assert script_of(DiskTree(str(tmp_path / "tree"))).opaque
+
+
+def test_around_a_package_that_is_reached_by_a_link_nothing_is_known(tmp_path: Path) -> None:
+    (tmp_path / "real" / "p").mkdir(parents=True)
+    (tmp_path / "ws" / "config").mkdir(parents=True)
+    (tmp_path / "ws" / "config" / "a.yaml").write_text("")
+    (tmp_path / "ws" / "p").symlink_to("../real/p")
+    (tmp_path / "real" / "p" / "package.xml").write_text(manifest_text("p"))
+    (tmp_path / "real" / "p" / "CMakeLists.txt").write_text(HEAD + INSTALL.format("../config"))
+    script = script_of(DiskTree(str(tmp_path)), "ws/p")
+    assert script.path == "ws/p/CMakeLists.txt"
+    assert script.opaque
+    assert not script.provides
