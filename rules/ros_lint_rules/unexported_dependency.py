@@ -10,7 +10,8 @@ that are known to export targets. And Qt where it is exported by its name alone,
 Whoever finds this package gets neither the include directories nor the targets of the other one: its headers do not
 compile there, unless they happen to find the other package themselves. Where a library that `ament_export_targets()` exports
 hands on targets of the other one, `find_package()` of this package stops: "imported targets are referenced, but are missing".
-Qt5 and Qt6 are not found without components: then `find_package()` of this package stops as well.
+Qt5 and Qt6 are not found without components: then `find_package()` of this package stops as well, but for those who have
+found Qt before.
 
 ## How to fix it
 
@@ -36,6 +37,7 @@ The confidence is medium when
 - an exported target or `ament_export_include_directories()` has the include directories of the other one written out;
 - the package exports no library that it builds, and the header belongs to one of the sources of a program or of a library, such
   as a plugin: what it declares can be linked nowhere else;
+- it is Qt without components, which those who need Qt themselves have found before;
 - targets are handed on by a package that installs no headers: its libraries are plugins, and nobody finds it by CMake.
 
 It is low when the header compiles nowhere else, because it includes a file that is not installed, or a package that only ROS 1
@@ -150,11 +152,11 @@ def _without_components(package: Package, workspace: Workspace) -> Iterator[Find
         for index, name in enumerate(call.texts):
             if name in _COMPONENTS_ONLY and _is_without(workspace, before, _COMPONENTS_ONLY[name]):
                 yield Finding(
-                    f"{name} is not found without components, and {call.name}() names none: whoever finds {package.name} stops; "
-                    "find it with them in a file that ament_package(CONFIG_EXTRAS) is given",
+                    f"{name} is not found without components, and {call.name}() names none: whoever finds {package.name} "
+                    f"and not {name} before stops; find it with them in a file that ament_package(CONFIG_EXTRAS) is given",
                     call.span(index),
                     name,
-                    confidence=Confidence.HIGH if _has_headers(script) else Confidence.MEDIUM,
+                    confidence=Confidence.MEDIUM,
                 )
             before.append(name)
 
