@@ -428,6 +428,7 @@ def test_parameters_that_are_given_under_conditions() -> None:
         parameters = [files[place], '/fast.yaml' if LaunchConfiguration('fast').perform(context) == 'true' else '/slow.yaml']
         if place == 'outdoor':
             parameters.append({'rain': True})
+        parameters.append(ParameterFile('/walls.yaml' if place == 'indoor' else '/trees.yaml', allow_substs=True))
         return [Node(package='a', executable='b', parameters=parameters)]
 
     places = DeclareLaunchArgument('place', default_value='indoor')
@@ -437,9 +438,9 @@ def test_parameters_that_are_given_under_conditions() -> None:
     )
     _, file = collect("launch/a.launch.py", text)
     (started,) = expand(file, {}).started
-    assert started.parameters == (("", ("/in.yaml",)), ("", ("/slow.yaml",)))
+    assert started.parameters == (("", ("/in.yaml",)), ("", ("/slow.yaml",)), ("", ("/walls.yaml",)))
     (started,) = expand(file, {"place": "outdoor", "fast": "true"}).started
-    assert started.parameters == (("", ("/out.yaml",)), ("", ("/fast.yaml",)), ("rain", ("True",)))
+    assert started.parameters == (("", ("/out.yaml",)), ("", ("/fast.yaml",)), ("rain", ("True",)), ("", ("/trees.yaml",)))
 
 
 def test_a_file_of_parameters_under_a_condition_is_named_under_it() -> None:

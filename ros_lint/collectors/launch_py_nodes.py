@@ -174,7 +174,8 @@ def _parameters(walker: Walker, made: Made) -> tuple[tuple[str, LaunchValue], ..
         for one in alternatives(given):
             parameters = _parameter(walker, one.value, node, made)
             if one.conditions:
-                parameters = [(name, value._replace(conditions=one.conditions)) for name, value in parameters]
+                held = one.conditions
+                parameters = [(name, value._replace(conditions=(*held, *value.conditions))) for name, value in parameters]
             found += parameters
     return tuple(found)
 
@@ -199,7 +200,8 @@ def _parameter(walker: Walker, value: Value, node: ast.expr, made: Made) -> list
         else:
             # What is not known is mostly a dictionary of parameters, and no file.
             known = isinstance(one, (list, tuple)) or _names_file(one)
-            found.append(("" if known else UNKNOWN, walker.text(one, place, made.source)))
+            name = "" if known else UNKNOWN
+            found += [(name, value) for value in walker.each_text(one, place, made.source)]
     return found
 
 

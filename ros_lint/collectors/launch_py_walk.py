@@ -182,6 +182,16 @@ class Walker:
             return LaunchValue(found, span)
         return LaunchValue(found, source.text.span(at, at + len(found[0])), exact=True)
 
+    def each_text(self, given: Value, node: ast.expr, source: Source) -> list[LaunchValue]:
+        """Return a value as a text; as one for each alternative, with what it depends on, where there is something."""
+        value = self.text(given, node, source)
+        if len(value.texts) == 1:
+            return [value]
+        found = [(text, launch_text.conditions_of(text)) for text in self._alternatives(given)]
+        if not all(conditions for _, conditions in found):
+            return [value]
+        return [value._replace(texts=(str(text),), conditions=conditions) for text, conditions in found]
+
     def package_span(self, value: LaunchValue | None) -> Span | None:
         """Return where the package is written that a path lies in."""
         for text in value.texts if value is not None else ():
