@@ -104,7 +104,7 @@ from ros_lint.report import Target
 from ros_lint.resource_files import uninstalled as uninstalled_resources
 from ros_lint.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
 from ros_lint.slips import did_you_mean, is_meant, similar
-from ros_lint.strangers import Stranger, declared_names, is_named, is_near_tool, meant, strangers, used_instead
+from ros_lint.strangers import Stranger, declared_names, is_named, is_near_tool, meant, misspelt, strangers, used_instead
 from ros_lint.suffixes import HEADERS
 from ros_lint.suppress import Outcome
 from ros_lint.text import Span, beginning
@@ -261,6 +261,7 @@ __all__ = [
     "may_bring",
     "may_run_built",
     "meant",
+    "misspelt",
     "near_names",
     "needed",
     "needs",

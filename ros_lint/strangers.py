@@ -76,27 +76,38 @@ def is_near_tool(name: str, workspace: Workspace) -> bool:
 @per_package
 def meant(package: Package, workspace: Workspace) -> frozenset[str]:
     """Return what a package must mean by those of its declared names that do not exist: nobody else need declare it."""
-    found: set[str] = set()
+    found = (workspace.world.meant(each.name, python=each.runs_python) for each in _unknown(package, workspace))
+    return frozenset([what.name for what in found if what]).union(misspelt(package, workspace).values())
+
+
+@per_package
+def misspelt(package: Package, workspace: Workspace) -> Mapping[str, str]:
+    """Return those of a package's declared names that must mean what it uses and does not declare, with what they mean."""
+    found: dict[str, str] = {}
+    for stranger in _unknown(package, workspace):
+        if not workspace.world.meant(stranger.name, python=stranger.runs_python):
+            found[stranger.name] = used_instead(stranger, workspace)
+    return {name: what for name, what in found.items() if what}
+
+
+def _unknown(package: Package, workspace: Workspace) -> Iterator[Stranger]:
     known = declared_names(workspace)
     for name in dict.fromkeys([declared.name for declared in package.declared]):
         if workspace.world.standing(name) == "unknown" and package in known.get(name, ()):
-            for stranger in strangers(name, [package]):
-                what = workspace.world.meant(name, python=stranger.runs_python)
-                found.add(what.name if what else used_instead(stranger, workspace))
-    return frozenset(found - {""})
+            yield from strangers(name, [package])
 
 
 def used_instead(stranger: Stranger, workspace: Workspace) -> str:
     """Return what a name must mean that CMake does not know: the only one like it that is used and not declared, or "".
 
-    The same words, in whatever order, are meant for sure; another name is where nothing but the manifest has the wrong one.
+    The same words, in whatever order and however joined, are meant for sure; another name is where nothing but the manifest has
+    the wrong one.
     """
     package, name = stranger.package, stranger.name
-    words = _words(name)
-    near = [use.package for use in package.uses if len(use.package) == len(name) and _words(use.package) == words]
+    near = [use.package for use in package.uses if _is_same(use.package, name)]
     near += workspace.world.suggest(name, python=stranger.runs_python)
     lacking = [other for other in dict.fromkeys(near) if _is_lacking(package, other)]
-    same = [other for other in lacking if _words(other) == words]
+    same = [other for other in lacking if _is_same(other, name)]
     if len(same) == 1 and name not in _mentioned(package):
         return same[0]
     return lacking[0] if len(lacking) == 1 and not is_named(stranger) else ""
@@ -112,8 +123,10 @@ def _mentioned(package: Package) -> set[str]:
     return {mention.name.partition("::")[0] for mention in package.built.mentions}
 
 
-def _words(name: str) -> list[str]:
-    return sorted(name.lower().replace("-", "_").split("_"))
+def _is_same(one: str, other: str) -> bool:
+    """Whether two names are of the same words, in any order, or joined otherwise: robot-talk, talk_robot and robottalk."""
+    first, second = (name.lower().replace("-", "_") for name in (one, other))
+    return sorted(first.split("_")) == sorted(second.split("_")) or first.replace("_", "") == second.replace("_", "")
 
 
 def _is_lacking(package: Package, name: str) -> bool:

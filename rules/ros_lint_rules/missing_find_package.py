@@ -56,6 +56,7 @@ from ros_lint.api import (
     found_names,
     is_cut_short,
     is_meant,
+    misspelt,
     relative,
     several,
     similar,
@@ -143,12 +144,13 @@ def _no_packages(package: Package, found: frozenset[str], workspace: Workspace) 
     """Yield what is given for a package and is none for sure: a target, or a slip for what is found.
 
     What is exported need not be found here. Who declares it, or has a module that finds it, knows more of it than is known.
+    What the manifest has by a wrong name is found once that is mended, which is told.
     """
     script = package.script
     assert script is not None
     world = workspace.world
     targets = {target.name for target in script.targets}
-    spelt = {name.lower() for name in found}
+    spelt = {name.lower() for name in found}.union(name.lower() for name in misspelt(package, workspace).values())
     for call in called(package, *_GIVEN, anywhere=True):
         if _REPEATED.intersection(call.blocks):
             continue

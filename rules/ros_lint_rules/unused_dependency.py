@@ -57,6 +57,7 @@ from ros_lint.api import (
     is_seen_whole,
     is_unseen_by_name,
     leaves_trace,
+    misspelt,
     remove_dependency,
     runs,
     satisfying,
@@ -120,10 +121,11 @@ def _unused(package: Package, workspace: Workspace) -> Iterator[tuple[Declared, 
     built = [each.name for each in package.declared if each.depend.tag in _TAGS and not each.depend.condition]
     used = used_names(built, package.uses)
     libraries = satisfying(package.uses)
+    wrong = misspelt(package, workspace)
     for declared in package.declared:
         depend = declared.depend
         name = depend.name
-        if depend.condition or name in used or sounds_unseen(world, name):
+        if depend.condition or name in used or name in wrong or sounds_unseen(world, name):
             continue
         if not (whole or is_library(world, name)):
             continue
