@@ -179,7 +179,7 @@ def _libraries(package: Package) -> Iterator[Finding]:
     script = package.script
     assert script is not None
     files = {provided.path.rpartition("/")[2] for provided in script.provides}
-    listed = listed_to_install(package)
+    listed = listed_to_install(package).union(provided.target for provided in script.provides)
     elsewhere = astray(package, (".so",))
     targets = {target.name: target for target in reversed(script.targets)}
     told: set[str] = set()
