@@ -123,6 +123,33 @@ setup(name='pkg', version='1' if os.environ.get('X') else '1', data_files=data_f
     assert not found.opaque
 
 
+def test_the_version_of_ros_is_known() -> None:
+    found = script(
+        """
+if int(os.environ['ROS_VERSION']) == 1 or os.getenv('ROS_PYTHON_VERSION') == '2':
+    setup(name='old')
+elif os.getenv('HOME') or 'X' in dict(os.environ):
+    setup(name='pkg', scripts=['scripts/tool.py'])
+else:
+    setup(name='pkg')
+"""
+    )
+    assert found.name == "pkg"
+    assert [(item.path, item.conditional) for item in found.provides] == [("bin/tool.py", True)]
+
+
+def test_keys_that_are_not_known_may_be_there() -> None:
+    found = script(
+        """
+options = {os.environ['KEY']: 'x', 'a': 'y'}
+scripts = ['scripts/tool.py'] if options.get('b', '') == 'x' or 'b' in options else []
+setup(name='pkg', version=options.get('a'), scripts=scripts)
+"""
+    )
+    assert found.version == "y"
+    assert [(item.path, item.conditional) for item in found.provides] == [("bin/tool.py", True)]
+
+
 def test_two_calls_are_both_conditional() -> None:
     found = script("if os.environ.get('X'): setup(name='a', scripts=['scripts/tool.py'])\nelse: setup(name='a')")
     assert found.name == "a"

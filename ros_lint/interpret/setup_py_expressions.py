@@ -242,13 +242,20 @@ class Expressions(ABC):
         for key_node, value_node in zip(node.keys, node.values, strict=True):
             value = self.value(value_node)
             if key_node is not None:
-                key = self.value(key_node)
-                found[key if certain(key) else REST] = value
+                self._enter(found, key_node, value)
             elif isinstance(value, dict):
                 found.update(value)
             else:
                 found[REST] = Unknown(f"the keys of {at(value_node)} are not known", value_node)
         return found
+
+    def _enter(self, found: dict[Value, Value], node: ast.expr, value: Value, sure: bool = True) -> None:
+        """Enter a value into a dict, by the key that an expression gives."""
+        key = self.value(node)
+        if sure and certain(key):
+            found[key] = value
+        else:
+            found[REST] = unknown_in([key]) or Unknown(f"whether {at(node)} is there is not known", node)
 
     def _subscript(self, node: ast.Subscript) -> Value:
         owner, key = self.value(node.value), self.value(node.slice)
@@ -321,8 +328,7 @@ class Expressions(ABC):
         found: dict[Value, Value] = {}
 
         def add(sure: bool) -> None:
-            key = self.value(node.key)
-            found[key if sure and certain(key) else REST] = self.value(node.value)
+            self._enter(found, node.key, self.value(node.value), sure)
 
         self._generate(node.generators, add)
         return found

@@ -13,7 +13,18 @@ from ros_lint.interpret import setup_py_methods, setup_py_sequences
 from ros_lint.interpret.setup_py_expressions import Expressions
 from ros_lint.interpret.setup_py_files import ROOT
 from ros_lint.interpret.setup_py_state import LeaveError
-from ros_lint.interpret.setup_py_values import Module, Native, Unknown, Value, globbed, is_path, located, path_of, unknown_in
+from ros_lint.interpret.setup_py_values import (
+    REST,
+    Module,
+    Native,
+    Unknown,
+    Value,
+    globbed,
+    is_path,
+    located,
+    path_of,
+    unknown_in,
+)
 
 if TYPE_CHECKING:
     from pathlib import PurePosixPath
@@ -51,6 +62,11 @@ def member(name: str) -> Value | None:
     if name in FUNCTIONS:
         return Native(name)
     return Module(name) if name in _MODULES else None
+
+
+def environment(node: ast.AST) -> dict[str, Value]:
+    """Return what is known of the environment of a build: what is the same in every one of ROS 2."""
+    return {"ROS_VERSION": "2", "ROS_PYTHON_VERSION": "3", REST: Unknown("os.environ is not known", node)}
 
 
 def builtin(name: str) -> Value | None:
@@ -165,6 +181,7 @@ FUNCTIONS: dict[str, Callable[..., Value]] = {
     "os.path.isdir": lambda program, _, path: program.files.is_folder(str(path)),
     "os.fspath": _on_texts(str),
     "os.getcwd": lambda *_: ROOT,
+    "os.getenv": lambda _, node, name, default=None: environment(node).get(name, environment(node)[REST]),
     "os.listdir": _listdir,
     "os.walk": lambda program, _, top, **__: program.files.walk(str(top)),
     "glob.glob": _glob,

@@ -8,7 +8,7 @@ from ros_lint.collectors.python_methods import TEXT_METHODS
 from ros_lint.interpret.setup_py_expressions import Expressions
 from ros_lint.interpret.setup_py_operators import LONGEST, check_format, check_size
 from ros_lint.interpret.setup_py_sequences import in_order
-from ros_lint.interpret.setup_py_values import Native, Value, certain, located, unknown_in
+from ros_lint.interpret.setup_py_values import REST, Native, Value, certain, located, unknown_in
 
 _METHODS: dict[type, frozenset[str]] = {
     str: TEXT_METHODS | {"format", "join", "replace"},
@@ -117,4 +117,6 @@ def _dict_method(
     if not certain(arguments[0]):
         program.taint(owner, node)
         return unknown_in(arguments)
+    if REST in owner and arguments[0] not in owner:
+        return owner[REST]
     return getattr(owner, name)(*arguments)

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable
 from typing import Any, Final
 
 from ros_lint.collectors.python_operators import COMPARISONS
-from ros_lint.interpret.setup_py_values import Unknown, Value, Word, certain, located, same, unknown_in
+from ros_lint.interpret.setup_py_values import REST, Unknown, Value, Word, certain, located, same, unknown_in
 
 LONGEST: Final = 100_000
 """Elements or characters of a value that is computed."""
@@ -78,6 +78,8 @@ def compare(operation: ast.cmpop, left: Value, right: Value) -> Value:
         if not certain(left) or isinstance(right, Unknown):
             return unknown_in([left, right])
         if isinstance(right, dict):
+            if REST in right and left not in right:
+                return right[REST]
             right = list(right)
         if not isinstance(right, str) and any(same(left, item) for item in right):
             return not negated

@@ -66,6 +66,8 @@ class Program(Expressions):
         return library.method(owner, name, node)
 
     def _member(self, module: str, name: str, node: ast.AST) -> Value:
+        if (module, name) == ("os", "environ"):
+            return library.environment(node)
         found = library.member(f"{module}.{name}")
         if found is not None:
             return found
