@@ -36,18 +36,21 @@ def registrations(source: Text, code: Sequence[int] = ()) -> tuple[Registration,
 
 
 _DEFINITION = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)((?:[^\\\n]|\\\r?\n|\\.)*)", re.MULTILINE)
-_NAME = re.compile(rf"\b(?:{'|'.join(_NAMES)})\b")
+_OF_COMPONENTS = _NAMES[0]
 
 
 def wrapped(source: Text) -> tuple[Opaque, ...]:
-    """Return where a C++ file defines a macro of its own that makes classes loadable: which ones, its calls say."""
+    """Return where a C++ file defines a macro of its own that makes components loadable: which ones, its calls say.
+
+    Plugins are looked for by the names in their descriptions, see :func:`ros_lint.traces.unwritten`.
+    """
     text = source.text
-    if "define" not in text or not any(name in text for name in _NAMES):
+    if "define" not in text or _OF_COMPONENTS not in text:
         return ()
     return tuple(
         Opaque(Facet.COMPONENTS, f"which classes {macro[1]}() makes loadable is not followed", source.span(*macro.span(1)))
         for macro in _DEFINITION.finditer(text)
-        if macro[1] not in _NAMES and _NAME.search(macro[2])
+        if macro[1] != _OF_COMPONENTS and _OF_COMPONENTS in macro[2]
     )
 
 

@@ -198,7 +198,7 @@ def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: W
     strange = package.declares(name) and not may_be_package(name)
     hint = f"{nowhere}{did_you_mean(near or reordered)}"
     confidence = Confidence.HIGH if strange else Confidence.MEDIUM
-    return _Verdict(hint, confidence, resembles=bool(near or reordered), known=bool(reordered))
+    return _Verdict(hint, confidence, resembles=bool(known or reordered), known=bool(reordered))
 
 
 def _may_have(
@@ -216,13 +216,18 @@ def _may_offer(other: str, reference: LaunchReference, workspace: Workspace) -> 
         known = {"node": workspace.world.executables, "include": workspace.world.launch_files}.get(reference.kind)
         return known is None or known(other).ask(name) != "missing"
     if reference.kind == "node":
-        return any((found := programs(one)) is None or name in found.names or name in found.elsewhere for one in packages)
+        return any((found := programs(one)) is None or _has_like(name, (*found.names, *found.elsewhere)) for one in packages)
     if reference.kind not in ("include", "file"):
         return True
     return any(
         one.hidden(Facet.SHARE) or name in one.files or any(each.path == f"share/{other}/{name}" for each in one.built.provides)
         for one in packages
     )
+
+
+def _has_like(name: str, programs: Iterable[str]) -> bool:
+    """Whether one of some programs has a name, alone or with more words: what renames a package renames its programs, too."""
+    return any(f"_{name}_" in f"_{program}_" for program in programs)
 
 
 def _reordered(name: str, workspace: Workspace) -> list[str]:
