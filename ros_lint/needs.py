@@ -14,7 +14,7 @@ from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Use, Via
 from ros_lint.knowledge.reach import Closure
 from ros_lint.knowledge.spelling import VENDOR, is_part, is_vendor
-from ros_lint.strangers import meant
+from ros_lint.strangers import meant, misspelt
 from ros_lint.text import Span
 from ros_lint.unknowns import may_bring
 from ros_lint.workspace import Package, Workspace, per_package
@@ -208,11 +208,11 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
     own. So is what is declared by another name, and a command of CMake that comes with what is to be declared anyway. Of what
     modules with parts of launch files name, nobody knows who takes it. Nor is it known of files that need what is declared under
     a condition, which does not hold here, whether they are for here; what CMake asks for is. A metapackage has no files that
-    could be looked up.
+    could be looked up. What a slip in a declared name must mean is told with that name already, so it is not sure, either.
     """
     unknown = all_declared(package, workspace).unknown
     found = []
-    otherwise = meant(package, workspace)
+    otherwise = meant(package, workspace).difference(misspelt(package, workspace).values())
     missing = [
         need
         for need in needs(package, workspace)
@@ -225,7 +225,7 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
             continue
         sure = need.sure and any(use.via != "launch" or use.role is _TEST for use in need.uses)
         sure = sure and (need.name not in elsewhere or any(use.via in _BUILT and use.sure for use in need.uses))
-        sure = sure and not _looks_into_nothing(need, workspace)
+        sure = sure and not (_looks_into_nothing(need, workspace) or is_miswritten(package, workspace, need))
         if workspace.world.standing(need.name) != "known":
             if comes_elsewhere(package, workspace, need.name) or _is_declared_as_key(package, workspace, need.name):
                 continue
@@ -233,6 +233,12 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
         uses = despite(unknown, need.uses, workspace) if sure and unknown else need.uses
         found.append((need._replace(uses=uses or need.uses), sure and bool(uses)))
     return tuple(found)
+
+
+def is_miswritten(package: Package, workspace: Workspace, need: Need) -> bool:
+    """Whether a slip in a declared name must mean what is needed: then that name is told, and what it means."""
+    names = set(misspelt(package, workspace).values())
+    return any(names.intersection(use.providers) for use in need.uses)
 
 
 _BUILT = frozenset({"cmake", "macro", "target"})

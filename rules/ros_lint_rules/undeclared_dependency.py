@@ -19,7 +19,7 @@ Where a tag is there, under a condition that does not hold, widen the condition.
 ## When it keeps silent
 
 - The package comes with a declared one: see `transitive-dependency` for uses that hang on such a chain.
-- It is declared by a wrong name: `unknown-dependency` says so.
+- It is declared by a wrong name: `unknown-dependency` says so. Then the confidence is medium, and nothing is fixed here.
 - The use is optional: `find_package(QUIET)` behind `if(X_FOUND)`, `try: import`, also `try: from .file import` of the file
   that has it, `__has_include`, an import where a comparison of `ROS_VERSION` says ROS 1. Then the confidence is low, and
   nothing is fixed. It is silent where the package needs this one itself.
@@ -60,6 +60,7 @@ from ros_lint.api import (
     Workspace,
     advice,
     comes_with_launching,
+    is_miswritten,
     is_somewhere,
     several,
     tells,
@@ -78,9 +79,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         certain = sure and not (need.name == "launch" and "launch_ros" in with_launch)  # which brings it
         says = "is used here, but package.xml does not declare it"
         severity = Severity.INFO if need.name in with_launch else None
-        yield _finding(package, workspace, need, says, Confidence.HIGH if certain else Confidence.MEDIUM)._replace(
-            severity=severity
-        )
+        finding = _finding(package, workspace, need, says, Confidence.HIGH if certain else Confidence.MEDIUM)
+        if is_miswritten(package, workspace, need):  # the fix is to write its name
+            finding = finding._replace(message=f"{need.name} is used here, and package.xml has a wrong name for it", fix=None)
+        yield finding._replace(severity=severity)
     for wish in wishes(package, workspace):
         if not wish.brought:
             says = "is used here if it is there, and package.xml does not declare it"
