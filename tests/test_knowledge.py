@@ -151,9 +151,9 @@ def test_what_is_known_before_and_after_tells_of_a_distribution_between(tmp_path
         "lyrical": ["both\tb\tX:talker"],
     }
     for distro, own in lines.items():
-        names = ["both", "later", "silent"]
-        rows = [f"{name}\t1.0.0\tc\t" for name in names]
-        (tmp_path / f"{distro}.idx").write_text("\n".join([f"#ros-index 1 distro={distro} date=2026-01-01 packages=3", *rows, ""]))
+        rows = [f"{name}\t1.0.0\tc\t" for name in ("both", "later", "silent")]
+        index = [f"#ros-index 1 distro={distro} date=2026-01-01 packages=3", *rows, ""]
+        (tmp_path / f"{distro}.idx").write_text("\n".join(index))
         (tmp_path / f"{distro}.prov").write_text("\n".join([f"#ros-provides 1 distro={distro} packages={len(own)}", *own, ""]))
     jazzy = Knowledge("jazzy", [str(tmp_path)])
 
