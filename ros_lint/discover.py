@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.collectors import manifest as manifests
+from ros_lint.environment import ROS_2
 from ros_lint.identify import (
     SIGNS,
     Folder,
@@ -42,7 +43,7 @@ _APART = frozenset((*SIGNS, "package.xml"))
 _BUILD_SCRIPTS = frozenset(("CMakeLists.txt", "setup.py", "setup.cfg", "pyproject.toml", "Cargo.toml", "build.gradle"))
 """Without one of these beside it, a manifest is data."""
 
-_CONTEXT = {"ROS_VERSION": "2", "ROS_PYTHON_VERSION": "3", "DISABLE_GROUPS_WORKAROUND": "1"}
+_CONTEXT = {**ROS_2, "DISABLE_GROUPS_WORKAROUND": "1"}
 
 
 class Skipped(NamedTuple):

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from ros_lint.environment import ROS_2
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -73,12 +75,7 @@ class Target(NamedTuple):
     @property
     def context(self) -> Mapping[str, str]:
         """Return the variables of package.xml conditions that are known (REP 149; reference, section A3)."""
-        return {
-            "ROS_VERSION": "2",
-            "ROS_PYTHON_VERSION": "3",
-            "ROS_DISTRO": self.distro,
-            "DISABLE_GROUPS_WORKAROUND": "1",
-        }
+        return {**ROS_2, "ROS_DISTRO": self.distro, "DISABLE_GROUPS_WORKAROUND": "1"}
 
 
 class NotChecked(NamedTuple):

@@ -8,6 +8,7 @@ from functools import lru_cache
 from typing import Final
 
 from ros_lint.collectors.cmake_syntax import LITERAL, OPEN, PLAIN, QUOTED, UNQUOTED, Argument, Command, Parsed
+from ros_lint.environment import ROS_2
 from ros_lint.facts.build import REPOSITORIES, Component, Provided
 from ros_lint.facts.sight import Facet, Opaque, Problem
 from ros_lint.facts.sources import Mention, Purpose, Via
@@ -23,7 +24,7 @@ MOST_STEPS: Final = 100_000
 """Commands that one package may run. Most real ones run less than 3,000, the largest with all its tests some 93,000."""
 DEEPEST: Final = 60
 """Calls within calls. CMake allows 1,000; real packages need less than 20."""
-_OF_ROS: Final = frozenset({"ROS_DISTRO", "ROS_VERSION", "ROS_PYTHON_VERSION"})
+_OF_ROS: Final = frozenset({"ROS_DISTRO", *ROS_2})
 
 
 @lru_cache(maxsize=4096)
@@ -208,14 +209,7 @@ class Run(Paths):
             return value
         if name in _OF_ROS and self.frames[-1].own:
             self._use_of_ros(name)
-        match name:
-            case "ROS_DISTRO":
-                return self.distro or HOLE
-            case "ROS_VERSION":
-                return "2"
-            case "ROS_PYTHON_VERSION":
-                return "3"
-        return HOLE
+        return (self.distro or HOLE) if name == "ROS_DISTRO" else ROS_2.get(name, HOLE)
 
     def _use_of_ros(self, name: str) -> None:
         """Note a variable that is set where one package is installed, and nowhere else that can be relied on (F2)."""

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from ros_lint.collectors import python_methods
+from ros_lint.environment import ROS_2
 from ros_lint.interpret import setup_py_methods, setup_py_sequences
 from ros_lint.interpret.setup_py_expressions import Expressions
 from ros_lint.interpret.setup_py_files import ROOT
@@ -66,7 +67,7 @@ def member(name: str) -> Value | None:
 
 def environment(node: ast.AST) -> dict[str, Value]:
     """Return what is known of the environment of a build: what is the same in every one of ROS 2."""
-    return {"ROS_VERSION": "2", "ROS_PYTHON_VERSION": "3", REST: Unknown("os.environ is not known", node)}
+    return {**ROS_2, REST: Unknown("os.environ is not known", node)}
 
 
 def builtin(name: str) -> Value | None:
@@ -102,6 +103,11 @@ def call(program: Expressions, function: Native, arguments: list[Value], keyword
 
 
 # --- functions. Each gets the program, the call, and its arguments
+
+
+def _variable(_: Expressions, node: ast.Call, key: str, *_default: Value, **_named: Value) -> Value:
+    known = environment(node)
+    return known.get(key, known[REST])
 
 
 def _glob(program: Expressions, _: ast.Call, pathname: str, **options: Value) -> Value:
@@ -181,7 +187,7 @@ FUNCTIONS: dict[str, Callable[..., Value]] = {
     "os.path.isdir": lambda program, _, path: program.files.is_folder(str(path)),
     "os.fspath": _on_texts(str),
     "os.getcwd": lambda *_: ROOT,
-    "os.getenv": lambda _, node, name, default=None: environment(node).get(name, environment(node)[REST]),
+    "os.getenv": _variable,
     "os.listdir": _listdir,
     "os.walk": lambda program, _, top, **__: program.files.walk(str(top)),
     "glob.glob": _glob,

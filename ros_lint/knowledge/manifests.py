@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros_lint.conditions import ConditionError, build_types, parse, truth, variables
+from ros_lint.environment import ROS_2
 from ros_lint.knowledge.index import BUILD_TYPES, INTERFACES, TAG_KINDS, Released
 
 if TYPE_CHECKING:
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
 
 def context(distro: str) -> Mapping[str, str]:
     """Return the variables that are known when a package is released (bloom; reference, section A3.3)."""
-    return {"ROS_VERSION": "2", "ROS_PYTHON_VERSION": "3", "ROS_DISTRO": distro}
+    return {**ROS_2, "ROS_DISTRO": distro}
 
 
 def describe(manifest: Manifest, variables_known: Mapping[str, str]) -> Released:
