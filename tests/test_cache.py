@@ -5,9 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from pkgutil import iter_modules
 
+import pytest
+
 from ros_lint import cache, facts
 from ros_lint.cache import Cache
 from ros_lint.collect import collect_all
+from ros_lint.facts.sight import Facet
+from ros_lint.rule import Severity
 from ros_lint.tree import DiskTree
 
 FILES = {
@@ -48,6 +52,13 @@ def test_what_is_kept_is_what_was_found(tmp_path: Path) -> None:
     assert repr(kept) == repr(found)  # which tells the classes, too
     (tmp_path / "ws" / "p" / "a.cpp").write_text("#include <d/e.hpp>\n")
     assert set(Cache(str(tmp_path / "cache"), "ws").fetch(tree, list(FILES))) == set(FILES) - {"p/a.cpp"}
+
+
+def test_enumerations_are_kept_whatever_way_python_writes_them_down(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Facet, "__reduce_ex__", lambda self, _: (getattr, (Facet, self.name)))
+    both = (Facet.USES, Facet.USES | Facet.SHARE, Severity.ERROR)
+    cache._save(str(tmp_path / "kept"), "state", both)
+    assert cache._load(str(tmp_path / "kept"), "state") == both
 
 
 def test_all_facts_can_be_kept_and_change_with_their_code() -> None:
