@@ -52,8 +52,22 @@ def is_cut_short(script: BuildScript) -> bool:
 
     A file that is to be installed and is not there hides nothing.
     """
-    stops = ("cmake-syntax", "missing-folder")
-    return any(problem.kind in stops or problem.subject.endswith(".cmake") for problem in script.problems)
+    return any(problem.kind in _STOPS for problem in script.problems)
+
+
+_STOPS = ("cmake-syntax", "missing-folder", "missing-script")
+
+
+def config_names(name: str) -> tuple[str, str]:
+    """Return how the file is called that find_package() reads for a name, in both forms."""
+    return f"{name}Config.cmake", f"{name.lower()}-config.cmake"
+
+
+def has_extras(package: Package) -> bool:
+    """Whether code of a package runs where it is found: files that ament_package(CONFIG_EXTRAS) is given, known or not."""
+    if package.built.extras:
+        return True
+    return any("CONFIG_EXTRAS" in text for call in called(package, *ENDS, anywhere=True) for text in call.texts)
 
 
 def installed_targets(call: Call) -> tuple[int, ...]:

@@ -106,7 +106,7 @@ def test_programs() -> None:
         ("configure_file(a.in ${CMAKE_CURRENT_SOURCE_DIR}/made.cpp)\nadd_library(a made.cpp)", []),
         ("add_custom_command(OUTPUT ${CMAKE_CURRENT_SOURCE_DIR}/made.cpp COMMAND x)\nadd_library(a made.cpp)", []),
         ("add_subdirectory(gone)", ["missing-folder"]),
-        ("include(gone.cmake)", ["missing-file"]),
+        ("include(gone.cmake)", ["missing-script"]),
         ("include(gone.cmake OPTIONAL)", []),
         ("install(TARGETS nobody DESTINATION lib)", ["undefined-target"]),
         ("rosidl_generate_interfaces(pkg msg/Gone.msg)", ["missing-file"]),

@@ -72,8 +72,8 @@ def evaluate(sources: Sources, distro: str = "", helpers: Mapping[str, Helper] =
     Conditions that cannot be decided are followed both ways; what such a branch provides is ``conditional`` and what it
     mentions ``optional``. Options have their default, and what the other branch would do is reported as conditional. What
     cannot be seen through is in ``opaque`` with the facet that it hides. Problems have the kinds "cmake-syntax",
-    "missing-file", "missing-folder" (of add_subdirectory), "no-interfaces", "undefined-target", "file-is-directory" and
-    "directory-is-file". Never raises for what the files hold.
+    "missing-file", "missing-folder" (of add_subdirectory), "missing-script" (of include), "no-interfaces", "undefined-target",
+    "file-is-directory" and "directory-is-file". Never raises for what the files hold.
     """
     run = Run(sources, distro, helpers, cmake_ros.foreign)
     path = join(sources.path, _TOP)

@@ -60,7 +60,7 @@ def _include_file(run: Run, name: str, optional: bool) -> int | None:
         return _skip(run, f"{posixpath.basename(name)} of another package")
     path = run.source(name)
     if path is not None and not name.startswith(BINARY) and path not in run.files:
-        run.problem("missing-file", f"include() of {path}, which does not exist", run.where(name), path)
+        run.problem("missing-script", f"include() of {path}, which does not exist", run.where(name), path)
         return None
     run.open_world = run.wild = run.builds = True
     shown = run.relative(name) or name.replace(BINARY, "the build folder").replace("\1", "")

@@ -35,6 +35,7 @@ from ros_lint.api import (
     Workspace,
     beginning,
     called,
+    config_names,
     is_cut_short,
     top_file,
 )
@@ -57,8 +58,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         return
     if any(opaque.span.path.endswith((".txt", ".cmake")) for opaque in package.hidden(ANYTHING)):
         return
-    configurations = (f"/{package.name}Config.cmake", f"/{package.name.lower()}-config.cmake")
-    if any(provided.path.endswith(configurations) for provided in script.provides):
+    if any(provided.path.rpartition("/")[2] in config_names(package.name) for provided in script.provides):
         return
     yield Finding(
         "ament_package() is never called, so the package will not be found once it is installed; call it last",

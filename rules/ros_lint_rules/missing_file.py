@@ -45,7 +45,7 @@ from ros_lint.api import (
     similar,
 )
 
-_KINDS = ("missing-file", "missing-folder", "file-is-directory")
+_KINDS = ("missing-file", "missing-folder", "missing-script", "file-is-directory")
 _KINDS_OF_INSTALL = ("DIRECTORY", "FILES", "PROGRAMS", "TARGETS")
 _WORKS = ("COMMAND", "ARGS", "WORKING_DIRECTORY")
 _RUNS = ("execute_process", "exec_program")

@@ -52,6 +52,7 @@ from ros_lint.api import (
     called,
     cmake_edits,
     come_along,
+    config_names,
     few,
     found_names,
     is_cut_short,
@@ -183,7 +184,7 @@ def _is_findable(package: Package, name: str, workspace: Workspace) -> bool:
     if "::" in name:
         return True  # CMake refuses it, which is told
     world = workspace.world
-    modules = (f"Find{name}.cmake", f"{name}Config.cmake", f"{name.lower()}-config.cmake")
+    modules = (f"Find{name}.cmake", *config_names(name))
     if package.declares(name) or any(file.endswith(modules) for file in package.files):
         return True
     return world.standing(name) != "unknown" or world.by_cmake(name).known

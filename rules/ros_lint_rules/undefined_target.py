@@ -44,10 +44,12 @@ from ros_lint.api import (
     Workspace,
     called,
     cmake_edits,
+    config_names,
     did_you_mean,
     evaluated_name,
     few,
     found_names,
+    has_extras,
     hidden,
     installed_targets,
     is_meant,
@@ -144,7 +146,9 @@ def _of_others(package: Package, script: BuildScript, workspace: Workspace) -> I
 
 def _may_export(package: Package, target: str) -> bool:
     script = package.script
-    if script is None or package.builds_with != "ament_cmake" or script.extras or script.interfaces or hidden(package, ANYTHING):
+    if script is None or package.builds_with != "ament_cmake" or script.interfaces or hidden(package, ANYTHING):
+        return True
+    if has_extras(package):
         return True
     return any(one.target == target for one in package.built.exported) or _names_otherwise(package)
 
@@ -154,8 +158,8 @@ def _names_otherwise(package: Package) -> bool:
     calls = called(package, "ament_export_targets", "install", "export", "set_target_properties", "set_property", anywhere=True)
     if any("NAMESPACE" in call.texts or "EXPORT_NAME" in call.texts for call in calls):
         return True
-    files = package.built.provides
-    return any(file.source and file.path.lower().endswith(("-config.cmake", "config.cmake")) for file in files)
+    names = config_names(package.name)
+    return any(file.source and file.path.rpartition("/")[2] in names for file in package.built.provides)
 
 
 def _made_here(owners: Sequence[Package], names: Collection[str]) -> Iterator[Related]:

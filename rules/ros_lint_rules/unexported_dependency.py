@@ -72,6 +72,7 @@ from ros_lint.api import (
     found_along,
     found_names,
     given_for,
+    has_extras,
     is_cut_short,
     may_bring,
     relative,
@@ -141,9 +142,7 @@ def _linked(package: Package, workspace: Workspace, told: Container[str]) -> Ite
 def _without_components(package: Package, workspace: Workspace) -> Iterator[Finding]:
     """Yield what is exported and found with components only, of which ament_export_dependencies() says none."""
     script = package.script
-    if script is None or not _is_seen(package) or script.extras:
-        return
-    if any("EXTRAS" in text for call in called(package, "ament_package", anywhere=True) for text in call.texts):
+    if script is None or not _is_seen(package) or has_extras(package):
         return
     before: list[str] = []
     for call in called(package, "ament_export_dependencies", anywhere=True):

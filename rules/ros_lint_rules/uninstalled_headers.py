@@ -57,6 +57,7 @@ from ros_lint.api import (
     cmake_edits,
     evaluated_name,
     found_names,
+    has_extras,
     hidden,
     is_apart,
     per_workspace,
@@ -178,10 +179,9 @@ def _unexported(package: Package, wanted: list[tuple[Package, Use]]) -> Iterator
 def _tells(package: Package) -> bool:
     """Whether a package may tell others where its headers are."""
     script = package.script
-    if script is None or script.extras or package.opaque or any(name.startswith(_EXPORTS) for name in script.calls):
+    if script is None or has_extras(package) or package.opaque or any(name.startswith(_EXPORTS) for name in script.calls):
         return True
-    calls = [call for call in called(package, "ament_package", "install", anywhere=True) if _is_read(package, call)]
-    return any(call.texts[:1] == ("EXPORT",) or any("CONFIG_EXTRAS" in text for text in call.texts) for call in calls)
+    return any(call.texts[:1] == ("EXPORT",) and _is_read(package, call) for call in called(package, "install", anywhere=True))
 
 
 def _is_read(package: Package, call: Call) -> bool:
