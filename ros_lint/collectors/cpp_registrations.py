@@ -13,7 +13,8 @@ from ros_lint.facts.sources import Registration
 if TYPE_CHECKING:
     from ros_lint.text import Text
 
-_NAMES = ("RCLCPP_COMPONENTS_REGISTER_NODE", "PLUGINLIB_EXPORT_CLASS", "CLASS_LOADER_REGISTER_CLASS")
+_OF_COMPONENTS = "RCLCPP_COMPONENTS_REGISTER_NODE"
+_NAMES = (_OF_COMPONENTS, "PLUGINLIB_EXPORT_CLASS", "CLASS_LOADER_REGISTER_CLASS")
 _MACRO = re.compile(rf"({'|'.join(_NAMES)})\s*\(([^;{{}}()#]*)\)")
 
 
@@ -29,14 +30,13 @@ def registrations(source: Text, code: Sequence[int] = ()) -> tuple[Registration,
     found = []
     for match, span in zip(matches, spans, strict=True):
         name, _, base = (part.strip() for part in match[2].partition(","))
-        kind: Literal["component", "plugin"] = "component" if match[1].startswith("RCLCPP") else "plugin"
+        kind: Literal["component", "plugin"] = "component" if match[1] == _OF_COMPONENTS else "plugin"
         if name and (base or kind == "component"):
             found.append(Registration(kind, class_name(name), span, class_name(base) if kind == "plugin" else ""))
     return tuple(found)
 
 
 _DEFINITION = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)((?:[^\\\n]|\\\r?\n|\\.)*)", re.MULTILINE)
-_OF_COMPONENTS = _NAMES[0]
 
 
 def wrapped(source: Text) -> tuple[Opaque, ...]:

@@ -257,8 +257,9 @@ def _match(machine: Machine, node: ast.Match, frame: Frame) -> int:
         for inner in ast.walk(case.pattern):
             if isinstance(inner, (ast.MatchAs, ast.MatchStar)) and inner.name:
                 frame.names[inner.name] = subject
-        tests = [_fits(case.pattern)] if case.guard is None else [_fits(case.pattern), case.guard]
-        test = ast.BoolOp(ast.And(), tests) if case.guard is not None else tests[0]
+        test = _fits(case.pattern)
+        if case.guard is not None:
+            test = ast.BoolOp(ast.And(), [test, case.guard])
         chain = [_at(ast.If(_at(test, case.pattern), case.body, chain), case.pattern)]
     return execute(machine, chain, frame)
 
