@@ -175,7 +175,7 @@ def _has_facts(module: str) -> bool:
 def _reducers() -> dict[type, Callable[[Any], tuple[type, tuple[Any, ...]]]]:
     """Return how to take facts apart, which takes the pickler twice as long by itself.
 
-    Of enumerations as well: Python 3.11 before 3.11.4 writes them down as a call of getattr(), which is none of ours.
+    Of enumerations as well: Python 3.11.2, that of Debian 12, writes them down as a call of getattr(), which is none of ours.
     """
     values = [value for name, module in sys.modules.items() if _has_facts(name) for value in vars(module).values()]
     classes = [value for value in values if isinstance(value, type)]
