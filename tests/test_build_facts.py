@@ -179,12 +179,15 @@ PLUGINLIB_EXPORT_CLASS(
 RCLCPP_COMPONENTS_REGISTER_NODE(::p::Node)
 /* RCLCPP_COMPONENTS_REGISTER_NODE(no::C) */
 CLASS_LOADER_REGISTER_CLASS(p::C, b::B);
+RCLCPP_COMPONENTS_REGISTER_NODE( \\
+  p::Continued)
 """
     found = registrations(Text("a.cpp", text))
     assert [(one.kind, one.name, one.span.line) for one in found] == [
         ("plugin", "p::A<1>", 3),
         ("component", "p::Node", 6),
         ("plugin", "p::C", 8),
+        ("component", "p::Continued", 9),
     ]
 
 

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 _OF_COMPONENTS = "RCLCPP_COMPONENTS_REGISTER_NODE"
 _NAMES = (_OF_COMPONENTS, "PLUGINLIB_EXPORT_CLASS", "CLASS_LOADER_REGISTER_CLASS")
 _MACRO = re.compile(rf"({'|'.join(_NAMES)})\s*\(([^;{{}}()#]*)\)")
+_CONTINUED = re.compile(r"\\\r?\n")
 
 
 def registrations(source: Text, code: Sequence[int] = ()) -> tuple[Registration, ...]:
@@ -29,7 +30,7 @@ def registrations(source: Text, code: Sequence[int] = ()) -> tuple[Registration,
     spans = source.spans([match.span(1) for match in matches])
     found = []
     for match, span in zip(matches, spans, strict=True):
-        name, _, base = (part.strip() for part in match[2].partition(","))
+        name, _, base = (part.strip() for part in _CONTINUED.sub("", match[2]).partition(","))
         kind: Literal["component", "plugin"] = "component" if match[1] == _OF_COMPONENTS else "plugin"
         if name and (base or kind == "component"):
             found.append(Registration(kind, class_name(name), span, class_name(base) if kind == "plugin" else ""))

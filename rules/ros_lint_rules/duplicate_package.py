@@ -16,8 +16,8 @@ Rename one, remove one, or put an empty file `COLCON_IGNORE` into the folder of 
 ## When it keeps silent
 
 About folders that are ignored, and about packages of the same name in an underlay: see `shadowed-package`. Where each lies
-below a `src` of its own, such as `arm_ws/src` and `car_ws/src`, or in a step of its own, such as `03-service` and `04-action`,
-the confidence is medium: these are built one by one.
+in a workspace of its own, such as `arm_ws/src` and `car_ws`, among the `extra_packages` of a micro-ROS build, or in a step of
+its own, such as `03-service` and `04-action`, the confidence is medium: these are built one by one.
 """
 
 from __future__ import annotations
@@ -50,17 +50,19 @@ def _lie_apart(packages: Iterable[Package]) -> bool:
     return "" not in places and len(set(places)) == len(places)
 
 
-_STEP = re.compile(r"\d+[-_. ]|(?:chapter|day|exercise|lab|lesson|part|step|tutorial|week)[-_ ]?\d")
+_STEP = r"\d+[-_. ]|(?:chapter|day|exercise|lab|lesson|part|step|tutorial|week)[-_ ]?\d"
+_BUILT_ALONE = re.compile(rf"{_STEP}|\w+_ws\Z|extra_packages\Z")
+"""How folders begin that are built one by one. ``extra_packages`` are those of a library for a microcontroller (micro-ROS)."""
 
 
 def _workspace(path: str) -> str:
-    """Return the folder above the ``src`` that a package is in, or the step of a course, "" where it lies in neither."""
+    """Return the folder above the ``src`` that a package is in, or another that is built alone, "" where it lies in neither."""
     top, inside, _ = f"/{path}/".partition("/src/")
     if inside:
-        return top
+        return top.removeprefix("/")
     parts = path.split("/")
-    step = next((at for at, part in enumerate(parts) if _STEP.match(part.lower())), len(parts))
-    return "/".join(parts[: step + 1]) if step < len(parts) else ""
+    alone = next((at for at, part in enumerate(parts) if _BUILT_ALONE.match(part.lower())), len(parts))
+    return "/".join(parts[: alone + 1]) if alone < len(parts) else ""
 
 
 RULE = Rule(
