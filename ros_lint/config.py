@@ -182,7 +182,7 @@ def _relative(option: Option, value: Any, path: str) -> Any:
     """A path in a file is relative to that file."""
     if option.type == "paths":
         return tuple(os.path.join(os.path.dirname(path), entry) for entry in value)
-    return value
+    return os.path.join(os.path.dirname(path), value) if option.type == "path" else value
 
 
 def _from_environment(option: Option, value: str) -> Any:

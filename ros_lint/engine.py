@@ -9,7 +9,7 @@ from typing import NamedTuple
 from ros_lint import suppress
 from ros_lint.knowledge.store import KnowledgeError
 from ros_lint.registry import matching, no_rule
-from ros_lint.report import Crash, Hidden, Issue, RefusalError
+from ros_lint.report import UNSURE, Crash, Hidden, Issue, RefusalError
 from ros_lint.rule import Confidence, Rule, Severity
 from ros_lint.suppress import Suppression
 from ros_lint.workspace import Package, Workspace
@@ -145,7 +145,7 @@ def show(issues: Iterable[Issue], selection: Selection) -> tuple[tuple[Issue, ..
             shown.append(issue._replace(finding=issue.finding._replace(severity=selection.severities[name])))
         else:
             shown.append(issue)
-    hidden = [Hidden("less than certain, shown with --pedantic", unsure), Hidden("ignored for their path", ignored)]
+    hidden = [Hidden(UNSURE, unsure), Hidden("ignored for their path", ignored)]
     return tuple(shown), tuple(entry for entry in hidden if entry.count)
 
 

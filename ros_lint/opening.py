@@ -106,8 +106,8 @@ def opened(asked: Asked, progress: Progress, workspace: Tree | None = None, mach
 
 
 _OF_NO_MATTER = frozenset((
-    "cache", "color", "config", "diff", "fail-on", "fix", "format", "isolated", "jobs", "output", "progress", "show-settings",
-    "unsafe-fixes",
+    "baseline", "cache", "color", "config", "diff", "fail-on", "fix", "format", "isolated", "jobs", "output", "progress",
+    "show-settings", "unsafe-fixes", "write-baseline",
 ))  # fmt: skip
 """Settings that the report does not depend on: it does on what a configuration file says, and not on where it lies."""
 

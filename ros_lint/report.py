@@ -34,8 +34,11 @@ class Issue(NamedTuple):
         return f"{self.rule.code}/{self.package}/{self.finding.subject}"
 
 
+UNSURE = "less than certain, shown with --pedantic"
+
+
 class Hidden(NamedTuple):
-    """Findings that are not shown. ``reason`` goes on from the count: "less than certain, shown with --pedantic"."""
+    """Findings that are not shown. ``reason`` goes on from the count, as :data:`UNSURE` does."""
 
     reason: str
     count: int  # type: ignore[assignment]  # a tuple counts things as well

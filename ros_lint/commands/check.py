@@ -38,12 +38,17 @@ def run(said: Said) -> int:
             if asked.settings["show-settings"]:
                 print(asked.settings.show(), end="")
                 return 0
+            _refuse(asked.settings)
             if asked.settings["fix"] or asked.settings["diff"]:
                 from ros_lint.commands import mend  # noqa: PLC0415
 
                 report, code = mend.run(opening.opened(asked, progress.tell), select(asked.settings))
             else:
                 report, code = _checked(asked, progress), 0
+            if asked.settings["write-baseline"]:
+                return max(code, _keep(report, asked))
+            if asked.settings["baseline"]:
+                report = _without_known(report, asked)
     except RefusalError as error:
         print(f"ros-lint: {error}", file=sys.stderr)
         return 2
@@ -52,6 +57,43 @@ def run(said: Said) -> int:
     if asked.settings["diff"]:  # standard output holds a patch and nothing else
         return max(code, exit_code(report, asked.settings["fail-on"]))
     return max(code, _print(report, asked))
+
+
+def _refuse(settings: Settings) -> None:
+    """Raise UsageError for options that make no sense together."""
+    if settings["write-baseline"] and not settings["baseline"]:
+        raise opening.UsageError("--write-baseline needs the name of the file: --baseline FILE, or baseline in the settings")
+    if settings["write-baseline"] and settings["diff"]:
+        raise opening.UsageError("--write-baseline writes a file, and --diff changes none: leave one of them out")
+
+
+def _keep(report: Report, asked: Asked) -> int:
+    """Write what was found to the file of known findings, unless it is not all that there is. Raises BaselineError."""
+    from ros_lint import baseline  # noqa: PLC0415
+
+    path = asked.settings["baseline"]
+    if code := exit_code(report, "never"):
+        why = "a rule failed, so that its findings are not known" if report.packages else opening.no_packages(asked)
+        print(f"ros-lint: {path}: not written: {why.removeprefix('ros-lint: ')}", file=sys.stderr)
+        return code
+    baseline.write(path, report, _folders(asked, path))
+    count = len(report.issues)
+    print(f"ros-lint: {path} knows {count} finding{'s' * (count != 1)} now", file=sys.stderr)
+    return 0
+
+
+def _without_known(report: Report, asked: Asked) -> Report:
+    """Return a report without the findings that are known. Raises BaselineError."""
+    from ros_lint import baseline  # noqa: PLC0415
+
+    path = asked.settings["baseline"]
+    return baseline.without(report, baseline.read(path), os.path.basename(path), _folders(asked, path))
+
+
+def _folders(asked: Asked, path: str) -> list[str]:
+    """Return what was asked for, relative to the folder of a file."""
+    folder = os.path.dirname(os.path.realpath(path))
+    return [os.path.relpath(os.path.join(asked.base, root), folder).replace(os.sep, "/") for root in asked.roots]
 
 
 def _alone(asked: Asked) -> Iterator[str]:

@@ -130,7 +130,8 @@ def _unit(path: str, kept: set[str]) -> str:
 def _named(package: Package, script: BuildScript, unit: str, found: list[tuple[str, Span]]) -> Finding:
     paths = sorted({path for path, _ in found} - {unit.rstrip("/")})
     names = list(dict.fromkeys(map(_name, paths)))
-    inside = f"{few(names)} {'is' if len(names) == 1 else 'are'} looked up in it" if unit.endswith("/") and paths else "is looked up at run time"
+    named = f"{few(names)} {'is' if len(names) == 1 else 'are'} looked up in it"
+    inside = named if unit.endswith("/") and paths else "is looked up at run time"
     return Finding(
         f"{unit} is not installed, and {inside}; install it to share/{package.name}",
         setup_edits.place(script),

@@ -1,0 +1,122 @@
+"""Known findings: a file lists them, and only what it does not list is shown.
+
+A finding is known by its rule, package and subject, which stay the same when lines and files move. Several that share these
+are counted, and are all shown as soon as there are more than the file knows: which of them is the new one, nothing tells.
+So do the suppressions of eslint.
+"""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+from ros_lint import edits
+from ros_lint.report import UNSURE, Hidden, Issue, RefusalError, Report
+from ros_lint.rule import Confidence
+
+Key = tuple[str, str, str]
+"""The name of the rule, the package, the subject."""
+
+
+class BaselineError(RefusalError):
+    """A file of known findings that cannot be read or written. The message names it, and the way out."""
+
+
+class Known(NamedTuple):
+    """What a file says of findings that share a key."""
+
+    number: int
+    sure: bool
+    """Whether they are shown without being asked for: of others nothing is known where these are hidden."""
+
+
+class Baseline(NamedTuple):
+    """What a file of known findings says."""
+
+    folders: tuple[str, ...]
+    """What was checked when it was written, relative to the folder that it lies in."""
+    known: Mapping[Key, Known]
+
+
+def read(path: str) -> Baseline:
+    """Return what a file says. Raises BaselineError."""
+    import json  # noqa: PLC0415
+
+    try:
+        with open(path, encoding="utf-8") as file:
+            data = json.load(file)
+        return Baseline(tuple(map(str, data["folders"])), dict(map(_entry, data["known"])))
+    except OSError as error:
+        raise BaselineError(f"{path}: {error.strerror or error}; --write-baseline makes the file") from error
+    except json.JSONDecodeError as error:
+        raise BaselineError(f"{path}:{error.lineno}: no JSON: {error.msg}; {_WAY_OUT}") from error
+    except (UnicodeDecodeError, KeyError, TypeError, ValueError, AttributeError) as error:
+        raise BaselineError(f"{path}: not what --write-baseline writes; {_WAY_OUT}") from error
+
+
+_WAY_OUT = "--write-baseline makes it anew"
+
+
+def write(path: str, report: Report, folders: Sequence[str]) -> None:
+    """Write what a report shows, in one step. Raises BaselineError."""
+    try:
+        edits.write_all(os.getcwd(), {path: text(report, folders).encode("utf-8")})
+    except edits.EditError as error:
+        raise BaselineError(str(error)) from error
+
+
+def text(report: Report, folders: Sequence[str]) -> str:
+    """Return a file that lists what a report shows: a line for each key, sorted, so that it is merged line by line."""
+    import json  # noqa: PLC0415
+
+    counts = Counter(map(_key, report.issues))
+    unsure = {_key(issue) for issue in report.issues if issue.finding.confidence is not Confidence.HIGH}
+    lines = [json.dumps(_written(key, count, key not in unsure), ensure_ascii=False) for key, count in sorted(counts.items())]
+    known = "".join(f"\n    {line}," for line in lines).removesuffix(",")
+    return f'{{\n  "folders": {json.dumps(list(folders), ensure_ascii=False)},\n  "known": [{known}\n  ]\n}}\n'
+
+
+def without(report: Report, baseline: Baseline, name: str, folders: Sequence[str]) -> Report:
+    """Return a report without what is known, with the number of those, and a warning of what is known and gone.
+
+    ``name`` is how the file is called, ``folders`` are those that were checked: of others nothing is gone.
+    """
+    counts = Counter(map(_key, report.issues))
+    shown = tuple([issue for issue in report.issues if counts[_key(issue)] > _count(baseline, _key(issue))])
+    hidden = Hidden(f"known in {name}", len(report.issues) - len(shown))
+    gone = _gone(report, baseline, counts) if tuple(folders) == baseline.folders else 0
+    told = (
+        f"{name} knows {gone} finding{'s' * (gone != 1)} more than there {'is' if gone == 1 else 'are'}; --write-baseline takes"
+    )
+    return report._replace(
+        issues=shown,
+        hidden=(*report.hidden, hidden) if hidden.count else report.hidden,
+        warnings=(*report.warnings, f"{told} {'it' if gone == 1 else 'them'} out") if gone else report.warnings,
+    )
+
+
+def _gone(report: Report, baseline: Baseline, counts: Mapping[Key, int]) -> int:
+    ran = {rule.name for rule in report.rules} - {crash.rule for crash in report.crashes}
+    every = all(hidden.reason != UNSURE for hidden in report.hidden)
+    judged = {key: known for key, known in baseline.known.items() if key[0] in ran and (known.sure or every)}
+    return sum(max(known.number - counts.get(key, 0), 0) for key, known in judged.items())
+
+
+def _count(baseline: Baseline, key: Key) -> int:
+    return baseline.known[key].number if key in baseline.known else 0
+
+
+def _key(issue: Issue) -> Key:
+    return issue.rule.name, issue.package, issue.finding.subject
+
+
+def _written(key: Key, count: int, sure: bool) -> dict[str, Any]:
+    rule, package, subject = key
+    return {"rule": rule, "package": package, "subject": subject, "count": count, "sure": sure}
+
+
+def _entry(written: Mapping[str, Any]) -> tuple[Key, Known]:
+    key = str(written["rule"]), str(written["package"]), str(written["subject"])
+    return key, Known(int(written["count"]), bool(written["sure"]))

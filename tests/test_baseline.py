@@ -1,0 +1,167 @@
+"""Files of known findings: what they list is not shown, and what is new or gone is."""
+
+import json
+import os
+import shutil
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ros_lint import baseline
+from ros_lint.baseline import BaselineError
+from ros_lint.report import UNSURE, Crash, Hidden, Issue, Report, Target
+from ros_lint.rule import Confidence, Finding, Rule, Severity
+from ros_lint.text import Span
+from tests.test_cli import DEMO, HEADLINES, run
+
+PLACE = Span("a/package.xml", 1, 1, 1, 2)
+
+
+def rule(name: str) -> Rule:
+    return Rule(name=name, code=f"X-{name}", summary="s", severity=Severity.WARNING, since="0.1", doc="d", package=lambda *_: ())
+
+
+def issue(name: str, package: str, subject: str, *, sure: bool = True) -> Issue:
+    finding = Finding("m", PLACE, subject, confidence=Confidence.HIGH if sure else Confidence.MEDIUM)
+    return Issue(rule(name), package, finding)
+
+
+def report(*issues: Issue, ran: tuple[str, ...] = ("one", "two"), hidden: tuple[Hidden, ...] = ()) -> Report:
+    return Report(issues, tuple(map(rule, ran)), 1, Target("jazzy", "--distro"), "2026-01-01", "0", hidden)
+
+
+def kept(tmp_path: Path, found: Report, *folders: str) -> baseline.Baseline:
+    """Return what is read of a file with the findings of a report."""
+    file = tmp_path / "known.json"
+    baseline.write(str(file), found, folders or (".",))
+    return baseline.read(str(file))
+
+
+words = st.text(max_size=8)
+found = st.lists(st.builds(issue, st.sampled_from(["one", "two"]), words, words, sure=st.booleans()), max_size=12)
+
+
+@given(found)
+def test_what_is_written_hides_just_that(tmp_path_factory: pytest.TempPathFactory, issues: list[Issue]) -> None:
+    known = kept(tmp_path_factory.mktemp("known"), report(*issues))
+    left = baseline.without(report(*issues), known, "known.json", (".",))
+    assert (left.issues, left.warnings) == ((), ())
+    assert left.hidden == ((Hidden("known in known.json", len(issues)),) if issues else ())
+
+
+@given(found, found)
+def test_only_more_of_the_same_is_new(tmp_path_factory: pytest.TempPathFactory, before: list[Issue], after: list[Issue]) -> None:
+    left = baseline.without(report(*after), kept(tmp_path_factory.mktemp("known"), report(*before)), "known.json", (".",))
+    keys = [(one.rule.name, one.package, one.finding.subject) for one in before]
+    for one in after:
+        key = one.rule.name, one.package, one.finding.subject
+        now = sum(key == (other.rule.name, other.package, other.finding.subject) for other in after)
+        assert (one in left.issues) == (now > keys.count(key))
+
+
+def test_what_is_gone_is_told(tmp_path: Path) -> None:
+    known = kept(tmp_path, report(issue("one", "a", "x"), issue("one", "a", "x"), issue("two", "b", "y")))
+    left = baseline.without(report(issue("one", "a", "x")), known, "known.json", (".",))
+    assert left.warnings == ("known.json knows 2 findings more than there are; --write-baseline takes them out",)
+    left = baseline.without(report(issue("one", "a", "x"), issue("two", "b", "y")), known, "known.json", (".",))
+    assert left.warnings == ("known.json knows 1 finding more than there is; --write-baseline takes it out",)
+
+
+def test_nothing_is_gone_that_was_not_looked_for(tmp_path: Path) -> None:
+    known = kept(tmp_path, report(issue("one", "a", "x"), issue("two", "b", "y", sure=False)))
+    assert not baseline.without(report(ran=("two",), hidden=(Hidden(UNSURE, 1),)), known, "k", (".",)).warnings
+    assert not baseline.without(report(), known, "k", ("src",)).warnings
+    crashed = report(ran=("one",))._replace(crashes=(Crash("one", "a", "ValueError"),))
+    assert not baseline.without(crashed, known, "k", (".",)).warnings
+    assert baseline.without(report(ran=("two",)), known, "k", (".",)).warnings
+
+
+def test_the_file_has_a_line_a_key_and_does_not_depend_on_places(tmp_path: Path) -> None:
+    moved = issue("two", "b", "ü")._replace(finding=Finding("other words", Span("z", 9, 9, 9, 9), "ü"))
+    text = baseline.text(report(issue("two", "b", "ü"), issue("one", "a", "x"), issue("one", "a", "x", sure=False)), ("src",))
+    assert text == baseline.text(report(issue("one", "a", "x"), moved, issue("one", "a", "x", sure=False)), ("src",))
+    assert text.splitlines()[1:-2] == [
+        '  "folders": ["src"],',
+        '  "known": [',
+        '    {"rule": "one", "package": "a", "subject": "x", "count": 2, "sure": false},',
+        '    {"rule": "two", "package": "b", "subject": "ü", "count": 1, "sure": true}',
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "complaint"),
+    [
+        ("", "known.json:1: no JSON"),
+        ('{\n"known": [', "known.json:2: no JSON"),
+        ("[]", "known.json: not what --write-baseline writes"),
+        ('{"folders": [], "known": [{"rule": "one"}]}', "known.json: not what --write-baseline writes"),
+        ('{"folders": [], "known": {"rule": "one"}}', "known.json: not what --write-baseline writes"),
+        ('{"folders": [], "known": [{"rule": "", "package": "", "subject": "", "count": "many", "sure": 1}]}', "known.json: not"),
+        (b"\xff\xfe", "known.json: not what --write-baseline writes"),
+    ],
+)
+def test_bad_files_are_named(tmp_path: Path, text: str | bytes, complaint: str) -> None:
+    file = tmp_path / "known.json"
+    file.write_bytes(text if isinstance(text, bytes) else text.encode())
+    with pytest.raises(BaselineError) as raised:
+        baseline.read(str(file))
+    assert str(raised.value).startswith(f"{tmp_path}{os.sep}{complaint}")
+
+
+@pytest.fixture
+def demo(tmp_path: Path) -> Path:
+    return Path(shutil.copytree(DEMO, tmp_path / "ws"))
+
+
+def test_a_workspace_with_known_findings_is_clean_until_there_is_a_new_one(demo: Path) -> None:
+    (demo / "ros-lint.toml").write_text('baseline = "known.json"\n')
+    done = run("--write-baseline", cwd=demo)
+    assert (done.returncode, done.stdout) == (0, "")
+    assert "known.json knows 6 findings now" in done.stderr
+    assert {entry["rule"] for entry in json.loads((demo / "known.json").read_text())["known"]} == HEADLINES
+    done = run(cwd=demo / "src" / "rover_teleop")  # the file lies beside the settings, wherever one is
+    assert done.returncode == 0
+    assert "1 known in known.json" in done.stdout
+    assert "than there" not in done.stderr
+    source = demo / "src" / "rover_driver" / "src" / "driver_node.cpp"
+    source.write_text(f"#include <nav_msgs/msg/path.hpp>\n{source.read_text()}")
+    done = run("--format", "json", cwd=demo)
+    assert done.returncode == 1
+    (finding,) = json.loads(done.stdout)["findings"]
+    assert (finding["rule"], finding["subject"]) == ("undeclared-dependency", "nav_msgs")
+
+
+def test_the_same_with_what_is_kept_between_runs(demo: Path, tmp_path: Path) -> None:
+    env = {"XDG_CACHE_HOME": str(tmp_path / "cache")}
+    assert run(demo, env=env).returncode == 1
+    known = ("--baseline", tmp_path / "known.json")
+    assert run(demo, *known, "--write-baseline", env=env).returncode == 0
+    assert run(demo, *known, env=env).returncode == 0
+    assert run(demo, env=env).returncode == 1
+
+
+def test_fixes_are_made_of_known_findings_too(demo: Path) -> None:
+    known = ("--baseline", demo / "known.json")
+    run(demo, *known, "--write-baseline")
+    done = run(demo, *known, "--fix")
+    assert done.returncode == 0
+    assert "known.json knows 4 findings more than there are" in done.stderr
+
+
+def test_what_makes_no_sense_is_refused(demo: Path, tmp_path: Path) -> None:
+    for arguments, complaint in (
+        (("--write-baseline",), "--write-baseline needs the name of the file"),
+        (("--baseline", "k.json", "--write-baseline", "--diff"), "--diff changes none"),
+        (("--baseline", "k.json"), "k.json: No such file or directory; --write-baseline makes the file"),
+        (("--baseline", tmp_path / "no" / "k.json", "--write-baseline"), "k.json: cannot be written"),
+    ):
+        done = run(demo, *arguments, cwd=tmp_path)
+        assert done.returncode == 2, arguments
+        assert complaint in done.stderr
+        assert not (tmp_path / "k.json").exists()
+    done = run(tmp_path / "ws" / "src" / "rover_teleop" / "launch", "--baseline", "k.json", "--write-baseline", cwd=tmp_path)
+    assert done.returncode == 2
+    assert "k.json: not written: no package found below" in done.stderr
+    assert not (tmp_path / "k.json").exists()
