@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 
 from ros_lint import edits
 from ros_lint.report import UNSURE, Hidden, Issue, RefusalError, Report
+from ros_lint.reporters.encode import encode
 from ros_lint.rule import Confidence
 
 Key = tuple[str, str, str]
@@ -52,7 +53,7 @@ def read(path: str) -> Baseline:
         raise BaselineError(f"{path}: {error.strerror or error}; --write-baseline makes the file") from error
     except json.JSONDecodeError as error:
         raise BaselineError(f"{path}:{error.lineno}: no JSON: {error.msg}; {_WAY_OUT}") from error
-    except (UnicodeDecodeError, KeyError, TypeError, ValueError, AttributeError) as error:
+    except (UnicodeDecodeError, KeyError, TypeError, ValueError, AttributeError, RecursionError) as error:
         raise BaselineError(f"{path}: not what --write-baseline writes; {_WAY_OUT}") from error
 
 
@@ -69,13 +70,10 @@ def write(path: str, report: Report, folders: Sequence[str]) -> None:
 
 def text(report: Report, folders: Sequence[str]) -> str:
     """Return a file that lists what a report shows: a line for each key, sorted, so that it is merged line by line."""
-    import json  # noqa: PLC0415
-
     counts = Counter(map(_key, report.issues))
     unsure = {_key(issue) for issue in report.issues if issue.finding.confidence is not Confidence.HIGH}
-    lines = [json.dumps(_written(key, count, key not in unsure), ensure_ascii=False) for key, count in sorted(counts.items())]
-    known = "".join(f"\n    {line}," for line in lines).removesuffix(",")
-    return f'{{\n  "folders": {json.dumps(list(folders), ensure_ascii=False)},\n  "known": [{known}\n  ]\n}}\n'
+    known = [_written(key, count, key not in unsure) for key, count in sorted(counts.items())]
+    return encode({"folders": list(folders), "known": known}, 2)
 
 
 def without(report: Report, baseline: Baseline, name: str, folders: Sequence[str]) -> Report:
@@ -87,14 +85,17 @@ def without(report: Report, baseline: Baseline, name: str, folders: Sequence[str
     shown = tuple([issue for issue in report.issues if counts[_key(issue)] > _count(baseline, _key(issue))])
     hidden = Hidden(f"known in {name}", len(report.issues) - len(shown))
     gone = _gone(report, baseline, counts) if tuple(folders) == baseline.folders else 0
-    told = (
-        f"{name} knows {gone} finding{'s' * (gone != 1)} more than there {'is' if gone == 1 else 'are'}; --write-baseline takes"
-    )
     return report._replace(
         issues=shown,
         hidden=(*report.hidden, hidden) if hidden.count else report.hidden,
-        warnings=(*report.warnings, f"{told} {'it' if gone == 1 else 'them'} out") if gone else report.warnings,
+        warnings=(*report.warnings, _about(name, gone)) if gone else report.warnings,
     )
+
+
+def _about(name: str, gone: int) -> str:
+    if gone == 1:
+        return f"{name} knows 1 finding more than there is; --write-baseline takes it out"
+    return f"{name} knows {gone} findings more than there are; --write-baseline takes them out"
 
 
 def _gone(report: Report, baseline: Baseline, counts: Mapping[Key, int]) -> int:
@@ -109,7 +110,12 @@ def _count(baseline: Baseline, key: Key) -> int:
 
 
 def _key(issue: Issue) -> Key:
-    return issue.rule.name, issue.package, issue.finding.subject
+    return issue.rule.name, _sayable(issue.package), _sayable(issue.finding.subject)
+
+
+def _sayable(name: str) -> str:
+    """Return a name as the file can have it: bytes that are in no known encoding look alike."""
+    return name.encode("utf-8", "replace").decode("utf-8")
 
 
 def _written(key: Key, count: int, sure: bool) -> dict[str, Any]:
