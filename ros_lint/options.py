@@ -6,7 +6,7 @@ from typing import Any, Literal, NamedTuple
 
 Type = Literal["flag", "word", "words", "number", "path", "paths", "table"]
 SEVERITIES = ("error", "warning", "info")
-FORMATS = ("text", "concise", "json", "sarif", "github")
+FORMATS = ("text", "concise", "json", "sarif", "github", "gitlab")
 
 
 class Option(NamedTuple):

@@ -134,17 +134,6 @@ def example(kind: str, word: str) -> str:
     return next(body for found, body in BLOCK.findall(text) if found == kind and word in body)
 
 
-def test_the_report_for_gitlab(tmp_path: Path) -> None:
-    (tmp_path / "ros-lint.json").write_text(demo("--format", "json"), "utf-8")
-    subprocess.run([sys.executable, "-c", example("python", "fingerprint")], cwd=tmp_path, check=True)
-    report = json.loads((tmp_path / "gl-code-quality-report.json").read_text("utf-8"))
-    findings = json.loads((tmp_path / "ros-lint.json").read_text("utf-8"))["findings"]
-    assert len({entry["fingerprint"] for entry in report}) == len(report) == len(findings)
-    for entry in report:  # what GitLab requires of an entry
-        assert entry["severity"] in ("info", "minor", "major", "critical", "blocker")
-        assert all((entry["description"], entry["check_name"], entry["location"]["path"], entry["location"]["lines"]["begin"]))
-
-
 def test_the_problem_matcher_of_the_editor() -> None:
     pattern = json.loads(example("json", "problemMatcher"))["tasks"][0]["problemMatcher"]["pattern"]
     found = [match for line in demo("--format", "concise").splitlines() if (match := re.match(pattern["regexp"], line))]

@@ -304,6 +304,52 @@ def test_no_finding_forges_an_annotation() -> None:
     assert not re.search(r"^::error::y|^::warning::z", lines.replace("\r", "\n"), re.MULTILINE)
 
 
+# --- gitlab --------------------------------------------------------------------------------------------------------
+
+PLACE = {"type": "object", "required": ["begin"], "properties": {"begin": {"type": "integer", "minimum": 1}}}
+TEXT = {"type": "string", "minLength": 1}
+QUALITY = {
+    "type": "array",
+    "items": {
+        "type": "object",
+        "required": ["description", "check_name", "fingerprint", "severity", "location"],
+        "properties": {
+            "description": TEXT,
+            "check_name": TEXT,
+            "fingerprint": TEXT,
+            "severity": {"enum": ["info", "minor", "major", "critical", "blocker"]},
+            "location": {
+                "type": "object",
+                "required": ["path", "lines"],
+                "properties": {"path": {**TEXT, "pattern": "^(?![./])"}, "lines": PLACE},
+            },
+        },
+    },
+}
+"""What the documentation of GitLab asks of a report of code quality."""
+
+
+def quality(report: Report) -> list[dict[str, Any]]:
+    entries: list[dict[str, Any]] = json.loads(reporter("gitlab")(report, texts, Style()))
+    return entries
+
+
+@pytest.mark.parametrize("name", REPORTS)
+def test_gitlab_takes_the_report_and_merges_nothing(name: str) -> None:
+    entries = quality(REPORTS[name])
+    jsonschema.validate(entries, QUALITY)
+    assert len({entry["fingerprint"] for entry in entries}) == len(entries)
+
+
+def test_findings_keep_their_fingerprints_when_lines_move() -> None:
+    moved = tuple(
+        issue._replace(finding=issue.finding._replace(span=issue.finding.span._replace(line=issue.finding.span.line + 7)))
+        for issue in ISSUES
+    )
+    before, after = (quality(EVERYTHING._replace(issues=issues)) for issues in (ISSUES, moved))
+    assert [entry["fingerprint"] for entry in before] == [entry["fingerprint"] for entry in after]
+
+
 # --- sarif: see also test_sarif_invariants.py ----------------------------------------------------------------------
 
 HASHES = json.loads((GOLDEN / "line_hashes.json").read_text("utf-8"))
