@@ -35,6 +35,7 @@ _ROS2 = re.compile(
     r"\sexec\s*=|\$\((?:var|find-pkg-share|find-pkg-prefix|exec-in-pkg|command)\s"
     r"|<(?:let|executable|node_container|load_composable_node|push[-_]ros[-_]namespace|set_parameter|set_env)\b"
 )
+_STARTED = re.compile(r"pkg|exec|\stype\s*=")
 _ROS2_WORDS = ("$(var ", "$(find-pkg-share ", " exec=")
 _YAML_ROOT = re.compile(r"^(?:launch|'launch'|\"launch\")[ \t]*:", re.MULTILINE)
 _YAML_OTHER = re.compile(r"^(?=[^\n])(?![ \t\r#%-]|launch[ \t]*:|['\"]launch['\"][ \t]*:|\.\.\.)", re.MULTILINE)
@@ -53,7 +54,7 @@ def is_launch_file(path: str, text: str) -> Language | None:
     if path.endswith((".yaml", ".yml")):
         return "yaml" if _is_yaml(text) else None
     if "<launch" in text and _is_xml(text):
-        return "xml"
+        return None if _is_of_others(path, text) else "xml"
     if path.endswith(".launch") and _is_yaml(text):
         return "yaml"
     return None
@@ -103,6 +104,11 @@ def _is_xml(text: str) -> bool:
         return False
     # The plain words first: to search for the others takes as long as to read the file.
     return any(word in text for word in _ROS2_WORDS) or not _ROS1.search(text) or bool(_ROS2.search(text))
+
+
+def _is_of_others(path: str, text: str) -> bool:
+    """Whether another program reads a format of its own that looks like this one: its nodes have neither package nor program."""
+    return "<node" in text and not path.endswith((".launch", ".launch.xml")) and not _STARTED.search(text)
 
 
 def _after_prolog(text: str) -> int:

@@ -29,7 +29,7 @@ file has nothing worse than keywords that have another name since Galactic, such
 
 ## When it keeps silent
 
-- Launch files of ROS 1 as a whole.
+- Launch files of ROS 1 as a whole, and files of another program whose nodes have neither package nor program.
 - Tags that packages add to the format.
 - Launch files of tests, examples and templates.
 - A launch file that is called after a distribution which takes the removed keywords (`dashing_start.py`) is kept for that:
