@@ -55,6 +55,22 @@ def test_the_targets_of_a_project_can_have_another_name_than_its_repository() ->
     assert uses(load(f"{fetched}FetchContent_MakeAvailable(googletest)\n{LINKED}{linked}", "")) == {"nlohmann-json-dev"}
 
 
+@pytest.mark.parametrize(
+    ("lines", "built"),
+    [
+        ("FetchContent_Declare(log URL https://x.org/log.tar.gz)\nFetchContent_MakeAvailable(log)\n", False),
+        ("ExternalProject_Add(log URL https://x.org/log.tar.gz)\n", False),
+        ("ExternalProject_Add(all SOURCE_DIR ${CMAKE_CURRENT_SOURCE_DIR})\n", True),
+    ],
+)
+def test_a_project_from_elsewhere_takes_no_sources_of_the_package(lines: str, built: bool) -> None:
+    script = f"project(robot)\nfind_package(ament_cmake REQUIRED)\n{lines}add_library(r r.cpp)\nament_package()\n"
+    files = {"package.xml": MANIFEST, "CMakeLists.txt": script, "r.cpp": "", "test/t.cpp": "#include <gtest/gtest.h>\n"}
+    package = loaded({f"robot/{path}": text for path, text in files.items()}).packages[0]
+    (found,) = (use for use in package.uses if "gtest" in use.package)
+    assert found.sure is built
+
+
 def test_what_lies_among_the_sources_is_no_need() -> None:
     found = "find_package(nlohmann_json REQUIRED)"
     beside = "set(nlohmann_json_DIR ${CMAKE_CURRENT_SOURCE_DIR}/../json/cmake)\n"

@@ -42,7 +42,8 @@ class Opaque(NamedTuple):
     below: str = ""
     """The folder of the prefix that what is hidden lies below, "" if that may be any."""
     inside: str = ""
-    """The folder of the package with a build of its own that is what is not seen, "" if it may be any part of the build."""
+    """The folder with a build of its own that is what is not seen, in the package or beside it, "" if it may be any part of
+    the build."""
 
     def reaches(self, path: str) -> bool:
         """Return whether what is hidden may be at a path in the prefix, or in a folder there."""

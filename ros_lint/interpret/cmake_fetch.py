@@ -12,6 +12,9 @@ from ros_lint.interpret.cmake_values import HOLE, PREFIX, is_known
 _ADDRESS: Final = re.compile(r"(?:/|@|\A)git(?:hub|lab)\.[\w.-]+[/:]([\w.-]+)/([\w.-]+?)(?:\.git)?(?:/|\Z)")
 """Where a project is had from, up to its owner and name."""
 
+_FETCHED: Final = "_deps"
+"""The folder that CMake puts what it fetches into, below that of the build."""
+
 
 def _declare(run: Run, args: list[str]) -> None:
     """``fetchcontent_declare(name options...)``: the address tells what the project is called where it is used."""
@@ -59,7 +62,9 @@ def _from_elsewhere(run: Run, names: list[str], args: list[str]) -> None:
     hidden = Facet.USES | Facet.LIBRARIES
     if any(PREFIX in arg or "lib/" in arg or "share/" in arg for arg in args):
         hidden |= Facet.EXECUTABLES | Facet.SHARE
-    run.hide(hidden, "what a project from elsewhere builds and installs is not in sight")
+    # It has sources of its own, unless it is told that they are those of the package.
+    inside = "" if "SOURCE_DIR" in args else _FETCHED
+    run.hide(hidden, "what a project from elsewhere builds and installs is not in sight", inside=inside)
 
 
 COMMANDS: Final[dict[str, Handler]] = {
