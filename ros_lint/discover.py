@@ -220,6 +220,7 @@ class _Files:
         self._package = package
         self._inside = inside
         self._linked: set[str] = set()
+        self._marked: list[str] = []
         self.found: list[str] = []
         self.nested: list[Manifest] = []
         self.unseen: list[Skipped] = []
@@ -254,10 +255,15 @@ class _Files:
         if _APART.isdisjoint([entry[0] for entry in entries]):
             return entries
         names = {name: kind for name, kind, _ in entries}
-        reason = ignored_everywhere(names) or ignored_by_ros(names) or product(names)
+        reason = ignored_everywhere(names) or product(names)
+        if not reason and (mark := ignored_by_ros(names)):
+            # The mark is for those who look for packages, and for linters: the build of this package takes no notice of it.
+            reason = mark if "package.xml" in names else ""
+            self._marked.append(child)
         if not reason and self._is_nested(child, names):
             reason = "a package of its own"
-            self._add_nested(join(path, "package.xml"))
+            if not any(is_below(child, marked) for marked in self._marked):
+                self._add_nested(join(path, "package.xml"))
         if not reason:
             return entries
         self.unseen.append(Skipped(child, reason))

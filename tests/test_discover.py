@@ -122,6 +122,12 @@ def test_files_are_those_below_without_nested_packages_and_skipped_folders() -> 
             "w/p/test/c.cpp": "",
             "w/p/old/COLCON_IGNORE": "",
             "w/p/old/package.xml": manifest_text("old"),
+            "w/p/scripts/AMENT_IGNORE": "",
+            "w/p/scripts/run.py": "",
+            "w/p/scripts/more/package.xml": manifest_text("more"),
+            "w/p/scripts/more/setup.py": "",
+            "w/p/unused/AMENT_IGNORE": "",
+            "w/p/unused/package.xml": manifest_text("unused"),
             "w/p/build/CMakeCache.txt": "",
             "w/p/build/x.h": "",
             "w/p/insource/CMakeCache.txt": "",
@@ -139,10 +145,12 @@ def test_files_are_those_below_without_nested_packages_and_skipped_folders() -> 
         "insource/CMakeLists.txt",
         "launch/a.launch.py",
         "package.xml",
+        "scripts/AMENT_IGNORE",
+        "scripts/run.py",
         "test/c.cpp",
     )
     assert [manifest.name for manifest in package.nested] == ["inner"]
-    assert [skipped.path for skipped in package.unseen] == ["build", "old", "test/inner", "venv"]
+    assert [skipped.path for skipped in package.unseen] == ["build", "old", "scripts/more", "test/inner", "unused", "venv"]
 
 
 @pytest.mark.parametrize(
