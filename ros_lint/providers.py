@@ -44,9 +44,9 @@ class Meant(NamedTuple):
 
     name: str
     """A package, or a rosdep key that resolves for the distribution."""
-    by: Literal["spelling", "cmake", "python", "system", "slip"]
-    """How the wrong name comes about: dashes, capitals and what is in the package; what find_package, import, or apt and pip
-    call it; one letter."""
+    by: Literal["spelling", "cmake", "header", "python", "system", "slip"]
+    """How the wrong name comes about: dashes, capitals and what is in the package; what find_package, #include, import, or apt
+    and pip call it; one letter."""
 
 
 _NONE_NEEDED = Providers(none_needed=True)
@@ -225,6 +225,7 @@ def _other_names(world: World, name: str, *, python: bool) -> Iterator[Meant | N
         yield _first(world, [f"python3-{bare.removeprefix('py')}"], "spelling")  # pyserial
     else:
         yield _first(world, _libraries(names.cmake_any_case(name)), "cmake")
+        yield _first(world, names.folder(name), "header")
     yield _only(world, rosdep.installing(name))
 
 
@@ -233,7 +234,7 @@ def _libraries(names: Iterable[str]) -> Iterator[str]:
     return (name for name in names if name != NOTHING_NEEDED and not name.endswith("_cmake_module"))
 
 
-def _first(world: World, names: Iterable[str], by: Literal["spelling", "cmake", "python"]) -> Meant | None:
+def _first(world: World, names: Iterable[str], by: Literal["spelling", "cmake", "header", "python"]) -> Meant | None:
     found = _declarable(world, names)
     return Meant(found[0], by) if found else None
 

@@ -154,6 +154,8 @@ def test_modules_of_the_language_need_nothing() -> None:
         ("opencv-python", "python3-opencv"),
         ("GeographicLib", "geographiclib"),
         ("PkgConfig", "pkg-config"),
+        ("opencv2", "libopencv-dev"),
+        ("libavcodec", "ffmpeg"),
         ("gz-sim8", "gz_sim_vendor"),
         ("nlohmann-json3-dev", "nlohmann-json-dev"),
         ("uuid-dev", "uuid"),
@@ -168,6 +170,7 @@ def test_modules_of_the_language_need_nothing() -> None:
         # No doubt is allowed.
         ("nonsense_pkg", ""),
         ("python3-pcl", ""),
+        ("unitree", ""),
         ("rmf_msgs", ""),
         ("ament_python", ""),
         ("ros-humble-nonsense-pkg", ""),

@@ -112,6 +112,14 @@ class Names:
                     return self._beginnings[beginning]
         return ()
 
+    def folder(self, name: str) -> tuple[str, ...]:
+        """Return what libraries that are no packages of ROS are called by whose headers lie in a folder, as opencv2, best first.
+
+        None of those that :meth:`header_sure` has doubts of.
+        """
+        prefix = f"{name}/"
+        return () if prefix in self._doubted("include_system.tsv") else self._include_system.get(prefix, ())
+
     def maps(self, folder: str) -> bool:
         """Return whether anything but the folder's own name may tell whose the headers below it are."""
         return folder in self._mapped_folders or folder in SYSTEM_HEADER_FOLDERS or folder in self._shared_folders

@@ -2,9 +2,9 @@
 ## What it finds
 
 A dependency in `package.xml` whose name means nothing to anybody: no package of the workspace, of an underlay or of any
-distribution has it, and no rosdep key is called so. Misspelt packages, the name that CMake, Python, apt or pip use instead
-of the rosdep key, the folder that a package of the workspace lies in, modules of Python itself, programs and modules of the
-package, groups of packages, and `ament_python`, which is a build type and no package. And a tag without a name.
+distribution has it, and no rosdep key is called so. Misspelt packages, the name that CMake, `#include`, Python, apt or pip use
+instead of the rosdep key, the folder that a package of the workspace lies in, modules of Python itself, programs and modules of
+the package, groups of packages, and `ament_python`, which is a build type and no package. And a tag without a name.
 
 ## Why it matters
 
@@ -52,7 +52,7 @@ from ros_lint.api import (
     used_instead,
 )
 
-_CALLED_SO_BY = {"cmake": "find_package", "python": "Python", "system": "the system's package manager"}
+_CALLED_SO_BY = {"cmake": "find_package", "header": "#include", "python": "Python", "system": "the system's package manager"}
 _PYTHON_BUILD = "ament_python"
 _PYTHON_IN_CMAKE = "ament_cmake_python"
 _MOST_KEYS = 3
