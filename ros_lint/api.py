@@ -83,6 +83,7 @@ from ros_lint.launch_files import (
     programs,
     referred,
     started,
+    used_files,
 )
 from ros_lint.launch_left import Include, Left, includes
 from ros_lint.launch_links import Links, defaults_of, everything, filled, texts_of
@@ -299,6 +300,7 @@ __all__ = [
     "undeclared",
     "unguarded_tests",
     "uninstalled_resources",
+    "used_files",
     "used_instead",
     "used_names",
     "wishes",

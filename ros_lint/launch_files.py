@@ -1,4 +1,4 @@
-"""What several launch rules ask of a package: which launch files count, and what can be started from it."""
+"""What several rules ask of a package: which launch files count, which files are used, and what can be started from it."""
 
 from __future__ import annotations
 
@@ -46,6 +46,17 @@ def launchable(package: Package, *, apart: bool = False) -> Iterator[Launchable]
         aside = file.test or (lies_apart(path) if started else is_apart(path))
         if apart or not aside:
             yield Launchable(file, path, is_installed, not aside or path in tests)
+
+
+def used_files(package: Package) -> frozenset[str]:
+    """Return the files of a package that are seen to be installed, built, launched or part of its build script."""
+    script = package.built
+    modules = tuple([f"{module.replace('.', '/')}/" for module in script.python_packages])
+    files = set(script.installed)
+    files.update(source for target in script.targets if not target.test for source in target.sources)
+    files.update(launch.path for launch in launchable(package))
+    files.update(within(package.path, path) for path in (script.path, *(call.path for call in script.written)))
+    return frozenset(files).union([file for file in package.files if file.startswith(modules)])
 
 
 def referred(package: Package, kinds: Container[str], *, apart: bool = False) -> dict[tuple[str, str], list[LaunchReference]]:

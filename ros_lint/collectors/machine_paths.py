@@ -1,6 +1,7 @@
 """Paths below somebody's home directory, written out in a file: they are there on one machine only.
 
-And those into the sources from where the workspace is: they are there for whoever starts something in that folder.
+And those into the sources from where the workspace is, which are there for whoever starts something in that folder, and into
+``/opt/ros``, which are there with one distribution.
 """
 
 from __future__ import annotations
@@ -13,6 +14,9 @@ from ros_lint.text import Text
 
 _PATH = re.compile(r"(?<![\w.$}~)*/-])(?:file://)?(?P<path>/(?:home|Users)/[\w.+-]+/[^\s\"'`<>|;:,()\[\]{}&$\\*?#]+)")
 _HOME = re.compile(r"/(?:home|Users)/")
+_OF_DISTRIBUTION = re.compile(
+    r"(?<![\w.$}~)*/-])(?:file://)?(?P<path>/opt/ros/[a-z]+/(?:share|lib)/[^\s\"'`<>|;:,()\[\]{}&$\\*?#]+)"
+)
 _OF_WORKSPACE = re.compile(r"""(?P<path>~(?<=["']~)/(?:[\w.+-]+/)+(?:src|install)/[^\s"'`<>|;:,()\[\]{}&$\\*?#%]+)(?=["'])""")
 _SOURCES = ("'src/", '"src/', "'./src/", '"./src/')
 _RELATIVE = re.compile(
@@ -34,13 +38,15 @@ _UNREAD = re.compile(r"^([ ]*)Description File:[^\n]*\n\1Description Source: Top
 
 
 def collect(text: Text) -> tuple[MachinePath, ...]:
-    """Return the paths of a file that lie in a home directory, below ``~`` those into a workspace, or in ``src``.
+    """Return the paths of a file that lie in a home directory, below ``~`` those into a workspace, in ``src`` or ``/opt/ros``.
 
     Comments and docstrings are left out, and so is what RViz keeps and does not read. A path ends where something is filled
     in. One that is put together (``"/home/" + user``, ``join(root, "src/robot")``) is none, nor are the folders of all users.
     """
     content = text.text
     hits = list(_PATH.finditer(content)) if _HOME.search(content) else []
+    if "/opt/ros/" in content:
+        hits += _OF_DISTRIBUTION.finditer(content)
     if "~" in content:  # one letter is found ten times as fast as two
         hits += _OF_WORKSPACE.finditer(content)
     if "src/" in content and any(start in content for start in _SOURCES):

@@ -64,7 +64,7 @@ class LookUp(NamedTuple):
 
 
 class MachinePath(NamedTuple):
-    """A path below the home directory of somebody, or into the sources from the folder above them, written out."""
+    """A path below the home directory of somebody, into the sources from the folder above them, or into ``/opt/ros``."""
 
     path: str
     """As ``/home/jay/ros2_ws/src/robot/config/robot.yaml`` or ``src/robot/config/robot.yaml``, without a slash at the end."""
@@ -75,6 +75,11 @@ class MachinePath(NamedTuple):
     """Whether whoever reads it would seek a relative one from the folder of the file."""
     default: bool = False
     """Whether it is the default of a parameter that a program declares."""
+
+    @property
+    def distribution(self) -> str:
+        """The distribution that a path into ``/opt/ros`` is of, "" for others."""
+        return self.path.split("/")[3] if self.path.startswith("/opt/ros/") else ""
 
 
 class ImportedType(NamedTuple):

@@ -72,6 +72,7 @@ from ros_lint.api import (
     per_workspace,
     relative,
     several,
+    used_files,
 )
 
 _BUILDING = ("CMakeLists.txt", ".cmake", "setup.py")
@@ -102,10 +103,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _written_out(package: Package, workspace: Workspace) -> Iterator[Finding]:
     """Speak of paths below a home directory, and of those that begin with ``src/``."""
-    used = _used(package)
+    used = used_files(package)
     by_file: dict[tuple[str, str], list[tuple[MachinePath, _Inside | None]]] = {}
     for each in package.machine_paths:
         file = relative(package, each.span.path)
+        if each.distribution:  # of which distribution-path speaks
+            continue
         if is_apart(file) or (file.endswith(".cmake") and (file not in used or _STAGED.search(file))):  # builds leave those
             continue
         if file.endswith(".launch") and not _is_launched(each, package):  # a launch file of ROS 1
@@ -295,17 +298,6 @@ _RECORDS = frozenset({"experiment", "experiments"})
 def _is_of_container(path: str) -> bool:
     """Whether a path lies in a workspace that is no user's home, but beside those: ``/home/ws/src/robot``."""
     return path.startswith("/") and path.split("/")[3] in ("src", "install")
-
-
-def _used(package: Package) -> frozenset[str]:
-    """Return the files of a package that are seen to be installed, built, launched or part of its build script."""
-    script = package.built
-    modules = tuple([f"{module.replace('.', '/')}/" for module in script.python_packages])
-    files = set(script.installed)
-    files.update(source for target in script.targets if not target.test for source in target.sources)
-    files.update(launch.path for launch in launchable(package))
-    files.update(relative(package, path) for path in (script.path, *(call.path for call in script.written)))
-    return frozenset(files).union([file for file in package.files if file.startswith(modules)])
 
 
 def _inside(path: str, workspace: Workspace) -> _Inside | None:
