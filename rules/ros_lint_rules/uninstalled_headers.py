@@ -12,7 +12,8 @@ Also a package that installs its headers and tells nobody where they are, while 
 say so.
 
 And headers that another package of the workspace includes by a folder which they lose when they are installed, as by
-`install(DIRECTORY include/robot/ DESTINATION include)`.
+`install(DIRECTORY include/robot/ DESTINATION include)`, and those that get one too many: without a slash at its end the folder
+itself is installed, so that `install(DIRECTORY include DESTINATION include)` puts `robot/robot.hpp` into `include/include`.
 
 ## Why it matters
 
@@ -42,12 +43,14 @@ from ros_lint.api import (
     EXPORTING_PLUGINS,
     HEADERS,
     REGISTERING,
+    BuildScript,
     Call,
     Confidence,
     Facet,
     Finding,
     Fix,
     Package,
+    Provided,
     Related,
     Rule,
     Severity,
@@ -90,6 +93,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     wanted = [(other, use) for other, use in takers if any(file.endswith(f"/{use.name}") for file in headers)]
     if installed:
         yield from _misplaced(package, wanted)
+        yield from _doubled(package, script, wanted)
     if installed and _tells(package):
         return
     if installed:
@@ -97,8 +101,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     exports = _exports(package)
     library = any(path.startswith("lib/lib") for path in places)
-    loaded = any(True for _ in called(package, EXPORTING_PLUGINS, *REGISTERING, anywhere=True))
-    loaded = loaded or any(_GAZEBO.match(name) for name in found_names(package, script))
+    loaded = _is_loaded(package, script)
     linked = library and not loaded and any(not call.blocks for call in called(package, *_LINKED))
     if exports and not wanted and script.targets and all(target.kind == "executable" for target in script.targets):
         yield from _for_nobody(headers, exports)
@@ -120,6 +123,13 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 _GAZEBO = re.compile(r"(?:gazebo|gz|ignition)(?!.*_msgs$)", re.IGNORECASE)
 """What a package finds to build plugins of Gazebo."""
+
+
+def _is_loaded(package: Package, script: BuildScript) -> bool:
+    """Whether a library of a package may be one that is loaded, and that nobody links."""
+    if any(True for _ in called(package, EXPORTING_PLUGINS, *REGISTERING, anywhere=True)):
+        return True
+    return any(_GAZEBO.match(name) for name in found_names(package, script))
 
 
 def _name(path: str) -> str:
@@ -146,6 +156,38 @@ def _misplaced(package: Package, wanted: list[tuple[Package, Use]]) -> Iterator[
             file,
             _included_here([(other, use) for _, other, use in lost]),
         )
+
+
+def _doubled(package: Package, script: BuildScript, wanted: list[tuple[Package, Use]]) -> Iterator[Finding]:
+    """Speak of headers that are installed with the folder include/ around them, below the one that is looked into."""
+    own = [each for each in script.provides if each.source.startswith("include/") and each.source.endswith(HEADERS)]
+    first = next((each for each in own if each.path.startswith("include/")), None)
+    if first is None or has_extras(package) or not all(_is_doubled(each) for each in own):
+        return
+    folder = first.path.removesuffix(first.source.removeprefix("include")).removeprefix("/")
+    words = (re.sub(r"\$\{\w*PROJECT_NAME\}", script.name, text) for call in script.written for text in call.texts)
+    if any(folder in word for word in words):
+        return  # it is named as the folder to look into
+    library = any(each.path.startswith("lib/lib") for each in script.provides)
+    exported = library and bool(_exports(package) or any(True for _ in called(package, *_LINKED)))
+    places = ((call, at) for call in called(package, "install", anywhere=True) for at in range(len(call.args)))
+    call, at = next(((call, at) for call, at in places if call.span(at) == first.span), (None, 0))
+    fix = Fix.of("install what is in the folder", cmake_edits.write(call, at, f"{call.texts[at]}/")) if call else None
+    yield Finding(
+        f"the headers in include/ ({_name(first.source)} ...) are installed to {folder}, where nobody looks for them; "
+        "write include/ with a slash at the end",
+        first.span,
+        "include/",
+        _included_here(wanted),
+        fix,
+        Confidence.HIGH if wanted or exported else Confidence.LOW,
+        None if wanted or (exported and not _is_loaded(package, script)) else Severity.WARNING,
+    )
+
+
+def _is_doubled(provided: Provided) -> bool:
+    """Whether a file of include/ is installed below another folder with all of its path, in every build."""
+    return provided.path.startswith("include/") and provided.path.endswith(f"/{provided.source}") and not provided.conditional
 
 
 def _for_nobody(headers: Sequence[str], exports: Sequence[Call]) -> Iterator[Finding]:
