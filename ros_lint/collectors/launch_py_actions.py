@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple
 
-from ros_lint.collectors import launch_py_events, launch_py_nodes
+from ros_lint.collectors import launch_py_events, launch_py_nodes, launch_text
 from ros_lint.collectors.launch_py_methods import items
 from ros_lint.collectors.launch_py_nodes import nested, started_node
 from ros_lint.collectors.launch_py_objects import Conditions, Made, Source, Value, alternatives, plain
@@ -40,17 +41,33 @@ def _include(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchA
         place_of(made),
         target=target,
         package_span=walker.package_span(target),
-        arguments=tuple([(name, value) for name, _, value, _ in passed]),
-        argument_spans=tuple([span for _, span, _, _ in passed]),
-        perhaps=_perhaps(passed),
         conditions=conditions,
         lent=made.source.lent,
     )
-    return walker.apart(include, given)
+    return [_given(one, passed) for one in walker.apart(include, given)]
 
 
-_Passed = tuple[str, Span, LaunchValue, bool]
-"""What is passed to an included file: its name, where that stands, the value, and whether nobody knows if it is passed."""
+def _given(include: LaunchAction, passed: Sequence[_Passed]) -> LaunchAction:
+    """Return an include with what is passed to it: nothing that another branch passes to another file."""
+    together = [one for one in passed if launch_text.agree((*include.conditions, *one.conditions))]
+    return include._replace(
+        arguments=tuple([(one.name, one.value) for one in together]),
+        argument_spans=tuple([one.span for one in together]),
+        perhaps=_perhaps(together),
+    )
+
+
+class _Passed(NamedTuple):
+    """What is passed to an included file."""
+
+    name: str
+    span: Span
+    """Where the name stands."""
+    value: LaunchValue
+    conditions: Conditions
+    """Under which it is passed, as far as that is one way."""
+    perhaps: bool
+    """Whether nobody knows if it is passed."""
 
 
 def _pairs(walker: Walker, value: Value, made: Made) -> Iterator[_Passed]:
@@ -63,19 +80,20 @@ def _pairs(walker: Walker, value: Value, made: Made) -> Iterator[_Passed]:
         parts = items(walker.machine, pair)
         if parts is None or len(parts) != 2:
             unknown = walker.text(UNKNOWN, node, made.source)
-            yield UNKNOWN, unknown.span, unknown, True
+            yield _Passed(UNKNOWN, unknown.span, unknown, (), perhaps=True)
             continue
         place = walker.text(parts[0], node, made.source).span
-        conditions = (condition for one in alternatives(pair) for condition in one.conditions)
-        perhaps = any(UNKNOWN in text for condition in conditions for text in condition.texts)
+        ways = [one.conditions for one in alternatives(pair)]
+        perhaps = any(UNKNOWN in text for way in ways for condition in way for text in condition.texts)
         for name in texts(parts[0]):
-            yield str(name), place, walker.text(parts[1], node, made.source), perhaps
+            what = walker.text(parts[1], node, made.source)
+            yield _Passed(str(name), place, what, ways[0] if len(ways) == 1 else (), perhaps)
 
 
 def _perhaps(passed: Sequence[_Passed]) -> tuple[str, ...]:
     """Return what nobody knows to be passed; what either side of a branch passes is."""
-    sides = Counter([name for name, *_ in passed])
-    return tuple([name for name, _, _, perhaps in passed if perhaps and sides[name] == 1])
+    sides = Counter([one.name for one in passed])
+    return tuple([one.name for one in passed if one.perhaps and sides[one.name] == 1])
 
 
 def _declare(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
