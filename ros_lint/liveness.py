@@ -23,6 +23,9 @@ _TEST_FOLDERS = apart.TEST_FOLDERS | {"gtest"}
 _IDLE_FOLDERS = frozenset({"doc", "docs", "example", "examples", "tutorial", "tutorials", "tools", "sphinx"})
 """Folders whose files are often not part of what the package builds and installs."""
 
+_OF_OTHERS = frozenset({"3rd_party", "3rdparty", "extern", "external", "externals", "third_party", "thirdparty"})
+"""Folders for what others have made: who builds that does not test it."""
+
 _RESOURCES = (".urdf", ".xacro", ".sdf", ".world", ".rviz", ".yaml", ".yml", ".xml")
 
 _RECIPES = frozenset({"conanfile.py", "noxfile.py"})
@@ -60,12 +63,12 @@ class Liveness:
         hidden = around = beside = Facet(0)
         for opaque in script.opaque:
             hidden |= opaque.hides
-            around |= opaque.hides if not opaque.inside else Facet(0)
+            around |= opaque.hides if not (opaque.inside or opaque.below) else Facet(0)
             beside |= opaque.hides if not (opaque.inside or opaque.undefined) else Facet(0)
         self._sees_targets = known and not hidden & (Facet.LIBRARIES | Facet.EXECUTABLES)
         self._sees_share = known and not hidden & Facet.SHARE
         # What is built in a folder that is not there, such as a submodule, takes no sources and installs no modules from around
-        # it; a target, no modules.
+        # it; a target, no modules; and what is merely installed somewhere compiles nothing.
         self._sees_compiled = known and not around & (Facet.LIBRARIES | Facet.EXECUTABLES)
         self._sees_python = known and not beside & (Facet.PYTHON | Facet.EXECUTABLES)
 
@@ -118,7 +121,7 @@ class Liveness:
         if _TEST_FOLDERS & folders or self._is_of_tests(path) or (python and _is_test(name) and path not in self._started):
             # pytest takes what is called test, and beside it lie its helpers; elsewhere lies anything.
             taken = self._runs_python_tests and (self._is_run(path) or path in self._started_by_tests)
-            alive = not (self._sees_compiled or resource or self._is_left_out(path))
+            alive = not (self._sees_compiled or resource or self._is_left_out(path) or _OF_OTHERS & folders)
             return Role.TEST, (taken or self._may_be_launched(path)) if python else alive
         if path in self._launched and (path in self._installed or path in self._installed_python):
             return Role.EXEC, not apart.is_copy(path)

@@ -71,9 +71,19 @@ def test_beside_what_is_compiled_by_name_lies_what_is_not() -> None:
     assert not use(workspace, "shape_msgs").sure
 
 
+@pytest.mark.parametrize(("folder", "sure"), [("tests", True), ("external/asio/tests", False)])
+def test_who_builds_what_others_have_made_does_not_test_it(folder: str, sure: bool) -> None:
+    assert use(load(HIDDEN, {f"{folder}/a.cpp": include("nav_msgs")}), "nav_msgs").sure is sure
+
+
 @pytest.mark.parametrize(
     ("lines", "sure"),
-    [("add_subdirectory(sdk)", False), ("target_link_libraries(a sdk)", False), (HIDDEN, True)],
+    [
+        ("add_subdirectory(sdk)", False),
+        ("target_link_libraries(a sdk)", False),
+        ("install(DIRECTORY ${SDK}/ DESTINATION lib/robot)", False),
+        (HIDDEN, True),
+    ],
 )
 def test_a_build_of_its_own_that_is_not_there_compiles_no_sources_from_around_it(lines: str, sure: bool) -> None:
     files = {"src/a.cpp": include("nav_msgs"), "src/old/b.cpp": include("shape_msgs")}
