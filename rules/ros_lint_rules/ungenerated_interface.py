@@ -328,7 +328,9 @@ def _finding(
     mostly meant so.
     """
     way_out = f"rosidl wants it to be called {wanted}" if wanted else "add it, or remove it"
-    if refused and not wanted:
+    if wanted and f"{_interface(file).partition('/')[0]}/{wanted}" in package.built.interfaces:
+        way_out = f"{wanted} is in its place: remove it"
+    elif refused and not wanted:
         way_out = f"remove it, or correct it, for rosidl does not take it: {refused}"
     return Finding(
         f"{file} is not given to {_GENERATE}(), so nothing is generated from it; {way_out}",
