@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from ros_lint.collectors.launch import entries
 from ros_lint.collectors.launch_asked import asks_first
 from ros_lint.collectors.launch_py_actions import LAUNCHED, walker
+from ros_lint.collectors.launch_py_arguments import dropped, not_taken
 from ros_lint.collectors.launch_py_names import strays
 from ros_lint.collectors.launch_py_objects import PERHAPS, Frame, Function, Modules, OutOfBudget, Raised, Source
 from ros_lint.collectors.launch_py_refused import misplaced, misused, no_conditions, no_texts, undefined
@@ -118,6 +119,8 @@ class _Reading:
         yield from misused(tree, self._source, self._machine.misused)
         yield from no_texts(tree, self._source, self._machine.made)
         yield from no_conditions(tree, self._source, self._machine.made)
+        yield from not_taken(tree, self._source, self._machine.made)
+        yield from dropped(tree, self._source)
         yield from strays(tree, self._source)
 
     def read(self, tree: ast.Module, helper: bool) -> None:

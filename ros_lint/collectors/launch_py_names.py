@@ -88,3 +88,24 @@ def _imported(tree: ast.Module) -> frozenset[str]:
         elif isinstance(node, ast.Name) and not isinstance(node.ctx, ast.Load):
             other.add(node.id)
     return frozenset({"launch", "launch_ros"} & found - other)
+
+
+def is_from_launch(tree: ast.Module, function: ast.expr) -> bool:
+    """Whether what is called is a name of a launch library: taken from one, or written out with its module."""
+    root = function
+    while isinstance(root, ast.Attribute):
+        root = root.value
+    if not isinstance(root, ast.Name):
+        return False
+    if root is not function:
+        return root.id.startswith("launch")
+    return any(
+        isinstance(node, ast.ImportFrom)
+        and not node.level
+        and (node.module or "").partition(".")[0] in _LIBRARIES
+        and any(root.id == (alias.asname or alias.name) for alias in node.names)
+        for node in ast.walk(tree)
+    )
+
+
+_LIBRARIES = frozenset({"launch", "launch_ros", "launch_xml", "launch_yaml"})

@@ -2,12 +2,14 @@
 ## What it finds
 
 A launch file that the real front end refuses: it does not parse, has a tag, an attribute or a substitution that does not
-exist, misses one that is needed, or holds a value of another type; one in Python that gives a node keywords which do not
-exist or were removed, comes to a name that nothing defines, or takes one from a module that has none; or one with something
-that came to the launch format after the distribution that was asked for.
+exist, misses one that is needed, or holds a value of another type; one in Python that gives a node, an argument or another
+thing of the launch libraries keywords which do not exist or were removed, or something without its keyword, comes to a name
+that nothing defines, or takes one from a module that has none; one that gives `PythonLaunchDescriptionSource` a file in XML;
+or one with something that came to the launch format after the distribution that was asked for.
 
 Also one with a path that begins right behind the share folder of a package, `[FindPackageShare('robot'), 'config', 'a.yaml']`
-where nothing joins the parts: that is `.../share/robotconfiga.yaml`.
+where nothing joins the parts: that is `.../share/robotconfiga.yaml`; or with one that is joined with a slash in front,
+`os.path.join(share, '/config/a.yaml')`: that is `/config/a.yaml`, and the share folder is forgotten.
 
 Besides, one in Python that takes a substitution for the text that it becomes once something is launched: adds it to a text,
 formats, compares or tests it; that joins conditions by `and` and `or`, or gives a function, a substitution or a truth for one,
