@@ -108,10 +108,10 @@ def _of_itself(name: str, uses: list[Use]) -> list[Use]:
 
 
 def _not_unused(package: Package, workspace: Workspace, name: str, uses: list[Use]) -> str:
-    tags = [each.depend for each in package.tags(name)]
+    tags = package.tags(name)
     if not tags:
         return "for it is not declared"
-    if all(depend.condition for depend in tags):
+    if not any(declared.always for declared in tags):
         return "for it is declared under a condition"
     if uses:
         return f"for it is used: {uses[0].span}"
@@ -124,7 +124,7 @@ def _not_unused(package: Package, workspace: Workspace, name: str, uses: list[Us
         return "for the package builds and installs no code of its own"
     if not is_built_in_sight(package):
         return "for its manifest or build script cannot be followed"
-    if not any(depend.tag in ("depend", "build_depend") for depend in tags):
+    if not any(declared.depend.tag in ("depend", "build_depend") for declared in tags):
         return "for this tag says that it leaves no trace, or there are tests that may use it"
     return "for it may do its work without being named"
 

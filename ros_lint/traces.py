@@ -31,7 +31,7 @@ def of_package(tree: Tree, package: Package, source: Source, world: World, types
     """Return a place for every declared name that stands in a text of the package though nothing in it is seen to use it."""
     if not is_built_in_sight(package):
         return {}
-    built = [d.name for d in package.declared if d.depend.tag in ("depend", "build_depend") and not d.depend.condition]
+    built = [d.name for d in package.declared if d.depend.tag in ("depend", "build_depend") and d.always]
     used, satisfied = used_names(built, package.uses), satisfying(package.uses)
     names = world.knowledge.names
     wanted = [

@@ -20,11 +20,11 @@ and needs `--unsafe-fixes` where the confidence is less than high.
 Where a type of it stands in C++ code by its bare name, which a header of a third package makes possible, and where a page
 of the package says to start something of it (`ros2 run`, `ros2 launch`). And
 whenever the dependency might be needed in a way that leaves no trace: linters, run-time and tool dependencies, tags
-under a condition, packages whose build scripts cannot be followed everywhere, metapackages, vendor packages and packages
-without code, and dependencies that give CMake macros or plugins. For rosdep keys of libraries, which others' headers may need,
-unless they come along with a package that is used, for packages that nobody knows, for Python packages that are mostly
-declared to be run, and such as have messages and programs, where a file of the workspace cannot be read, and where no module
-is there that an entry point names, or none that imports anything, the confidence is medium.
+under a condition that not every environment of ROS 2 meets, packages whose build scripts cannot be followed everywhere,
+metapackages, vendor packages and packages without code, and dependencies that give CMake macros or plugins. For rosdep keys of
+libraries, which others' headers may need, unless they come along with a package that is used, for packages that nobody knows,
+for Python packages that are mostly declared to be run, and such as have messages and programs, where a file of the workspace
+cannot be read, and where no module is there that an entry point names, or none that imports anything, the confidence is medium.
 
 So it is where nothing uses the dependency, but something else that is used and not declared comes along with it alone, in
 this package or in another one of the workspace. That is to be declared instead, and nothing is removed.
@@ -106,7 +106,7 @@ def _left(package: Package, workspace: Workspace, depend: Depend) -> Iterator[De
     for other in package.tags(depend.name) if depend.tag == "build_depend" else ():
         tag = other.depend.tag
         to_run = tag == "exec_depend" and not runs(workspace.world, depend.name)
-        if (tag == "build_export_depend" or to_run) and not other.depend.condition:
+        if (tag == "build_export_depend" or to_run) and other.always:
             yield other.depend
 
 
@@ -118,14 +118,14 @@ def _unused(package: Package, workspace: Workspace) -> Iterator[tuple[Declared, 
     whole = is_seen_whole(package)
     unsure = workspace.unread() or _lacks_programs(package, script)
     world = workspace.world
-    built = [each.name for each in package.declared if each.depend.tag in _TAGS and not each.depend.condition]
+    built = [each.name for each in package.declared if each.depend.tag in _TAGS and each.always]
     used = used_names(built, package.uses)
     libraries = satisfying(package.uses)
     wrong = misspelt(package, workspace)
     for declared in package.declared:
         depend = declared.depend
         name = depend.name
-        if depend.condition or name in used or name in wrong or sounds_unseen(world, name):
+        if not declared.always or name in used or name in wrong or sounds_unseen(world, name):
             continue
         if not (whole or is_library(world, name)):
             continue

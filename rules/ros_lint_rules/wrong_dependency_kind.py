@@ -22,7 +22,8 @@ Use the tag that the message names. The fix does this, and puts it among its lik
 - The use is optional, or in files that are perhaps not built or installed.
 - Only launch files name it, for what they start, include or look up: see `launch-outside-closure`.
 - Launch files import what comes with `ros2 launch`, and what packages of tests declare serves tests anyhow.
-- A tag has a condition, or a declared dependency is itself not known, so that the package might come with it.
+- A tag has a condition that not every environment of ROS 2 meets, or a declared dependency is itself not known, so that the
+  package might come with it.
 - Headers are not installed, or only under a condition: then nobody else includes them. If there is a library to link with, they
   may have been forgotten, and the confidence is low.
 - What tests are made of, such as `ament_cmake_gtest`, is named by installed headers: they help tests elsewhere.
@@ -146,7 +147,7 @@ def _wrong(package: Package, workspace: Workspace) -> Iterator[_Wrong]:
 
 def _is_for_all(declared: Declared) -> bool:
     """Whether an element is enough for whatever it is needed for, or may be."""
-    return declared.depend.tag == "depend" or bool(declared.depend.condition)
+    return declared.depend.tag == "depend" or not declared.always
 
 
 def _outside(package: Package, need: Need, *, hopeful: bool) -> Iterator[Use]:
