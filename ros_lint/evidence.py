@@ -148,6 +148,10 @@ class Resolver:
         # Definitions that tests parse are full of names that nobody has, and so are look-ups in templates.
         return Answer((name,)) if self.names.is_package(name) else self._strange(name, self.names.is_declared(name))
 
+    def looked_up(self, name: str) -> Answer:
+        """Return whose files are sure to be looked up by a name that says nothing: a package, wherever that comes from."""
+        return Answer((name,), False, name) if self.names.standing(name) == "unknown" and may_be_package(name) else _NOBODY
+
     def _found(self, name: str) -> Answer:
         known = self.names.by_cmake(name)
         # A library may have any name, but not by chance that of a dependency of another package.
@@ -269,6 +273,8 @@ class _Uses:
             ):
                 continue
             providers, known, usual = answer(via, name)
+            if not providers and via == "package" and sure and not (optional or test or role is _TEST):
+                providers, known, usual = self.resolver.looked_up(name)
             if not providers or package in providers:
                 continue
             if via == "include" and providers[0] in self._own.include_folders and name.startswith(f"{providers[0]}/"):

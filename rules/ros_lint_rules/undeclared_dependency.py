@@ -27,7 +27,8 @@ Where a tag is there, under a condition that does not hold, widen the condition.
 - colcon rejects `package.xml`, which is to be mended first: then the confidence is medium.
 - The name belongs to no package or rosdep key that is known, or to the system. Whose messages are used is a package all the
   same: the confidence is medium, unless another package of the workspace declares it, or CMake does not do without it. What
-  another one declares, and CMake finds here, or something looks up, is one, too.
+  another one declares, and CMake finds here, or something looks up, is one, too. So is, with medium confidence, what nobody
+  declares, and something that is installed looks up for certain: `$(find x)` means a package, wherever it comes from.
 - Only other distributions have the package, or had it: then the message names them, and the confidence is medium, unless
   nobody said which distribution is meant. What brings it along there counts.
 - A declared dependency is itself not known, so that the package might come with it, and nothing else needs it that could not:
@@ -96,11 +97,13 @@ def _finding(package: Package, workspace: Workspace, need: Need, says: str, conf
     role = Role.TEST if name in unguarded_tests(package) else need.role  # which is told to be put where tests are
     way_out = advice(package, workspace, name, role)
     where = _where(name, workspace)
-    condition = _condition(package, name)
+    condition, instead = _condition(package, name), _instead(name, workspace)
     if way_out.circular:
         message = f"{name} is used here, but cannot be declared: {way_out.obstacle}"
     elif where:
         message = f"{name} {says}, nor could it: {workspace.target.distro} has no such package, only {where}"
+    elif instead:
+        message = f"{name} is used here, and there is no such package: {instead} is meant"
     elif way_out.obstacle:
         message = f"{name} {says}, nor could it: {way_out.obstacle}"
     elif condition:
@@ -114,9 +117,20 @@ def _finding(package: Package, workspace: Workspace, need: Need, says: str, conf
         best.span,
         name,
         several(Related(f"also used here: {use.what}", use.span) for use in others),
-        None if where or condition else way_out.fix,
+        None if where or condition or instead else way_out.fix,
         confidence if way_out.certain else min(confidence, Confidence.MEDIUM),
     )
+
+
+def _instead(name: str, workspace: Workspace) -> str:
+    """Return the package that a name which nobody has must mean, "" if there is doubt: one near it, or with a word before it."""
+    if workspace.world.standing(name) != "unknown":
+        return ""
+    meant = workspace.world.meant(name)
+    if meant is not None and workspace.world.is_package(meant.name):
+        return meant.name
+    longer = [other for other in workspace.by_name if other.endswith(f"_{name}")]
+    return longer[0] if len(longer) == 1 else ""
 
 
 def _condition(package: Package, name: str) -> str:
