@@ -3,12 +3,14 @@
 
 A `<depend>` or `<build_depend>` on a ROS package that nothing in the package uses: no include, no import, no
 `find_package`, no interface, no launch file, and its name stands in no other file. And a `<test_depend>` in a package
-without any test that could use it, if nothing else does, such as `find_package` or a launch file.
+without any test that could use it, if nothing else does, such as `find_package` or a launch file. And a
+`<member_of_group>rosidl_interface_packages</member_of_group>` in a package that has and generates no interfaces.
 
 ## Why it matters
 
 Every dependency is installed and built before this package, and rebuilds it when it changes. A leftover costs time on
-every machine, and tells readers something wrong.
+every machine, and tells readers something wrong. What depends on the group of all packages with interfaces, such as
+`ros1_bridge`, waits for each member.
 
 ## How to fix it
 
@@ -43,6 +45,7 @@ from ros_lint.api import (
     Confidence,
     Declared,
     Depend,
+    Facet,
     Finding,
     Fix,
     Package,
@@ -50,6 +53,7 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
+    called,
     carriers,
     is_built_in_sight,
     is_library,
@@ -67,11 +71,14 @@ from ros_lint.api import (
 )
 
 _TAGS = ("depend", "build_depend")
+_GROUP = "rosidl_interface_packages"
+_INTERFACES = (".msg", ".srv", ".action", ".idl")
 _HANDED_ON = Role.EXEC | Role.EXPORT
 _NO_TEST = FINDS_TESTS | {"enable_testing"}
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    yield from _no_member(package)
     found = list(_unused(package, workspace))
     carried = carriers(package, workspace, [declared for declared, _, _ in found]) if found else {}
     for declared, says, confidence in found:
@@ -91,6 +98,23 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             fix=Fix(f"remove {written}", tuple(edit for each in idle for edit in remove_dependency(package, each)), safe=sure),
             confidence=confidence,
         )
+
+
+def _no_member(package: Package) -> Iterator[Finding]:
+    """Speak of the group of packages with interfaces, in one that has none."""
+    manifest, script = package.manifest, package.script
+    if manifest is None or script is None or script.problems or _GROUP not in package.groups:
+        return
+    if package.builds_with not in ("ament_cmake", "ament_python") or script.hides(Facet.INTERFACES | Facet.USES):
+        return
+    generated = script.interfaces or any(True for _ in called(package, "rosidl_generate_interfaces", anywhere=True))
+    if generated or any(file.endswith(_INTERFACES) for file in package.files):
+        return
+    for depend in manifest.depends:
+        if depend.tag == "member_of_group" and depend.name == _GROUP and Declared(depend, Role(0), certain=True).always:
+            written = f"<{depend.tag}>{_GROUP}</{depend.tag}>"
+            fix = Fix(f"remove {written}", tuple(remove_dependency(package, depend)))
+            yield Finding(f"{package.name} generates no interfaces: remove {written}", depend.span, _GROUP, fix=fix)
 
 
 def _told(package: Package, name: str, carried: Carried) -> str:
