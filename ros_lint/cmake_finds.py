@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
-from ros_lint.build_scripts import FINDS_TESTS
+from ros_lint.build_scripts import FINDS_TESTS, generated_from, relative
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.sight import Facet
 from ros_lint.facts.sources import Mention, Purpose
@@ -37,17 +37,20 @@ def finds_declared(package: Package) -> bool:
 def not_seen_used(package: Package) -> Iterator[Mention]:
     """Yield the first find_package() of each name that is needed, tests aside, and that no code is seen to use.
 
-    That targets are linked or exported is no use by code; interfaces and plugins that macros are given by name are. None
-    where what is used is not seen whole.
+    That targets are linked or exported is no use by code; plugins that macros are given by name are, and interfaces, unless
+    all those are read that code is generated from, and none has a field of theirs. None where what is used is not seen whole.
     """
     script = package.script
     if script is None or script.problems or package.builds_with != "ament_cmake" or package.hidden(Facet.USES):
         return
     used = {name for use in package.uses if use.via not in _BY_SCRIPT for name in use.providers}
+    read = _reads_interfaces(package)
     used |= {
         mention.name.partition("::")[0]
         for mention in script.mentions
-        if mention.via not in _BY_SCRIPT or mention.purpose in _FOR_CODE
+        if mention.via not in _BY_SCRIPT
+        or mention.purpose == "plugins"
+        or (mention.purpose == "interfaces" and not (read and mention.name not in _UNDER_INTERFACES))
     }
     used.add(package.name)
     for mention in script.mentions:
@@ -57,8 +60,15 @@ def not_seen_used(package: Package) -> Iterator[Mention]:
 
 
 _BY_SCRIPT = ("cmake", "target")
-_FOR_CODE = ("interfaces", "plugins")
-"""Targets that are linked say nothing: these packages are needed for the code that is generated or loaded."""
+_UNDER_INTERFACES = frozenset({"action_msgs", "builtin_interfaces", "service_msgs", "unique_identifier_msgs"})
+"""What actions and services are made of, whatever fields they have."""
+
+
+def _reads_interfaces(package: Package) -> bool:
+    """Whether all interface files are read that code is generated from, so that it is known what their fields are made of."""
+    given = generated_from(package)
+    read = {relative(package, file.path) for file in package.interface_files if not file.problems}
+    return len(given) == len(package.built.interfaces) and given <= read and not package.hidden(Facet.INTERFACES)
 
 
 def come_along(workspace: Workspace, names: Iterable[str]) -> frozenset[str] | None:

@@ -2,7 +2,7 @@
 ## What it finds
 
 A `find_package()` of a ROS package that the code does not use: no include, no macro, no interface, no import. That its
-targets are linked, or that it is exported, does not count.
+targets are linked, that it is exported, or that `rosidl_generate_interfaces()` is given it among `DEPENDENCIES`, does not count.
 
 ## Why it matters
 
@@ -21,7 +21,7 @@ Remove the `find_package()`, the target that is linked, and the dependency from 
 - The code includes a header that nobody is known to have, in a folder that begins like the name.
 - The script uses more of its variables than those that are linked.
 - It is found for tests, or it is optional.
-- The script cannot be followed everywhere.
+- The script cannot be followed everywhere, or code is generated from interfaces that cannot be read, or are written in IDL.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for mention in found_for_nothing(package, workspace):
         name = mention.name
         others = _also_named(package, mention)
-        what = f"find_package({name})" + (f", and {name} where it is linked or exported" if others else "")
+        what = f"find_package({name})" + (f", and {name} where else it is named" if others else "")
         related = several(Related(f"named here, too: {each.what or each.name}", each.span) for each in others)
         yield Finding(f"{name} is found, but no code uses it: remove {what}", mention.span, name, related)
 
