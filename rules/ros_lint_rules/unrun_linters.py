@@ -2,7 +2,8 @@
 ## What it finds
 
 Linters that are declared and never run: `ament_lint_auto` in `package.xml` while CMake does not call
-`ament_lint_auto_find_test_dependencies()`, or linters in `package.xml` that nothing finds.
+`ament_lint_auto_find_test_dependencies()`, or linters in `package.xml` that nothing finds. And the call where `ament_lint_auto`
+is the only `<test_depend>`: it runs the linters among those, and none is one.
 
 ## Why it matters
 
@@ -20,24 +21,44 @@ that it does not call.
 - Another tag than `<test_depend>` declares the linter: then it is there for others, as in a metapackage.
 - `rosidl_generate_interfaces()` is given `ADD_LINTER_TESTS`: it runs the linters that `ament_lint_common` brings.
 - An option that is off switches the linters on.
+- `ament_lint_auto` is the only `<test_depend>`, and CMake finds something that may bring linters.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
-from ros_lint.api import FINDS_TESTS, LINTERS, BuildScript, Facet, Finding, Package, Rule, Severity, Workspace, called
+from ros_lint.api import (
+    FINDS_TESTS,
+    LINTERS,
+    BuildScript,
+    Facet,
+    Finding,
+    Package,
+    Rule,
+    Severity,
+    Workspace,
+    called,
+    found_names,
+)
 
 _AUTO = "ament_lint_auto"
 _ALL = "ament_lint_common"
 _RUN = "ament_lint_auto_find_test_dependencies"
+_MAY_BRING = re.compile("cmake|common|lint|test|tool")
+"""Parts of the names of packages that may bring linters when CMake finds them."""
+_BRING_NONE = frozenset({_AUTO, "ament_cmake", "ament_cmake_auto", "ament_cmake_python", "ament_cmake_ros"})
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or script.problems or package.builds_with != "ament_cmake" or script.hides(Facet.USES):
         return
-    if FINDS_TESTS.intersection(script.calls) or _checks_what_it_generates(package):
+    if _checks_what_it_generates(package):
+        return
+    if FINDS_TESTS.intersection(script.calls):
+        yield from _none_to_run(package, script)
         return
     if any(call.blocks.count("if") > call.test for call in called(package, _RUN, anywhere=True)):
         return  # an option switches them on
@@ -62,6 +83,21 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         )
 
 
+def _none_to_run(package: Package, script: BuildScript) -> Iterator[Finding]:
+    """Speak of linters that are called for where there are none."""
+    wanted = [each.depend for each in package.declared if each.depend.tag == "test_depend"]
+    if _RUN not in script.calls or {depend.name for depend in wanted} != {_AUTO}:
+        return
+    found = found_names(package, script).union(_looked_for(package)) - _BRING_NONE
+    if not any(map(_MAY_BRING.search, found)):
+        yield Finding(
+            f"{_AUTO} runs the linters among the test dependencies, and package.xml declares none: add "
+            f"<test_depend>{_ALL}</test_depend>",
+            wanted[0].span,
+            _AUTO,
+        )
+
+
 def _checks_what_it_generates(package: Package) -> bool:
     return any("ADD_LINTER_TESTS" in call.texts for call in called(package, "rosidl_generate_interfaces", anywhere=True))
 
@@ -74,8 +110,11 @@ def _called_by_name(package: Package, script: BuildScript) -> list[str]:
 
 def _found(package: Package, script: BuildScript) -> set[str]:
     """Return what the CMake files look for, if only under a condition."""
-    written = {call.texts[0] for call in called(package, "find_package", anywhere=True) if call.args}
-    return written.union(mention.name for mention in script.mentions)
+    return _looked_for(package).union(mention.name for mention in script.mentions)
+
+
+def _looked_for(package: Package) -> set[str]:
+    return {call.texts[0] for call in called(package, "find_package", anywhere=True) if call.args}
 
 
 def _list(commands: list[str]) -> str:
