@@ -86,6 +86,9 @@ def test_spelling_by_dashes_and_capitals() -> None:
         ("tower_and_pan_tilt_control", ["tower_pan_tilt_control", "chassis_pan_tilt_control"], ["tower_pan_tilt_control"]),
         ("small_house_world", ["small_warehouse_world"], ["small_warehouse_world"]),
         ("follow_waypoints_server", ["follow_waypoints", "follow_waypoints_deg"], ["follow_waypoints"]),
+        ("icar_description", ["flir_camera_description", "car_description"], ["car_description"]),
+        ("rmoss_interfaces", ["ros_gz_interfaces", "ros_snapd_interfaces"], []),
+        ("robot_apriltags", ["cam_robot_april_tag"], ["cam_robot_april_tag"]),
     ],
 )
 def test_names_that_may_be_meant(name: str, names: list[str], wanted: list[str]) -> None:

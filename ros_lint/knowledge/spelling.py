@@ -105,7 +105,9 @@ def near_names(name: str, names: Iterable[str], most: int, least: float) -> list
     """Return which of the names that look like another one, as :func:`ros_lint.slips.similar` says, may be meant by it.
 
     Where both have words that the other one lacks, these must resemble each other: front_camera is not meant to be
-    rear_camera, however much of it is the same. What several complete alike, as left_arm and right_arm do arm, is neither.
+    rear_camera, however much of it is the same. If there is one more besides, those that it lacks must begin like others:
+    icar_description is not meant to be flir_camera_description. What several complete alike, as left_arm and right_arm do
+    arm, is neither.
     """
     words = _words(name)
     found = [other for other in similar(name, names, most, least) if _may_be_meant(words, _words(other))]
@@ -115,7 +117,11 @@ def near_names(name: str, names: Iterable[str], most: int, least: float) -> list
 
 def _may_be_meant(words: frozenset[str], others: frozenset[str]) -> bool:
     lacking, more = words - others, others - words
-    return not (lacking and more) or all(similar(word, more) for word in lacking)
+    if not (lacking and more):
+        return True
+    if all(similar(word, lacking) for word in more):
+        return all(similar(word, more) for word in lacking)
+    return all(any(word.startswith(other) or other.startswith(word) for other in more) for word in lacking)
 
 
 def may_be_package(name: str) -> bool:
