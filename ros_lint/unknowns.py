@@ -88,11 +88,11 @@ def _found(workspace: Workspace) -> frozenset[str]:
 
 
 def _is_no_package(name: str, workspace: Workspace) -> bool:
-    """Whether an unknown name can stand for no package of ROS 2: it is spelt like a key, a slip, or one of ROS 1.
+    """Whether an unknown name can stand for no package of ROS 2: it is spelt like a key, a slip, a group, or one of ROS 1.
 
     What a build script finds, and nothing took the place of in ROS 2, was ported without a release.
     """
-    if not may_be_package(name) or name == "ament_python":
+    if not may_be_package(name) or name == "ament_python" or workspace.world.group_members(name):
         return True
     names = workspace.world.knowledge.names
     gone = names.end_of_life(name)

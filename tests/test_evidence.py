@@ -158,6 +158,7 @@ def test_an_unknown_name_can_bring_some_things_only() -> None:
     assert may_bring(("acme_cmake",), "ament_cmake_auto", workspace)
     assert not may_bring(("strange",), "ament_lint_auto", workspace)
     assert not may_bring(("Eigen3", "python3-strange", "ament_python", "roscpp", "sensor_msg"), "rclcpp", workspace)
+    assert not may_bring(("rosidl_interface_packages",), "rosidl_default_generators", workspace)  # a group
 
 
 def test_a_tag_covers_what_comes_along_with_it_for_its_role() -> None:

@@ -60,7 +60,6 @@ _FINDS_DECLARED = "ament_auto_find_build_dependencies"
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
-    groups = {group for package in workspace.packages for group in package.groups}
     renamed: dict[tuple[str, str], Stranger] = {}
     for name, packages in declared_names(workspace).items():
         if workspace.world.standing(name) == "unknown":
@@ -71,7 +70,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
                     )
                 elif name == _PYTHON_BUILD:
                     yield _build_type(stranger)
-                elif name in groups:
+                elif workspace.world.group_members(name):
                     yield _needless(stranger, f"{name} is a group of packages and none itself")
                 elif stranger.runs_python and workspace.world.by_import(name).none_needed:
                     why = f"{name} is a module of Python itself, so there is nothing that rosdep could install"
