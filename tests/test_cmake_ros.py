@@ -52,6 +52,16 @@ def test_ament_auto() -> None:
     assert {provided.path: provided.span.line for provided in script.provides}["lib/pkg/node"] == 7
 
 
+def test_macros_that_build_and_install_nothing_hide_nothing() -> None:
+    script = run("ecl_enable_cxx14_compiler()\ninitialize_code_coverage()\nadd_run_tests_target(ENABLE ON)\n")
+    assert not script.opaque
+    assert {("macro", "ecl_build"), ("macro", "ros_industrial_cmake_boilerplate")} <= mentioned(script).keys()
+    known = "if(ECL_PLATFORM_HAS_POSIX_THREADS)\nadd_library(a a.cpp)\nendif()"
+    detected = run(f"ecl_detect_threads()\necl_detect_filesystem()\n{known}")
+    assert [target.name for target in detected.targets] == ["a"]
+    assert not detected.opaque
+
+
 def test_interfaces() -> None:
     script = run(
         'set(msgs "msg/A.msg" "msg/B.msg")\n'
