@@ -25,6 +25,7 @@ def names(text: str) -> dict[str, bool]:
         ("    - Class: rviz_common/Displays", {}),
         ("type: joint_trajectory_controller/JointTrajectoryController", {"joint_trajectory_controller": False}),
         ('plugin: "nav2_smac_planner::SmacPlanner2D"', {"nav2_smac_planner": False}),
+        ("moveit_controller_manager: moveit_simple_controller_manager/Simple", {"moveit_simple_controller_manager": False}),
         ("<plugin>mock_components/GenericSystem</plugin>", {"mock_components": False}),
         ('<class type="a_plugins::Thing" base_class_type="nav2_core::Behavior">', {}),
         ('<transmission name="arm" type="a_transmissions/Simple">', {"a_transmissions": False}),

@@ -34,8 +34,8 @@ _LOOK_UPS = tuple(
 )
 # model://p/a.stl may be a package or a model, and a class is named after its package by habit only: Class: p/Name of
 # rviz and rqt, but what is of rviz_common is built into rviz; type: p/Name of controllers, plugin: "p::Name" of navigation,
-# <plugin>p/Name</plugin>, type="p::Name". What ros1_bridge is to translate has ros2_package_name: p; ros_gz_bridge can only
-# have messages that it brings itself (ros_type_name).
+# <plugin>p/Name</plugin>, type="p::Name", moveit_controller_manager: p/Name. What ros1_bridge is to translate has
+# ros2_package_name: p; ros_gz_bridge can only have messages that it brings itself (ros_type_name).
 _CLASS = r"([a-z]\w*)(?:/|::)[A-Za-z]"
 _HABITS = tuple(
     map(
@@ -46,6 +46,7 @@ _HABITS = tuple(
             rf"""ype["']?[ \t]*[:=][ \t]*["']?{_CLASS}""",
             rf"""ros2_package_name["']?[ \t]*:[ \t]*["']?{_NAME}""",
             rf"""plugin(?:_name)?["']?[ \t]*[:>]\s*["']?{_CLASS}""",
+            rf"""moveit_controller_manager["']?[ \t]*:[ \t]*["']?{_CLASS}""",
         ),
     )
 )
