@@ -208,8 +208,8 @@ def resolve(source: Source, resolver: Resolver, own: OwnFiles) -> tuple[Use, ...
         mentions = list(facts.mentions)
         if alive.is_optional(path) or (path in forgone and not alive.is_started(path)):
             mentions = [mention._replace(optional=True) for mention in mentions]
-        if path in launched:  # the launch collector has the packages, too
-            mentions = [mention for mention in mentions if mention.via != "package"]
+        if path in launched:  # the launch collector has the packages, too, but for those of plugins
+            mentions = [mention for mention in mentions if mention.via != "package" or mention.purpose == "plugins"]
         uses.add(path, mentions, role, _TEST if role is _TEST else _LOOKED_UP, sure)
     for launch in source.launch:
         path = within(source.path, launch.path)

@@ -2,6 +2,7 @@
 
 import pytest
 
+from ros_lint.collect import collect
 from ros_lint.collectors import resources
 from ros_lint.text import Text
 
@@ -71,3 +72,11 @@ def test_trees_that_are_included() -> None:
     found = resources.collect(source).look_ups
     assert [(each.package, each.path) for each in found] == [("trees", "trees/grasp.xml"), ("more", "put.xml")]
     assert [source.slice(each.span) for each in found] == ["trees/grasp.xml", "put.xml"]
+
+
+def test_what_moveit_is_told_to_load_by_a_launch_file_in_python() -> None:
+    code = 'manager = {"moveit_controller_manager": "moveit_simple_controller_manager/MoveItSimpleControllerManager"}\n'
+    source = Text("launch/arm.launch.py", f"from launch import LaunchDescription\n{code}def generate_launch_description(): ...\n")
+    facts = collect(source, "python").facts
+    assert facts is not None
+    assert ("moveit_simple_controller_manager", True) in {(mention.name, mention.optional) for mention in facts.mentions}

@@ -37,8 +37,10 @@ _LOOK_UPS = tuple(
 # <plugin>p/Name</plugin>, type="p::Name", moveit_controller_manager: p/Name. What ros1_bridge is to translate has
 # ros2_package_name: p; ros_gz_bridge can only have messages that it brings itself (ros_type_name).
 _CLASS = r"([a-z]\w*)(?:/|::)[A-Za-z]"
-_HABITS = tuple(
-    map(
+_MANAGER = re.compile(rf"""moveit_controller_manager["']?[ \t]*:[ \t]*["']?{_CLASS}""")
+_HABITS = (
+    _MANAGER,
+    *map(
         re.compile,
         (
             rf"model://{_NAME}(?=/)",
@@ -46,9 +48,8 @@ _HABITS = tuple(
             rf"""ype["']?[ \t]*[:=][ \t]*["']?{_CLASS}""",
             rf"""ros2_package_name["']?[ \t]*:[ \t]*["']?{_NAME}""",
             rf"""plugin(?:_name)?["']?[ \t]*[:>]\s*["']?{_CLASS}""",
-            rf"""moveit_controller_manager["']?[ \t]*:[ \t]*["']?{_CLASS}""",
         ),
-    )
+    ),
 )
 
 
@@ -58,6 +59,16 @@ def collect(source: Text) -> FileFacts:
     if source.path.endswith((".yaml", ".yml")):
         return facts._replace(parameters=parameter_files.collect(source))
     return facts
+
+
+def loaded(source: Text) -> tuple[Mention, ...]:
+    """Return the packages of the controller managers that a launch file in Python has MoveIt load, as by its parameters."""
+    found: dict[str, tuple[int, int]] = {}
+    _search(_MANAGER, source.text, found)
+    spans = source.spans(found.values())
+    return tuple(
+        Mention(name, "package", span, optional=True, purpose="plugins") for name, span in zip(found, spans, strict=True)
+    )
 
 
 def _packages(source: Text) -> FileFacts:
