@@ -40,6 +40,30 @@ class Baseline(NamedTuple):
     """What was checked when it was written, relative to the folder that it lies in."""
     known: Mapping[Key, Known]
 
+    def without(self, report: Report, name: str, folders: Sequence[str]) -> Report:
+        """Return a report without what is known, with the number of those, and a warning of what is known and gone.
+
+        ``name`` is how the file is called, ``folders`` are those that were checked: of others nothing is gone.
+        """
+        counts = Counter(map(_key, report.issues))
+        shown = tuple([issue for issue in report.issues if counts[_key(issue)] > self._number(_key(issue))])
+        hidden = Hidden(f"known in {name}", len(report.issues) - len(shown))
+        gone = self._gone(report, counts) if tuple(folders) == self.folders else 0
+        return report._replace(
+            issues=shown,
+            hidden=(*report.hidden, hidden) if hidden.count else report.hidden,
+            warnings=(*report.warnings, _about(name, gone)) if gone else report.warnings,
+        )
+
+    def _gone(self, report: Report, counts: Mapping[Key, int]) -> int:
+        ran = {rule.name for rule in report.rules} - {crash.rule for crash in report.crashes}
+        every = all(hidden.reason != UNSURE for hidden in report.hidden)
+        judged = {key: known for key, known in self.known.items() if key[0] in ran and (known.sure or every)}
+        return sum(max(known.number - counts.get(key, 0), 0) for key, known in judged.items())
+
+    def _number(self, key: Key) -> int:
+        return self.known[key].number if key in self.known else 0
+
 
 def read(path: str) -> Baseline:
     """Return what a file says. Raises BaselineError."""
@@ -76,37 +100,10 @@ def text(report: Report, folders: Sequence[str]) -> str:
     return encode({"folders": list(folders), "known": known}, 2)
 
 
-def without(report: Report, baseline: Baseline, name: str, folders: Sequence[str]) -> Report:
-    """Return a report without what is known, with the number of those, and a warning of what is known and gone.
-
-    ``name`` is how the file is called, ``folders`` are those that were checked: of others nothing is gone.
-    """
-    counts = Counter(map(_key, report.issues))
-    shown = tuple([issue for issue in report.issues if counts[_key(issue)] > _count(baseline, _key(issue))])
-    hidden = Hidden(f"known in {name}", len(report.issues) - len(shown))
-    gone = _gone(report, baseline, counts) if tuple(folders) == baseline.folders else 0
-    return report._replace(
-        issues=shown,
-        hidden=(*report.hidden, hidden) if hidden.count else report.hidden,
-        warnings=(*report.warnings, _about(name, gone)) if gone else report.warnings,
-    )
-
-
 def _about(name: str, gone: int) -> str:
     if gone == 1:
         return f"{name} knows 1 finding more than there is; --write-baseline takes it out"
     return f"{name} knows {gone} findings more than there are; --write-baseline takes them out"
-
-
-def _gone(report: Report, baseline: Baseline, counts: Mapping[Key, int]) -> int:
-    ran = {rule.name for rule in report.rules} - {crash.rule for crash in report.crashes}
-    every = all(hidden.reason != UNSURE for hidden in report.hidden)
-    judged = {key: known for key, known in baseline.known.items() if key[0] in ran and (known.sure or every)}
-    return sum(max(known.number - counts.get(key, 0), 0) for key, known in judged.items())
-
-
-def _count(baseline: Baseline, key: Key) -> int:
-    return baseline.known[key].number if key in baseline.known else 0
 
 
 def _key(issue: Issue) -> Key:

@@ -1,5 +1,6 @@
 """Files of known findings: what they list is not shown, and what is new or gone is."""
 
+import filecmp
 import json
 import os
 import shutil
@@ -49,14 +50,14 @@ found = issues_of(st.text(max_size=2))
 @given(issues_of(st.text(st.characters(), max_size=4)))  # lone bytes, too
 def test_what_is_written_hides_just_that(tmp_path_factory: pytest.TempPathFactory, issues: list[Issue]) -> None:
     known = kept(tmp_path_factory.mktemp("known"), report(*issues))
-    left = baseline.without(report(*issues), known, "known.json", (".",))
+    left = known.without(report(*issues), "known.json", (".",))
     assert (left.issues, left.warnings) == ((), ())
     assert left.hidden == ((Hidden("known in known.json", len(issues)),) if issues else ())
 
 
 @given(found, found)
 def test_only_more_of_the_same_is_new(tmp_path_factory: pytest.TempPathFactory, before: list[Issue], after: list[Issue]) -> None:
-    left = baseline.without(report(*after), kept(tmp_path_factory.mktemp("known"), report(*before)), "known.json", (".",))
+    left = kept(tmp_path_factory.mktemp("known"), report(*before)).without(report(*after), "known.json", (".",))
     keys = [(one.rule.name, one.package, one.finding.subject) for one in before]
     for one in after:
         key = one.rule.name, one.package, one.finding.subject
@@ -66,19 +67,19 @@ def test_only_more_of_the_same_is_new(tmp_path_factory: pytest.TempPathFactory, 
 
 def test_what_is_gone_is_told(tmp_path: Path) -> None:
     known = kept(tmp_path, report(issue("one", "a", "x"), issue("one", "a", "x"), issue("two", "b", "y")))
-    left = baseline.without(report(issue("one", "a", "x")), known, "known.json", (".",))
+    left = known.without(report(issue("one", "a", "x")), "known.json", (".",))
     assert left.warnings == ("known.json knows 2 findings more than there are; --write-baseline takes them out",)
-    left = baseline.without(report(issue("one", "a", "x"), issue("two", "b", "y")), known, "known.json", (".",))
+    left = known.without(report(issue("one", "a", "x"), issue("two", "b", "y")), "known.json", (".",))
     assert left.warnings == ("known.json knows 1 finding more than there is; --write-baseline takes it out",)
 
 
 def test_nothing_is_gone_that_was_not_looked_for(tmp_path: Path) -> None:
     known = kept(tmp_path, report(issue("one", "a", "x"), issue("two", "b", "y", sure=False)))
-    assert not baseline.without(report(ran=("two",), hidden=(Hidden(UNSURE, 1),)), known, "k", (".",)).warnings
-    assert not baseline.without(report(), known, "k", ("src",)).warnings
+    assert not known.without(report(ran=("two",), hidden=(Hidden(UNSURE, 1),)), "k", (".",)).warnings
+    assert not known.without(report(), "k", ("src",)).warnings
     crashed = report(ran=("one",))._replace(crashes=(Crash("one", "a", "ValueError"),))
-    assert not baseline.without(crashed, known, "k", (".",)).warnings
-    assert baseline.without(report(ran=("two",)), known, "k", (".",)).warnings
+    assert not known.without(crashed, "k", (".",)).warnings
+    assert known.without(report(ran=("two",)), "k", (".",)).warnings
 
 
 def test_the_file_has_a_line_a_key_and_does_not_depend_on_places(tmp_path: Path) -> None:
@@ -161,12 +162,15 @@ def test_what_makes_no_sense_is_refused(demo: Path, tmp_path: Path) -> None:
         (("--write-baseline",), "--write-baseline needs the name of the file"),
         (("--baseline", "k.json", "--write-baseline", "--diff"), "--diff changes none"),
         (("--baseline", "k.json"), "k.json: No such file or directory; --write-baseline makes the file"),
+        (("--baseline", "k.json", "--fix"), "k.json: No such file or directory"),
         (("--baseline", tmp_path / "no" / "k.json", "--write-baseline"), "k.json: cannot be written"),
     ):
         done = run(demo, *arguments, cwd=tmp_path)
         assert done.returncode == 2, arguments
         assert complaint in done.stderr
         assert not (tmp_path / "k.json").exists()
+    manifest = "src/rover_driver/package.xml"
+    assert filecmp.cmp(DEMO / manifest, demo / manifest, shallow=False)  # nothing was mended before the refusal
     done = run(tmp_path / "ws" / "src" / "rover_teleop" / "launch", "--baseline", "k.json", "--write-baseline", cwd=tmp_path)
     assert done.returncode == 2
     assert "k.json: not written: no package found below" in done.stderr

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from ros_lint import engine
+    from ros_lint.baseline import Baseline
     from ros_lint.config import Settings
     from ros_lint.opening import Asked, Opened
     from ros_lint.reporters.ansi import Style
@@ -38,7 +39,7 @@ def run(said: Said) -> int:
             if asked.settings["show-settings"]:
                 print(asked.settings.show(), end="")
                 return 0
-            _refuse(asked.settings)
+            known = _known(asked.settings)
             if asked.settings["fix"] or asked.settings["diff"]:
                 from ros_lint.commands import mend  # noqa: PLC0415
 
@@ -47,8 +48,9 @@ def run(said: Said) -> int:
                 report, code = _checked(asked, progress), 0
             if asked.settings["write-baseline"]:
                 return max(code, _keep(report, asked))
-            if asked.settings["baseline"]:
-                report = _without_known(report, asked)
+            if known is not None:
+                path = asked.settings["baseline"]
+                report = known.without(report, os.path.basename(path), _folders(asked, path))
     except RefusalError as error:
         print(f"ros-lint: {error}", file=sys.stderr)
         return 2
@@ -59,12 +61,18 @@ def run(said: Said) -> int:
     return max(code, _print(report, asked))
 
 
-def _refuse(settings: Settings) -> None:
-    """Raise UsageError for options that make no sense together."""
-    if settings["write-baseline"] and not settings["baseline"]:
+def _known(settings: Settings) -> Baseline | None:
+    """Return what the file of known findings says, None without one. Raises BaselineError, and UsageError for nonsense."""
+    path, write = settings["baseline"], settings["write-baseline"]
+    if write and not path:
         raise opening.UsageError("--write-baseline needs the name of the file: --baseline FILE, or baseline in the settings")
-    if settings["write-baseline"] and settings["diff"]:
+    if write and settings["diff"]:
         raise opening.UsageError("--write-baseline writes a file, and --diff changes none: leave one of them out")
+    if write or not path:
+        return None
+    from ros_lint import baseline  # noqa: PLC0415
+
+    return baseline.read(path)
 
 
 def _keep(report: Report, asked: Asked) -> int:
@@ -80,14 +88,6 @@ def _keep(report: Report, asked: Asked) -> int:
     count = len(report.issues)
     print(f"ros-lint: {path} knows {count} finding{'s' * (count != 1)} now", file=sys.stderr)
     return 0
-
-
-def _without_known(report: Report, asked: Asked) -> Report:
-    """Return a report without the findings that are known. Raises BaselineError."""
-    from ros_lint import baseline  # noqa: PLC0415
-
-    path = asked.settings["baseline"]
-    return baseline.without(report, baseline.read(path), os.path.basename(path), _folders(asked, path))
 
 
 def _folders(asked: Asked, path: str) -> list[str]:
