@@ -170,6 +170,7 @@ def _doubled(package: Package, script: BuildScript, wanted: list[tuple[Package, 
         return  # it is named as the folder to look into
     library = any(each.path.startswith("lib/lib") for each in script.provides)
     exported = library and bool(_exports(package) or any(True for _ in called(package, *_LINKED)))
+    needed = bool(wanted) or (exported and not _is_loaded(package, script))
     places = ((call, at) for call in called(package, "install", anywhere=True) for at in range(len(call.args)))
     call, at = next(((call, at) for call, at in places if call.span(at) == first.span), (None, 0))
     fix = Fix.of("install what is in the folder", cmake_edits.write(call, at, f"{call.texts[at]}/")) if call else None
@@ -180,8 +181,8 @@ def _doubled(package: Package, script: BuildScript, wanted: list[tuple[Package, 
         "include/",
         _included_here(wanted),
         fix,
-        Confidence.HIGH if wanted or exported else Confidence.LOW,
-        None if wanted or (exported and not _is_loaded(package, script)) else Severity.WARNING,
+        Confidence.HIGH if needed else Confidence.MEDIUM if exported else Confidence.LOW,
+        None if needed else Severity.WARNING,
     )
 
 
