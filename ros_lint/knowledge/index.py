@@ -142,12 +142,18 @@ class Index(Entries[Released]):
 
     def members(self, group: str) -> Iterator[str]:
         """Yield the members of a group, sorted."""
-        for line in self._table.lines():
-            # Few lines name a group, and taking all of them apart would take long.
+        # Few lines name a group, and taking all of them apart would take long.
+        lines = self._table.lines() if group == INTERFACES else self._grouped
+        for line in lines:
             if group == INTERFACES or group in line:
                 found = self.get(line.partition("\t")[0])
                 if found is not None and group in found.groups:
                     yield found.name
+
+    @cached_property
+    def _grouped(self) -> list[str]:
+        """The lines of packages that say that they are members of groups."""
+        return [line for line in self._table.lines() if "\tM:" in line]
 
     def declared_as(self, name: str) -> Mapping[str, int]:
         """Return by how many packages a name is declared with each set of kinds, such as {"t": 12, "bex": 1}."""
