@@ -78,6 +78,7 @@ from ros_lint.launch_files import (
     Programs,
     corrected,
     is_kept_back,
+    is_launched,
     launch_suffix,
     launchable,
     programs,
@@ -109,7 +110,7 @@ from ros_lint.resource_files import uninstalled as uninstalled_resources
 from ros_lint.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
 from ros_lint.slips import did_you_mean, is_meant, similar
 from ros_lint.strangers import Stranger, declared_names, is_named, is_near_tool, meant, misspelt, strangers, used_instead
-from ros_lint.suffixes import HEADERS
+from ros_lint.suffixes import HEADERS, INTERFACES
 from ros_lint.suppress import Outcome
 from ros_lint.text import Span, beginning
 from ros_lint.tree import folders_of
@@ -126,6 +127,7 @@ __all__ = [
     "EXPORTING_PLUGINS",
     "FINDS_TESTS",
     "HEADERS",
+    "INTERFACES",
     "LAUNCH_NAMES",
     "LINTERS",
     "PYTHON_LIKE",
@@ -241,6 +243,7 @@ __all__ = [
     "is_cut_short",
     "is_for_tests",
     "is_kept_back",
+    "is_launched",
     "is_library",
     "is_meant",
     "is_miswritten",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
+from ros_lint import interface_names
 from ros_lint.build_scripts import FINDS_TESTS, generated_from, relative
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.sight import Facet
@@ -50,7 +51,7 @@ def not_seen_used(package: Package) -> Iterator[Mention]:
         for mention in script.mentions
         if mention.via not in _BY_SCRIPT
         or mention.purpose == "plugins"
-        or (mention.purpose == "interfaces" and not (read and mention.name not in _UNDER_INTERFACES))
+        or (mention.purpose == "interfaces" and not (read and mention.name not in interface_names.UNDERLYING))
     }
     used.add(package.name)
     for mention in script.mentions:
@@ -60,8 +61,6 @@ def not_seen_used(package: Package) -> Iterator[Mention]:
 
 
 _BY_SCRIPT = ("cmake", "target")
-_UNDER_INTERFACES = frozenset({"action_msgs", "builtin_interfaces", "service_msgs", "unique_identifier_msgs"})
-"""What actions and services are made of, whatever fields they have."""
 
 
 def _reads_interfaces(package: Package) -> bool:

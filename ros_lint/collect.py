@@ -121,10 +121,6 @@ def collect(text: Text, kind: Kind) -> Collected:
         from ros_lint.collectors import python  # noqa: PLC0415
 
         facts = python.collect(text, launch=launch is not None)
-        if launch is not None and "moveit_controller_manager" in text.text:
-            from ros_lint.collectors import resources  # noqa: PLC0415
-
-            facts = facts._replace(mentions=(*facts.mentions, *resources.loaded(text)))
     elif kind == "cmake":
         from ros_lint.collectors import cmake_syntax  # noqa: PLC0415
 

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator, Mapping
 from functools import lru_cache
 from typing import Final, NamedTuple
 
+from ros_lint.environment import ROS_2
 from ros_lint.facts.manifest import Element, Manifest
 from ros_lint.facts.sight import Problem
 
@@ -98,6 +99,11 @@ def evaluate(condition: Condition, context: Mapping[str, str]) -> bool | None:
     if left is None or right is None:
         return None
     return _OPERATORS[condition.operator](left, right)
+
+
+def always(text: str) -> bool:
+    """Return whether an element with this condition, or without one, counts in every environment of ROS 2."""
+    return truth(text, ROS_2) is True
 
 
 def truth(text: str, context: Mapping[str, str]) -> bool | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING
 
-from ros_lint import manifest_edits
+from ros_lint import interface_names, manifest_edits
 from ros_lint.cmake_finds import finds_declared
 from ros_lint.facts.manifest import Depend, Role
 from ros_lint.facts.sight import Facet
@@ -120,7 +120,7 @@ def works_unseen(package: Package, workspace: Workspace, name: str) -> bool:
     world = workspace.world
     if is_unseen_by_name(workspace.world, name):
         return True
-    if package.script and package.script.interfaces and name in _IN_INTERFACES:
+    if package.script and package.script.interfaces and name in interface_names.UNDERLYING:
         return True
     if world.plugins(name).names:
         return True
@@ -192,10 +192,6 @@ def leaves_trace(package: Package, workspace: Workspace, name: str) -> bool:
 
 PYTHON_LIKE = (".py", ".py.in", ".launch", ".launch.xml", ".launch.yaml")
 """Files that can run Python code, or have it run."""
-
-
-_IN_INTERFACES = frozenset({"action_msgs", "service_msgs", "builtin_interfaces", "unique_identifier_msgs"})
-"""What the generated code of actions and services includes; which of these must be declared has changed with time."""
 
 
 def is_seen_whole(package: Package) -> bool:

@@ -4,6 +4,11 @@ from __future__ import annotations
 
 import re
 
+GROUP = "rosidl_interface_packages"
+"""The group of all packages with interfaces."""
+UNDERLYING = frozenset({"action_msgs", "builtin_interfaces", "service_msgs", "unique_identifier_msgs"})
+"""What services and actions are made of, whatever fields they have; which of these must be declared has changed with time."""
+
 _MESSAGE = re.compile(r"[A-Z][A-Za-z0-9]*")
 _LOWER = re.compile(r"(?!\w*__)[a-z](?:[a-z0-9_]*[a-z0-9])?")
 _CONSTANT = re.compile(r"[A-Z](?:_?[A-Z0-9])*")

@@ -48,6 +48,11 @@ def launchable(package: Package, *, apart: bool = False) -> Iterator[Launchable]
             yield Launchable(file, path, is_installed, not aside or path in tests)
 
 
+def is_launched(package: Package, path: str) -> bool:
+    """Whether a file, by its path in the tree, is a launch file of ROS 2."""
+    return any(launch.path == path for launch in package.launch)
+
+
 def used_files(package: Package) -> frozenset[str]:
     """Return the files of a package that are seen to be installed, built, launched or part of its build script."""
     script = package.built

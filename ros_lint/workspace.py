@@ -8,7 +8,6 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from ros_lint import conditions, ignored
-from ros_lint.environment import ROS_2
 from ros_lint.facts.build import NOTHING_BUILT, BuildScript, LeftBehind
 from ros_lint.facts.interfaces import InterfaceFile
 from ros_lint.facts.launch import LaunchFile, LaunchReference
@@ -41,7 +40,7 @@ class Declared(NamedTuple):
     @property
     def always(self) -> bool:
         """Whether it counts whatever the distribution: without a condition, or with one that any environment of ROS 2 meets."""
-        return conditions.truth(self.depend.condition, ROS_2) is True
+        return conditions.always(self.depend.condition)
 
 
 class Package(NamedTuple):

@@ -11,7 +11,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from ros_lint import providers
-from ros_lint.knowledge.index import INTERFACES, RUNTIME
+from ros_lint.interface_names import GROUP
+from ros_lint.knowledge.index import RUNTIME
 from ros_lint.knowledge.provides import NOTHING_KNOWN
 from ros_lint.knowledge.reach import Closure, Reach
 from ros_lint.knowledge.spelling import Spelling
@@ -300,7 +301,7 @@ class World:
         """Return the packages of the workspace that offer a Python module: by their word, else by their name."""
         found = self._modules.get(module, ())
         member = self._members.get(module)
-        if not found and member is not None and (member.modules is None or INTERFACES in member.groups):
+        if not found and member is not None and (member.modules is None or GROUP in member.groups):
             return (module,)
         return found
 

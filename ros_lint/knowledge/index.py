@@ -12,6 +12,7 @@ from collections import defaultdict
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
+from ros_lint.interface_names import GROUP
 from ros_lint.knowledge.reach import Closure, Reach
 from ros_lint.knowledge.store import Entries, KnowledgeError, Store, Table
 
@@ -47,8 +48,6 @@ BUILD_TYPES: Mapping[str, str] = {
     "n": "meson",
     "?": "",
 }
-INTERFACES = "rosidl_interface_packages"
-"""The group of interface packages. Membership is the flag ``i``, not a group, since a sixth of all packages has it."""
 
 
 class Released(NamedTuple):
@@ -81,7 +80,7 @@ class Released(NamedTuple):
     @property
     def groups(self) -> tuple[str, ...]:
         """Return the groups that it is a member of, that of interface packages included."""
-        return (*self.depends.get("M", ()), *((INTERFACES,) if self.interfaces else ()))
+        return (*self.depends.get("M", ()), *((GROUP,) if self.interfaces else ()))
 
     def on(self, kinds: Iterable[str]) -> tuple[str, ...]:
         """Return the names that it depends on by any of the kinds, sorted."""
@@ -143,9 +142,10 @@ class Index(Entries[Released]):
     def members(self, group: str) -> Iterator[str]:
         """Yield the members of a group, sorted."""
         # Few lines name a group, and taking all of them apart would take long.
-        lines = self._table.lines() if group == INTERFACES else self._grouped
+        # Membership of interface packages is the flag i and no group, since a sixth of all packages has it.
+        lines = self._table.lines() if group == GROUP else self._grouped
         for line in lines:
-            if group == INTERFACES or group in line:
+            if group == GROUP or group in line:
                 found = self.get(line.partition("\t")[0])
                 if found is not None and group in found.groups:
                     yield found.name

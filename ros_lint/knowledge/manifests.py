@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 from ros_lint.conditions import ConditionError, build_types, parse, truth, variables
 from ros_lint.environment import ROS_2
-from ros_lint.knowledge.index import BUILD_TYPES, INTERFACES, TAG_KINDS, Released
+from ros_lint.interface_names import GROUP
+from ros_lint.knowledge.index import BUILD_TYPES, TAG_KINDS, Released
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -30,7 +31,7 @@ def describe(manifest: Manifest, variables_known: Mapping[str, str]) -> Released
         if not holds(depend.condition, variables_known):
             continue
         kinds = TAG_KINDS.get(depend.tag, "")
-        if kinds == "M" and depend.name == INTERFACES:
+        if kinds == "M" and depend.name == GROUP:
             interfaces = True
             continue
         for kind in kinds:

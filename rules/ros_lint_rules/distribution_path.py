@@ -41,6 +41,7 @@ from ros_lint.api import (
     Severity,
     Workspace,
     is_apart,
+    is_launched,
     relative,
     several,
     used_files,
@@ -86,7 +87,7 @@ def _way_out(leads: re.Match[str], machine: MachinePath, package: Package) -> st
     if leads["program"]:
         return f"start it with ros2 run {leads['owner']} {leads['program']}, or as a node"
     name, rest, file = leads["package"], leads["file"], machine.span.path
-    if _is_launched(machine, package) and not file.endswith(".py"):
+    if is_launched(package, machine.span.path) and not file.endswith(".py"):
         return f"say $(find-pkg-share {name})/{rest}"
     if file.endswith(".xacro"):
         return f"say $(find {name})/{rest}"
@@ -100,11 +101,7 @@ def _way_out(leads: re.Match[str], machine: MachinePath, package: Package) -> st
 
 
 def _is_of_ros_1(machine: MachinePath, package: Package) -> bool:
-    return machine.span.path.endswith(".launch") and not _is_launched(machine, package)
-
-
-def _is_launched(machine: MachinePath, package: Package) -> bool:
-    return any(launch.path == machine.span.path for launch in package.launch)
+    return machine.span.path.endswith(".launch") and not is_launched(package, machine.span.path)
 
 
 RULE = Rule(

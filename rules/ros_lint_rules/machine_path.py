@@ -68,6 +68,7 @@ from ros_lint.api import (
     filled,
     folders_of,
     is_apart,
+    is_launched,
     launchable,
     per_workspace,
     relative,
@@ -111,7 +112,7 @@ def _written_out(package: Package, workspace: Workspace) -> Iterator[Finding]:
             continue
         if is_apart(file) or (file.endswith(".cmake") and (file not in used or _STAGED.search(file))):  # builds leave those
             continue
-        if file.endswith(".launch") and not _is_launched(each, package):  # a launch file of ROS 1
+        if file.endswith(".launch") and not is_launched(package, each.span.path):  # a launch file of ROS 1
             continue
         inside = _inside(each.path, workspace)
         if each.path.startswith("/") or (inside and not file.endswith((*_BUILDING, "package.xml"))):
@@ -221,7 +222,7 @@ def _way_out(machine: MachinePath, inside: _Inside | None, file: str, package: P
     if scheme := _scheme(inside, file):
         filled_in = scheme.startswith("$") and not file.endswith(".xacro")
         return f"{it_is}say {scheme}/{inside.rest}" + (", and let xacro fill it in" if filled_in else "")
-    if _is_yaml(file) and not _is_launched(machine, package):
+    if _is_yaml(file) and not is_launched(package, machine.span.path):
         return f"{it_is}let the launch file give it, from the share directory of {inside.package}"
     return f"{it_is}look it up in the share directory of {inside.package}"
 
@@ -265,15 +266,10 @@ def _without_file(machine: MachinePath, inside: _Inside, file: str, package: Pac
         return "the argument needs another default, or none"
     if machine.default:
         return "the parameter needs another default, or none"
-    if _is_yaml(file) and not _is_launched(machine, package):
+    if _is_yaml(file) and not is_launched(package, machine.span.path):
         return "let the launch file give it"
-    program = file.endswith(_PROGRAMS) and not file.endswith(_BUILDING) and not _is_launched(machine, package)
+    program = file.endswith(_PROGRAMS) and not file.endswith(_BUILDING) and not is_launched(package, machine.span.path)
     return "make it a parameter" if program else "make it an argument"
-
-
-def _is_launched(machine: MachinePath, package: Package) -> bool:
-    """Whether a path stands in a launch file of ROS 2."""
-    return any(launch.path == machine.span.path for launch in package.launch)
 
 
 def _scheme(inside: _Inside, file: str) -> str:

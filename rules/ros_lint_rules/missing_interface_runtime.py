@@ -49,17 +49,16 @@ from ros_lint.api import (
     come_along,
     folders_of,
     given_for,
+    interface_names,
     manifest_edits,
     relative,
     undeclared,
 )
 
-_GROUP = "rosidl_interface_packages"
 _RUNTIME = "rosidl_default_runtime"
 _CORE = "rosidl_core_runtime"
 """What the messages have that the default runtime itself depends on."""
 _GENERATE = "rosidl_generate_interfaces"
-_BUILT_IN = frozenset({"builtin_interfaces", "service_msgs", "action_msgs", "unique_identifier_msgs"})
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -72,13 +71,13 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     sure = Confidence.MEDIUM if place.optional or place.test else Confidence.HIGH
     inside = folders_of(relative(package, place.span.path))
     if not any(f"{folder}/package.xml" in package.files for folder in inside):  # else CMake reads that one
-        if _GROUP not in package.groups and not _skips_check(package, place.span):
+        if interface_names.GROUP not in package.groups and not _skips_check(package, place.span):
             yield Finding(
-                f"{_GENERATE}() stops here unless package.xml says <member_of_group>{_GROUP}</member_of_group>",
+                f"{_GENERATE}() stops here unless package.xml says <member_of_group>{interface_names.GROUP}</member_of_group>",
                 place.span,
-                _GROUP,
+                interface_names.GROUP,
                 (),
-                Fix(f"join the group {_GROUP}", _join(manifest)),
+                Fix(f"join the group {interface_names.GROUP}", _join(manifest)),
                 sure,
             )
         yield from _runtime(package, workspace, place.span, sure)
@@ -98,7 +97,7 @@ def _is_installed(package: Package) -> bool:
 
 
 def _join(manifest: Manifest) -> tuple[Edit, ...]:
-    edits = (manifest_edits.add(manifest, "member_of_group", _GROUP),)
+    edits = (manifest_edits.add(manifest, "member_of_group", interface_names.GROUP),)
     return edits if manifest.format >= 3 else (manifest_edits.raise_format(manifest, 3), *edits)
 
 
@@ -132,7 +131,7 @@ def _fields(package: Package, workspace: Workspace, place: Span, sure: Confidenc
         return
     said = set()
     for use in package.uses:
-        if use.via != "interface" or use.package in along | _BUILT_IN or use.package in said or not use.sure:
+        if use.via != "interface" or use.package in along | interface_names.UNDERLYING or use.package in said or not use.sure:
             continue
         if not use.span.path.endswith((".msg", ".srv", ".action")):
             continue

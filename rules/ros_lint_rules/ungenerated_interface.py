@@ -70,7 +70,7 @@ from ros_lint.api import (
 _GENERATE = "rosidl_generate_interfaces"
 _KINDS = {"msg": ("msg", "idl"), "srv": ("srv", "idl"), "action": ("action", "idl")}
 """Suffixes of interfaces, by folder."""
-_SAYS_SO = ("rosidl_interface_packages", "rosidl_default_generators")
+_SAYS_SO = (interface_names.GROUP, "rosidl_default_generators")
 _HEADER = re.compile(r"(?P<maker>\w+)/(?P<kind>msg|srv|action)/(?P<name>(?!rosidl_)(?!\w*__)\w+)(?P<end>\.h(?:pp)?)")
 """The header of an interface, and none that it is made of."""
 _USUAL = ("std_msgs", "geometry_msgs", "sensor_msgs", "builtin_interfaces", "nav_msgs")

@@ -38,6 +38,7 @@ from collections.abc import Iterator
 
 from ros_lint.api import (
     FINDS_TESTS,
+    INTERFACES,
     LINTERS,
     PYTHON_LIKE,
     BuildScript,
@@ -55,6 +56,8 @@ from ros_lint.api import (
     Workspace,
     called,
     carriers,
+    conditions,
+    interface_names,
     is_built_in_sight,
     is_library,
     is_mostly_run,
@@ -71,8 +74,6 @@ from ros_lint.api import (
 )
 
 _TAGS = ("depend", "build_depend")
-_GROUP = "rosidl_interface_packages"
-_INTERFACES = (".msg", ".srv", ".action", ".idl")
 _HANDED_ON = Role.EXEC | Role.EXPORT
 _NO_TEST = FINDS_TESTS | {"enable_testing"}
 
@@ -103,18 +104,20 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 def _no_member(package: Package) -> Iterator[Finding]:
     """Speak of the group of packages with interfaces, in one that has none."""
     manifest, script = package.manifest, package.script
-    if manifest is None or script is None or script.problems or _GROUP not in package.groups:
+    if manifest is None or script is None or script.problems or interface_names.GROUP not in package.groups:
         return
     if package.builds_with not in ("ament_cmake", "ament_python") or script.hides(Facet.INTERFACES | Facet.USES):
         return
     generated = script.interfaces or any(True for _ in called(package, "rosidl_generate_interfaces", anywhere=True))
-    if generated or any(file.endswith(_INTERFACES) for file in package.files):
+    if generated or any(file.endswith(INTERFACES) for file in package.files):
         return
     for depend in manifest.depends:
-        if depend.tag == "member_of_group" and depend.name == _GROUP and Declared(depend, Role(0), certain=True).always:
-            written = f"<{depend.tag}>{_GROUP}</{depend.tag}>"
+        if depend.tag == "member_of_group" and depend.name == interface_names.GROUP and conditions.always(depend.condition):
+            written = f"<{depend.tag}>{interface_names.GROUP}</{depend.tag}>"
             fix = Fix(f"remove {written}", tuple(remove_dependency(package, depend)))
-            yield Finding(f"{package.name} generates no interfaces: remove {written}", depend.span, _GROUP, fix=fix)
+            yield Finding(
+                f"{package.name} generates no interfaces: remove {written}", depend.span, interface_names.GROUP, fix=fix
+            )
 
 
 def _told(package: Package, name: str, carried: Carried) -> str:
