@@ -63,10 +63,10 @@ def circle(package: Package, workspace: Workspace, name: str) -> tuple[str, ...]
     another distribution, too, where this one has no such package.
     """
     graph = workspace.graph if name in workspace.by_name else None
-    if graph is not None and package.name in graph.closure(name):
+    if graph is not None and name in graph.arcs and package.colcon_name in graph.closure(name):
         from ros_lint.graph_paths import paths  # noqa: PLC0415  (few needs are circular)
 
-        return paths(lambda each: sorted(graph.arcs[each]), name, package.name, 1).found[0]
+        return paths(lambda each: sorted(graph.arcs[each]), name, package.colcon_name, 1).found[0]
     world = workspace.world
     if not world.is_package(name) and world.knowledge.brings_elsewhere(name, package.name):
         return (name, package.name)

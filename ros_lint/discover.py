@@ -61,6 +61,10 @@ class Found(NamedTuple):
     path: str
     """Its folder, relative to the base; "" is the base."""
     name: str
+    """The name in ``package.xml``, by which other manifests, rosdep and the ament index know the package. Where no manifest
+    gives one it is the name that colcon uses."""
+    colcon_name: str
+    """The name that ``colcon list`` prints: ``colcon.pkg``, ``colcon.meta`` or the script of a plain package may set another."""
     type: str
     """As ``colcon list`` prints it: ros.ament_cmake, ros.ament_python, cmake, python ..."""
     manifest: Manifest | None
@@ -157,6 +161,7 @@ class _Walk:
             self._packages.append(
                 Found(
                     path,
+                    manifest.name if manifest and manifest.name else found.name,
                     found.name,
                     found.type,
                     manifest,

@@ -2,7 +2,8 @@
 
 An edge leads from a package to what has to be built before it: build, run and test dependencies, members of groups,
 and what colcon.pkg or the script of a plain package adds. Documentation dependencies, conflicts and false conditions
-give no edge. Packages of one name are one node.
+give no edge. Nodes are the names that colcon uses (:attr:`Package.colcon_name`): a manifest that names a package by
+another name orders nothing. Packages of one name are one node.
 """
 
 from __future__ import annotations
@@ -137,7 +138,7 @@ def build(packages: Iterable[Package]) -> Graph:
     places: dict[str, list[Package]] = {}
     members: dict[str, list[str]] = {}
     for package in packages:
-        places.setdefault(package.name, []).append(package)
+        places.setdefault(package.colcon_name, []).append(package)
         for group in package.groups:
             members.setdefault(group, []).append(package.name)
     needs: dict[str, dict[str, list[Reason]]] = {name: {} for name in places}
@@ -157,7 +158,7 @@ def _reasons(package: Package, members: Mapping[str, Iterable[str]]) -> Iterator
                 yield declared.name, reason
         for declared in package.group_depends:
             reason = Reason(declared.depend.tag, ("group",), declared.depend.span, declared.certain)
-            yield from ((member, reason) for member in members.get(declared.name, ()) if member != package.name)
+            yield from ((member, reason) for member in members.get(declared.name, ()) if member != package.colcon_name)
     for depend in package.colcon_depends:
         file = depend.span.path.rpartition("/")[2]
         yield depend.name, Reason(file, tuple(_categories(depend.role)), depend.span)

@@ -230,6 +230,7 @@ class Loader:
                 machine_paths=done.machine_paths,
                 compiled_along=own.compiled_along(),
                 left_behind=tuple(own_files.left_behind(found.files, source.built, done.facts)),
+                renamed=found.colcon_name if found.colcon_name != found.name else "",
             )
             if package.registrations and done.script and done.script.plugins:
                 package = package._replace(unwritten=traces.unwritten(tree, package))

@@ -47,6 +47,8 @@ class Package(NamedTuple):
     """A package of the workspace, as colcon sees it."""
 
     name: str
+    """The name in ``package.xml``, by which other manifests, rosdep and the ament index know the package. Where no manifest
+    gives one it is the name that colcon uses."""
     path: str
     """Its folder, relative to the base; "" is the base."""
     type: str
@@ -94,6 +96,14 @@ class Package(NamedTuple):
     """Messages, services and actions that its Python files import by name."""
     interface_files: tuple[InterfaceFile, ...] = ()
     """Its definitions of interfaces, but for those in IDL."""
+    renamed: str = ""
+    """The name that colcon uses instead, from ``colcon.pkg``, ``colcon.meta`` or the script of a plain package; "" where both
+    names are the same."""
+
+    @property
+    def colcon_name(self) -> str:
+        """Return the name by which colcon orders and selects the package, and refuses a second one."""
+        return self.renamed or self.name
 
     @property
     def place(self) -> Span:
@@ -166,6 +176,11 @@ class Workspace:
         for package in self.packages:
             found[package.name] = (*found.get(package.name, ()), package)
         return found
+
+    def called(self, name: str) -> tuple[Package, ...]:
+        """Return the packages that a user means by a name: by that of ``package.xml``, else by the one that colcon uses."""
+        named = self.by_name.get(name)
+        return named or tuple([package for package in self.packages if package.colcon_name == name])
 
     def surely_lacks(self, owner: str, offer: Offer, wanted: str) -> bool:
         """Whether it is beyond doubt that a package does not offer what was not found in it.

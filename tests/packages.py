@@ -37,7 +37,8 @@ def package(
 
 def found_package(found: Found, context: Mapping[str, str] = CONTEXT) -> Package:
     """Return a package as far as discovery knows it."""
-    return made(found.name, found.path, found.type, found.manifest, found.colcon_depends, found.files, context)
+    made_of = made(found.name, found.path, found.type, found.manifest, found.colcon_depends, found.files, context)
+    return made_of._replace(renamed=found.colcon_name if found.colcon_name != found.name else "")
 
 
 def made(

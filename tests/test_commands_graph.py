@@ -258,3 +258,29 @@ def test_why_shows_the_uses_of_what_is_not_declared() -> None:
         "",
         1,
     )
+
+
+RENAMED = (
+    package("top", ["<depend>low</depend>"])._replace(renamed="vendor_top"),
+    package("low", ["<depend>rclcpp</depend>"])._replace(renamed="vendor_low"),
+    package("user", ["<depend>vendor_low</depend>"]),
+)
+"""Packages that colcon calls by other names than package.xml does."""
+
+
+def test_order_and_graph_have_the_names_of_colcon() -> None:
+    found = workspace(RENAMED)
+    assert order.run(found) == ("vendor_low\nuser\nvendor_top\n", "", 0)
+    assert list(found.graph.edges) == [("user", "vendor_low")], "colcon does not see what a manifest calls by another name"
+
+
+@pytest.mark.parametrize("name", ["low", "vendor_low"])
+def test_why_takes_either_name(name: str) -> None:
+    out, said, code = why.run(workspace(RENAMED), name, "rcl", 1)
+    assert (said, code) == ("", 0)
+    assert f"{name} -> rclcpp: <depend> low/package.xml:7:3\n" in out
+
+
+def test_overlay_with_one_name_in_the_manifests_and_two_for_colcon() -> None:
+    twins = [package("rclcpp", path="x"), package("rclcpp", path="y")._replace(renamed="rclcpp_2")]
+    assert "refuses" not in overlay.run(workspace(twins))[0]

@@ -22,15 +22,16 @@ def differences(base: Path) -> list[str]:
     """Say in what discovery, and the edges between what it finds, are not what colcon has."""
     found = discover(DiskTree(str(base)), [""], CONTEXT)
     theirs = colcon_list(base)
-    ours = frozenset((package.name, package.path, package.type) for package in found.packages)
+    ours = frozenset((package.colcon_name, package.path, package.type) for package in found.packages)
     said = [f"only here: {line}" for line in sorted(ours - theirs.packages)]
     said += [f"only colcon: {line}" for line in sorted(theirs.packages - ours)]
     names = {name for name, _, _ in theirs.packages}
     for package in map(found_package, found.packages):
-        graph = build([package, *[other for other in map(found_package, found.packages) if other.name != package.name]])
+        name = package.colcon_name
+        graph = build([package, *[other for other in map(found_package, found.packages) if other.colcon_name != name]])
         needs = {
             other: {category for reason in reasons for category in reason.categories}
-            for other, reasons in graph.needs[package.name].items()
+            for other, reasons in graph.needs[name].items()
         }
         wanted = {name: set(kinds) for name, kinds in theirs.needs.get(package.path, {}).items() if name in names}
         if needs != wanted:
@@ -344,7 +345,7 @@ def test_edges_from_colcon_files_have_their_places() -> None:
         }
     )
     (package,) = discover(tree, [""]).packages
-    assert (package.name, package.type) == ("p2", "ros.ament_cmake")
+    assert (package.name, package.colcon_name, package.type) == ("p", "p2", "ros.ament_cmake")
     assert [(depend.name, str(depend.span)) for depend in package.colcon_depends] == [
         ("a", "p/colcon.pkg:3:5"),
         ("b", "p/colcon.pkg:4:5"),

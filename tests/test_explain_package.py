@@ -58,3 +58,12 @@ def test_a_name_that_is_mistyped() -> None:
     out, err, code = explain_package.run(workspace(), "robots")
     assert (out, code) == ("", 2)
     assert "did you mean robot?" in err
+
+
+def test_either_name_of_a_package_that_colcon_calls_otherwise() -> None:
+    renamed = {**FILES, "robot/colcon.pkg": '{"name": "vendor_robot"}\n'}
+    found = Loader(MemoryTree(renamed), ("",), Target("jazzy", "--distro")).load()
+    for name in ("robot", "vendor_robot"):
+        out, err, code = explain_package.run(found, name)
+        assert (err, code) == ("", 0)
+        assert out.startswith("robot (ros.ament_cmake, vendor_robot to colcon), robot\n")

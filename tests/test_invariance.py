@@ -1,20 +1,23 @@
-"""What must not change what is found: how files are spelt, and files that cannot be read."""
+"""What must not change what is found: how files are spelt, files that cannot be read, and the names that colcon uses."""
 
 from __future__ import annotations
 
 import ast
+import json
 import re
 from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 import pytest
 
 from ros_lint import engine, registry
+from ros_lint.discover import discover
 from ros_lint.load import Loader
 from ros_lint.report import Target
 from ros_lint.rule import Confidence
 from ros_lint.testing import Case, read_cases
-from ros_lint.tree import MemoryTree, Tree
+from ros_lint.tree import DiskTree, MemoryTree, Tree, join
 from ros_lint.underlay import in_tree
 from tests.trees import Locked
 
@@ -89,7 +92,44 @@ def test_another_spelling(case: Case) -> None:
 def test_a_file_that_nobody_may_read(case: Case) -> None:
     before = Counter(issue[:2] for issue in found(case.tree(), case).elements())
     for path in case.files:
-        if path.endswith(("package.xml", ".gitignore", ".gitmodules")) or path == "setup.py":
-            continue  # what says where packages are, and what only git reads
+        if path.endswith(("package.xml", "colcon.pkg", ".gitignore", ".gitmodules")) or path == "setup.py":
+            continue  # what says where packages are and what they are called, and what only git reads
         after = Counter(issue[:2] for issue in found(Locked(case.files, path, case.executable), case, default=True).elements())
         assert not after - before, path
+
+
+OF_COLCON = ("dependency-cycle", "duplicate-package")
+"""Rules about names as colcon uses them."""
+
+
+def renamed(tree: Tree, names: Callable[[Sequence[str]], Iterable[str]]) -> dict[str, str]:
+    """Return a ``colcon.pkg`` for every package with a manifest: new names, given those of all these packages."""
+    packages = [each for each in discover(tree, ("",)).packages if each.manifest and "colcon.pkg" not in each.files]
+    new = names([package.name for package in packages])
+    return {join(package.path, "colcon.pkg"): json.dumps({"name": name}) for package, name in zip(packages, new, strict=True)}
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case.source.stem}: {case.title}")
+def test_another_name_for_colcon(case: Case) -> None:
+    more = renamed(case.tree(), lambda names: [f"renamed_{number}" for number in range(len(names))])
+    # Messages differ where colcon no longer sees a cycle.
+    before, after = (
+        Counter(issue[:3] for issue in found(MemoryTree(files, case.executable), case).elements() if issue[0] not in OF_COLCON)
+        for files in (case.files, {**case.files, **more})
+    )
+    assert after == before
+
+
+@pytest.mark.parametrize("names", [lambda names: [f"{name}_2" for name in names], lambda names: [*names[1:], names[0]]])
+def test_a_workspace_with_other_names_for_colcon(names: Callable[[Sequence[str]], list[str]]) -> None:
+    """New names, and each package called as the next one."""
+    demo = DiskTree(str(FIXTURES / "workspaces" / "demo"))
+    files = {path: text.encode() for path, text in renamed(demo, names).items()}
+    assert len(files) > 2
+    workspaces = [Loader(demo, ("",), Target("jazzy", "test")).load(changed) for changed in ({}, files)]
+    own, other = ([package.colcon_name for package in workspace.packages] for workspace in workspaces)
+    assert other == names(own)
+    before, after = (engine.check(workspace, RULES, (), RULES) for workspace in workspaces)
+    assert not after.crashes
+    of_ament = [[issue for issue in checked.issues if issue.rule.name not in OF_COLCON] for checked in (before, after)]
+    assert of_ament[1] == of_ament[0] != []

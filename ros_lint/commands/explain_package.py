@@ -29,7 +29,7 @@ def run(workspace: Workspace, name: str, form: str = "text") -> tuple[str, str, 
 
     ``form`` is ``text`` or ``json``. The code is 2 when the workspace has no package of that name, otherwise 0.
     """
-    packages = workspace.by_name.get(name, ())
+    packages = workspace.called(name)
     if not packages:
         return "", _no_such(workspace, name), 2
     if form == "json":
@@ -38,7 +38,8 @@ def run(workspace: Workspace, name: str, form: str = "text") -> tuple[str, str, 
 
 
 def _text(package: Package) -> str:
-    lines = [f"{package.name} ({package.type}), {package.path or '.'}"]
+    renamed = f", {package.renamed} to colcon" if package.renamed else ""
+    lines = [f"{package.name} ({package.type}{renamed}), {package.path or '.'}"]
     for title, rows in _sections(package, _MOST_PLACES):
         if not rows:
             continue

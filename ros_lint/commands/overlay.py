@@ -14,6 +14,8 @@ class _Place(NamedTuple):
     where: str
     version: str
     layer: str
+    colcon_name: str = ""
+    """By which colcon orders it, for a package of the workspace."""
 
 
 def run(workspace: Workspace) -> tuple[str, str, int]:
@@ -34,7 +36,7 @@ def run(workspace: Workspace) -> tuple[str, str, int]:
 def _places(workspace: Workspace, name: str) -> Iterator[_Place]:
     for package in workspace.by_name.get(name, ()):
         version = package.manifest.version if package.manifest else ""
-        yield _Place(package.path or ".", version, "workspace")
+        yield _Place(package.path or ".", version, "workspace", package.colcon_name)
     for number, underlay in enumerate(workspace.world.underlays, 1):
         installed = underlay.packages.get(name)
         if installed is not None:
@@ -53,5 +55,5 @@ def _tell(name: str, places: list[_Place]) -> Iterator[str]:
     for place in places:
         sign = "*" if same == [place] else "?" if place in same else " "
         yield f"  {sign} {place.where.ljust(width)}  {(place.version or '-').ljust(version_width)}  {place.layer}"
-    if len(same) > 1:
+    if len(same) > len({place.colcon_name for place in same}):
         yield f"    colcon refuses the workspace: {len(same)} packages are called {name}"

@@ -12,7 +12,7 @@ from ros_lint.workspace import Package, Workspace
 
 def run(workspace: Workspace, name: str, other: str) -> tuple[str, str, int]:
     """Return what goes to standard output and to standard error, and the exit code: 2 when there is no such package."""
-    packages = workspace.by_name.get(name, ())
+    packages = workspace.called(name)
     if not packages:
         return "", f"ros-lint: no package of the workspace is called {name}\n", 2
     lines = [line for package in packages for line in explain(package, workspace, other, _told(package, workspace, other))]

@@ -45,7 +45,7 @@ def run(workspace: Workspace, start: str, end: str, most: int = 10) -> tuple[str
     found = paths(model.needs, start, end, most)
     if not found.found:
         back = paths(model.needs, end, start, 1).found
-        uses = [use for package in workspace.by_name.get(start, ()) for use in package.uses if end in use.providers]
+        uses = [use for package in workspace.called(start) for use in package.uses if end in use.providers]
         if uses:
             hint = f" ({end} needs {start}: ros-lint why {end} {start})" if back else ""
             head = f"{start} uses {end}, but neither declares it nor anything that brings it{hint}:"
@@ -100,7 +100,7 @@ class _Model:
                 yield from package.declared
 
     def _packages(self, name: str) -> Sequence[Package]:
-        return self.workspace.by_name.get(name, ())
+        return self.workspace.called(name)
 
 
 def _tell(model: _Model, found: Paths, start: str, end: str) -> Iterator[str]:
@@ -132,7 +132,7 @@ def _tag(tag: str) -> str:
 
 
 def _is_known(workspace: Workspace, name: str) -> bool:
-    if name in workspace.by_name or workspace.world.is_package(name) or workspace.world.is_key(name):
+    if workspace.called(name) or workspace.world.is_package(name) or workspace.world.is_key(name):
         return True
     return any(package.tags(name) for package in workspace.packages)
 

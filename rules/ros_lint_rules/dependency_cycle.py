@@ -51,7 +51,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
                 *(related for edge in knot.cut if edge not in edges for related in _needs(graph, edge, knot)),
             ),
             confidence=Confidence.HIGH if knot.certain else Confidence.MEDIUM,
-            package=anchor[0],
+            package=graph.places[anchor[0]][0].name,
         )
 
 

@@ -1,8 +1,9 @@
 """
 ## What it finds
 
-Several packages of one name in the workspace, and where they are. Plain CMake and Python packages count as colcon counts
-them: under the name in `project()` or `setup()`.
+Several packages of one name in the workspace, and where they are. The name is the one that colcon uses: that of `package.xml`,
+or of `colcon.pkg` or `colcon.meta` where these set one. Plain CMake and Python packages have the name in `project()` or
+`setup()`.
 
 ## Why it matters
 
@@ -29,7 +30,7 @@ from ros_lint.api import Confidence, Finding, Package, Related, Rule, Severity, 
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
-    for name, same in workspace.by_name.items():
+    for name, same in workspace.graph.places.items():
         if len(same) < 2:
             continue
         first, *others = same
@@ -40,7 +41,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
             name,
             tuple(Related(f"{name} is here, too", package.place) for package in others),
             confidence=Confidence.MEDIUM if _lie_apart(same) else Confidence.HIGH,
-            package=name,
+            package=first.name,
         )
 
 

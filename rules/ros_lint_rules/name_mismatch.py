@@ -19,8 +19,9 @@ name, too (see `duplicate-package`): then it may be `package.xml` that was copie
 ## When it keeps silent
 
 Where the name is not known for certain: it comes from a variable that cannot be evaluated, or what is installed depends on
-a condition. Further markers and manifests beside those of the right name do no harm. Dashes, underscores and capitals in the
-name of a Python distribution make no difference to setuptools; only the installed paths do.
+a condition. About another name in `colcon.pkg`, by which colcon orders and selects the package. Further markers and manifests
+beside those of the right name do no harm. Dashes, underscores and capitals in the name of a Python distribution make no
+difference to setuptools; only the installed paths do.
 """
 
 from __future__ import annotations
@@ -52,7 +53,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     manifest, script = package.manifest, package.script
     if manifest is None or manifest.problems or script is None:
         return
-    shared = len(workspace.by_name[manifest.name]) > 1
+    shared = len(workspace.by_name[package.name]) > 1
     for finding in _mismatches(package, manifest, script):
         yield finding._replace(fix=None) if shared else finding
 
