@@ -1,4 +1,4 @@
-"""What to say of a name that ought to be declared: which tag to write, or why it cannot be declared."""
+"""What to say of a name that ought to be declared: which tag to write, where it resolves, or why it cannot be declared."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from ros_lint.rule import Fix
 
 if TYPE_CHECKING:
     from ros_lint.facts.manifest import Role
+    from ros_lint.rule import Edit
     from ros_lint.workspace import Package, Workspace
 
 
@@ -48,12 +49,47 @@ def advice(package: Package, workspace: Workspace, name: str, role: Role) -> Adv
         return Advice(written, None, obstacle, circular=False, certain=usable)
     if is_of_pip(workspace, name):
         written += " (from pip: what is released cannot depend on it)"
-    if there := _elsewhere(workspace, name):
-        written += f" ({workspace.target.distro} has none, only {there})"
+    written += availability(workspace, name)
     if _is_exported(package, name):
         written += " (the one in <export> declares nothing)"
-    fix = Fix(f"declare {name} as <{tag}>", add_dependency(package, tag, name)) if usable else None
+    edits = add_dependency(package, tag, name) if usable else ()
+    fix = naming(workspace, name, f"declare {name} as <{tag}>", *edits)
     return Advice(written, fix, "", circular=False, certain=usable)
+
+
+def naming(workspace: Workspace, name: str, title: str, *edits: Edit, safe: bool = True) -> Fix | None:
+    """Return the fix that writes a name into a dependency tag, None where there are no edits.
+
+    Every fix that does so is made here: it is safe only where rosdep resolves the name wherever the workspace is meant to be
+    built, see :func:`availability`.
+    """
+    return Fix.of(title, *edits, safe=safe and not availability(workspace, name))
+
+
+def availability(workspace: Workspace, name: str) -> str:
+    """Return the remark on where a name resolves, such as " (only in humble)", "" where it does so wherever it has to.
+
+    It has to in the stated distribution, or in every active one where none was stated. A package of the workspace or of an
+    underlay is there for all of them; any other name must be a released package or a rosdep key.
+    """
+    world, target = workspace.world, workspace.target
+    if world.layer(name) in ("workspace", "underlay"):
+        return ""
+    knowledge = world.knowledge
+    here = knowledge.rosdep_resolves(name, target.distro)
+    if here and target.told:
+        return ""
+    if not knowledge.covered:
+        return f" (there are no data about {target.distro})"
+    there = [distro for distro in knowledge.active if knowledge.rosdep_resolves(name, distro)]
+    lacking = [distro for distro in knowledge.active if distro not in there]
+    if not there:
+        return " (no distribution has it)"
+    if not here:
+        return f" ({target.distro} has none, only {', '.join(there)})"
+    if len(lacking) < len(there):
+        return f" (not in {', '.join(lacking)})" if lacking else ""
+    return f" (only in {', '.join(there)})"
 
 
 def circle(package: Package, workspace: Workspace, name: str) -> tuple[str, ...]:
@@ -94,12 +130,6 @@ def is_of_pip(workspace: Workspace, name: str) -> bool:
     """Whether a name is a key that only pip installs, which the build farm does not take."""
     key = None if workspace.world.is_package(name) else workspace.world.knowledge.rosdep.get(name)
     return key is not None and bool(key.pip) and not key.apt
-
-
-def _elsewhere(workspace: Workspace, name: str) -> str:
-    """Return the distributions that have a package, where the one that is assumed has none."""
-    world = workspace.world
-    return ", ".join(world.where_else(name)) if world.standing(name) == "elsewhere" else ""
 
 
 def _where(workspace: Workspace, name: str) -> str:

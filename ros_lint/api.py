@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from ros_lint import cmake_edits, conditions, interface_names, manifest_edits, setup_edits
-from ros_lint.advice import Advice, advice, lacks_rule
+from ros_lint.advice import Advice, advice, availability, lacks_rule, naming
 from ros_lint.apart import is_apart, is_for_tests
 from ros_lint.build_scripts import (
     ENDS,
@@ -200,6 +200,7 @@ __all__ = [
     "agree",
     "asked_at",
     "astray",
+    "availability",
     "beginning",
     "broken_expressions",
     "called",
@@ -272,6 +273,7 @@ __all__ = [
     "may_run_built",
     "meant",
     "misspelt",
+    "naming",
     "near_names",
     "needed",
     "needs",

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -12,6 +13,7 @@ import pytest
 
 from ros_lint import __version__
 from ros_lint.options import COMMANDS, FORMATS
+from tests.packages import manifest_text
 
 ROOT = Path(__file__).parent.parent
 DEMO = ROOT / "fixtures" / "workspaces" / "demo"
@@ -225,6 +227,26 @@ def test_fixes_that_together_would_close_a_cycle(tmp_path: Path) -> None:
     assert "mended 1 finding in 1 file" in done.stderr
     assert "cannot be declared: it needs this package itself" in done.stdout
     assert run("order", tmp_path).returncode == 0
+
+
+@pytest.mark.parametrize(
+    ("options", "declared"),
+    [
+        ((), {"nav_msgs"}),
+        (("--unsafe-fixes",), {"nav_msgs", "gz_math_vendor"}),
+        (("--distro", "jazzy"), {"nav_msgs", "gz_math_vendor"}),
+        (("--distro", "humble"), {"nav_msgs"}),
+    ],
+)
+def test_what_not_every_distribution_has_is_declared_only_where_it_is(
+    tmp_path: Path, options: tuple[str, ...], declared: set[str]
+) -> None:
+    manifest = tmp_path / "package.xml"
+    manifest.write_text(manifest_text("robot", ["<buildtool_depend>ament_cmake</buildtool_depend>"]))
+    finds = "".join(f"find_package({name} REQUIRED)\n" for name in ("ament_cmake", "nav_msgs", "gz_math_vendor"))
+    (tmp_path / "CMakeLists.txt").write_text(f"project(robot)\n{finds}ament_package()\n")
+    run(tmp_path, "--isolated", "--fix", *options)
+    assert set(re.findall("<depend>(.*)</depend>", manifest.read_text())) == declared
 
 
 def test_what_is_less_than_certain_is_removed_only_if_asked_for(demo: Path) -> None:

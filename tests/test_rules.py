@@ -5,7 +5,14 @@ from pathlib import Path
 import pytest
 
 from ros_lint import registry
-from ros_lint.testing import Case, bless, differences, read_cases
+from ros_lint.collectors import manifest
+from ros_lint.discover import discover
+from ros_lint.edits import text_of
+from ros_lint.facts.manifest import ROLES
+from ros_lint.knowledge import Knowledge
+from ros_lint.testing import Case, bless, differences, fixed, issues_of, read_cases
+from ros_lint.text import Text
+from ros_lint.underlay import in_tree
 
 FIXTURES = Path(__file__).parent.parent / "fixtures"
 RULES = {rule.name: rule for rule in registry.load()}
@@ -19,3 +26,28 @@ def test_case(case: Case, request: pytest.FixtureRequest) -> None:
         bless(case, rule)
         return
     assert "\n".join(differences(case, rule)) == ""
+
+
+@pytest.mark.parametrize("told", [True, False])
+@pytest.mark.parametrize(
+    "case", [case for case in CASES if RULES[case.source.stem].fixable], ids=lambda case: f"{case.source.stem}: {case.title}"
+)
+def test_a_safe_fix_declares_what_resolves(case: Case, told: bool) -> None:
+    """In the stated distribution, or in every active one where none was stated."""
+    tree, case = case.tree(), case._replace(told=told)
+    safe = [issue for issue in issues_of(tree, case, RULES[case.source.stem]) if issue.finding.fix and issue.finding.fix.safe]
+    new = {
+        name
+        for path, text in fixed(tree, tuple(safe)).items()
+        if path.endswith("package.xml")
+        for name in _declared(Text(path, text)) - _declared(text_of(tree, path))
+    }
+    own = {package.name for package in discover(tree, ("",)).packages}
+    own |= set(in_tree(tree, case.underlay, case.distro).packages) if case.underlay else set()
+    knowledge = Knowledge(case.distro)
+    for distro in (case.distro,) if told else knowledge.active:
+        assert {name for name in new - own if not knowledge.rosdep_resolves(name, distro)} == set(), distro
+
+
+def _declared(text: Text) -> set[str]:
+    return {depend.name for depend in manifest.collect(text).depends if depend.tag in ROLES}

@@ -174,6 +174,20 @@ class Knowledge:
         return any(name in other.brought(packages) for other in self._where(name))
 
     @property
+    def active(self) -> tuple[str, ...]:
+        """Return the active distributions, those that there is an index of, oldest first."""
+        return self._order
+
+    def rosdep_resolves(self, name: str, distro: str) -> bool:
+        """Return whether ``rosdep install`` resolves a name for a distribution: as a released package, or as a key.
+
+        ``distro`` is an active distribution or this one. A key counts where nothing is known of the platforms.
+        """
+        if self._index(distro).releases(name):
+            return True
+        return name in self.rosdep and self.rosdep.resolves(name, distro) is not False
+
+    @property
     def platform(self) -> str:
         """Return the first platform of the distribution, such as "ubuntu:noble", or "" when it is not known."""
         return next(iter(PLATFORMS.get(self.distro, ())), "")

@@ -139,6 +139,11 @@ class Index(Entries[Released]):
         self.commit = said.get("rosdistro", "")
         self._reach = Reach(self.runtime)
 
+    def releases(self, name: str) -> bool:
+        """Return whether a package has a release, and is not merely listed with its repository."""
+        row = self._table.row(name)
+        return row is not None and (len(row) < 3 or "U" not in row[2])
+
     def members(self, group: str) -> Iterator[str]:
         """Yield the members of a group, sorted."""
         # Few lines name a group, and taking all of them apart would take long.

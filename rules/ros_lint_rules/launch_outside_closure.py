@@ -13,7 +13,8 @@ It works on the machine of whoever wrote it, where everything is installed. Afte
 
 ## How to fix it
 
-Add `<exec_depend>` to `package.xml`. The fix does this.
+Add `<exec_depend>` to `package.xml`. The fix does this. It is unsafe where the message says that not every distribution has
+the name.
 
 ## When it keeps silent
 

@@ -51,6 +51,7 @@ from ros_lint.api import (
     given_for,
     interface_names,
     manifest_edits,
+    naming,
     relative,
     undeclared,
 )
@@ -116,7 +117,7 @@ def _runtime(package: Package, workspace: Workspace, place: Span, sure: Confiden
         place,
         _RUNTIME,
         (),
-        Fix(f"declare {_RUNTIME} as <{tag}>", add_dependency(package, tag, _RUNTIME)),
+        naming(workspace, _RUNTIME, f"declare {_RUNTIME} as <{tag}>", *add_dependency(package, tag, _RUNTIME)),
         Confidence.MEDIUM if along else sure,
         Severity.INFO if along else None,
     )

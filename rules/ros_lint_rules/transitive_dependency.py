@@ -11,7 +11,8 @@ their business. Then this package breaks, without any change of its own.
 
 ## How to fix it
 
-Declare what is used, in the tag that the message names. The fix does this.
+Declare what is used, in the tag that the message names. The fix does this. It is unsafe where the message says that not every
+distribution has the name.
 
 ## When it keeps silent
 

@@ -16,6 +16,9 @@ Declare the package in `package.xml`, in the tag that the message names: `<depen
 needed at run time, `<exec_depend>` for what is needed at run time only, `<test_depend>` for tests. The fix does this.
 Where a tag is there, under a condition that does not hold, widen the condition.
 
+The fix is safe where the name resolves in the distribution that was stated, or in every active one where none was. Otherwise
+the message says which ones have the name or lack it, and the fix needs `--unsafe-fixes`.
+
 ## When it keeps silent
 
 - The package comes with a declared one: see `transitive-dependency` for uses that hang on such a chain.

@@ -13,8 +13,9 @@ with "Cannot locate rosdep definition", in every container and on the build farm
 
 ## How to fix it
 
-Write the name of the package or the rosdep key. Where it is clear which one is meant, the fix does this. When the package
-is not released, put its sources into the workspace, or name the prefix it is installed in with `--underlay`.
+Write the name of the package or the rosdep key. Where it is clear which one is meant, the fix does this; it is unsafe where
+the message says that not every distribution has that name. When the package is not released, put its sources into the
+workspace, or name the prefix it is installed in with `--underlay`.
 
 ## When it keeps silent
 
@@ -40,12 +41,14 @@ from ros_lint.api import (
     Severity,
     Stranger,
     Workspace,
+    availability,
     called,
     declared_names,
     did_you_mean,
     is_named,
     is_near_tool,
     may_be_package,
+    naming,
     programs,
     remove_dependency,
     strangers,
@@ -69,7 +72,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
                         stranger, f"an empty <{stranger.declared.depend.tag}> declares nothing, and rosdep stops at it"
                     )
                 elif name == _PYTHON_BUILD:
-                    yield _build_type(stranger)
+                    yield _build_type(stranger, workspace)
                 elif workspace.world.group_members(name):
                     yield _needless(stranger, f"{name} is a group of packages and none itself")
                 elif stranger.runs_python and workspace.world.by_import(name).none_needed:
@@ -81,13 +84,13 @@ def check(workspace: Workspace) -> Iterator[Finding]:
                     yield _unknown(stranger, workspace, renamed)
 
 
-def _build_type(stranger: Stranger) -> Finding:
+def _build_type(stranger: Stranger, workspace: Workspace) -> Finding:
     package, name = stranger.package, stranger.name
     why = f"{name} is a build type and no package, so rosdep cannot resolve it"
     if package.builds_with != "ament_cmake" or "ament_python_install_package" not in package.built.calls:
         return _needless(stranger, why)
     way_out = f"write {_PYTHON_IN_CMAKE}"
-    fix = Fix.of(way_out, *_rename(stranger, _PYTHON_IN_CMAKE))
+    fix = naming(workspace, _PYTHON_IN_CMAKE, way_out, *_rename(stranger, _PYTHON_IN_CMAKE))
     return Finding(f"{why}: {way_out}", stranger.declared.depend.span, name, fix=fix, package=package.name)
 
 
@@ -121,7 +124,7 @@ def _unknown(stranger: Stranger, workspace: Workspace, renamed: dict[tuple[str, 
     if meant and meant.by == "slip" and not world.is_package(meant.name) and is_named(stranger):
         other_library, meant = meant.name, None  # what the code calls so, too, is no slip for the library of somebody else
     if (meant is None or meant.by == "slip") and (lying := _in_folder(name, workspace)):
-        return _of_folder(stranger, f"{what}, but the folder of {lying}", lying)
+        return _of_folder(stranger, workspace, f"{what}, but the folder of {lying}", lying)
     fix = None
     of_cmake = not stranger.runs_python and bool(world.knowledge.names.cmake(name))
     installing = () if of_cmake else world.knowledge.rosdep.installing(name)
@@ -132,9 +135,9 @@ def _unknown(stranger: Stranger, workspace: Workspace, renamed: dict[tuple[str, 
         near = [other for other in world.suggest(name, python=stranger.runs_python) if other != other_library]
         hint = did_you_mean(near, "") or "correct it, or add what provides it"
         if lacking := used_instead(stranger, workspace):
-            hint = f"write {lacking}, which is used and not declared"
+            hint = f"write {lacking}, which is used and not declared{availability(workspace, lacking)}"
             sure = Confidence.HIGH
-            fix = Fix.of(f"write {lacking} for {name}", *_rename(stranger, lacking))
+            fix = naming(workspace, lacking, f"write {lacking} for {name}", *_rename(stranger, lacking))
         message = f"{what}: {hint}"
     else:
         # What is written like a key is not what anybody calls it.
@@ -144,12 +147,17 @@ def _unknown(stranger: Stranger, workspace: Workspace, renamed: dict[tuple[str, 
         other = f"{twin.name}, which is {meant.name}," if twin else ""
         if stranger.package.declares(meant.name):
             other = meant.name
-        message = f"{what}{why}: " + (f"remove it, {other} is declared, too" if other else f"write {meant.name}")
-        title = f"remove {name}" if other else f"write {meant.name} for {name}"
+        message = f"{what}{why}: " + (
+            f"remove it, {other} is declared, too" if other else f"write {meant.name}{availability(workspace, meant.name)}"
+        )
         alone = meant.by == "cmake" and _is_found_as_declared(stranger.package, name)
         if alone:
             message += f", and find_package({name}), which nothing but {_FINDS_DECLARED}() does"
-        fix = Fix.of(title, *_rename(stranger, meant.name, twin), safe=sure == Confidence.HIGH and not alone)
+        edits, safe = _rename(stranger, meant.name, twin), sure == Confidence.HIGH and not alone
+        if other:
+            fix = Fix.of(f"remove {name}", *edits, safe=safe)
+        else:
+            fix = naming(workspace, meant.name, f"write {meant.name} for {name}", *edits, safe=safe)
         if fix and fix.safe:
             renamed.setdefault((stranger.package.name, meant.name), stranger)
     return Finding(
@@ -168,7 +176,7 @@ def _in_folder(name: str, workspace: Workspace) -> str:
     return lying.pop() if len(lying) == 1 else ""
 
 
-def _of_folder(stranger: Stranger, what: str, meant: str) -> Finding:
+def _of_folder(stranger: Stranger, workspace: Workspace, what: str, meant: str) -> Finding:
     package = stranger.package
     own = meant == package.name
     other = own or package.declares(meant)
@@ -176,7 +184,7 @@ def _of_folder(stranger: Stranger, what: str, meant: str) -> Finding:
     title = f"remove {stranger.name}" if other else f"write {meant} for {stranger.name}"
     edits = _removal(stranger) if own else _rename(stranger, meant)
     place = stranger.declared.depend.name_span
-    return Finding(f"{what}: {way_out}", place, stranger.name, fix=Fix.of(title, *edits), package=package.name)
+    return Finding(f"{what}: {way_out}", place, stranger.name, fix=naming(workspace, meant, title, *edits), package=package.name)
 
 
 def _caller(by: str, key: str) -> str:

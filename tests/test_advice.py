@@ -1,0 +1,70 @@
+"""Where a name resolves that is to be declared."""
+
+from __future__ import annotations
+
+import pytest
+
+from ros_lint.advice import availability, naming
+from ros_lint.load import Loader
+from ros_lint.report import Target
+from ros_lint.rule import Edit
+from ros_lint.text import beginning
+from ros_lint.tree import MemoryTree
+from ros_lint.underlay import in_tree
+from ros_lint.workspace import Workspace
+from tests.packages import manifest_text
+
+EDIT = Edit(beginning("robot/package.xml"), "<depend>x</depend>")
+
+
+def workspace(distro: str, *, told: bool) -> Workspace:
+    """Return a workspace with the package robot, over an underlay with the package dolly."""
+    files = {
+        "robot/package.xml": manifest_text("robot"),
+        "opt/COLCON_IGNORE": "",
+        "opt/share/dolly/package.xml": manifest_text("dolly"),
+    }
+    tree = MemoryTree(files)
+    return Loader(tree, ("",), Target(distro, "test", told), underlays=[in_tree(tree, "opt", distro)]).load()
+
+
+@pytest.mark.parametrize(
+    ("name", "stated", "assumed"),
+    [
+        ("rclcpp", "", ""),
+        ("eigen", "", ""),
+        ("robot", "", ""),
+        ("dolly", "", ""),
+        ("clearpath_config", "", " (only in humble, jazzy)"),
+        ("gz_math_vendor", "", " (not in humble)"),
+        ("python3-utm", "", " (not in humble)"),
+        ("gazebo", " (jazzy has none, only humble)", " (jazzy has none, only humble)"),
+        (
+            "turtlesim_msgs",
+            " (jazzy has none, only kilted, lyrical, rolling)",
+            " (jazzy has none, only kilted, lyrical, rolling)",
+        ),
+        ("acme_core", " (no distribution has it)", " (no distribution has it)"),
+        ("ros1_bridge", " (no distribution has it)", " (no distribution has it)"),
+    ],
+)
+def test_a_name_resolves_where_it_is_stated_or_everywhere(name: str, stated: str, assumed: str) -> None:
+    for told, remark in ((True, stated), (False, assumed)):
+        found = workspace("jazzy", told=told)
+        assert availability(found, name) == remark
+        fix = naming(found, name, "declare it", EDIT)
+        assert fix is not None
+        assert fix.safe is (not remark)
+
+
+def test_what_is_unsafe_anyway_stays_so() -> None:
+    fix = naming(workspace("jazzy", told=True), "rclcpp", "declare it", EDIT, safe=False)
+    assert fix is not None
+    assert not fix.safe
+    assert naming(workspace("jazzy", told=True), "rclcpp", "declare it") is None
+
+
+def test_a_distribution_without_data() -> None:
+    found = workspace("foxy", told=True)
+    remarks = [availability(found, name) for name in ("robot", "dolly", "eigen", "rclcpp")]
+    assert remarks == ["", "", "", " (there are no data about foxy)"]
