@@ -26,11 +26,17 @@ class Entry(NamedTuple):
 
 
 class Stamp(NamedTuple):
-    """What changes when a file changes: time in nanoseconds, size in bytes, permission bits."""
+    """The state of a file: time of its content in nanoseconds, size in bytes, permission bits, time of its inode, inode.
+
+    Tools set the first three back (``cp -p``, ``rsync -t``, git-restore-mtime). No tool sets the time of the inode (st_ctime),
+    and the inode changes when a link leads to another file.
+    """
 
     time: int
     size: int
     mode: int
+    changed: int = 0
+    inode: int = 0
 
     @property
     def executable(self) -> bool:
@@ -179,7 +185,7 @@ class DiskTree:
 
     def stamp(self, path: str) -> Stamp:
         found = os.stat(self.place(path))
-        return Stamp(found.st_mtime_ns, found.st_size, found.st_mode & 0o777)
+        return Stamp(found.st_mtime_ns, found.st_size, found.st_mode & 0o777, found.st_ctime_ns, found.st_ino)
 
     def identity(self, path: str) -> str:
         return os.path.realpath(os.path.join(self._base, path))
