@@ -1,8 +1,8 @@
 """Keep the facts of files and the last reports between runs, in the user's cache folder and never in the workspace.
 
-What a workspace could plant is not loaded: the folder is the user's own, and unpickling makes no object but facts.
-A file counts as unchanged when its time, size and mode are; facts depend on nothing but its text, and a report on nothing
-but what the tree said to everything that it was asked, the settings, the code, and the data of the released world.
+The folder is the user's own, and what is read from it makes no object but facts (:mod:`ros_lint.kept_files`).
+A file counts as unchanged when its :class:`~ros_lint.tree.Stamp` is; facts depend on nothing but its text, and a report on
+nothing but what the tree said to everything that it was asked, the settings, the code, and the data of the released world.
 """
 
 from __future__ import annotations
@@ -10,23 +10,17 @@ from __future__ import annotations
 import os
 import sys
 import zlib
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from enum import Enum
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from ros_lint import __version__
+from ros_lint import __version__, kept_files
 from ros_lint.text import raw
-from ros_lint.tree import Stamp
 
 if TYPE_CHECKING:
     from ros_lint.report import Report
     from ros_lint.tree import RecordedTree, Tree
 
-_MODULES = frozenset({
-    "ros_lint.collect", "ros_lint.collectors.cmake_syntax", "ros_lint.report", "ros_lint.rule", "ros_lint.suppress",
-    "ros_lint.text", "ros_lint.tree",
-})  # fmt: skip
-"""Modules besides those in ``ros_lint.facts`` with classes of facts and reports."""
+Facts = TypeVar("Facts")
 
 _PARTS = 16
 """How many files keep the facts of a workspace."""
@@ -44,15 +38,16 @@ class Cache:
     def __init__(self, folder: str, base: str) -> None:
         start = os.path.join(folder, _digest(os.path.realpath(base))) if folder else ""
         self._files = [f"{start}.{number:x}.facts" for number in range(_PARTS if folder else 0)]
-        self._parts: list[dict[str, tuple[Stamp, Any]]] = [{} for _ in self._files]
-        self._stamps: dict[str, Stamp] = {}
+        self._parts: list[dict[str, tuple[tuple[int, ...], Any]]] = [{} for _ in self._files]
+        self._stamps: dict[str, tuple[int, ...]] = {}
 
-    def fetch(self, tree: Tree, paths: Sequence[str]) -> dict[str, Any]:
-        """Return what is kept of those files that have not changed."""
+    def fetch(self, tree: Tree, paths: Sequence[str], kind: type[Facts]) -> dict[str, Facts]:
+        """Return what is kept of those files that have not changed. ``kind`` is the class of what is kept of a file."""
         if not self._files:
             return {}
         state = _state(_collectors())
-        self._parts = [found if isinstance(found := _load(file, state), dict) else {} for file in self._files]
+        loaded = [kept_files.load(file, state) for file in self._files]
+        self._parts = [found if _is_part(found, kind) else {} for found in loaded]
         # Before anything is read, so that what changes meanwhile counts as changed.
         self._stamps = {path: stamp for path in paths if (stamp := _stamp(tree, path)) is not None}
         kept = {path: known for part in self._parts for path, known in part.items()}
@@ -74,7 +69,7 @@ class Cache:
                 changed.add(number)
         state = _state(_collectors())
         for number in sorted(changed):
-            _save(self._files[number], state, self._parts[number])
+            kept_files.save(self._files[number], state, self._parts[number])
 
 
 class Reports:
@@ -96,11 +91,16 @@ class Reports:
 
     def fetch(self, trees: Sequence[RecordedTree]) -> Report | None:
         """Return the report that a run would make now, or None when only the run can tell."""
-        kept = _load(self._file, self._state) if self._file else None
-        if not isinstance(kept, tuple) or len(kept) != 1 + len(trees):
+        from ros_lint.report import Report  # noqa: PLC0415  (a module that the command needs anyway)
+
+        kept = kept_files.load(self._file, self._state) if self._file else None
+        if not isinstance(kept, tuple) or len(kept) != 1 + len(trees) or not isinstance(kept[0], Report):
             return None
         report, *said = kept
-        return report if all(tree.still_says(of_tree) for tree, of_tree in zip(trees, said, strict=True)) else None
+        try:
+            return report if all(tree.still_says(of_tree) for tree, of_tree in zip(trees, said, strict=True)) else None
+        except (TypeError, ValueError):  # no list of questions, answers and paths
+            return None
 
     def store(self, trees: Sequence[RecordedTree], report: Report) -> None:
         """Keep a report that was made from what some trees said. It loses the functions of its rules."""
@@ -109,8 +109,8 @@ class Reports:
         bare = {rule.name: rule._replace(package=None, workspace=None, suppressions=None) for rule in report.rules}
         issues = tuple([issue._replace(rule=bare[issue.rule.name]) for issue in report.issues])
         said = ([(question, _bare(told)) for question, told in tree.said.items()] for tree in trees)
-        _save(self._file, self._state, (report._replace(issues=issues, rules=tuple(bare.values())), *said))
-        self._clear()
+        if kept_files.save(self._file, self._state, (report._replace(issues=issues, rules=tuple(bare.values())), *said)):
+            self._clear()
 
     def _clear(self) -> None:
         """Remove the oldest reports of the workspace."""
@@ -130,70 +130,21 @@ def folder(environment: Mapping[str, str]) -> str:
     return os.path.join(above, "ros-lint") if os.path.isabs(above) else ""
 
 
-def _load(path: str, state: str) -> Any:
-    """Return what a file keeps, None when it was written in another state or is damaged."""
-    import pickle  # noqa: PLC0415  (a run that keeps nothing needs none of it)
-
-    class Facts(pickle.Unpickler):
-        """Loads values of our own fact classes, and refuses everything else."""
-
-        def find_class(self, module: str, name: str) -> Any:
-            if _has_facts(module) and "." not in name:
-                return super().find_class(module, name)
-            raise pickle.UnpicklingError(f"{module}.{name} is no fact")
-
-    try:
-        with open(path, "rb") as file:
-            return Facts(file).load() if file.readline() == state.encode() + b"\n" else None
-    except (OSError, pickle.UnpicklingError, EOFError, AttributeError, TypeError, ValueError, IndexError):
-        return None
-
-
-def _save(path: str, state: str, value: Any) -> None:
-    import pickle  # noqa: PLC0415
-    import tempfile  # noqa: PLC0415  (a run that finds all that it needs writes nothing)
-
-    temporary = ""
-    try:
-        os.makedirs(os.path.dirname(path), mode=0o700, exist_ok=True)
-        handle, temporary = tempfile.mkstemp(dir=os.path.dirname(path))
-        with os.fdopen(handle, "wb") as file:
-            file.write(state.encode() + b"\n")
-            pickler = pickle.Pickler(file, protocol=5)
-            pickler.dispatch_table = _reducers()
-            pickler.dump(value)
-        os.replace(temporary, path)
-    except OSError:
-        if temporary and os.path.exists(temporary):
-            os.unlink(temporary)
-
-
-def _has_facts(module: str) -> bool:
-    return module in _MODULES or module.startswith("ros_lint.facts.")
-
-
-def _reducers() -> dict[type, Callable[[Any], tuple[type, tuple[Any, ...]]]]:
-    """Return how to take facts apart, which takes the pickler twice as long by itself.
-
-    Of enumerations as well: Python 3.11.2, that of Debian 12, writes them down as a call of getattr(), which is none of ours.
-    """
-    values = [value for name, module in sys.modules.items() if _has_facts(name) for value in vars(module).values()]
-    classes = [value for value in values if isinstance(value, type)]
-    facts = {each: _parts for each in classes if issubclass(each, tuple)}
-    return {**facts, **{each: _member for each in classes if issubclass(each, Enum)}}
-
-
-def _parts(fact: tuple[Any, ...]) -> tuple[type, tuple[Any, ...]]:
-    return fact.__class__, tuple(fact)
-
-
-def _member(fact: Enum) -> tuple[type, tuple[Any, ...]]:
-    return fact.__class__, (fact.value,)
+def _is_part(loaded: Any, kind: type) -> bool:
+    """Return whether a value that was loaded maps paths to stamps and facts."""
+    return isinstance(loaded, dict) and all(
+        isinstance(path, str)
+        and isinstance(entry, tuple)
+        and len(entry) == 2
+        and isinstance(entry[0], tuple)
+        and isinstance(entry[1], kind)
+        for path, entry in loaded.items()
+    )
 
 
 def _bare(told: Any) -> Any:
-    """Return the entries of a directory as plain tuples, which are equal to them and read faster."""
-    return [tuple(entry) for entry in told] if isinstance(told, list) else told
+    """Return stamps and the entries of a directory as plain tuples, which are equal to them and read faster."""
+    return [tuple(entry) for entry in told] if isinstance(told, list) else tuple(told) if isinstance(told, tuple) else told
 
 
 def _part(path: str) -> int:
@@ -201,10 +152,10 @@ def _part(path: str) -> int:
     return zlib.crc32(raw(path.rpartition("/")[0])) % _PARTS
 
 
-def _stamp(tree: Tree, path: str) -> Stamp | None:
+def _stamp(tree: Tree, path: str) -> tuple[int, ...] | None:
     try:
-        return tree.stamp(path)
-    except OSError:
+        return tuple(tree.stamp(path))
+    except (OSError, ValueError):  # a NUL in a path that was loaded
         return None
 
 
@@ -220,7 +171,7 @@ def _state(files: Iterable[str]) -> str:
     for file in sorted(files):
         try:
             found = os.stat(file)
-            stamps.append(f"{file}{found.st_mtime_ns}{found.st_size}")
+            stamps.append(f"{file} {found.st_mtime_ns} {found.st_size} {found.st_ctime_ns} {found.st_ino}")
         except OSError:
             stamps.append(file)
     return f"ros-lint {__version__} {sys.implementation.cache_tag} {_digest(' '.join([sys.version, *stamps]))}"

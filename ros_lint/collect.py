@@ -148,7 +148,7 @@ def collect_all(tree: Tree, paths: Sequence[str], jobs: int, cache: Cache, tick:
     ``jobs`` is the number of processes, 0 decides by the number of files; ``tick`` hears how many files are done.
     """
     wanted = [(path, kind) for path in paths if (kind := kind_of(path))]
-    found: dict[str, Collected] = cache.fetch(tree, [path for path, _ in wanted])
+    found = cache.fetch(tree, [path for path, _ in wanted], Collected)
     tick(len(found))
     missing = [(path, kind) for path, kind in wanted if path not in found]
     fresh: dict[str, Collected] = {}

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable
 from enum import IntEnum
 from typing import TYPE_CHECKING, NamedTuple
 
+from ros_lint.sealed import Sealed
 from ros_lint.text import Span
 
 if TYPE_CHECKING:
@@ -13,7 +14,7 @@ if TYPE_CHECKING:
     from ros_lint.workspace import Package, Workspace
 
 
-class Severity(IntEnum):
+class Severity(Sealed, IntEnum):
     """How bad it is if the finding is right."""
 
     INFO = 1
@@ -24,7 +25,7 @@ class Severity(IntEnum):
         return self.name.lower()
 
 
-class Confidence(IntEnum):
+class Confidence(Sealed, IntEnum):
     """How sure the tool is. Without ``--pedantic`` only HIGH is shown: right at least 99 times in 100."""
 
     LOW = 1

@@ -7,9 +7,9 @@ from pkgutil import iter_modules
 
 import pytest
 
-from ros_lint import cache, facts
+from ros_lint import cache, facts, kept_files
 from ros_lint.cache import Cache
-from ros_lint.collect import collect_all
+from ros_lint.collect import Collected, collect_all
 from ros_lint.facts.sight import Facet
 from ros_lint.rule import Severity
 from ros_lint.tree import DiskTree
@@ -47,22 +47,21 @@ def test_what_is_kept_is_what_was_found(tmp_path: Path) -> None:
     tree = DiskTree(str(tmp_path / "ws"))
     found = collect_all(tree, list(FILES), 1, Cache(str(tmp_path / "cache"), "ws"), lambda done: None)
     assert not any(each.unreadable for each in found.values())
-    kept = Cache(str(tmp_path / "cache"), "ws").fetch(tree, list(FILES))
+    kept = Cache(str(tmp_path / "cache"), "ws").fetch(tree, list(FILES), Collected)
     assert kept == found
     assert repr(kept) == repr(found)  # which tells the classes, too
     (tmp_path / "ws" / "p" / "a.cpp").write_text("#include <d/e.hpp>\n")
-    assert set(Cache(str(tmp_path / "cache"), "ws").fetch(tree, list(FILES))) == set(FILES) - {"p/a.cpp"}
+    assert set(Cache(str(tmp_path / "cache"), "ws").fetch(tree, list(FILES), Collected)) == set(FILES) - {"p/a.cpp"}
 
 
 def test_enumerations_are_kept_whatever_way_python_writes_them_down(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Facet, "__reduce_ex__", lambda self, _: (getattr, (Facet, self.name)))
     both = (Facet.USES, Facet.USES | Facet.SHARE, Severity.ERROR)
-    cache._save(str(tmp_path / "kept"), "state", both)
-    assert cache._load(str(tmp_path / "kept"), "state") == both
+    kept_files.save(str(tmp_path / "kept"), "state", both)
+    assert kept_files.load(str(tmp_path / "kept"), "state") == both
 
 
 def test_all_facts_can_be_kept_and_change_with_their_code() -> None:
     modules = list(iter_modules(facts.__path__))
-    assert all(cache._has_facts(f"ros_lint.facts.{module.name}") for module in modules)
-    assert not any(map(cache._has_facts, ("os", "builtins", "ros_lint", "ros_lint.factsheet", "ros_lint.cache")))
+    assert {f"ros_lint.facts.{module.name}" for module in modules} <= set(kept_files.MODULES)
     assert {Path(facts.__path__[0], f"{module.name}.py") for module in modules} <= set(map(Path, cache._collectors()))

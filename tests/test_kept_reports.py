@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import os
+import pickle
 import shutil
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
+from ros_lint import kept_files
 from ros_lint.cache import Cache
 from ros_lint.cli import main
 from ros_lint.collect import collect_all
@@ -40,6 +42,10 @@ def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     target = tmp_path / "ws"
     shutil.copytree(DEMO, target)
     (target / "src" / "here").symlink_to("nowhere")
+    for name, package in (("a", "nav_msgs"), ("b", "std_srvs")):
+        (tmp_path / f"{name}.cpp").write_text(f"#include <{package}/srv/x.hpp>\n")
+        os.utime(tmp_path / f"{name}.cpp", ns=(1, 1))
+    (target / "src" / "rover_driver" / "src" / "linked.cpp").symlink_to(tmp_path / "a.cpp")
     return target
 
 
@@ -67,8 +73,28 @@ def _relink(workspace: Path) -> None:
 
 
 DRIVER = "src/rover_driver"
+
+
+def _same_stamp(workspace: Path) -> None:
+    """Change a file and set its time back, as ``cp -p`` and ``rsync -t`` do."""
+    source = workspace / DRIVER / "src" / "driver_node.cpp"
+    before = source.stat()
+    source.write_text(source.read_text().replace("sensor_msgs", "vision_msgs"))
+    os.utime(source, ns=(before.st_atime_ns, before.st_mtime_ns))
+    assert source.stat().st_size == before.st_size
+
+
+def _swap(workspace: Path) -> None:
+    """Lead a link to another file of the same size and time."""
+    link = workspace / DRIVER / "src" / "linked.cpp"
+    link.unlink()
+    link.symlink_to(workspace.parent / "b.cpp")
+
+
 CHANGES: dict[str, Callable[[Path], object]] = {
     "a source": _append(f"{DRIVER}/src/driver_node.cpp", "#include <tf2_ros/buffer.hpp>\n"),
+    "a source with the time that it had": _same_stamp,
+    "a link that leads to the like": _swap,
     "a manifest": _append(f"{DRIVER}/package.xml", "<!-- the end -->"),
     "a build script": _append(f"{DRIVER}/CMakeLists.txt", "find_package(nav_msgs REQUIRED)\n"),
     "a file that nobody reads": _write(f"{DRIVER}/docs/more/notes.txt", "x"),
@@ -167,14 +193,67 @@ def test_warnings_are_said_again(workspace: Path, monkeypatch: pytest.MonkeyPatc
     assert "AMENT_PREFIX_PATH" in first
 
 
-def test_what_is_planted_is_not_obeyed(workspace: Path, tmp_path: Path) -> None:
+def _of_short(text: str) -> bytes:
+    return b"X" + len(text).to_bytes(4, "little") + text.encode()
+
+
+_RUN = _of_short("__import__('os').system('touch \"$PLANTED\"')")
+_NO_LISTS = pickle.dumps(("CMakeLists.txt", [((5, "\0"), 5)], 5), 2)
+PLANTED = {
+    "a function of the system": b"cposix\nsystem\n" + _of_short('touch "$PLANTED"') + b"\x85R.",
+    "builtins of a module of facts": b"cros_lint.tree\nitemgetter\n" + _of_short("eval") + b"\x85R"
+    b"cros_lint.tree\n__builtins__\n\x85R" + _RUN + b"\x85R.",
+    "a name with dots": b"\x80\x04" + b"".join(b"\x8c" + bytes([len(name)]) + name for name in (b"ros_lint.tree", b"os.system"))
+    + b"\x93" + _of_short('touch "$PLANTED"') + b"\x85R.",
+    "a class that has gone": b"cros_lint.facts.sight\nGone\n)R.",
+    "a class of a module that has gone": b"cros_lint.facts.gone\nGone\n)R.",
+    "a text": pickle.dumps("text"),
+    "a list of numbers": pickle.dumps([1, 2, 3]),
+    "nothing": pickle.dumps(None),
+    "an empty dictionary": pickle.dumps({}),
+    "numbers by paths": pickle.dumps({"src/rover_driver/CMakeLists.txt": 5, 5: ((), 5)}),
+    "no lists": _NO_LISTS,
+    "an exabyte": b"\x80\x04\x8e" + (1 << 60).to_bytes(8, "little") + b"x.",
+    "depth": b"(" * 100_000 + b"t" * 100_000 + b".",
+    "an end in the middle": pickle.dumps(tuple(range(100)))[:-5],
+    "garbage": b"\x80\x05garbage",
+    "no bytes": b"",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("suffix", [".report", ".facts"])
+@pytest.mark.parametrize("pickled", PLANTED.values(), ids=PLANTED)
+def test_what_is_planted_costs_a_run_and_is_overwritten(
+    workspace: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, pickled: bytes, suffix: str
+) -> None:
+    monkeypatch.setenv("PLANTED", str(tmp_path / "planted"))
+    runs = Runs(monkeypatch)
     want = said(workspace)
-    for kept in (tmp_path / "cache" / "ros-lint").iterdir():
-        head = kept.read_bytes().partition(b"\n")[0]
-        for planted in (b"cposix\nsystem\n(S'touch " + str(tmp_path / "planted").encode() + b"'\ntR.", b"\x80\x05garbage", b"N."):
-            kept.write_bytes(head + b"\n" + planted)
-            assert said(workspace) == want
+    files = list((tmp_path / "cache" / "ros-lint").iterdir())
+    for kept in files:
+        state = kept.read_bytes().partition(b"\n")[0].rpartition(b" ")[0].decode()
+        if kept.suffix == suffix:
+            kept.write_bytes(kept_files._head(state, pickled) + b"\n" + pickled)
+        elif kept.suffix == ".report":
+            kept.unlink()  # so that the facts are read
+    planted = {kept: kept.read_bytes() for kept in files if kept.suffix == suffix}
+    assert (said(workspace), runs.count) == (want, 2)
     assert not (tmp_path / "planted").exists()
+    assert all(kept.read_bytes() != data for kept, data in planted.items())
+    assert (said(workspace), runs.count) == (want, 2)
+
+
+def test_a_folder_that_others_can_write_is_left_alone(workspace: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    runs = Runs(monkeypatch)
+    want = said(workspace)
+    folder = tmp_path / "cache" / "ros-lint"
+    before = {path: path.read_bytes() for path in folder.iterdir()}
+    folder.chmod(0o777)
+    assert [said(workspace), said(workspace)] == [want, want]
+    assert runs.count == 3
+    assert {path: path.read_bytes() for path in folder.iterdir()} == before
+    folder.chmod(0o700)
+    assert (said(workspace), runs.count) == (want, 3)
 
 
 def test_what_has_gone_is_forgotten(workspace: Path, tmp_path: Path) -> None:

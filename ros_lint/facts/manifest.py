@@ -6,10 +6,11 @@ from enum import Flag, auto
 from typing import NamedTuple
 
 from ros_lint.facts.sight import Problem
+from ros_lint.sealed import Sealed
 from ros_lint.text import Span
 
 
-class Role(Flag):
+class Role(Sealed, Flag):
     """What a package is needed for."""
 
     BUILD = auto()

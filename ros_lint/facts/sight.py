@@ -5,10 +5,11 @@ from __future__ import annotations
 from enum import Flag, auto
 from typing import NamedTuple
 
+from ros_lint.sealed import Sealed
 from ros_lint.text import Span
 
 
-class Facet(Flag):
+class Facet(Sealed, Flag):
     """A side of a package that something opaque can hide."""
 
     USES = auto()
