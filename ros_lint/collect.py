@@ -47,6 +47,9 @@ FAILED = "ros-lint failed on it ({}); please report this"
 _FILES_A_PROCESS = 500
 """Below this many files a further process costs more than it saves."""
 
+_MOST_PROCESSES = 61
+"""Windows cannot wait for more."""
+
 _SUFFIXES: dict[str, Kind] = {"py": "python", "cmake": "cmake", "java": "java", "rs": "rust", "m": "matlab"}
 _SUFFIXES.update((suffix[1:], "cpp") for suffix in (*HEADERS, *SOURCES))
 _SUFFIXES.update((suffix[1:], "interface") for suffix in INTERFACES)
@@ -152,10 +155,10 @@ def collect_all(tree: Tree, paths: Sequence[str], jobs: int, cache: Cache, tick:
     tick(len(found))
     missing = [(path, kind) for path, kind in wanted if path not in found]
     fresh: dict[str, Collected] = {}
-    processes = jobs or min(os.cpu_count() or 1, 8, len(missing) // _FILES_A_PROCESS)
+    processes = _processes(jobs, len(missing))
     chunks: Iterable[dict[str, Collected]]
     disk = tree.disk if isinstance(tree, RecordedTree) else tree
-    if processes > 1 and isinstance(disk, DiskTree):
+    if processes > 1 and missing and isinstance(disk, DiskTree):
         chunks = _in_processes(disk, missing, processes)
     else:
         chunks = (_collect_chunk(tree, missing[at : at + 100]) for at in range(0, len(missing), 100))
@@ -173,12 +176,18 @@ def collect_all(tree: Tree, paths: Sequence[str], jobs: int, cache: Cache, tick:
     return {path: found[path] for path, _ in wanted}
 
 
+def _processes(jobs: int, files: int) -> int:
+    """Return how many processes read some files. However many are asked for, there is no more than one a core."""
+    cores = min(os.cpu_count() or 1, _MOST_PROCESSES)
+    return min(jobs, cores) if jobs else min(cores, 8, files // _FILES_A_PROCESS)
+
+
 def _in_processes(tree: DiskTree, files: list[tuple[str, Kind]], processes: int) -> Iterator[dict[str, Collected]]:
     from concurrent.futures import ProcessPoolExecutor  # noqa: PLC0415
 
     size = max(20, min(200, len(files) // (processes * 4)))
     chunks = [files[at : at + size] for at in range(0, len(files), size)]
-    with ProcessPoolExecutor(processes) as pool:
+    with ProcessPoolExecutor(min(processes, len(chunks))) as pool:
         yield from pool.map(_collect_chunk, [tree] * len(chunks), chunks)
 
 

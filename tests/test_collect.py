@@ -1,0 +1,60 @@
+"""How files are read: by how many processes."""
+
+from __future__ import annotations
+
+import concurrent.futures
+import os
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from ros_lint.cache import Cache
+from ros_lint.collect import collect_all
+from ros_lint.tree import DiskTree
+
+
+class Pool:
+    """Does the work of a ProcessPoolExecutor in this process, and remembers how many processes are asked for."""
+
+    asked: list[int] = []  # noqa: RUF012
+
+    def __init__(self, processes: int) -> None:
+        self.asked.append(processes)
+
+    def __enter__(self) -> Pool:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        pass
+
+    def map(self, function: Callable[..., Any], *arguments: Iterable[Any]) -> Iterator[Any]:
+        return map(function, *arguments)
+
+
+@pytest.mark.parametrize(
+    ("cores", "jobs", "files", "processes"),
+    [
+        (4, 2000, 200, 4),
+        (4, 10**18, 200, 4),
+        (4, 3, 200, 3),
+        (4, 0, 200, 1),
+        (64, 2000, 200, 10),  # of 20 files each
+        (64, 2000, 6, 1),
+        (200, 200, 2000, 61),
+        (None, 8, 200, 1),
+    ],
+)
+def test_there_is_no_more_than_a_process_a_core(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cores: int | None, jobs: int, files: int, processes: int
+) -> None:
+    monkeypatch.setattr(os, "cpu_count", lambda: cores)
+    monkeypatch.setattr(concurrent.futures, "ProcessPoolExecutor", Pool)
+    monkeypatch.setattr(Pool, "asked", [])
+    names = [f"{number}.cpp" for number in range(files)]
+    for name in names:
+        (tmp_path / name).write_text("#include <a/b.hpp>\n")
+    found = collect_all(DiskTree(str(tmp_path)), names, jobs, Cache("", ""), lambda done: None)
+    assert list(found) == names
+    assert (Pool.asked or [1]) == [processes]
