@@ -12,13 +12,17 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
-from ros_lint import edits
+from ros_lint import bounded, edits
 from ros_lint.report import UNSURE, Hidden, Issue, RefusalError, Report
 from ros_lint.reporters.encode import encode
 from ros_lint.rule import Confidence
 
 Key = tuple[str, str, str]
 """The name of the rule, the package, the subject."""
+
+
+_MOST_BYTES = 64 << 20
+"""Of a file: half a million findings."""
 
 
 class BaselineError(RefusalError):
@@ -70,8 +74,7 @@ def read(path: str) -> Baseline:
     import json  # noqa: PLC0415
 
     try:
-        with open(path, encoding="utf-8") as file:
-            data = json.load(file)
+        data = json.loads(bounded.read(path, _MOST_BYTES).decode("utf-8"))
         return Baseline(tuple(map(str, data["folders"])), dict(map(_entry, data["known"])))
     except OSError as error:
         raise BaselineError(f"{path}: {error.strerror or error}; --write-baseline makes the file") from error
@@ -122,4 +125,7 @@ def _written(key: Key, count: int, sure: bool) -> dict[str, Any]:
 
 def _entry(written: Mapping[str, Any]) -> tuple[Key, Known]:
     key = str(written["rule"]), str(written["package"]), str(written["subject"])
-    return key, Known(int(written["count"]), bool(written["sure"]))
+    count = written["count"]
+    if not isinstance(count, int) or not 0 < count <= _MOST_BYTES:
+        raise ValueError("no number of findings")
+    return key, Known(count, bool(written["sure"]))

@@ -96,6 +96,9 @@ def test_the_file_has_a_line_a_key_and_does_not_depend_on_places(tmp_path: Path)
     ]
 
 
+KNOWN = '{"folders": [], "known": [{"rule": "", "package": "", "subject": "", "count": 1, "sure": true}]}'
+
+
 @pytest.mark.parametrize(
     ("text", "complaint"),
     [
@@ -105,6 +108,7 @@ def test_the_file_has_a_line_a_key_and_does_not_depend_on_places(tmp_path: Path)
         ('{"folders": [], "known": [{"rule": "one"}]}', "known.json: not what --write-baseline writes"),
         ('{"folders": [], "known": {"rule": "one"}}', "known.json: not what --write-baseline writes"),
         ('{"folders": [], "known": [{"rule": "", "package": "", "subject": "", "count": "many", "sure": 1}]}', "known.json: not"),
+        *((KNOWN.replace("1", count), "known.json: not what") for count in ("1e999", "NaN", "-1", "0", "1e9", "9" * 5000, '"1"')),
         ("[" * 100_000, "known.json: not what --write-baseline writes"),
         (b"\xff\xfe", "known.json: not what --write-baseline writes"),
     ],
@@ -115,6 +119,16 @@ def test_bad_files_are_named(tmp_path: Path, text: str | bytes, complaint: str) 
     with pytest.raises(BaselineError) as raised:
         baseline.read(str(file))
     assert str(raised.value).startswith(f"{tmp_path}{os.sep}{complaint}")
+
+
+def test_files_of_another_kind_or_size_are_named(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "fifo")
+    (tmp_path / "large").write_text(KNOWN + " " * (64 << 20))
+    for name, reason in (("fifo", "not a regular file"), ("large", "larger than 65536 KB")):
+        with pytest.raises(BaselineError, match=f"{name}: {reason}; --write-baseline makes the file"):
+            baseline.read(str(tmp_path / name))
+    (tmp_path / "good").write_text(KNOWN)
+    assert baseline.read(str(tmp_path / "good")).known
 
 
 @pytest.fixture
