@@ -11,10 +11,20 @@ import sys
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from ros_lint.options import BY_NAME, OPTIONS, Option
+from ros_lint import bounded
+from ros_lint.options import BY_NAME, MOST, OPTIONS, Option
 from ros_lint.report import RefusalError
 from ros_lint.slips import did_you_mean, similar
 from ros_lint.tree import upwards
+
+_MOST_BYTES = 256 << 10
+"""Of a configuration file. Many times as much as any has."""
+
+_MOST_SEARCHED = 16 << 20
+"""Of a pyproject.toml, to find out whether it has our table."""
+
+_LONG_KEY = r"""(?:\.[ \t]*(?:[\w-]+|"(?:[^"\\\n]|\\.){0,50}"|'[^'\n]{0,50}')[ \t]*){50}"""
+"""The rest of a key with more than 50 parts. The time that tomllib takes for a key grows with the square of the parts."""
 
 
 class ConfigError(RefusalError):
@@ -29,10 +39,14 @@ class Setting(NamedTuple):
 
 
 class Settings:
-    """Every option with its value. ``settings["fail-on"]`` is the value, ``settings.origin("fail-on")`` where it was said."""
+    """Every option with its value. ``settings["fail-on"]`` is the value, ``settings.origin("fail-on")`` where it was said.
 
-    def __init__(self, values: Mapping[str, Setting]) -> None:
+    ``warnings`` names settings of the file that have no effect.
+    """
+
+    def __init__(self, values: Mapping[str, Setting], warnings: tuple[str, ...] = ()) -> None:
         self._values = values
+        self.warnings = warnings
 
     def __getitem__(self, name: str) -> Any:
         return self._values[name].value
@@ -58,7 +72,7 @@ def settle(given: Mapping[str, Any], start: str, environment: Mapping[str, str],
     path = "" if isolated else str(given.get("config") or "") or find(start)
     if given.get("config") and not os.path.isfile(path):
         raise ConfigError(f"{path}: no such configuration file")
-    from_file = read(path) if path else {}
+    from_file, warnings = read(path) if path else ({}, ())
     shown = os.path.relpath(path, display) if path and display else path
     values: dict[str, Setting] = {}
     for option in OPTIONS:
@@ -70,7 +84,7 @@ def settle(given: Mapping[str, Any], start: str, environment: Mapping[str, str],
             values[option.name] = Setting(_from_environment(option, found), option.environment)
         else:
             values[option.name] = Setting(option.default, "default")
-    return Settings(values)
+    return Settings(values, warnings)
 
 
 def find(start: str) -> str:
@@ -88,28 +102,35 @@ def find(start: str) -> str:
     return ""
 
 
-def read(path: str) -> dict[str, Any]:
-    """Return the settings of a file, checked against the table of options. Raises ConfigError."""
+def read(path: str) -> tuple[dict[str, Any], tuple[str, ...]]:
+    """Return the settings of a file, checked against the table of options, and warnings. Raises ConfigError."""
     try:
-        with open(path, "rb") as file:
-            data = file.read()
+        data = bounded.read(path, _MOST_BYTES)
     except OSError as error:
         raise ConfigError(f"{path}: {error.strerror or error}") from error
-    table = _load_toml(path, data)
-    if os.path.basename(path) == "pyproject.toml":
-        table = table.get("tool", {}).get("ros-lint", {})
-    if not isinstance(table, dict):
-        raise ConfigError(f"{path}: tool.ros-lint is not a table")
+    table: Any = _load_toml(path, data)
+    for name in ("tool", "ros-lint") if os.path.basename(path) == "pyproject.toml" else ():
+        table = table.get(name, {})
+        if not isinstance(table, dict):
+            raise ConfigError(f"{path}: {'tool.ros-lint' if name == 'ros-lint' else name} is not a table")
     text = data.decode("utf-8", "replace")
-    return {name: _checked(path, text, name, value) for name, value in table.items()}
+    refused = [name for name in table if name in BY_NAME and BY_NAME[name].loads_code]
+    settings = {name: _checked(path, text, name, value) for name, value in table.items() if name not in refused}
+    return settings, tuple([_without_effect(path, text, name) for name in refused])
+
+
+def _without_effect(path: str, text: str, name: str) -> str:
+    return f"{_place(path, text, name)}: {name} has no effect in a file because it loads code; use --{name} on the command line"
 
 
 def _mentions_us(path: str) -> bool:
+    """Return whether a pyproject.toml has our table, also one that is too large to be read as TOML."""
     try:
         with open(path, "rb") as file:
-            return re.search(rb"^\s*\[\s*tool\s*\.\s*['\"]?ros-lint", file.read(), re.MULTILINE) is not None
+            head = file.read(_MOST_SEARCHED)
     except OSError:
         return False
+    return re.search(rb"^[ \t]*\[[ \t]*tool[ \t]*\.[ \t]*['\"]?ros-lint", head, re.MULTILINE) is not None
 
 
 def _load_toml(path: str, data: bytes) -> dict[str, Any]:
@@ -118,9 +139,16 @@ def _load_toml(path: str, data: bytes) -> dict[str, Any]:
     else:
         import tomli as tomllib  # noqa: PLC0415
     try:
-        return tomllib.loads(data.decode("utf-8"))
+        text = data.decode("utf-8")
+        if long := re.search(_LONG_KEY, text):
+            raise ConfigError(f"{path}:{text.count(chr(10), 0, long.start()) + 1}: a key has more than 50 parts")
+        return tomllib.loads(text)
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise ConfigError(f"{path}: {error}") from error
+    except ValueError as error:  # of int(), which takes 4,300 digits
+        raise ConfigError(f"{path}: a number has too many digits") from error
+    except RecursionError as error:
+        raise ConfigError(f"{path}: nested too deep") from error
 
 
 def _checked(path: str, text: str, name: str, value: Any) -> Any:
@@ -143,8 +171,8 @@ def _complaint(option: Option, value: Any) -> str:
         case "flag":
             return "" if isinstance(value, bool) else "must be true or false"
         case "number":
-            fits = isinstance(value, int) and not isinstance(value, bool) and value >= 0
-            return "" if fits else "must be a whole number from 0"
+            fits = isinstance(value, int) and not isinstance(value, bool) and 0 <= value <= MOST
+            return "" if fits else f"must be a whole number from 0 to {MOST}"
         case "word" | "path":
             return _word_complaint(option, value)
         case "words" | "paths":

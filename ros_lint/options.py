@@ -6,6 +6,8 @@ from typing import Any, Literal, NamedTuple
 
 Type = Literal["flag", "word", "words", "number", "path", "paths", "table"]
 SEVERITIES = ("error", "warning", "info")
+MOST = 1_000_000
+"""The largest number that an option takes."""
 FORMATS = ("text", "concise", "json", "sarif", "github", "gitlab")
 
 
@@ -22,6 +24,8 @@ class Option(NamedTuple):
     in_file: bool = True
     environment: str = ""
     """The variable that is read when neither says anything."""
+    loads_code: bool = False
+    """Whether it loads code. A configuration file that has it gets a warning, because the file can be part of what is checked."""
 
 
 OPTIONS: tuple[Option, ...] = (
@@ -63,8 +67,21 @@ OPTIONS: tuple[Option, ...] = (
     ),
     Option("per-path-ignores", "table", {}, "rules to ignore for files that match a pattern", on_command_line=False),
     Option("baseline", "path", "", "file of known findings, which are not shown", metavar="FILE"),
-    Option("plugins", "flag", False, "load rules of other installed distributions (entry points ros_lint.rules)"),
-    Option("jobs", "number", 0, "processes to read files with; 0 decides by the size of the workspace", metavar="N"),
+    Option(
+        "plugins",
+        "flag",
+        False,
+        "load rules of other installed distributions (entry points ros_lint.rules)",
+        in_file=False,
+        loads_code=True,
+    ),
+    Option(
+        "jobs",
+        "number",
+        0,
+        "processes to read files with, at most the number of cores; 0 decides by the size of the workspace",
+        metavar="N",
+    ),
     Option("cache", "flag", True, "keep what was read in the user's cache folder"),
     Option("format", "word", "text", "how to write the findings", choices=FORMATS, in_file=False),
     Option("output", "path", "", "write the findings to a file instead of standard output", metavar="FILE", in_file=False),
@@ -116,7 +133,7 @@ def _property(option: Option) -> dict[str, Any]:
         "flag": {"type": "boolean"},
         "word": word,
         "words": words,
-        "number": {"type": "integer", "minimum": 0},
+        "number": {"type": "integer", "minimum": 0, "maximum": MOST},
         "path": {"type": "string"},
         "paths": words,
         "table": {"type": "object", "additionalProperties": word if option.choices else words},

@@ -296,6 +296,17 @@ def test_a_plugin_brings_rules(demo: Path, tmp_path: Path) -> None:
     path = os.pathsep.join([str(site), os.environ.get("PYTHONPATH", "")])
     assert "[mine]" not in run(demo, "--format", "concise", env={"PYTHONPATH": path}).stdout
     assert run(demo, "--plugins", "--format", "concise", env={"PYTHONPATH": path}).stdout.count("[mine]") == 5
+    file = demo / "ros-lint.toml"
+    file.write_text("plugins = true\n")
+    done = run(demo, "--format", "concise", env={"PYTHONPATH": path})
+    assert (done.returncode, "[mine]" in done.stdout) == (1, False)
+    assert f"ros-lint: {file}:1: plugins has no effect in a file because it loads code; use --plugins" in done.stderr
+    assert f"{file}:1: plugins has no effect" in run("order", demo, env={"PYTHONPATH": path}).stderr
+    file.write_text("plugins = true\nselect = ['mine']\n")
+    done = run(demo, env={"PYTHONPATH": path})
+    assert f"{file}:1: plugins has no effect" in done.stderr
+    assert "there is no rule mine" in done.stderr
+    file.unlink()
     (site / "mine_rules.py").write_text("import nothing_of_that_name")
     done = run(demo, "--plugins", env={"PYTHONPATH": path})
     assert done.returncode == 2

@@ -1,8 +1,10 @@
+import time
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from ros_lint import config
 from ros_lint.config import ConfigError, settle
 from ros_lint.options import OPTIONS, schema
 
@@ -56,7 +58,14 @@ def test_paths_in_a_file_are_relative_to_it(tmp_path: Path) -> None:
             r"ros-lint.toml:1: fail-on must be one of error, warning, info, never, not 'eror', did you mean error\?",
         ),
         ("pedantic = 1", "ros-lint.toml:1: pedantic must be true or false"),
-        ("jobs = -1", "ros-lint.toml:1: jobs must be a whole number from 0"),
+        ("jobs = -1", "ros-lint.toml:1: jobs must be a whole number from 0 to 1000000"),
+        (f"\njobs = {10**18}", "ros-lint.toml:2: jobs must be a whole number from 0 to 1000000"),
+        (f"jobs = 0x{'f' * 5000}", "ros-lint.toml:1: jobs must be a whole number from 0 to 1000000"),
+        (f"jobs = {'9' * 5000}", "ros-lint.toml(:1: jobs must be a whole number|: a number has too many digits)"),
+        (f"ignore = {'[' * 100_000}", "ros-lint.toml: nested too deep"),
+        (f"ignore = {'{a = ' * 20_000}", "ros-lint.toml: nested too deep"),
+        (f"\n{'a.' * 100_000}a = 1", "ros-lint.toml:2: a key has more than 50 parts"),
+        ("#" * (257 << 10), "ros-lint.toml: larger than 256 KB"),
         ('select = "all"', "ros-lint.toml:1: select must be a list of strings"),
         ('[severity]\ndependency-cycle = "fatal"', "ros-lint.toml:1: severity has a value that must be one of"),
         ('[per-path-ignores]\n"src/*" = "all"', "ros-lint.toml:1: per-path-ignores must map patterns to lists"),
@@ -67,6 +76,52 @@ def test_paths_in_a_file_are_relative_to_it(tmp_path: Path) -> None:
 def test_what_is_wrong_is_said_with_the_place(tmp_path: Path, text: str, message: str) -> None:
     with pytest.raises(ConfigError, match=message):
         settings(tmp_path, text)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("tool = 1", "pyproject.toml: tool is not a table"),
+        ("tool.ros-lint = 1", "pyproject.toml: tool.ros-lint is not a table"),
+        ("[[tool]]", "pyproject.toml: tool is not a table"),
+    ],
+)
+def test_a_pyproject_without_tables(tmp_path: Path, text: str, message: str) -> None:
+    (tmp_path / "pyproject.toml").write_text(text)
+    with pytest.raises(ConfigError, match=message):
+        settings(tmp_path, said={"config": str(tmp_path / "pyproject.toml")})
+    text += '\nx = """\n[tool.ros-lint]\n"""'  # found without being asked for
+    with pytest.raises(ConfigError, match=message):
+        settings(tmp_path, text, name="pyproject.toml")
+
+
+def test_a_pyproject_is_looked_through_in_linear_time(tmp_path: Path) -> None:
+    (tmp_path / "pyproject.toml").write_text("\n" * 200_000)
+    began = time.process_time()
+    assert settings(tmp_path)["distro"] == ""
+    assert time.process_time() - began < 1
+
+
+def test_a_large_pyproject(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    text = f"[tool.ruff]\n{'#' * (256 << 10)}\n"
+    assert settings(tmp_path, text, name="pyproject.toml")["distro"] == ""
+    with pytest.raises(ConfigError, match=r"pyproject.toml: larger than 256 KB"):
+        settings(tmp_path, f"{text}[tool.ros-lint]\n", name="pyproject.toml")
+    monkeypatch.setattr(config, "_MOST_SEARCHED", len(text))
+    assert settings(tmp_path)["distro"] == ""
+
+
+@pytest.mark.parametrize("value", ["true", "false", "1"])
+def test_a_file_loads_no_plugins(tmp_path: Path, value: str) -> None:
+    found = settings(tmp_path, f'distro = "humble"\nplugins = {value}\n')
+    assert (found["plugins"], found.origin("plugins"), found["distro"]) == (False, "default", "humble")
+    place = f"{tmp_path}/ros-lint.toml:2"
+    assert found.warnings == (
+        f"{place}: plugins has no effect in a file because it loads code; use --plugins on the command line",
+    )
+    found = settings(tmp_path, said={"plugins": True})
+    assert (found["plugins"], found.origin("plugins")) == (True, "--plugins")
+    assert "plugins" not in schema()["properties"]
 
 
 def test_a_missing_file_that_was_asked_for(tmp_path: Path) -> None:
@@ -84,6 +139,7 @@ def test_the_schema_takes_what_the_table_takes() -> None:
         {"distor": "x"},
         {"fail-on": "eror"},
         {"jobs": -1},
+        {"jobs": 10**18},
         {"pedantic": 1},
         {"severity": {"a": "fatal"}},
         {"format": "json"},

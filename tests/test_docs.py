@@ -74,7 +74,9 @@ def test_settings_examples(document: Path, tmp_path: Path) -> None:
         if kind != "toml" or "project.entry-points" in body:
             continue
         (tmp_path / "ros-lint.toml").write_text(body, "utf-8")
-        assert read(str(tmp_path / "ros-lint.toml"))
+        settings, warnings = read(str(tmp_path / "ros-lint.toml"))
+        assert settings
+        assert not warnings
 
 
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)

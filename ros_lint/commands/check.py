@@ -15,7 +15,7 @@ from ros_lint.rule import Severity
 from ros_lint.tree import DiskTree, Machine, RecordedTree, text_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from ros_lint import engine
     from ros_lint.baseline import Baseline
@@ -36,6 +36,7 @@ def run(said: Said) -> int:
     try:
         with progress:
             asked = opening.ask(said, os.environ)
+            _warn(asked.settings.warnings)
             if asked.settings["show-settings"]:
                 print(asked.settings.show(), end="")
                 return 0
@@ -54,11 +55,15 @@ def run(said: Said) -> int:
     except RefusalError as error:
         print(f"ros-lint: {error}", file=sys.stderr)
         return 2
-    for warning in (*report.warnings, *_alone(asked)):
-        print(f"ros-lint: {warning}", file=sys.stderr)
+    _warn((*report.warnings, *_alone(asked)))
     if asked.settings["diff"]:  # standard output holds a patch and nothing else
         return max(code, exit_code(report, asked.settings["fail-on"]))
     return max(code, _print(report, asked))
+
+
+def _warn(warnings: Iterable[str]) -> None:
+    for warning in warnings:
+        print(f"ros-lint: {warning}", file=sys.stderr)
 
 
 def _known(settings: Settings) -> Baseline | None:

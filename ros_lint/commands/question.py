@@ -32,7 +32,7 @@ def ask(said: Mapping[str, Any], answer: Callable[[Opened, Workspace], Answer], 
     except (UsageError, ConfigError, KnowledgeError) as error:
         print(f"ros-lint: {error}", file=sys.stderr)
         return 2
-    for warning in opened.warnings:
+    for warning in (*opened.settings.warnings, *opened.warnings):
         print(f"ros-lint: {warning}", file=sys.stderr)
     sys.stdout.write(out)
     sys.stdout.flush()
