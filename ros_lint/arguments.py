@@ -12,12 +12,12 @@ from ros_lint.options import BY_NAME, COMMANDS, OPTIONS, Option
 from ros_lint.slips import did_you_mean, similar
 
 _COMMON = ("distro", "underlay", "config", "isolated", "jobs", "cache", "exclude", "progress")
-_AROUND = "workspace (default: the one that the current folder lies in)"
+_AROUND = "workspace (default: the one that contains the current folder)"
 _EPILOG = """\
-commands (ros-lint COMMAND --help tells more):
+commands (see also ros-lint COMMAND --help):
 {}
 
-exit codes: 0 nothing found, 1 findings at or above --fail-on, 2 the tool could not do its job
+exit codes: 0 no findings at or above --fail-on, 1 such findings, 2 the check could not be done
 """
 
 
@@ -25,11 +25,11 @@ class _Parser(argparse.ArgumentParser):
     def refuse(self, strange: Sequence[str]) -> NoReturn:
         """End because of arguments that mean nothing."""
         known = [text for action in self._actions for text in action.option_strings]
-        hint = did_you_mean(similar(strange[0].partition("=")[0], known), ", ")
+        hint = did_you_mean(similar(strange[0].partition("=")[0], known))
         self.error(f"unrecognized arguments: {' '.join(strange)}{hint}")
 
     def error(self, message: str) -> NoReturn:
-        print(f"ros-lint: {message} (ros-lint --help lists what there is)", file=sys.stderr)
+        print(f"ros-lint: {message} (see ros-lint --help)", file=sys.stderr)
         raise SystemExit(2)
 
 
@@ -102,20 +102,20 @@ def _order(made: argparse.ArgumentParser) -> None:
 
 def _graph(made: argparse.ArgumentParser) -> None:
     _order(made)
-    made.add_argument("--format", choices=("dot", "mermaid", "json"), default="dot", help="how to write the graph")
-    made.add_argument("--metrics", action="store_true", help="degrees, depth, reach and redundant edges per package")
+    made.add_argument("--format", choices=("dot", "mermaid", "json"), default="dot", help="output format")
+    made.add_argument("--metrics", action="store_true", help="print figures per package instead: degrees, depth, reach")
 
 
 def _why(made: argparse.ArgumentParser) -> None:
-    made.add_argument("package", help="the package that needs")
-    made.add_argument("dependency", help="the package or key that is needed")
-    made.add_argument("--explain-silence", action="store_true", help="why the rules about dependencies say nothing of the two")
+    made.add_argument("package", help="the package with the dependency")
+    made.add_argument("dependency", help="the package or rosdep key it depends on")
+    made.add_argument("--explain-silence", action="store_true", help="explain why the dependency rules report nothing")
     _graph_like(made)
 
 
 def _explain_package(made: argparse.ArgumentParser) -> None:
     made.add_argument("package", help="the package to explain")
-    made.add_argument("--format", choices=("text", "json"), default="text", help="how to write it")
+    made.add_argument("--format", choices=("text", "json"), default="text", help="output format")
     _graph_like(made)
 
 
@@ -123,7 +123,7 @@ def _launch(made: argparse.ArgumentParser) -> None:
     made.usage = "%(prog)s [options] FILE [name:=value ...]\n       %(prog)s [options] PACKAGE FILE [name:=value ...]"
     text = "a launch file, or a package and the name of a launch file that it installs"
     made.add_argument("words", nargs="+", metavar="FILE", help=text)
-    made.add_argument("--format", choices=("tree", "json", "mermaid"), default="tree", help="how to write it")
+    made.add_argument("--format", choices=("tree", "json", "mermaid"), default="tree", help="output format")
     _graph_like(made)
 
 
@@ -131,15 +131,15 @@ def _index(made: argparse.ArgumentParser) -> None:
     actions = made.add_subparsers(dest="action", required=True, metavar="ACTION")
     refresh = actions.add_parser("refresh", help="rebuild the data of distributions from rosdistro's index", allow_abbrev=False)
     refresh.add_argument("--from", dest="source", required=True, metavar="INDEX", help="index-v4.yaml, a path or URL")
-    refresh.add_argument("--distro", action="append", default=[], metavar="NAME", help="only this one; may be repeated")
+    refresh.add_argument("--distro", action="append", default=[], metavar="NAME", help="only this distribution; may be repeated")
     refresh.add_argument(
         "--rosdep", action="append", default=[], metavar="YAML", help="rosdep rules, a path or URL; may be repeated"
     )
-    refresh.add_argument("--to", default="", metavar="FOLDER", help="where to (default: the user's data folder)")
-    scan = actions.add_parser("scan", help="make data from installed prefixes", allow_abbrev=False)
-    scan.add_argument("prefixes", nargs="+", metavar="PREFIX")
-    scan.add_argument("--distro", default="local", metavar="NAME", help="what to call the result")
-    scan.add_argument("--to", default="", metavar="FOLDER", help="where to (default: standard output)")
+    refresh.add_argument("--to", default="", metavar="FOLDER", help="output folder (default: the user's data folder)")
+    scan = actions.add_parser("scan", help="generate the data from install prefixes", allow_abbrev=False)
+    scan.add_argument("prefixes", nargs="+", metavar="PREFIX", help="install prefix, such as /opt/ros/jazzy")
+    scan.add_argument("--distro", default="local", metavar="NAME", help="name of the generated distribution (default: local)")
+    scan.add_argument("--to", default="", metavar="FOLDER", help="output folder (default: standard output)")
 
 
 def _rules(made: argparse.ArgumentParser) -> None:
@@ -147,7 +147,7 @@ def _rules(made: argparse.ArgumentParser) -> None:
 
 
 def _rule(made: argparse.ArgumentParser) -> None:
-    made.add_argument("rule", help="name or code")
+    made.add_argument("rule", help="name or code of the rule")
     _rules(made)
 
 

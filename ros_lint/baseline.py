@@ -51,7 +51,7 @@ class Baseline(NamedTuple):
         """
         counts = Counter(map(_key, report.issues))
         shown = tuple([issue for issue in report.issues if counts[_key(issue)] > self._number(_key(issue))])
-        hidden = Hidden(f"known in {name}", len(report.issues) - len(shown))
+        hidden = Hidden(f"listed in {name}", len(report.issues) - len(shown))
         gone = self._gone(report, counts) if tuple(folders) == self.folders else 0
         return report._replace(
             issues=shown,
@@ -77,14 +77,14 @@ def read(path: str) -> Baseline:
         data = json.loads(bounded.read(path, _MOST_BYTES).decode("utf-8"))
         return Baseline(tuple(map(str, data["folders"])), dict(map(_entry, data["known"])))
     except OSError as error:
-        raise BaselineError(f"{path}: {error.strerror or error}; --write-baseline makes the file") from error
+        raise BaselineError(f"{path}: {error.strerror or error}; --write-baseline creates the file") from error
     except json.JSONDecodeError as error:
-        raise BaselineError(f"{path}:{error.lineno}: no JSON: {error.msg}; {_WAY_OUT}") from error
+        raise BaselineError(f"{path}:{error.lineno}: not valid JSON: {error.msg}; {_WAY_OUT}") from error
     except (UnicodeDecodeError, KeyError, TypeError, ValueError, AttributeError, RecursionError) as error:
-        raise BaselineError(f"{path}: not what --write-baseline writes; {_WAY_OUT}") from error
+        raise BaselineError(f"{path}: not a file written by --write-baseline; {_WAY_OUT}") from error
 
 
-_WAY_OUT = "--write-baseline makes it anew"
+_WAY_OUT = "--write-baseline rewrites it"
 
 
 def write(path: str, report: Report, folders: Sequence[str]) -> None:
@@ -105,8 +105,8 @@ def text(report: Report, folders: Sequence[str]) -> str:
 
 def _about(name: str, gone: int) -> str:
     if gone == 1:
-        return f"{name} knows 1 finding more than there is; --write-baseline takes it out"
-    return f"{name} knows {gone} findings more than there are; --write-baseline takes them out"
+        return f"1 finding in {name} no longer occurs; --write-baseline removes it"
+    return f"{gone} findings in {name} no longer occur; --write-baseline removes them"
 
 
 def _key(issue: Issue) -> Key:

@@ -54,7 +54,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         import traceback  # noqa: PLC0415
 
         traceback.print_exc()
-        print("ros-lint: this is a mistake in ros-lint; please report it with the lines above", file=sys.stderr)
+        print("ros-lint: this is a bug in ros-lint; please report it with the lines above", file=sys.stderr)
         return 2
 
 

@@ -42,7 +42,7 @@ Kind = Literal[
 MOST_BYTES = 4 << 20
 """A larger file is not read: it is generated data, and no source."""
 
-FAILED = "ros-lint failed on it ({}); please report this"
+FAILED = "ros-lint failed on this file ({}); please report this bug"
 
 _FILES_A_PROCESS = 500
 """Below this many files a further process costs more than it saves."""
@@ -205,7 +205,7 @@ def _read_and_collect(tree: Tree, path: str, kind: Kind) -> Collected:
             return Collected()
         kind = "python"
     if len(data) > MOST_BYTES:
-        return _unreadable(path, kind, f"{len(data) >> 20} MB is more than a source has")
+        return _unreadable(path, kind, f"{len(data) >> 20} MB is too large for a source file")
     if b"\0" in data[:1024] and not data.startswith((b"\xff\xfe", b"\xfe\xff")):
         return _unreadable(path, kind, "binary data")
     try:
@@ -216,5 +216,5 @@ def _read_and_collect(tree: Tree, path: str, kind: Kind) -> Collected:
 
 def _unreadable(path: str, kind: Kind, reason: str) -> Collected:
     hides = _HIDES.get(kind, Facet.USES)
-    facts = FileFacts(opaque=(Opaque(hides, f"it is not read: {reason}", beginning(path)),)) if hides else None
+    facts = FileFacts(opaque=(Opaque(hides, f"the file is not read: {reason}", beginning(path)),)) if hides else None
     return Collected(facts, unreadable=reason)

@@ -156,11 +156,11 @@ def _checked(path: str, text: str, name: str, value: Any) -> Any:
     if option is None or not option.in_file:
         known = [option.name for option in OPTIONS if option.in_file]
         if option is not None:
-            raise ConfigError(f"{_place(path, text, name)}: {name} can be said on the command line only")
-        hint = did_you_mean(similar(name.replace("_", "-"), known), ", ") or f"; there are {', '.join(known)}"
-        raise ConfigError(f"{_place(path, text, name)}: unknown setting {name}{hint}")
+            raise ConfigError(f"{_place(path, text, name)}: '{name}' is a command-line option, not a setting")
+        hint = did_you_mean(similar(name.replace("_", "-"), known)) or f"; available: {', '.join(known)}"
+        raise ConfigError(f"{_place(path, text, name)}: unknown setting '{name}'{hint}")
     if complaint := _complaint(option, value):
-        raise ConfigError(f"{_place(path, text, name)}: {name} {complaint}")
+        raise ConfigError(f"{_place(path, text, name)}: '{name}' {complaint}")
     if option.type in ("words", "paths"):
         return tuple(value)
     return value
@@ -181,16 +181,16 @@ def _complaint(option: Option, value: Any) -> str:
             if not isinstance(value, dict):
                 return "must be a table"
             if option.choices:
-                wrong = [complaint for entry in value.values() if (complaint := _word_complaint(option, entry))]
-                return f"has a value that {wrong[0]}" if wrong else ""
-            return "" if all(_is_words(entry) for entry in value.values()) else "must map patterns to lists of strings"
+                wrong = [f"of '{key}' {why}" for key, entry in value.items() if (why := _word_complaint(option, entry))]
+                return wrong[0] if wrong else ""
+            return "" if all(_is_words(entry) for entry in value.values()) else "must map patterns to lists of rules"
 
 
 def _word_complaint(option: Option, value: Any) -> str:
     if not isinstance(value, str):
         return "must be a string"
     if option.choices and value not in option.choices:
-        hint = did_you_mean(similar(value, option.choices), ", ")
+        hint = did_you_mean(similar(value, option.choices))
         return f"must be one of {', '.join(option.choices)}, not {value!r}{hint}"
     return ""
 

@@ -138,7 +138,7 @@ class _Walk:
                     target = self._tree.identity(child) if link else join(identity, name)
                     if link and target != self._base and is_below(self._base, target):
                         # colcon would go through everything around the workspace, and be it the whole disk.
-                        self._skipped.append(Skipped(child, "a link to a folder that the workspace lies in", link=True))
+                        self._skipped.append(Skipped(child, "a link to a folder that contains the workspace", link=True))
                     else:
                         todo.append((child, target))
 
@@ -300,11 +300,11 @@ class _Files:
     def _not_followed(self, target: str, crossed: tuple[str, ...]) -> str:
         """Return why a link is not followed, or "". ``crossed`` are the folders with it and the links on the way."""
         if any(is_below(place, target) for place in crossed):
-            return "a link to a folder that it lies in"
+            return "a link to a folder that contains it"
         if not any(is_below(target, place) for place in self._inside):
             return "a link that leads out of the workspace"
         if len(crossed) > 1 and target in self._linked:
-            return "a link to a folder that was reached by another link"
+            return "a link to a folder that another link already leads to"
         self._linked.add(target)
         return ""
 

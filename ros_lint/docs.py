@@ -55,12 +55,12 @@ _WHY = "## Why it matters\n"
 
 def overview(rules: Sequence[Rule]) -> str:
     """Return the page that lists all rules in Markdown, with links to their pages."""
-    parts = ["# Rules\n\nMade of the rules and their cases by `pytest --bless`; `ros-lint rule NAME` prints a page.\n"]
+    parts = ["# Rules\n\nGenerated from the rules and their cases by `pytest --bless`. `ros-lint rule NAME` prints a page.\n"]
     for digit, heading in GROUPS.items():
         mine = [rule for rule in rules if rule.code[3] == digit]
         if not mine:
             continue
-        parts.append(f"\n## {heading}\n\n| code | rule | severity | default | fix | says that |\n|---|---|---|---|---|---|\n")
+        parts.append(f"\n## {heading}\n\n| code | rule | severity | default | fix | checks that |\n|---|---|---|---|---|---|\n")
         parts += [
             f"| {rule.code} | [{rule.name}]({rule.name}.md) | {rule.severity!s} | {'on' if rule.default else 'off'} "
             f"| {'yes' if rule.fixable else ''} | {rule.summary} |\n"
@@ -71,7 +71,7 @@ def overview(rules: Sequence[Rule]) -> str:
 
 def settings(options: Iterable[Option]) -> str:
     """Return the table of options in Markdown: those that may stand in a file first."""
-    lines = ["| setting | on the command line | if nothing is said | what it does |", "|---|---|---|---|"]
+    lines = ["| setting | command line | default | meaning |", "|---|---|---|---|"]
     for option in sorted(options, key=lambda option: not option.in_file):
         name = f"`{option.name}`" if option.in_file else ""
         default = f"`${option.environment}`" if option.environment else f"`{toml(option.default)}`" if option.in_file else ""

@@ -58,7 +58,7 @@ def encode(changed: Mapping[str, str], texts: Callable[[str], Text]) -> dict[str
         try:
             result[path] = texts(path).encode(text)
         except UnicodeEncodeError as error:
-            raise EditError(f"{path}: its encoding {error.encoding} has no {text[error.start]!r}") from error
+            raise EditError(f"{path}: its encoding {error.encoding} cannot represent {text[error.start]!r}") from error
     return result
 
 

@@ -145,7 +145,7 @@ def show(issues: Iterable[Issue], selection: Selection) -> tuple[tuple[Issue, ..
             shown.append(issue._replace(finding=issue.finding._replace(severity=selection.severities[name])))
         else:
             shown.append(issue)
-    hidden = [Hidden(UNSURE, unsure), Hidden("ignored for their path", ignored)]
+    hidden = [Hidden(UNSURE, unsure), Hidden("ignored by per-path-ignores", ignored)]
     return tuple(shown), tuple(entry for entry in hidden if entry.count)
 
 

@@ -88,22 +88,22 @@ def product(names: Collection[str]) -> str:
     colcon marks what it writes with COLCON_IGNORE. Copies, and what other tools write, lack that.
     """
     if ".colcon_install_layout" in names:
-        return "an install tree: it has .colcon_install_layout"
+        return "an install folder: it has .colcon_install_layout"
     if ".built_by" in names or "colcon_build.rc" in names:
-        return "a build tree of colcon"
+        return "a build folder of colcon"
     if "pyvenv.cfg" in names:
-        return "a Python environment: it has pyvenv.cfg"
+        return "a Python virtual environment: it has pyvenv.cfg"
     if "CACHEDIR.TAG" in names:
-        return "a cache: it has CACHEDIR.TAG"
+        return "a cache folder: it has CACHEDIR.TAG"
     if "package.xml" in names:
         hooks = [name for name in _HOOKS if name in names]
         return (
             f"an installed package: it has {hooks[0]}" if hooks and not {"CMakeLists.txt", "setup.py"}.intersection(names) else ""
         )
     if "CMakeCache.txt" in names and "CMakeLists.txt" not in names:
-        return "a build tree of CMake: it has CMakeCache.txt"
+        return "a build folder of CMake: it has CMakeCache.txt"
     if any(f"local_setup.{shell}" in names and f"setup.{shell}" in names for shell in _PREFIX_SCRIPTS):
-        return "an install tree: it has setup.* and local_setup.*"
+        return "an install folder: it has setup.* and local_setup.*"
     return ""
 
 
@@ -209,7 +209,7 @@ def _by_script(folder: Folder, name: str, kind: str) -> Verdict:
         return cmake
     project = _setup_cfg(folder)
     if cmake and project and name in ("", project.name):
-        return Ignored("both CMake and Python could build it, so colcon leaves it out")
+        return Ignored("both CMake and Python could build it, so colcon skips it")
     if cmake:
         return cmake
     project = project or _setup_py(folder)

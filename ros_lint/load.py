@@ -198,7 +198,7 @@ class Loader:
         resolver = evidence.Resolver(sources, world)
         types = type_names.Types(sources, tree, lambda name: world.closure((name,)))
         for number, (done, source) in enumerate(zip(reads, sources, strict=True)):
-            self._progress("joining", number, len(reads))
+            self._progress("analysing", number, len(reads))
             found = done.found
             own = own_files.OwnFiles(source.name, source.files, source.script, source.facts)
             uses = evidence.resolve(source, resolver, own)

@@ -70,7 +70,7 @@ def ask(said: Mapping[str, Any], environment: Mapping[str, str]) -> Asked:
         if not os.path.exists(path):
             raise UsageError(f"{written}: no such file or directory{_command(written)}")
         if not os.path.isdir(path):
-            raise UsageError(f"{written}: not a directory; ros-lint checks workspaces and packages")
+            raise UsageError(f"{written}: not a directory; pass a workspace or a package")
     base = _base(paths)
     settings = settle(
         {name: value for name, value in said.items() if name != "paths"}, os.path.commonpath(paths), environment, base
@@ -170,8 +170,8 @@ def no_packages(asked: Asked | Opened) -> str:
         return f"ros-lint: no package found below {places}; is there a package.xml?"
     more = f" and {len(skipped) - _MOST_SKIPPED} more" if len(skipped) > _MOST_SKIPPED else ""
     named = ", ".join(skipped[:_MOST_SKIPPED])
-    nothing = f"ros-lint: no package found below {places}; not looked into: {named}{more}"
-    return f"{nothing}; name a folder in there to have it checked"
+    nothing = f"ros-lint: no package found below {places}; skipped: {named}{more}"
+    return f"{nothing}; to check a skipped folder, pass its path"
 
 
 _MOST_SKIPPED = 3
@@ -179,7 +179,7 @@ _MOST_SKIPPED = 3
 
 def _command(written: str) -> str:
     """Return what to say of a path that is not there, and may be meant for a command."""
-    return did_you_mean([f"the command {command}" for command in similar(written, COMMANDS)])
+    return did_you_mean([f"the command '{command}'" for command in similar(written, COMMANDS)])
 
 
 def _base(paths: Sequence[str]) -> str:
@@ -199,16 +199,17 @@ def repository_of(folder: str) -> str:
 def _target(settings: Settings, places: Sequence[str]) -> tuple[Target, tuple[str, ...]]:
     distro = settings["distro"]
     if not distro:
-        return Target(newest_lts(places), "newest long-term release known", told=False), ()
+        return Target(newest_lts(places), "newest LTS", told=False), ()
     known = [known.name for known in distros(places)]
     if distro in known:
         return Target(distro, settings.origin("distro")), ()
     if settings.origin("distro") == "ROS_DISTRO":
-        return Target(distro, "ROS_DISTRO"), (f"nothing is known of ROS_DISTRO {distro}; there are {', '.join(known)}",)
+        return Target(distro, "ROS_DISTRO"), (f"unknown distribution '{distro}' in ROS_DISTRO; available: {', '.join(known)}",)
     from ros_lint.knowledge.names import has_ended  # noqa: PLC0415
 
-    hint = ", which is no longer supported" if has_ended(distro) else did_you_mean(similar(distro, known), ", ")
-    raise UsageError(f"{settings.origin('distro')}: nothing is known of {distro}{hint} (there are {', '.join(known)})")
+    kind, hint = ("end-of-life", "") if has_ended(distro) else ("unknown", did_you_mean(similar(distro, known)))
+    available = f"(available: {', '.join(known)})"
+    raise UsageError(f"{settings.origin('distro')}: {kind} distribution '{distro}'{hint} {available}")
 
 
 def _excluder(patterns: Sequence[str]) -> Callable[[str], bool]:

@@ -35,7 +35,7 @@ def load(plugins: bool = False) -> tuple[Rule, ...]:
     for rule in found:
         for key in (rule.name, rule.code):
             if taken.setdefault(key, rule) != rule:
-                raise PluginError(f"two rules are called {key}")
+                raise PluginError(f"two rules have the same name or code '{key}'")
     return tuple(sorted(found, key=lambda rule: rule.code))
 
 
@@ -48,7 +48,7 @@ def _plugin_rules() -> Iterator[Rule]:
         try:
             yield from _rules_of(entry.load())
         except Exception as error:
-            raise PluginError(f"plugin {entry.name} ({entry.value}) cannot be loaded: {error}") from error
+            raise PluginError(f"plugin '{entry.name}' ({entry.value}) cannot be loaded: {error}") from error
 
 
 def _rules_of(module: ModuleType) -> Iterator[Rule]:
@@ -82,4 +82,4 @@ def matching(rules: Sequence[Rule], selector: str) -> tuple[Rule, ...]:
 def no_rule(rules: Sequence[Rule], selector: str) -> str:
     """Return what to say of a selector that means nothing."""
     words = [word for rule in rules for word in (rule.name, rule.code)]
-    return f"there is no rule {selector}{did_you_mean(similar(selector, [*words, 'all', 'default']), ', ')}"
+    return f"unknown rule '{selector}'{did_you_mean(similar(selector, [*words, 'all', 'default']))}"

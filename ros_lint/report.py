@@ -34,7 +34,7 @@ class Issue(NamedTuple):
         return f"{self.rule.code}/{self.package}/{self.finding.subject}"
 
 
-UNSURE = "less than certain, shown with --pedantic"
+UNSURE = "of lower confidence (shown with --pedantic)"
 
 
 class Hidden(NamedTuple):

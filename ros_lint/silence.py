@@ -35,11 +35,11 @@ def explain(package: Package, workspace: Workspace, name: str, told: Mapping[str
     unsure = (_unsure_undeclared(package, workspace, name, uses), _unsure_unused(package, workspace, name))
     for rule, reason, doubt in zip(RULES, silent, unsure, strict=True):
         if rule not in told:
-            yield f"{rule}: silent, {reason}"
+            yield f"{rule}: not reported, because {reason}"
         elif told[rule] is Confidence.HIGH:
             yield f"{rule}: reported"
         else:
-            yield f"{rule}: less than certain{doubt}; shown with --pedantic"
+            yield f"{rule}: reported with lower confidence{doubt}; use --pedantic to show it"
 
 
 def used_in(uses: Sequence[Use]) -> Iterator[str]:
@@ -54,7 +54,7 @@ def _needed_for(use: Use) -> str:
     words = [word for role, word in _WORDS if use.role & role]
     doubts = ["optional"] if use.optional else []
     if not use.sure:
-        doubts.append("in a file that is perhaps not built or installed, or by a name that is not sure")
+        doubts.append("the file may not be built or installed, or the name is ambiguous")
     return f"needed {' and '.join(words) or 'for nothing'}{''.join(f'; {doubt}' for doubt in doubts)}"
 
 
@@ -69,36 +69,38 @@ _WORDS = (
 
 def _not_undeclared(package: Package, workspace: Workspace, name: str, uses: list[Use]) -> str:
     if not tells(package):
-        return "for package.xml cannot be used as it is"
+        return "package.xml has errors"
     if package.declares(name):
-        return "for it is declared"
+        return "it is declared"
     if not uses:
-        return f"for nothing that is seen uses it{_hidden(package)}"
+        return f"no use of it was found{_hidden(package)}"
     told = next((need.name for need, _ in undeclared(package, workspace) if any(use in need.uses for use in uses)), "")
     if told:
-        return f"for {told} is told, which will do as well"
+        return f"'{told}' is reported instead, and provides the same"
     closure = all_declared(package, workspace)
     starts = [each.name for each in package.declared]
     brought = [next((other for other in use.providers if other in closure), "") for use in _of_itself(name, uses)]
     if all(brought):
         way = workspace.world.path(starts, brought[0])
-        return f"for it comes along: {' > '.join(way or (brought[0],))}; see transitive-dependency"
+        return f"a declared dependency provides it: {' -> '.join(way or (brought[0],))}; see rule transitive-dependency"
     if only_launched(package, uses):
-        return "for only launch files name it; see launch-outside-closure"
+        return "only launch files use it; see rule launch-outside-closure"
     if way := circle(package, workspace, name):
-        return f"for it needs this package itself: {' > '.join(way)}"
-    best = " or ".join(dict.fromkeys(use.package for use in uses if use.package != name))
-    return f"for it would only do as well as {best}" if best else "for what it is used for is declared otherwise"
+        return f"it depends on this package, so declaring it would close a cycle: {' -> '.join(way)}"
+    best = "' or '".join(dict.fromkeys(use.package for use in uses if use.package != name))
+    return f"'{best}' is the better match for these uses" if best else "another declared dependency covers these uses"
 
 
 def _unsure_undeclared(package: Package, workspace: Workspace, name: str, uses: list[Use]) -> str:
     if all(use.optional for use in uses):
-        return ", for every use is optional"
+        return ", because every use is optional"
     own = _of_itself(name, uses)
     if not any(use.sure for use in own):
-        return ", for no use is sure"
+        return ", because no use is certain"
     unknown = all_declared(package, workspace).unknown
-    return "" if despite(unknown, own, workspace) else f", for nobody knows what {', '.join(unknown)} may bring"
+    if despite(unknown, own, workspace):
+        return ""
+    return f", because the dependencies of {', '.join(unknown)} are unknown and may include it"
 
 
 def _of_itself(name: str, uses: list[Use]) -> list[Use]:
@@ -110,33 +112,33 @@ def _of_itself(name: str, uses: list[Use]) -> list[Use]:
 def _not_unused(package: Package, workspace: Workspace, name: str, uses: list[Use]) -> str:
     tags = package.tags(name)
     if not tags:
-        return "for it is not declared"
+        return "it is not declared"
     if not any(declared.always for declared in tags):
-        return "for it is declared under a condition"
+        return "it is declared under a condition"
     if uses:
-        return f"for it is used: {uses[0].span}"
+        return f"it is used: {uses[0].span}"
     if name in package.traces:
-        return f"for its name stands here: {package.traces[name]}"
+        return f"its name appears here: {package.traces[name]}"
     hidden = _hidden(package)
     if hidden and not (is_library(workspace.world, name) and is_built_in_sight(package)):
-        return hidden.removeprefix(", ")
+        return hidden.removeprefix(", and ")
     if not builds_something(package):
-        return "for the package builds and installs no code of its own"
+        return "the package builds and installs no code of its own"
     if not is_built_in_sight(package):
-        return "for its manifest or build script cannot be followed"
+        return "its manifest or build script cannot be analysed"
     if not any(declared.depend.tag in ("depend", "build_depend") for declared in tags):
-        return "for this tag says that it leaves no trace, or there are tests that may use it"
-    return "for it may do its work without being named"
+        return "a dependency with this tag may be used without any trace in the sources, or by tests"
+    return "it may be used without being named in the sources"
 
 
 def _unsure_unused(package: Package, workspace: Workspace, name: str) -> str:
     carried = carriers(package, workspace, package.tags(name)).get(name)
     if carried:
-        whom = "" if carried.package == package.name else f" to {carried.package}"
-        return f", for it alone brings {carried.name}{whom}"
-    return ", for it may do its work without being named" if is_unseen_by_name(workspace.world, name) else ""
+        where = "" if carried.package == package.name else f" for '{carried.package}'"
+        return f", because only this dependency provides '{carried.name}'{where}"
+    return ", because it may be used without being named in the sources" if is_unseen_by_name(workspace.world, name) else ""
 
 
 def _hidden(package: Package) -> str:
     hidden = package.hidden(Facet.USES)
-    return f", and not everything is seen: {hidden[0].reason} ({hidden[0].span})" if hidden else ""
+    return f", and not everything could be analysed: {hidden[0].reason} ({hidden[0].span})" if hidden else ""

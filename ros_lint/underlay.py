@@ -181,8 +181,8 @@ def _prefixes(tree: Tree, root: str) -> Iterator[Prefix]:
             yield from _prefixes(tree, join(root, "install"))
         elif not prefix.indexed:
             raise UnderlayError(
-                f"underlay {root} is no install prefix: nothing lies in share/<package>/package.xml below it; "
-                "name the folder that has setup.bash, such as /opt/ros/jazzy or install"
+                f"underlay {root} is not an install prefix: it has no share/<package>/package.xml; "
+                "use the folder that contains setup.bash, such as /opt/ros/jazzy or install"
             )
         else:
             yield prefix

@@ -70,9 +70,9 @@ def _known(settings: Settings) -> Baseline | None:
     """Return what the file of known findings says, None without one. Raises BaselineError, and UsageError for nonsense."""
     path, write = settings["baseline"], settings["write-baseline"]
     if write and not path:
-        raise opening.UsageError("--write-baseline needs the name of the file: --baseline FILE, or baseline in the settings")
+        raise opening.UsageError("--write-baseline needs a file: use --baseline FILE, or set baseline in ros-lint.toml")
     if write and settings["diff"]:
-        raise opening.UsageError("--write-baseline writes a file, and --diff changes none: leave one of them out")
+        raise opening.UsageError("--write-baseline and --diff cannot be combined, because --diff writes no files")
     if write or not path:
         return None
     from ros_lint import baseline  # noqa: PLC0415
@@ -86,12 +86,12 @@ def _keep(report: Report, asked: Asked) -> int:
 
     path = asked.settings["baseline"]
     if code := exit_code(report, "never"):
-        why = "a rule failed, so that its findings are not known" if report.packages else opening.no_packages(asked)
+        why = "a rule failed, so its findings are unknown" if report.packages else opening.no_packages(asked)
         print(f"ros-lint: {path}: not written: {why.removeprefix('ros-lint: ')}", file=sys.stderr)
         return code
     baseline.write(path, report, _folders(asked, path))
     count = len(report.issues)
-    print(f"ros-lint: {path} knows {count} finding{'s' * (count != 1)} now", file=sys.stderr)
+    print(f"ros-lint: wrote {count} finding{'s' * (count != 1)} to {path}", file=sys.stderr)
     return 0
 
 
@@ -112,7 +112,7 @@ def _alone(asked: Asked) -> Iterator[str]:
     around = enclosing_workspace(manifest)
     if around != root:
         what, where = os.path.relpath(root, around), os.path.relpath(around)
-        yield f"{what} was checked alone, without what is beside it; ros-lint {where} checks it all"
+        yield f"'{what}' was checked without its sibling packages; run 'ros-lint {where}' for the whole workspace"
 
 
 def _checked(asked: Asked, progress: Progress) -> Report:
@@ -227,9 +227,9 @@ def _unseen(workspace: Workspace) -> tuple[Unseen, ...]:
     from ros_lint.facts.sight import Facet  # noqa: PLC0415
 
     words = {
-        Facet.USES: "uses",
+        Facet.USES: "used dependencies",
         Facet.EXECUTABLES: "executables",
-        Facet.SHARE: "share files",
+        Facet.SHARE: "installed share files",
         Facet.PYTHON: "Python modules",
         Facet.LIBRARIES: "libraries",
         Facet.INTERFACES: "interfaces",

@@ -77,7 +77,7 @@ def _uses(package: Package, most: int) -> Iterator[_Row]:
         rows = places[name]
         yield from rows[:most]
         if len(rows) > most:
-            yield _Row("", f"and {len(rows) - most} more, such as", rows[most].span)
+            yield _Row("", f"and {len(rows) - most} more, e.g.", rows[most].span)
 
 
 _ROLES = ((Role.TOOL, "tool"), (Role.BUILD, "build"), (Role.EXPORT, "export"), (Role.EXEC, "run"), (Role.TEST, "test"))
@@ -92,7 +92,7 @@ def _provides(package: Package) -> Iterator[_Row]:
     if script is None:
         return
     for target in script.targets:
-        yield _Row(target.name, f"{target.kind} target{', for tests' if target.test else ''}", target.span)
+        yield _Row(target.name, f"{target.kind} target{', test only' if target.test else ''}", target.span)
     for component in script.components:
         yield _Row(component.name, f"component{_maybe(component.conditional)}", component.span)
     for plugin in script.plugins:
@@ -108,13 +108,14 @@ def _provides(package: Package) -> Iterator[_Row]:
 
 def _installs(package: Package) -> Iterator[_Row]:
     for provided in sorted(package.built.provides, key=lambda provided: provided.path):
-        source = f"from {provided.source}" if provided.source else f"built as {provided.target}" if provided.target else "made"
+        built = f"built as {provided.target}" if provided.target else "generated"
+        source = f"from {provided.source}" if provided.source else built
         program = ", executable" if provided.program else ""
         yield _Row(provided.path, f"{source}{program}{_maybe(provided.conditional)}", provided.span)
 
 
 def _maybe(conditional: bool) -> str:
-    return ", under a condition" if conditional else ""
+    return ", conditional" if conditional else ""
 
 
 def _hidden(package: Package) -> Iterator[_Row]:
@@ -145,4 +146,4 @@ def _json(workspace: Workspace, packages: Iterable[Package]) -> str:
 
 
 def _no_such(workspace: Workspace, name: str) -> str:
-    return f"ros-lint: the workspace has no package {name}{did_you_mean(similar(name, workspace.by_name, 2, 0.75))}\n"
+    return f"ros-lint: the workspace has no package '{name}'{did_you_mean(similar(name, workspace.by_name, 2, 0.75))}\n"

@@ -65,7 +65,7 @@ def refresh(
     found = upstream.sources(source)
     unknown = [name for name in distros if name not in found]
     if unknown:
-        raise KnowledgeError(f"{source} has no distribution {unknown[0]}, only {', '.join(sorted(found))}")
+        raise KnowledgeError(f"{source} has no distribution '{unknown[0]}'; available: {', '.join(sorted(found))}")
     wanted = distros or sorted(name for name, entry in found.items() if entry.active)
     files = {f"{name}.idx": index.render_file(name, "", date, upstream.packages(found[name])) for name in wanted}
     if rosdep_files:

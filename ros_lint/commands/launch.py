@@ -57,17 +57,17 @@ def understood(words: Sequence[str], is_file: Callable[[str], bool]) -> Asked:
     for word in words:
         name, mark, value = word.partition(":=")
         if mark and not name:
-            raise UsageError(f"{word}: an argument has a name: name:=value")
+            raise UsageError(f"argument without a name: '{word}'; write name:=value")
         if mark:
             given[name] = value
     if not places:
-        raise UsageError("which launch file? ros-lint launch FILE, or ros-lint launch PACKAGE FILE")
+        raise UsageError("no launch file given; use 'ros-lint launch FILE' or 'ros-lint launch PACKAGE FILE'")
     if len(places) > 2 or (len(places) == 2 and is_file(places[0])):
-        raise UsageError(f"{places[-1]}: an argument of a launch file is given as name:=value")
+        raise UsageError(f"unexpected '{places[-1]}'; launch arguments are written as name:=value")
     if len(places) == 2:
         return Asked(places[0], places[1], given)
     if not is_file(places[0]):
-        raise UsageError(f"{places[0]}: no such file; the launch file of a package is named by ros-lint launch PACKAGE FILE")
+        raise UsageError(f"{places[0]}: no such file; for an installed launch file use 'ros-lint launch PACKAGE FILE'")
     return Asked("", places[0], given)
 
 
@@ -97,10 +97,10 @@ def _doubts(file: LaunchFile, look_up: LookUp, expansion: Expansion, given: Mapp
         if name in known:
             continue
         near = similar(name, declared, 1, 0.75)
-        hint = did_you_mean(near) or (f"; there are {', '.join(declared)}" if declared else "; it takes none")
+        hint = did_you_mean(near) or (f"; available: {', '.join(declared)}" if declared else "; it declares none")
         if takes.complete or near:
-            raise UsageError(f"{file.path} takes no argument {name}{hint}")
-        yield f"nothing that can be read takes the argument {name}{hint}"
+            raise UsageError(f"{file.path} has no argument '{name}'{hint}")
+        yield f"no launch file that can be read uses the argument '{name}'{hint}"
 
 
 def _problems(file: LaunchFile, look_up: LookUp, expansion: Expansion) -> Iterator[str]:
@@ -110,14 +110,14 @@ def _problems(file: LaunchFile, look_up: LookUp, expansion: Expansion) -> Iterat
             yield f"{problem.span}: {problem.message}"
     for missing in expansion.missing:
         if missing.include is None:
-            yield f"{missing.span}: the argument {missing.name} has no default: give {missing.name}:=VALUE"
+            yield f"{missing.span}: the argument '{missing.name}' has no default; pass {missing.name}:=VALUE"
         else:
-            yield f"{missing.include}: the argument {missing.name} is not given here, and has no default at {missing.span}"
+            yield f"{missing.include}: the argument '{missing.name}' is not passed here and has no default at {missing.span}"
     for refused in expansion.refused:
-        value = refused.value or "the empty text"
-        yield f"{refused.span}: {value} is no choice of the argument {refused.name}: choose {', '.join(refused.choices)}"
+        choices = ", ".join(refused.choices)
+        yield f"{refused.span}: '{refused.value}' is not a valid choice for the argument '{refused.name}'; use one of {choices}"
     for circle in expansion.circles:
-        yield f"{circle.span}: this includes {circle.path} from within itself: it never ends"
+        yield f"{circle.span}: this include leads back to {circle.path}, so launching never ends"
     for started in expansion.started:
         if started.kind == "include" and started.certain and not started.file and len(started.target) == 1:
             absent = look_up.absent(started.target[0])

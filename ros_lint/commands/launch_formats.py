@@ -77,9 +77,12 @@ def _when(started: Started) -> list[str]:
 
 def _why_not_followed(started: Started, look_up: LookUp) -> str:
     if len(started.target) != 1 or UNKNOWN in started.target[0]:
-        return "which file this is is not known"
+        return _NOT_KNOWN
     absent = look_up.absent(started.target[0])
-    return absent.reason if absent is not None else "which file this is is not known"
+    return absent.reason if absent is not None else _NOT_KNOWN
+
+
+_NOT_KNOWN = "the path of the file is not known"
 
 
 def _head(started: Started) -> str:
@@ -113,7 +116,7 @@ def tree(found: Found) -> str:
         lines += [f"{indent}  {detail}" for detail in _details(started, found)]
     unknown = _unknown(found)
     if unknown:
-        lines += ["", "not seen through:"]
+        lines += ["", "not analysed:"]
         lines += [f"  {span}: {reason}" for reason, span in unknown[:_MOST_UNKNOWN]]
         lines += [f"  and {len(unknown) - _MOST_UNKNOWN} more"] if len(unknown) > _MOST_UNKNOWN else []
     lines += ["", _summary(expansion)]
@@ -126,17 +129,17 @@ def _argument(argument: Argument) -> str:
 
 def _details(started: Started, found: Found) -> Iterator[str]:
     if not started.certain:
-        yield " and ".join(_when(started)) or "perhaps: the condition is not known"
+        yield " and ".join(_when(started)) or "conditional: the condition is not known"
     if started.container:
-        yield f"in {_text(name if name.startswith('/') else f'/{name}' for name in started.container)}"
+        yield f"in container {_text(name if name.startswith('/') else f'/{name}' for name in started.container)}"
     if started.words:
-        yield f"given {' '.join(map(_value, started.words))}"
+        yield f"arguments {' '.join(map(_value, started.words))}"
     for name, texts in started.parameters:
         if name == UNKNOWN:
             continue
         yield f"parameter {readable(name)} = {_value(texts)}" if name else f"parameters {_text(texts)}"
     if any(name == UNKNOWN for name, _ in started.parameters):
-        yield "parameters that are not known"
+        yield "unknown parameters"
     for before, after in started.remappings:
         yield f"remap {_text(before)} to {_text(after)}"
     for name, texts in started.environment:
@@ -159,8 +162,8 @@ def _summary(expansion: Expansion) -> str:
         if kind in counts
     ]
     perhaps = sum(not started.certain for started in expansion.started)
-    cut = "" if expansion.complete else "; cut short"
-    return f"{', '.join(said) or 'nothing is started'}{f'; {perhaps} of these perhaps' if perhaps else ''}{cut}"
+    cut = "" if expansion.complete else "; incomplete"
+    return f"{', '.join(said) or 'starts nothing'}{f' ({perhaps} conditional)' if perhaps else ''}{cut}"
 
 
 # --- json ----------------------------------------------------------------------------------------------------------

@@ -86,7 +86,7 @@ class LookUp:
             raise UsageError(self._no_package(package))
         same = sorted({path for path in paths if path.rpartition("/")[2] == name})
         if len(same) > 1:
-            raise UsageError(f"{package} installs {name} more than once, so ros2 launch refuses it: {', '.join(same)}")
+            raise UsageError(f"'{package}' installs several files '{name}', so ros2 launch rejects the name: {', '.join(same)}")
         if not same:
             raise UsageError(self._no_file(packages, package, name, paths))
         path = f"{share(package)}/{same[0]}"
@@ -97,22 +97,22 @@ class LookUp:
         if isinstance(found, Absent):
             raise UsageError(f"{path}: {found.reason}")
         if found.helper:
-            raise UsageError(f"{path}: no launch file: it has no generate_launch_description() to call with nothing")
+            raise UsageError(f"{path}: not a launch file: it has no generate_launch_description() without parameters")
         return found
 
     def _no_package(self, package: str) -> str:
         if self._workspace.world.is_package(package):
-            return f"{package} is neither in the workspace nor in an underlay; --underlay PREFIX names an installed one"
-        return f"there is no package {package}{did_you_mean(self._workspace.world.suggest(package))}"
+            return f"'{package}' is neither in the workspace nor in an underlay; --underlay PREFIX adds an install prefix"
+        return f"there is no package '{package}'{did_you_mean(self._workspace.world.suggest(package))}"
 
     def _no_file(self, packages: Sequence[Package], package: str, name: str, paths: Sequence[str]) -> str:
         for one in packages:
             source = next((file.path for file in one.launch if file.path.rpartition("/")[2] == name), "")
             if source:
-                return f"{package} has {within(one.path, source)}, but does not install it; ros-lint launch {source} reads it"
+                return f"'{package}' has {within(one.path, source)}, but does not install it; use 'ros-lint launch {source}'"
         names = sorted({path.rpartition("/")[2] for path in paths if "launch" in path})
-        hint = did_you_mean(similar(name, names)) or f"; it installs {', '.join(names) or 'none'}"
-        return f"{package} installs no launch file {name}{hint}"
+        hint = did_you_mean(similar(name, names)) or f"; available: {', '.join(names) or 'none'}"
+        return f"'{package}' does not install a launch file '{name}'{hint}"
 
     # --- files that are included ----------------------------------------------------------------------------------
 
@@ -128,7 +128,7 @@ class LookUp:
         if places:
             return self._in_package(places[0].package, places[0].path)
         if path.startswith("/"):
-            return Absent("it lies outside of the workspace", surely=False)
+            return Absent("it is outside the workspace", surely=False)
         path = posixpath.normpath(path)
         return self._sources.get(path) or self._read(path)
 
@@ -139,32 +139,32 @@ class LookUp:
             for provided in one.built.provides:
                 if provided.path == path:
                     if not provided.source:
-                        return Absent("it is made when the package is built", surely=False)
+                        return Absent("it is generated when the package is built", surely=False)
                     source = seen_from(one.path, provided.source)
                     return self._sources.get(source) or self._read(source)
         if packages:
             if any(one.script is None or one.hidden(Facet.SHARE, path) for one in packages):
-                return Absent(f"{package} may install it in a way that cannot be seen", surely=False)
-            return Absent(f"{package} installs no {name}", surely=True)
+                return Absent(f"'{package}' may install it in a way that cannot be analysed", surely=False)
+            return Absent(f"'{package}' does not install '{name}'", surely=True)
         below = self._workspace.world.installed(package)
         if below is None:
             return Absent(self._no_package(package), surely=False)
         data = below.prefix.read(path)
         if data is None:
-            return Absent(f"{package} in the underlay has no {name}", surely=True)
+            return Absent(f"'{package}' in the underlay has no '{name}'", surely=True)
         return self._collected(f"{below.prefix.root}/{path}", data)
 
     def _read(self, path: str) -> LaunchFile | Absent:
         try:
             data = self._tree.read(path)
         except OSError:
-            return Absent("there is no such file", surely=True)
+            return Absent("no such file", surely=True)
         return self._collected(path, data)
 
     def _collected(self, path: str, data: bytes) -> LaunchFile | Absent:
         kind = kind_of(path)
         launch = collect(read(path, data), kind).launch if kind is not None else None
-        return launch if launch is not None else Absent("it is no launch file of ROS 2", surely=True)
+        return launch if launch is not None else Absent("not a ROS 2 launch file", surely=True)
 
 
 def _share_files(package: Package) -> list[str]:

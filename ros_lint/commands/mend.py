@@ -42,7 +42,7 @@ def run(opened: Opened, selection: engine.Selection) -> tuple[Report, int]:
     proof = _Proof(opened, selection)
     mended = _mended(proof)
     for issue, reason in mended.withheld:
-        print(f"ros-lint: {issue.finding.span}: not mended, {reason} [{issue.rule.name}]", file=sys.stderr)
+        print(f"ros-lint: {issue.finding.span}: fix skipped: {reason} [{issue.rule.name}]", file=sys.stderr)
     if opened.settings["diff"]:
         sys.stdout.write(diff(opened, mended.changed))
         sys.stdout.flush()
@@ -58,8 +58,8 @@ def run(opened: Opened, selection: engine.Selection) -> tuple[Report, int]:
 
 def _told(count: int, files: int) -> str:
     if not count:
-        return "nothing to mend"
-    return f"mended {count} finding{'s' * (count != 1)} in {files} file{'s' * (files != 1)}"
+        return "nothing to fix"
+    return f"fixed {count} finding{'s' * (count != 1)} in {files} file{'s' * (files != 1)}"
 
 
 def mend(opened: Opened, selection: engine.Selection) -> Mended:
@@ -251,8 +251,11 @@ class _Proof:
         worse = _worse(had, after)
         if worse and not idle and self._goes_on(had, new, group, worse):
             return ()
-        found = [_Complaint(f"because then {issue.finding.message}", issue.package, issue.finding.subject) for issue in worse]
-        found += [_Complaint("because the fix does not help", issue.package, issue.finding.subject) for issue in idle]
+        found = [
+            _Complaint(f"it would cause a new finding: {issue.finding.message}", issue.package, issue.finding.subject)
+            for issue in worse
+        ]
+        found += [_Complaint("it does not resolve the finding", issue.package, issue.finding.subject) for issue in idle]
         return tuple(found)
 
     def _goes_on(self, had: Counter[str], changed: Mapping[str, bytes], group: Sequence[Issue], worse: Sequence[Issue]) -> bool:

@@ -28,27 +28,27 @@ def run(workspace: Workspace) -> tuple[str, str, int]:
 def _cycles(graph: Graph) -> Iterator[str]:
     for knot in knots(graph):
         if knot.certain:
-            yield f"cannot be ordered: {', '.join(knot.names)}"
+            yield f"no build order, because of a dependency cycle: {', '.join(knot.names)}"
             yield from _edges(graph, knot)
 
 
 def _edges(graph: Graph, knot: Knot) -> Iterator[str]:
     cycle = tuple(zip(knot.cycle, (*knot.cycle[1:], knot.cycle[0]), strict=True))
-    yield f"  a shortest cycle: {' -> '.join((*knot.cycle, knot.cycle[0]))}"
+    yield f"  shortest cycle: {' -> '.join((*knot.cycle, knot.cycle[0]))}"
     for edge in (*cycle, *(edge for edge in knot.cut if edge not in cycle)):
-        out = "; removing this breaks the cycle" if edge in knot.cut else ""
+        out = "; removing it breaks the cycle" if edge in knot.cut else ""
         for reason in graph.reasons(edge):
-            yield f"    {reason.span}: {edge[0]} needs {edge[1]} ({reason.tag}){out}"
+            yield f"    {reason.span}: {edge[0]} depends on {edge[1]} ({reason.tag}){out}"
 
 
 def _left_out(graph: Graph) -> Iterator[str]:
     on_cycles = {name for cycle in graph.cycles for name in cycle}
     if after := [name for name in graph.order.stuck if name not in on_cycles]:
-        yield f"left out, since they need one of these: {', '.join(after)}"
+        yield f"no build order, because of a dependency on a package of the cycle: {', '.join(after)}"
 
 
 def _twice(graph: Graph) -> Iterator[str]:
     for name, places in graph.places.items():
         if len(places) > 1:
             where = " and ".join(package.path or "." for package in places)
-            yield f"{len(places)} packages are called {name}, which colcon refuses: {where}"
+            yield f"{len(places)} packages are named '{name}', so colcon rejects the workspace: {where}"

@@ -30,7 +30,7 @@ def run(workspace: Workspace) -> tuple[str, str, int]:
         places = list(_places(workspace, name))
         if len({place.layer for place in places}) > 1:
             lines += ["", *_tell(name, places)] if lines else _tell(name, places)
-    return "".join(f"{line}\n" for line in lines) or "No package hides another one.\n", "", 0
+    return "".join(f"{line}\n" for line in lines) or "No package exists in more than one layer.\n", "", 0
 
 
 def _places(workspace: Workspace, name: str) -> Iterator[_Place]:
@@ -56,4 +56,4 @@ def _tell(name: str, places: list[_Place]) -> Iterator[str]:
         sign = "*" if same == [place] else "?" if place in same else " "
         yield f"  {sign} {place.where.ljust(width)}  {(place.version or '-').ljust(version_width)}  {place.layer}"
     if len(same) > len({place.colcon_name for place in same}):
-        yield f"    colcon refuses the workspace: {len(same)} packages are called {name}"
+        yield f"    colcon rejects the workspace, because {len(same)} packages are named '{name}'"

@@ -14,7 +14,7 @@ def run(workspace: Workspace, name: str, other: str) -> tuple[str, str, int]:
     """Return what goes to standard output and to standard error, and the exit code: 2 when there is no such package."""
     packages = workspace.called(name)
     if not packages:
-        return "", f"ros-lint: no package of the workspace is called {name}\n", 2
+        return "", f"ros-lint: the workspace has no package '{name}'\n", 2
     lines = [line for package in packages for line in explain(package, workspace, other, _told(package, workspace, other))]
     return "".join(f"{line}\n" for line in lines), "", 0
 

@@ -47,11 +47,11 @@ def run(workspace: Workspace, start: str, end: str, most: int = 10) -> tuple[str
         back = paths(model.needs, end, start, 1).found
         uses = [use for package in workspace.called(start) for use in package.uses if end in use.providers]
         if uses:
-            hint = f" ({end} needs {start}: ros-lint why {end} {start})" if back else ""
-            head = f"{start} uses {end}, but neither declares it nor anything that brings it{hint}:"
+            hint = f" ('{end}' depends on '{start}': see 'ros-lint why {end} {start}')" if back else ""
+            head = f"'{start}' uses '{end}', but declares neither it nor anything that depends on it{hint}:"
             return "".join(f"{line}\n" for line in (head, *(f"   {line}" for line in used_in(uses)))), "", 1
-        hint = f"; but {end} needs {start}: ros-lint why {end} {start}" if back else ""
-        return f"{start} does not need {end}{hint}\n", "", 1
+        hint = f"; but '{end}' depends on '{start}': see 'ros-lint why {end} {start}'" if back else ""
+        return f"'{start}' does not depend on '{end}'{hint}\n", "", 1
     return "".join(f"{line}\n" for line in _tell(model, found, start, end)), "", 0
 
 
@@ -76,7 +76,7 @@ class _Model:
         graph = self.workspace.graph
         if other in graph.needs.get(name, ()):
             for reason in graph.reasons((name, other)):
-                yield _Line(reason.tag, str(reason.span), "" if reason.certain else "if a condition holds")
+                yield _Line(reason.tag, str(reason.span), "" if reason.certain else "if its condition is true")
             return
         for declared in self._declared(name):
             if declared.name == other:
@@ -104,8 +104,8 @@ class _Model:
 
 
 def _tell(model: _Model, found: Paths, start: str, end: str) -> Iterator[str]:
-    count = f"{len(found.found)} way{'s' if len(found.found) > 1 else ''}"
-    yield f"{start} needs {end}, in {count}{' or more, of which these are the shortest' if found.more else ''}:"
+    count = f"{'at least ' if found.more else ''}{len(found.found)} path{'s' if len(found.found) > 1 else ''}"
+    yield f"'{start}' depends on '{end}' through {count}{'; shortest first' if len(found.found) > 1 else ''}:"
     told: set[tuple[str, str]] = set()
     for number, path in enumerate(found.found, 1):
         yield ""
@@ -139,4 +139,4 @@ def _is_known(workspace: Workspace, name: str) -> bool:
 
 def _no_such(workspace: Workspace, name: str) -> str:
     near = [*similar(name, workspace.by_name, 2, 0.75), *workspace.world.suggest(name)]
-    return f"ros-lint: no package or rosdep key is called {name}{did_you_mean(list(dict.fromkeys(near[:3])))}\n"
+    return f"ros-lint: unknown package or rosdep key '{name}'{did_you_mean(list(dict.fromkeys(near[:3])))}\n"

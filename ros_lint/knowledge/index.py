@@ -238,5 +238,5 @@ def load(store: Store, distro: str) -> Index:
     name = f"{distro}.idx"
     head, table = store.table(name)
     if head and not head.startswith("#ros-index 1 "):
-        raise KnowledgeError(f"{store.find(name)} is no index of a distribution in a format that this version knows")
+        raise KnowledgeError(f"{store.find(name)} is not a package index in a format that this version supports")
     return Index(distro, head, table)

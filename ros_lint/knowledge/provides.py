@@ -104,7 +104,7 @@ def parse(fields: list[str]) -> Provided:
     for field in rest:
         letter, colon, text = field.partition(":")
         if len(letter) != 1:
-            raise ValueError(f"{field!r} is no list of names")
+            raise ValueError(f"{field!r} is not a list of names")
         # A lone Y is the module that is called as the package.
         names = text.split(" ") if colon else [name]
         found[letter] = tuple(_apart(names) if letter == LETTERS["plugins"] else names)
@@ -164,5 +164,5 @@ def load(store: Store, distro: str) -> Provides:
     name = f"{distro}.prov"
     head, table = store.table(name)
     if head and not head.startswith("#ros-provides 1 "):
-        raise KnowledgeError(f"{store.find(name)} is no list of what packages install in a known format")
+        raise KnowledgeError(f"{store.find(name)} is not a list of installed files in a format that this version supports")
     return Provides(table)

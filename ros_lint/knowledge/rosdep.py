@@ -55,7 +55,7 @@ def parse(fields: list[str]) -> Key:
     name, letters, apt, pip = (*fields, "", "", "")[:4]
     unknown = set(letters) - LETTERS.keys()
     if unknown:
-        raise ValueError(f"{sorted(unknown)} stand for no platform")
+        raise ValueError(f"unknown platforms {sorted(unknown)}")
     return Key(name, tuple(LETTERS[letter] for letter in letters), tuple(apt.split()), tuple(pip.split()))
 
 
@@ -123,5 +123,5 @@ def load(store: Store) -> Rosdep:
     """Return the keys. Raises KnowledgeError when the file is damaged."""
     head, table = store.table("rosdep.tsv")
     if head and not head.startswith("# key\t"):
-        raise KnowledgeError(f"{store.find('rosdep.tsv')} is no list of rosdep keys")
+        raise KnowledgeError(f"{store.find('rosdep.tsv')} is not a list of rosdep keys")
     return Rosdep(table)

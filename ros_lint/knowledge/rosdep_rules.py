@@ -25,10 +25,10 @@ def keys(files: Iterable[tuple[str, object]]) -> dict[str, Key]:
     merged: dict[str, dict[str, object]] = {}
     for place, rules in files:
         if not isinstance(rules, dict):
-            raise KnowledgeError(f"{place} is no file of rosdep rules")
+            raise KnowledgeError(f"{place} is not a file of rosdep rules")
         for name, rule in rules.items():
             if not isinstance(rule, dict):
-                raise KnowledgeError(f"{place}: the rule of {name} is no mapping of systems")
+                raise KnowledgeError(f"{place}: the rule of '{name}' is not a mapping from systems")
             known = merged.get(str(name), {})
             if known.keys() <= _ONLY_OSX:
                 merged[str(name)] = {**rule, **known}

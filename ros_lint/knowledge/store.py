@@ -77,16 +77,16 @@ class Store:
             raise KnowledgeError(f"{path} cannot be read: {error}; {_advice(path)}") from error
         head, _, body = text.partition("\n")
         if not head.startswith("#"):
-            raise KnowledgeError(f"{path} is no data file of ros-lint: it has no head line; {_advice(path)}")
+            raise KnowledgeError(f"{path} is not a data file of ros-lint, because it has no header line; {_advice(path)}")
         if not body:
             rows = []
         elif body.endswith("\n"):
             rows = body[:-1].split("\n")
         else:
-            raise KnowledgeError(f"{path} is cut off in the middle of a line; {_advice(path)}")
+            raise KnowledgeError(f"{path} is truncated in the middle of a line; {_advice(path)}")
         wanted = _PACKAGES.search(head)
         if wanted and int(wanted[1]) != len(rows):
-            raise KnowledgeError(f"{path} has {len(rows)} packages, not {wanted[1]} as it says itself; {_advice(path)}")
+            raise KnowledgeError(f"{path} has {len(rows)} packages, but its header says {wanted[1]}; {_advice(path)}")
         return head, rows
 
     def table(self, name: str) -> tuple[str, Table]:
@@ -97,7 +97,7 @@ class Store:
         head, rows = self.lines(name)
         if any(map(gt, rows, rows[1:])):
             path = self.find(name) or name
-            raise KnowledgeError(f"the lines of {path} are not sorted, so nothing can be found in it; {_advice(path)}")
+            raise KnowledgeError(f"the lines of {path} are not sorted, so look-ups would fail; {_advice(path)}")
         return head, Table(rows, self.find(name) or "")
 
 
@@ -106,8 +106,8 @@ _PACKAGES = re.compile(r"\bpackages=(\d+)")
 
 def _advice(path: str) -> str:
     if os.path.dirname(path) == SHIPPED:
-        return "install ros-lint again"
-    return "remove it, or run ros-lint index refresh"
+        return "reinstall ros-lint"
+    return "remove it, or run 'ros-lint index refresh'"
 
 
 class Table:
@@ -173,4 +173,4 @@ class Entries(Generic[T]):
         try:
             return self._parse(row)
         except ValueError as error:
-            raise KnowledgeError(f"{self._table.path}: the line of {name} makes no sense: {error}") from error
+            raise KnowledgeError(f"{self._table.path}: the line of '{name}' is invalid: {error}") from error

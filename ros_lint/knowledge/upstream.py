@@ -40,7 +40,7 @@ def sources(place: str) -> dict[str, Source]:
     found = {}
     for name, entry in index.items():
         if not isinstance(entry, dict) or not isinstance(entry.get("distribution"), list):
-            raise KnowledgeError(f"{place}: distribution {name} has no list of files")
+            raise KnowledgeError(f"{place}: distribution '{name}' has no list of files")
         files = tuple(_beside(place, str(file)) for file in entry["distribution"])
         cache = str(entry.get("distribution_cache") or "")
         active = entry.get("distribution_type") == "ros2" and entry.get("distribution_status") != "end-of-life"
@@ -51,7 +51,7 @@ def sources(place: str) -> dict[str, Source]:
 def packages(source: Source) -> Iterator[Released]:
     """Yield the packages of a distribution. Raises KnowledgeError when a file cannot be read or is of another kind."""
     if not source.cache:
-        raise KnowledgeError(f"the index names no cache for {source.name}, so nothing is known of its dependencies")
+        raise KnowledgeError(f"the index has no cache for '{source.name}', so its dependencies are unknown")
     cache = _mapping(source.cache, load_yaml(source.cache), "release_package_xmls")
     released = cache["release_package_xmls"] or {}
     in_sources = {
@@ -98,7 +98,7 @@ def load_yaml(place: str) -> Any:
     try:
         return yaml.load(data, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))  # noqa: S506  (both are safe)
     except (yaml.YAMLError, UnicodeDecodeError, RecursionError) as error:
-        raise KnowledgeError(f"{place} is no YAML: {' '.join(str(error).split())}") from error
+        raise KnowledgeError(f"{place} is not valid YAML: {' '.join(str(error).split())}") from error
 
 
 def read(place: str) -> bytes:
@@ -120,7 +120,7 @@ def _download(url: str) -> bytes:
     from urllib.request import Request, urlopen  # noqa: PLC0415  (only a refresh needs it)
 
     if not url.startswith(("https://", "http://", "file://")):
-        raise ValueError("only http, https and file addresses are taken")
+        raise ValueError("only http, https and file URLs are supported")
     request = Request(url, headers={"User-Agent": "ros-lint"})  # noqa: S310  (checked above)
     with urlopen(request, timeout=_TIMEOUT) as answer:  # noqa: S310
         data: bytes = answer.read(_MOST_BYTES + 1)
@@ -143,5 +143,5 @@ def _beside(index: str, place: str) -> str:
 
 def _mapping(place: str, found: object, key: str) -> dict[str, Any]:
     if not isinstance(found, dict) or not isinstance(found.get(key, ""), dict | None):
-        raise KnowledgeError(f"{place} has no mapping {key!r}, so it is not what it should be")
+        raise KnowledgeError(f"{place} has no mapping {key!r}, so it is not the expected file")
     return found

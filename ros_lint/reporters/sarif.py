@@ -14,7 +14,7 @@ from urllib.parse import quote
 from ros_lint.reporters.encode import encode
 from ros_lint.reporters.fingerprint import line_hashes
 from ros_lint.reporters.sarif_rules import LEVELS, TOPICS, capital, descriptor, sentence, topic
-from ros_lint.reporters.summary import and_list, crashed, some, told
+from ros_lint.reporters.summary import and_list, crashed, hidden_findings, some, told
 from ros_lint.text import Span, Text, raw
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ def render(report: Report, texts: Texts, style: Style) -> str:  # noqa: ARG001  
                 "informationUri": "sarif:/runs/0/tool/driver/fullDescription",
                 "shortDescription": {"text": "Static analysis for ROS 2 workspaces."},
                 "fullDescription": {
-                    "text": "ros-lint says what will break in a ROS 2 workspace on the build farm, on a colleague's "
+                    "text": "ros-lint reports what will break in a ROS 2 workspace on the build farm, on a colleague's "
                     "machine or at launch, without building it. 'ros-lint rule NAME' explains a rule."
                 },
                 "rules": [descriptor(rules[code], index) for code, index in codes.items()],
@@ -270,15 +270,15 @@ def _notes(report: Report, codes: dict[str, int]) -> Iterator[Object]:
         code = by_name.get(crash.rule, "")
         yield {**note, "associatedRule": {"id": code, "index": codes[code]}} if code in codes else note
     for hidden in report.hidden:
-        yield _note("NotShown", "note", f"not shown: {hidden.count} {hidden.reason}")
+        yield _note("NotShown", "note", f"hidden: {hidden_findings(hidden)}")
     for unseen in report.unseen:
-        yield _note("NotSeenThrough", "note", f"not seen through: {unseen.what} of {some(unseen.packages)}")
+        yield _note("NotSeenThrough", "note", f"not fully analysed: {unseen.what} of {some(unseen.packages)}")
 
 
 def _cut(groups: Sequence[Group], kept: Sequence[Group]) -> Iterator[Object]:
     if len(groups) > len(kept):
-        left = f"{len(groups) - len(kept)} results of the least severity are left out"
-        yield _note("NotShown", "warning", f"{left}, a file holds {_RESULTS}")
+        left = f"{len(groups) - len(kept)} results of the lowest severity are left out"
+        yield _note("NotShown", "warning", f"{left}, because GitHub accepts at most {_RESULTS}")
 
 
 def _note(name: str, level: str, message: str) -> Object:

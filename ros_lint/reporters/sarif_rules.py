@@ -42,7 +42,7 @@ def descriptor(rule: Rule, index: int) -> dict[str, Any]:
 def sentence(text: str) -> str:
     """Return a message of the house, which has no full stop, as a sentence. Names in it stay as they are."""
     if text.endswith("?"):
-        return f"{text} The help of the rule says more."
+        return f"{text} See the help of the rule."
     return text if text.endswith(".") else f"{text}."
 
 
@@ -76,32 +76,32 @@ TOPICS = [
     _topic(
         "RLN001",
         "NotChecked",
-        "Something could not be looked at.",
-        "Findings about it may be missing. The reason stands in the message: mend the file, or give what is not known.",
+        "Something could not be checked.",
+        "Findings about it may be missing. The message contains the reason: fix the file, or provide what is missing.",
     ),
     _topic(
         "RLN002",
         "CheckFailed",
         "A rule failed.",
-        "This is a fault of ros-lint or of a plugin, please report it. All other rules have run.",
+        "This is a bug in ros-lint or in a plugin; please report it. All other rules have run.",
     ),
     _topic(
         "RLN003",
         "NotShown",
-        "Findings are left out.",
-        "Those that are less than certain are shown with --pedantic; others are suppressed or ignored on purpose.",
+        "Some findings are hidden.",
+        "Findings of lower confidence are shown with --pedantic. Others are suppressed by comments or ignored by the settings.",
     ),
     _topic(
         "RLN004",
         "NotSeenThrough",
-        "Parts of the workspace could not be seen through.",
-        "Rules that would claim that something is missing there kept silent. 'ros-lint rule opaque-package' says more.",
+        "Parts of the workspace could not be fully analysed.",
+        "Checks for missing things were skipped there. 'ros-lint explain-package NAME' lists the places.",
     ),
     _topic(
         "RLN005",
         "NoPackage",
         "No package was found.",
-        "Nothing was checked. Give the folder of a workspace, one that has a package.xml in it or below it.",
+        "Nothing was checked. Pass the path of a workspace or package: a folder with a package.xml in it or below it.",
     ),
 ]
 """Kinds of notes."""

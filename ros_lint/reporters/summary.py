@@ -11,7 +11,7 @@ from ros_lint.rule import Severity
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from ros_lint.report import Crash, NotChecked, Report
+    from ros_lint.report import Crash, Hidden, NotChecked, Report
 
 _LISTED = 10
 """Entries of a list to show; the json format has all."""
@@ -46,14 +46,19 @@ def some(packages: Sequence[str]) -> str:
 def blind_spots(report: Report) -> Iterator[str]:
     """Yield, as sentences without a full stop, what the findings shown do not tell."""
     if report.hidden:
-        yield f"Not shown: {'; '.join(f'{hidden.count} {hidden.reason}' for hidden in report.hidden)}"
+        yield f"Hidden: {'; '.join(map(hidden_findings, report.hidden))}"
     if report.unseen:
         sides: dict[tuple[str, ...], list[str]] = {}
         for unseen in report.unseen:
             sides.setdefault(unseen.packages, []).append(unseen.what)
         told_of = "; ".join(f"{and_list(what)} of {some(packages)}" for packages, what in sides.items())
-        why = "Rules that would claim something is missing kept silent there; ros-lint explain-package NAME says where"
-        yield f"Not seen through: {told_of}. {why}"
+        why = "Checks for missing things were skipped there; 'ros-lint explain-package NAME' lists the places"
+        yield f"Not fully analysed: {told_of}. {why}"
+
+
+def hidden_findings(hidden: Hidden) -> str:
+    """Return how many findings are hidden, and why."""
+    return f"{count(hidden.count, 'finding')} {hidden.reason}"
 
 
 def told(entry: NotChecked) -> str:
@@ -78,10 +83,10 @@ def _lines(report: Report, style: Style) -> Iterator[str]:
     for sentence in blind_spots(report):
         yield f"{safe(sentence, style)}."
     if report.not_checked:
-        yield f"Not checked: {count(len(report.not_checked), 'thing')}"
+        yield f"Not checked: {count(len(report.not_checked), 'item')}"
         yield from _listed([told(entry) for entry in report.not_checked], style)
     if report.crashes:
-        fault = f"This is a fault of ros-lint {report.version}, please report it:"
+        fault = f"This is a bug in ros-lint {report.version}; please report it:"
         yield paint(style, "error", f"{count(len(report.crashes), 'check')} failed. {fault}")
         yield from _listed([crashed(crash) for crash in report.crashes], style)
         yield from (f"  {safe(line, style)}" for line in report.crashes[0].traceback.rstrip().split("\n"))
@@ -102,14 +107,14 @@ def _by_rule(report: Report, style: Style) -> Iterator[str]:
 
 
 def _verdict(report: Report, style: Style) -> str:
-    data = f", with data of {report.data_date}" if report.data_date else ""
-    chosen = report.target.source if report.target.told else f"{report.target.source}; --distro names another"
+    data = f"; package index of {report.data_date}" if report.data_date else ""
+    chosen = report.target.source if report.target.told else f"assumed: {report.target.source}; set with --distro"
     world = f"for {report.target.distro} ({chosen}){data}"
     if not report.packages:
         return f"{paint(style, 'error', 'No package found')}, so nothing was checked {world}."
     numbers = {severity: report.count(severity) for severity in (Severity.ERROR, Severity.WARNING, Severity.INFO)}
     found = [paint(style, str(level), _of_level(number, level)) for level, number in numbers.items() if number]
-    verdict = f"Found {and_list(found)}" if found else paint(style, "good", "Nothing found")
+    verdict = f"Found {and_list(found)}" if found else paint(style, "good", "No problems found")
     return f"{verdict} in {count(report.packages, 'package')} {world}."
 
 
@@ -120,4 +125,4 @@ def _of_level(number: int, severity: Severity) -> str:
 def _listed(entries: Sequence[str], style: Style) -> Iterator[str]:
     yield from (f"  {safe(entry, style)}" for entry in entries[:_LISTED])
     if len(entries) > _LISTED:
-        yield f"  and {len(entries) - _LISTED} more, which --format json lists"
+        yield f"  and {len(entries) - _LISTED} more; --format json lists all of them"
