@@ -81,7 +81,7 @@ def read(path: str) -> Baseline:
     except json.JSONDecodeError as error:
         raise BaselineError(f"{path}:{error.lineno}: not valid JSON: {error.msg}; {_WAY_OUT}") from error
     except (UnicodeDecodeError, KeyError, TypeError, ValueError, AttributeError, RecursionError) as error:
-        raise BaselineError(f"{path}: not a file written by --write-baseline; {_WAY_OUT}") from error
+        raise BaselineError(f"{path}: not a baseline file; {_WAY_OUT}") from error
 
 
 _WAY_OUT = "--write-baseline rewrites it"

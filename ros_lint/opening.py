@@ -179,7 +179,8 @@ _MOST_SKIPPED = 3
 
 def _command(written: str) -> str:
     """Return what to say of a path that is not there, and may be meant for a command."""
-    return did_you_mean([f"the command '{command}'" for command in similar(written, COMMANDS)])
+    near = similar(written, COMMANDS)
+    return f"; did you mean the command '{near[0]}'?" if near else ""
 
 
 def _base(paths: Sequence[str]) -> str:

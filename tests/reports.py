@@ -169,15 +169,15 @@ EVERYTHING = Report(
     issues=ISSUES,
     rules=RULES,
     packages=3,
-    target=Target("jazzy", "newest long-term release known"),
+    target=Target("jazzy", "newest LTS"),
     data_date="2026-11-01",
     version="0.1.0",
-    hidden=(Hidden("less than certain, shown with --pedantic", 4), Hidden("suppressed in comments", 1)),
+    hidden=(Hidden("of lower confidence (shown with --pedantic)", 4), Hidden("suppressed by comments", 1)),
     not_checked=(
         NotChecked("the file", "Permission denied", Span("ws/secret/package.xml", 1, 1, 1, 1)),
         NotChecked("unknown-dependency", "there is no index for distribution jazzy", None),
     ),
-    unseen=(Unseen("executables", ("bringup", "talker")), Unseen("uses", ("talker",))),
+    unseen=(Unseen("executables", ("bringup", "talker")), Unseen("used dependencies", ("talker",))),
     crashes=(Crash("unused-dependency", "talker", TRACEBACK), Crash("dependency-cycle", "", TRACEBACK)),
     workspace="ws",
 )

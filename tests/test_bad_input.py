@@ -69,7 +69,7 @@ def test_a_folder_that_colcon_skips(tmp_path: Path) -> None:
     (tmp_path / "COLCON_IGNORE").write_text("")
     ran = lint(tmp_path)
     assert ran.code == 2
-    assert f"below {tmp_path}; not looked into: . (COLCON_IGNORE); name a folder in there" in ran.err
+    assert f"below {tmp_path}; skipped: . (COLCON_IGNORE); to check a skipped folder" in ran.err
     assert lint(tmp_path / "ws").out["packages"] == 1
 
 
@@ -80,7 +80,7 @@ def test_folders_below_that_colcon_skips(tmp_path: Path) -> None:
     ran = lint(tmp_path)
     assert ran.code == 2
     named = ", ".join(f"src/{name} (COLCON_IGNORE)" for name in ("arm", "base", "camera"))
-    assert f"not looked into: {named} and 1 more; name a folder in there" in ran.err
+    assert f"skipped: {named} and 1 more; to check a skipped folder" in ran.err
 
 
 def test_a_missing_path(tmp_path: Path) -> None:
@@ -214,7 +214,7 @@ def test_what_a_fix_would_create_is_there_and_no_file(tmp_path: Path, what: str)
     ran = lint(tmp_path, "--fix")
     assert "talker/setup.cfg: cannot be read: Is a directory" in ran.err
     assert rules(ran, "talker/") == ["entry-point-location"]
-    assert rules(ran, "good/") == []  # mended all the same
+    assert rules(ran, "good/") == []  # fixed although another file failed
 
 
 def test_a_settings_file_that_cannot_be_read(tmp_path: Path) -> None:

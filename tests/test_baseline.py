@@ -52,7 +52,7 @@ def test_what_is_written_hides_just_that(tmp_path_factory: pytest.TempPathFactor
     known = kept(tmp_path_factory.mktemp("known"), report(*issues))
     left = known.without(report(*issues), "known.json", (".",))
     assert (left.issues, left.warnings) == ((), ())
-    assert left.hidden == ((Hidden("known in known.json", len(issues)),) if issues else ())
+    assert left.hidden == ((Hidden("listed in known.json", len(issues)),) if issues else ())
 
 
 @given(found, found)
@@ -68,9 +68,9 @@ def test_only_more_of_the_same_is_new(tmp_path_factory: pytest.TempPathFactory, 
 def test_what_is_gone_is_told(tmp_path: Path) -> None:
     known = kept(tmp_path, report(issue("one", "a", "x"), issue("one", "a", "x"), issue("two", "b", "y")))
     left = known.without(report(issue("one", "a", "x")), "known.json", (".",))
-    assert left.warnings == ("known.json knows 2 findings more than there are; --write-baseline takes them out",)
+    assert left.warnings == ("2 findings in known.json no longer occur; --write-baseline removes them",)
     left = known.without(report(issue("one", "a", "x"), issue("two", "b", "y")), "known.json", (".",))
-    assert left.warnings == ("known.json knows 1 finding more than there is; --write-baseline takes it out",)
+    assert left.warnings == ("1 finding in known.json no longer occurs; --write-baseline removes it",)
 
 
 def test_nothing_is_gone_that_was_not_looked_for(tmp_path: Path) -> None:
@@ -102,15 +102,15 @@ KNOWN = '{"folders": [], "known": [{"rule": "", "package": "", "subject": "", "c
 @pytest.mark.parametrize(
     ("text", "complaint"),
     [
-        ("", "known.json:1: no JSON"),
-        ('{\n"known": [', "known.json:2: no JSON"),
-        ("[]", "known.json: not what --write-baseline writes"),
-        ('{"folders": [], "known": [{"rule": "one"}]}', "known.json: not what --write-baseline writes"),
-        ('{"folders": [], "known": {"rule": "one"}}', "known.json: not what --write-baseline writes"),
+        ("", "known.json:1: not valid JSON"),
+        ('{\n"known": [', "known.json:2: not valid JSON"),
+        ("[]", "known.json: not a baseline file"),
+        ('{"folders": [], "known": [{"rule": "one"}]}', "known.json: not a baseline file"),
+        ('{"folders": [], "known": {"rule": "one"}}', "known.json: not a baseline file"),
         ('{"folders": [], "known": [{"rule": "", "package": "", "subject": "", "count": "many", "sure": 1}]}', "known.json: not"),
-        *((KNOWN.replace("1", count), "known.json: not what") for count in ("1e999", "NaN", "-1", "0", "1e9", "9" * 5000, '"1"')),
-        ("[" * 100_000, "known.json: not what --write-baseline writes"),
-        (b"\xff\xfe", "known.json: not what --write-baseline writes"),
+        *((KNOWN.replace("1", count), "known.json: not a baseline") for count in ("1e999", "NaN", "-1", "0", "1e9", "9" * 5000, '"1"')),
+        ("[" * 100_000, "known.json: not a baseline file"),
+        (b"\xff\xfe", "known.json: not a baseline file"),
     ],
 )
 def test_bad_files_are_named(tmp_path: Path, text: str | bytes, complaint: str) -> None:
@@ -140,11 +140,11 @@ def test_a_workspace_with_known_findings_is_clean_until_there_is_a_new_one(demo:
     (demo / "ros-lint.toml").write_text('baseline = "known.json"\n')
     done = run("--write-baseline", cwd=demo)
     assert (done.returncode, done.stdout) == (0, "")
-    assert "known.json knows 6 findings now" in done.stderr
+    assert "wrote 6 findings to " in done.stderr
     assert {entry["rule"] for entry in json.loads((demo / "known.json").read_text())["known"]} == HEADLINES
     done = run(cwd=demo / "src" / "rover_teleop")  # the file lies beside the settings, wherever one is
     assert done.returncode == 0
-    assert "1 known in known.json" in done.stdout
+    assert "1 finding listed in known.json" in done.stdout
     assert "than there" not in done.stderr
     source = demo / "src" / "rover_driver" / "src" / "driver_node.cpp"
     source.write_text(f"#include <nav_msgs/msg/path.hpp>\n{source.read_text()}")
@@ -168,14 +168,14 @@ def test_fixes_are_made_of_known_findings_too(demo: Path) -> None:
     run(demo, *known, "--write-baseline")
     done = run(demo, *known, "--fix")
     assert done.returncode == 0
-    assert "known.json knows 4 findings more than there are" in done.stderr
+    assert "4 findings in known.json no longer occur" in done.stderr
 
 
 def test_what_makes_no_sense_is_refused(demo: Path, tmp_path: Path) -> None:
     for arguments, complaint in (
-        (("--write-baseline",), "--write-baseline needs the name of the file"),
-        (("--baseline", "k.json", "--write-baseline", "--diff"), "--diff changes none"),
-        (("--baseline", "k.json"), "k.json: No such file or directory; --write-baseline makes the file"),
+        (("--write-baseline",), "--write-baseline needs a file"),
+        (("--baseline", "k.json", "--write-baseline", "--diff"), "--diff writes no files"),
+        (("--baseline", "k.json"), "k.json: No such file or directory; --write-baseline creates the file"),
         (("--baseline", "k.json", "--fix"), "k.json: No such file or directory"),
         (("--baseline", tmp_path / "no" / "k.json", "--write-baseline"), "k.json: cannot be written"),
     ):
@@ -184,7 +184,7 @@ def test_what_makes_no_sense_is_refused(demo: Path, tmp_path: Path) -> None:
         assert complaint in done.stderr
         assert not (tmp_path / "k.json").exists()
     manifest = "src/rover_driver/package.xml"
-    assert filecmp.cmp(DEMO / manifest, demo / manifest, shallow=False)  # nothing was mended before the refusal
+    assert filecmp.cmp(DEMO / manifest, demo / manifest, shallow=False)  # nothing was fixed before the error
     done = run(tmp_path / "ws" / "src" / "rover_teleop" / "launch", "--baseline", "k.json", "--write-baseline", cwd=tmp_path)
     assert done.returncode == 2
     assert "k.json: not written: no package found below" in done.stderr

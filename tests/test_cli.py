@@ -102,11 +102,14 @@ def test_what_is_heavy_is_imported_when_needed(clean: Path, arguments: list[str]
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--slect", "all"], "unrecognized arguments: --slect all, did you mean --select?"),
-        (["--select", "undeclared-dependancy"], "there is no rule undeclared-dependancy, did you mean undeclared-dependency?"),
-        (["--distro", "jazy"], "--distro: nothing is known of jazy, did you mean jazzy?"),
-        (["--distro", "foxy"], "--distro: nothing is known of foxy, which is no longer supported (there are humble, "),
-        (["chek"], "chek: no such file or directory; did you mean the command check?"),
+        (["--slect", "all"], r"unrecognized arguments: --slect all; did you mean '?--select'?\?"),
+        (
+            ["--select", "undeclared-dependancy"],
+            r"unknown rule 'undeclared-dependancy'; did you mean '?undeclared-dependency'?\?",
+        ),
+        (["--distro", "jazy"], r"--distro: unknown distribution 'jazy'; did you mean '?jazzy'?\? \(available: humble, "),
+        (["--distro", "foxy"], r"--distro: end-of-life distribution 'foxy' \(available: humble, "),
+        (["chek"], r"chek: no such file or directory; did you mean the command 'check'\?"),
         (["--format", "xml"], "argument --format: invalid choice: 'xml'"),
         (["--config", "nowhere.toml"], "nowhere.toml: no such configuration file"),
         (["--underlay", "nowhere"], "nowhere"),
@@ -115,12 +118,12 @@ def test_what_is_heavy_is_imported_when_needed(clean: Path, arguments: list[str]
 def test_what_cannot_be_done_is_said(arguments: list[str], message: str) -> None:
     done = run(DEMO, *arguments)
     assert done.returncode == 2
-    assert message in done.stderr
+    assert re.search(message, done.stderr)
     assert done.stdout == ""
 
 
 def test_the_distribution_is_a_choice(demo: Path) -> None:
-    assert " for lyrical (newest long-term release known; --distro names another)" in run(demo).stdout
+    assert " for lyrical (assumed: newest LTS; set with --distro)" in run(demo).stdout
     assert " for humble (ROS_DISTRO)" in run(demo, env={"ROS_DISTRO": "humble"}).stdout
     assert " for kilted (--distro)" in run(demo, "--distro", "kilted", env={"ROS_DISTRO": "humble"}).stdout
     (demo / "ros-lint.toml").write_text('distro = "jazzy"')
@@ -130,7 +133,7 @@ def test_the_distribution_is_a_choice(demo: Path) -> None:
 def test_a_package_of_a_workspace_alone(demo: Path) -> None:
     (demo / ".git").mkdir()
     alone = run(demo / "src" / "rover_driver")
-    assert "src/rover_driver was checked alone, without what is beside it; ros-lint " in alone.stderr
+    assert "'src/rover_driver' was checked without its sibling packages; run 'ros-lint " in alone.stderr
     assert "checked alone" not in run(demo).stderr
     shutil.move(demo / ".git", demo / "src" / "rover_driver" / ".git")
     assert "checked alone" not in run(demo / "src" / "rover_driver").stderr
@@ -147,7 +150,7 @@ def test_select_and_ignore(demo: Path) -> None:
     lines = findings(demo)
     assert len(lines) == 2
     assert "error: diagnostic_updater" in lines[1]
-    assert "ignored for their path" in run(demo).stdout
+    assert "ignored by per-path-ignores" in run(demo).stdout
 
 
 def test_pedantic_shows_more(demo: Path) -> None:
@@ -201,11 +204,11 @@ def test_fixes_are_made_once(demo: Path) -> None:
     patch = run(demo, "--diff").stdout
     before = {path: path.read_bytes() for path in demo.rglob("*") if path.is_file()}
     done = run(demo, "--fix")
-    assert "mended 5 findings in 4 files" in done.stderr
+    assert "fixed 5 findings in 4 files" in done.stderr
     assert done.returncode == 1, "what is left is reported"
     changed = {path for path, data in before.items() if path.read_bytes() != data}
     assert {path.name for path in changed} == {"package.xml", "setup.py"}
-    assert "nothing to mend" in run(demo, "--fix").stderr
+    assert "nothing to fix" in run(demo, "--fix").stderr
     assert {path for path, data in before.items() if path.read_bytes() != data} == changed
     # The patch says the same as the fix: applied backwards it restores everything.
     subprocess.run(["patch", "-R", "-p1", "-s"], input=patch, text=True, cwd=demo, check=True)
@@ -224,7 +227,7 @@ def test_fixes_that_together_would_close_a_cycle(tmp_path: Path) -> None:
         (tmp_path / name / "package.xml").write_text(manifest.format(name))
         (tmp_path / name / "CMakeLists.txt").write_text(cmake.format(name, f"find_package({find} REQUIRED)"))
     done = run(tmp_path, "--fix", "--select", "undeclared-dependency")
-    assert "mended 1 finding in 1 file" in done.stderr
+    assert "fixed 1 finding in 1 file" in done.stderr
     assert "cannot be declared: it needs this package itself" in done.stdout
     assert run("order", tmp_path).returncode == 0
 
@@ -264,7 +267,7 @@ def test_graph_commands(demo: Path) -> None:
     done = run("order", demo)
     assert done.returncode == 1
     assert done.stdout.splitlines() == ["rover_interfaces", "rover_mission", "rover_teleop"]
-    assert "cannot be ordered: rover_bringup, rover_driver" in done.stderr
+    assert "no build order, because of a dependency cycle: rover_bringup, rover_driver" in done.stderr
     assert run("why", "rover_bringup", "rover_interfaces", "-C", demo).returncode == 0
     assert run("why", "rover_interfaces", "rover_bringup", "-C", demo).returncode == 1
     assert run("why", "rover_interface", "rover_bringup", "-C", demo).returncode == 2
@@ -310,7 +313,7 @@ def test_a_plugin_brings_rules(demo: Path, tmp_path: Path) -> None:
     (site / "mine_rules.py").write_text("import nothing_of_that_name")
     done = run(demo, "--plugins", env={"PYTHONPATH": path})
     assert done.returncode == 2
-    assert "plugin mine (mine_rules) cannot be loaded" in done.stderr
+    assert "plugin 'mine' (mine_rules) cannot be loaded" in done.stderr
 
 
 def test_a_rule_that_crashes_hides_no_other(demo: Path, tmp_path: Path) -> None:
@@ -353,8 +356,8 @@ def test_what_a_fix_brings_to_light_is_mended_along_with_it(tmp_path: Path) -> N
     (package / "launch" / "robot.launch.xml").write_text('<launch><node pkg="joy" exec="joy_node"/></launch>\n')
     arguments = ("--isolated", "--distro", "jazzy", "--fix")
     alone = run(tmp_path, *arguments, "--select", "uninstalled-launch")
-    assert "not mended, because then joy_node of joy is started here" in alone.stderr
-    assert "mended 2 findings in 2 files" in run(tmp_path, *arguments).stderr
+    assert "fix skipped: it would cause a new finding: joy_node of joy is started here" in alone.stderr
+    assert "fixed 2 findings in 2 files" in run(tmp_path, *arguments).stderr
     assert "install(DIRECTORY launch " in (package / "CMakeLists.txt").read_text()
     assert "<exec_depend>joy</exec_depend>" in (package / "package.xml").read_text()
-    assert "nothing to mend" in run(tmp_path, *arguments).stderr
+    assert "nothing to fix" in run(tmp_path, *arguments).stderr

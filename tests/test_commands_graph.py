@@ -55,11 +55,11 @@ def test_order() -> None:
 def test_order_with_a_cycle_names_what_is_stuck() -> None:
     assert order.run(workspace(KNOT)) == (
         "free\n",
-        "cannot be ordered: a, b\n"
-        "  a shortest cycle: a -> b -> a\n"
-        "    a/package.xml:7:3: a needs b (depend)\n"
-        "    b/package.xml:7:3: b needs a (test_depend); removing this breaks the cycle\n"
-        "left out, since they need one of these: c\n",
+        "no build order, because of a dependency cycle: a, b\n"
+        "  shortest cycle: a -> b -> a\n"
+        "    a/package.xml:7:3: a depends on b (depend)\n"
+        "    b/package.xml:7:3: b depends on a (test_depend); removing it breaks the cycle\n"
+        "no build order, because of a dependency on a package of the cycle: c\n",
         1,
     )
 
@@ -67,14 +67,14 @@ def test_order_with_a_cycle_names_what_is_stuck() -> None:
 def test_order_with_a_name_twice() -> None:
     out, said, code = order.run(workspace([package("a", path="x"), package("a", path="y"), package("b", ["<depend>a</depend>"])]))
     assert (out, code) == ("a\nb\n", 1)
-    assert said == "2 packages are called a, which colcon refuses: x and y\n"
+    assert said == "2 packages are named 'a', so colcon rejects the workspace: x and y\n"
 
 
 def test_why_tells_every_way_with_tag_and_line() -> None:
     use = Use("low", ("low",), Role.BUILD, "#include <low/low.hpp>", "include", False, Span("middle/src/m.cpp", 3, 1, 3, 9))
     packages = [each._replace(uses=(use,) * (each.name == "middle")) for each in CHAIN]
     assert why.run(workspace(packages), "top", "low") == (
-        "top needs low, in 2 ways:\n"
+        "'top' depends on 'low' through 2 paths; shortest first:\n"
         "\n"
         "1. top -> low\n"
         "   top -> low: <test_depend> top/package.xml:8:3\n"
@@ -92,7 +92,7 @@ def test_why_tells_every_way_with_tag_and_line() -> None:
 def test_why_follows_what_comes_along_with_released_packages() -> None:
     out, said, code = why.run(workspace(CHAIN), "top", "rcl", 1)
     assert (said, code) == ("", 0)
-    head = "top needs rcl, in 1 way or more, of which these are the shortest:\n\n1. top -> middle -> rclcpp -> rcl\n"
+    head = "'top' depends on 'rcl' through at least 1 path:\n\n1. top -> middle -> rclcpp -> rcl\n"
     assert out.startswith(head)
     assert "   middle -> rclcpp: <depend> middle/package.xml:9:3\n" in out
     assert "   rclcpp -> rcl: <exec_depend> as released in jazzy\n" in out
@@ -100,25 +100,25 @@ def test_why_follows_what_comes_along_with_released_packages() -> None:
 
 def test_why_not() -> None:
     assert why.run(workspace(CHAIN), "middle", "top") == (
-        "middle does not need top; but top needs middle: ros-lint why top middle\n",
+        "'middle' does not depend on 'top'; but 'top' depends on 'middle': see 'ros-lint why top middle'\n",
         "",
         1,
     )
-    assert why.run(workspace(CHAIN), "low", "rclcpp") == ("low does not need rclcpp\n", "", 1)
+    assert why.run(workspace(CHAIN), "low", "rclcpp") == ("'low' does not depend on 'rclcpp'\n", "", 1)
 
 
 def test_why_with_names_that_nobody_knows() -> None:
     out, said, code = why.run(workspace(CHAIN), "midle", "rclcp")
     assert (out, code) == ("", 2)
     first, second = said.splitlines()
-    assert first.startswith("ros-lint: no package or rosdep key is called midle; did you mean middle")
-    assert re.match("ros-lint: no package or rosdep key is called rclcp; did you mean .*rclcpp", second)
+    assert first.startswith("ros-lint: unknown package or rosdep key 'midle'; did you mean ")
+    assert re.match("ros-lint: unknown package or rosdep key 'rclcp'; did you mean .*rclcpp", second)
 
 
 def test_why_under_a_condition() -> None:
     lines = ['<depend condition="$X == 1">b</depend>', '<depend condition="$X == 2">curl</depend>']
     found = workspace([package("a", lines), package("b")])
-    assert "a -> b: <depend> if a condition holds a/package.xml:7:3" in why.run(found, "a", "b")[0]
+    assert "a -> b: <depend> if its condition is true a/package.xml:7:3" in why.run(found, "a", "b")[0]
     assert "a -> curl: <depend> if $X == 2 a/package.xml:8:3" in why.run(found, "a", "curl")[0]
 
 
@@ -200,7 +200,7 @@ def test_metrics_as_a_table() -> None:
         "middle           1      1      1      1          0\n"
         "top              0      2      2      0          1\n"
         "\n"
-        "Redundant for the order of building, since another way implies the edge:\n"
+        "Redundant edges, because another path implies the same build order:\n"
         "  top -> low: top -> middle -> low\n"
     )
 
@@ -237,13 +237,13 @@ def test_overlay_knows_what_is_released_and_what_is_refused() -> None:
         r"  \? x                  0\.1\.0  +workspace\n"
         r"  \? y                  0\.1\.0  +workspace\n"
         r"    released in jazzy  \d+\.\d+\.\d+ +distribution\n"
-        r"    colcon refuses the workspace: 2 packages are called rclcpp\n",
+        r"    colcon rejects the workspace, because 2 packages are named 'rclcpp'\n",
         text,
     )
 
 
 def test_overlay_with_nothing_to_tell() -> None:
-    assert overlay.run(workspace([package("own")])) == ("No package hides another one.\n", "", 0)
+    assert overlay.run(workspace([package("own")])) == ("No package exists in more than one layer.\n", "", 0)
 
 
 def test_why_shows_the_uses_of_what_is_not_declared() -> None:
@@ -253,7 +253,7 @@ def test_why_shows_the_uses_of_what_is_not_declared() -> None:
     }
     found = loaded(files)
     assert why.run(found, "a", "nav_msgs") == (
-        "a uses nav_msgs, but neither declares it nor anything that brings it:\n"
+        "'a' uses 'nav_msgs', but declares neither it nor anything that depends on it:\n"
         "   a/CMakeLists.txt:2:14: find_package(nav_msgs), needed to build\n",
         "",
         1,

@@ -231,11 +231,11 @@ def test_links_lead_to_files_but_never_round_in_circles(tmp_path: Path) -> None:
     found = discover(DiskTree(str(tmp_path / "ws")), [""])
     assert found.packages[0].files == ("alias/a.yaml", "config/a.yaml", "package.xml", "shared/deep/b.yaml")
     assert found.packages[0].unseen == (
-        Skipped("alias/up", "a link to a folder that it lies in", link=True),
-        Skipped("config/up", "a link to a folder that it lies in", link=True),
+        Skipped("alias/up", "a link to a folder that contains it", link=True),
+        Skipped("config/up", "a link to a folder that contains it", link=True),
         Skipped("outside", "a link that leads out of the workspace", link=True),
-        Skipped("root", "a link to a folder that it lies in", link=True),
-        Skipped("shared/back", "a link to a folder that it lies in", link=True),
+        Skipped("root", "a link to a folder that contains it", link=True),
+        Skipped("shared/back", "a link to a folder that contains it", link=True),
     )
 
 

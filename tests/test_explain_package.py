@@ -47,7 +47,7 @@ def test_every_part_has_its_line() -> None:
 
 def test_text_tells_the_first_places_and_json_all() -> None:
     found = workspace()
-    assert "more, such as" in explain_package.run(found, "robot")[0]
+    assert "more, e.g." in explain_package.run(found, "robot")[0]
     (package,) = json.loads(explain_package.run(found, "robot", "json")[0])["packages"]
     places = {(row["path"], row["line"]) for row in package["uses"] if row["name"] == "rclcpp"}
     assert places >= {("robot/talker.cpp", 1), ("robot/talker.cpp", 2), ("robot/talker.cpp", 3)}

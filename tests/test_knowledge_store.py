@@ -59,7 +59,7 @@ def test_a_line_that_makes_no_sense_is_named(tmp_path: Path) -> None:
     (tmp_path / "rosdep.tsv").write_text("# key\ta\na\tQ\n")
     known = Knowledge("jazzy", [str(tmp_path)])
     for look_up in (known.index.get, lambda name: known.provided(name, "executables"), known.rosdep.get):
-        with pytest.raises(KnowledgeError, match="line of a makes no sense"):
+        with pytest.raises(KnowledgeError, match="line of 'a' is invalid"):
             look_up("a")
 
 
@@ -67,7 +67,7 @@ def test_an_unreadable_index_is_named(tmp_path: Path) -> None:
     (tmp_path / "jazzy.idx").mkdir()  # no file: what ships is used
     assert Knowledge("jazzy", [str(tmp_path)]).covered
     (tmp_path / "rosdep.tsv").write_text("not a table\n")
-    with pytest.raises(KnowledgeError, match="no head line"):
+    with pytest.raises(KnowledgeError, match="no header line"):
         _ = Knowledge("jazzy", [str(tmp_path)]).rosdep
 
 

@@ -175,10 +175,10 @@ def test_the_command_says_what_it_wrote(tmp_path: Path, capsys: pytest.CaptureFi
     ("file", "content", "says"),
     [
         ("index-v4.yaml", None, "cannot be read"),
-        ("index-v4.yaml", "distributions: [", "is no YAML"),
+        ("index-v4.yaml", "distributions: [", "is not valid YAML"),
         ("index-v4.yaml", "[]", "has no mapping 'distributions'"),
-        ("index-v4.yaml", "distributions: {jazzy: 1}", "distribution jazzy has no list of files"),
-        ("index-v4.yaml", "distributions: {jazzy: {distribution: []}}", "names no cache for jazzy"),
+        ("index-v4.yaml", "distributions: {jazzy: 1}", "distribution 'jazzy' has no list of files"),
+        ("index-v4.yaml", "distributions: {jazzy: {distribution: []}}", "has no cache for 'jazzy'"),
         ("cache.yaml", None, "cannot be read"),
         ("cache.yaml", "\x1f\x8b", "cannot be read"),
         ("cache.yaml", "{}", "has no mapping 'release_package_xmls'"),
@@ -211,7 +211,7 @@ def test_an_unknown_distribution_is_answered_with_those_that_there_are(
 ) -> None:
     options = {"action": "refresh", "source": _upstream(tmp_path), "distro": ["jazy"], "rosdep": [], "to": str(tmp_path)}
     assert command.run(options) == 2
-    assert "has no distribution jazy, only foxy, jazzy, noetic" in capsys.readouterr().err
+    assert "has no distribution 'jazy'; available: foxy, jazzy, noetic" in capsys.readouterr().err
 
 
 def test_only_addresses_of_files_and_the_web_are_followed() -> None:
@@ -248,9 +248,9 @@ def test_rosdep_rules_are_read_as_rosdep_reads_them() -> None:
         "one_word": ["jnr", "name"],
         "both": ["jnro", "b"],
     }
-    with pytest.raises(KnowledgeError, match="no file of rosdep rules"):
+    with pytest.raises(KnowledgeError, match="not a file of rosdep rules"):
         rosdep_rules.keys([("x", [])])
-    with pytest.raises(KnowledgeError, match="rule of a is no mapping"):
+    with pytest.raises(KnowledgeError, match="rule of 'a' is not a mapping"):
         rosdep_rules.keys([("x", {"a": "b"})])
 
 

@@ -59,11 +59,11 @@ def test_words() -> None:
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["x:=1"], "which launch file?"),
+        (["x:=1"], "no launch file given"),
         (["nowhere.py"], "nowhere.py: no such file"),
-        (["there.py", "x=1"], "x=1: an argument of a launch file is given as name:=value"),
-        (["p", "a.py", "x"], "x: an argument of a launch file is given as name:=value"),
-        (["there.py", ":=1"], ":=1: an argument has a name"),
+        (["there.py", "x=1"], "unexpected 'x=1'; launch arguments are written as name:=value"),
+        (["p", "a.py", "x"], "unexpected 'x'; launch arguments are written as name:=value"),
+        (["there.py", ":=1"], "argument without a name: ':=1'"),
     ],
 )
 def test_words_without_sense(words: list[str], message: str) -> None:
@@ -140,8 +140,8 @@ def generate_launch_description():
     out, _, _ = ask(package("p", {"launch/a.launch.py": python}), "p", "a.launch.py")
     assert [line.strip() for line in out.splitlines()[1:5]] == [
         "node p x",
-        "perhaps: the condition is not known",
-        "parameters that are not known",
+        "conditional: the condition is not known",
+        "unknown parameters",
         "? it is computed in a way that cannot be followed",
     ]
 
@@ -156,12 +156,12 @@ def test_components_and_their_containers() -> None:
     ) == [
         "node rclcpp_components component_container as /n/c",
         "component p p::A as /a",
-        "in /n/c",
+        "in container /n/c",
         "component p p::B as /b",
-        "in /other",
+        "in container /other",
         "node rclcpp_components component_container as /d",
         "component p p::C as /c",
-        "in /d",
+        "in container /d",
     ]
 
 
@@ -202,7 +202,7 @@ def test_an_include_is_followed() -> None:
 def test_an_include_without_a_required_argument() -> None:
     _, err, code = included("")
     assert (err, code) == (
-        "ros-lint: p/launch/a.launch.xml:2:2: the argument robot is not given here, and has no default at "
+        "ros-lint: p/launch/a.launch.xml:2:2: the argument 'robot' is not passed here and has no default at "
         "p/launch/inner.launch.xml:2:2\n",
         1,
     )
@@ -211,29 +211,30 @@ def test_an_include_without_a_required_argument() -> None:
 
 def test_a_value_that_is_no_choice() -> None:
     _, err, code = included('<arg name="robot" value="r"/><arg name="mode" value="c"/>')
-    assert (err, code) == ("ros-lint: p/launch/inner.launch.xml:2:21: c is no choice of the argument mode: choose a, b\n", 1)
+    refused = "'c' is not a valid choice for the argument 'mode'; use one of a, b"
+    assert (err, code) == (f"ros-lint: p/launch/inner.launch.xml:2:21: {refused}\n", 1)
     assert included('<arg name="robot" value="r"/><arg name="mode" value="b"/>')[1:] == ("", 0)
 
 
 def test_a_required_argument_of_the_file_itself() -> None:
     files = package("p", {"launch/a.launch.xml": INNER})
     _, err, code = ask(files, "p", "a.launch.xml")
-    assert (err, code) == ("ros-lint: p/launch/a.launch.xml:2:2: the argument robot has no default: give robot:=VALUE\n", 1)
+    assert (err, code) == ("ros-lint: p/launch/a.launch.xml:2:2: the argument 'robot' has no default; pass robot:=VALUE\n", 1)
     assert ask(files, "p", "a.launch.xml", "robot:=r")[1:] == ("", 0)
 
 
 def test_an_argument_that_nobody_takes() -> None:
     files = package("p", {"launch/a.launch.xml": INNER})
-    with pytest.raises(UsageError, match=r"a.launch.xml takes no argument robt; did you mean robot\?"):
+    with pytest.raises(UsageError, match=r"a.launch.xml has no argument 'robt'; did you mean '?robot'?\?"):
         ask(files, "p", "a.launch.xml", "robt:=r")
-    with pytest.raises(UsageError, match=r"takes no argument colour; there are robot, mode"):
+    with pytest.raises(UsageError, match=r"has no argument 'colour'; available: robot, mode"):
         ask(files, "p", "a.launch.xml", "colour:=r", "robot:=r")
 
 
 def test_an_argument_that_a_file_out_of_sight_may_take() -> None:
     body = '<include file="$(find-pkg-share nav2_bringup)/launch/bringup_launch.py"/>'
     _, err, code = ask(package("p", {"launch/a.launch.xml": xml(body)}), "p", "a.launch.xml", "map:=m")
-    assert (err, code) == ("ros-lint: nothing that can be read takes the argument map; it takes none\n", 0)
+    assert (err, code) == ("ros-lint: no launch file that can be read uses the argument 'map'; it declares none\n", 0)
 
 
 def test_an_argument_that_is_used_but_not_declared() -> None:
@@ -246,7 +247,7 @@ def test_includes_in_a_circle() -> None:
     files = package("p", {"launch/a.launch.xml": a, "launch/b.launch.xml": b})
     _, err, code = ask(files, "p", "a.launch.xml")
     assert (err, code) == (
-        "ros-lint: p/launch/b.launch.xml:2:2: this includes p/launch/a.launch.xml from within itself: it never ends\n",
+        "ros-lint: p/launch/b.launch.xml:2:2: this include leads back to p/launch/a.launch.xml, so launching never ends\n",
         1,
     )
 
@@ -271,9 +272,9 @@ def test_a_file_that_is_refused() -> None:
 def test_an_include_that_is_not_there() -> None:
     files = package("p", {"launch/a.launch.xml": xml('<include file="$(find-pkg-share p)/launch/b.launch.xml"/>')})
     out, err, code = ask(files, "p", "a.launch.xml")
-    assert "not followed: p installs no launch/b.launch.xml" in out
+    assert "not followed: 'p' does not install 'launch/b.launch.xml'" in out
     assert code == 1
-    assert err.endswith("$(find-pkg-share p)/launch/b.launch.xml: p installs no launch/b.launch.xml\n")
+    assert err.endswith("$(find-pkg-share p)/launch/b.launch.xml: 'p' does not install 'launch/b.launch.xml'\n")
 
 
 def test_includes_of_an_underlay_are_followed() -> None:
@@ -294,19 +295,19 @@ def test_an_include_of_a_released_package_is_not_followed() -> None:
     body = '<include file="$(find-pkg-share nav2_bringup)/launch/bringup_launch.py"/>'
     out, err, code = ask(package("p", {"launch/a.launch.xml": xml(body)}), "p", "a.launch.xml")
     assert (err, code) == ("", 0)
-    assert "not followed: nav2_bringup is neither in the workspace nor in an underlay" in out
+    assert "not followed: 'nav2_bringup' is neither in the workspace nor in an underlay" in out
 
 
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (("q", "a.launch.xml"), "there is no package q"),
-        (("p", "c.launch.xml"), r"p installs no launch file c.launch.xml; did you mean a.launch.xml\?"),
-        (("p", "forgotten.launch.xml"), r"p has other/forgotten.launch.xml, but does not install it"),
-        (("p", "twice.launch.xml"), r"p installs twice.launch.xml more than once, .*: launch/twice.launch.xml, more/twice"),
-        (("nav2_bringup", "bringup_launch.py"), "nav2_bringup is neither in the workspace nor in an underlay"),
-        (("p/package.xml",), "p/package.xml: it is no launch file of ROS 2"),
-        (("p/launch/helper.py",), r"p/launch/helper.py: no launch file: it has no generate_launch_description\(\)"),
+        (("q", "a.launch.xml"), "there is no package 'q'"),
+        (("p", "c.launch.xml"), r"'p' does not install a launch file 'c.launch.xml'; did you mean '?a.launch.xml'?\?"),
+        (("p", "forgotten.launch.xml"), r"'p' has other/forgotten.launch.xml, but does not install it"),
+        (("p", "twice.launch.xml"), r"'p' installs several files 'twice.launch.xml', .*: launch/twice.launch.xml, more/twice"),
+        (("nav2_bringup", "bringup_launch.py"), "'nav2_bringup' is neither in the workspace nor in an underlay"),
+        (("p/package.xml",), "p/package.xml: not a ROS 2 launch file"),
+        (("p/launch/helper.py",), r"p/launch/helper.py: not a launch file: it has no generate_launch_description\(\)"),
     ],
 )
 def test_a_launch_file_that_cannot_be_found(words: tuple[str, ...], message: str) -> None:
@@ -370,6 +371,6 @@ def test_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str], mo
     assert cli.main(["launch", "p", "a.launch.xml", "robot:=r", "-C", str(tmp_path), *common]) == 0
     assert capsys.readouterr().out == by_file
     assert cli.main(["launch", "launch/a.launch.xml", *common]) == 1
-    assert "give robot:=VALUE" in capsys.readouterr().err
+    assert "pass robot:=VALUE" in capsys.readouterr().err
     assert cli.main(["launch", "p", "b.launch.xml", *common]) == 2
     assert "did you mean a.launch.xml?" in capsys.readouterr().err

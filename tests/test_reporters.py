@@ -98,7 +98,7 @@ def test_issues_alone_have_no_summary() -> None:
 def test_long_lists_are_cut_and_say_so(form: str) -> None:
     entries = tuple(NotChecked(f"file {n}", "gone", None) for n in range(30))
     got = reporter(form)(EVERYTHING._replace(not_checked=entries), texts, Style())
-    assert "and 20 more, which --format json lists" in got
+    assert "and 20 more; --format json lists all of them" in got
 
 
 def flat(source: Text, span: Span, style: Style = Style(width=60)) -> tuple[str, str]:  # noqa: B008
@@ -376,7 +376,7 @@ def test_sarif_keeps_the_most_important_results(monkeypatch: pytest.MonkeyPatch)
     assert [result["level"] for result in whole["results"]].count("error") == 2
     assert len(whole["results"]) == 4
     notes = whole["invocations"][0]["toolExecutionNotifications"]
-    assert notes[-1]["message"]["text"] == "7 results of the least severity are left out, a file holds 4."
+    assert notes[-1]["message"]["text"] == "7 results of the lowest severity are left out, because GitHub accepts at most 4."
 
 
 def test_two_findings_of_a_rule_on_a_line_are_one_result() -> None:

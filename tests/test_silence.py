@@ -42,21 +42,27 @@ def workspace() -> Workspace:
     return loaded(FILES)
 
 
+DECLARED = "not reported, because it is declared"
+NOT_DECLARED = "not reported, because it is not declared"
+PROVIDED = "not reported, because a declared dependency provides it"
+UNSURE = "reported with lower confidence"
+
+
 @pytest.mark.parametrize(
     ("name", "undeclared", "unused"),
     [
-        ("nav_msgs", "reported", "silent, for it is not declared"),
-        ("std_msgs", "silent, for it comes along: sensor_msgs > std_msgs", "silent, for it is not declared"),
-        ("map_msgs", "less than certain, for every use is optional", "silent, for it is not declared"),
-        ("diagnostic_msgs", "less than certain, for no use is sure", "silent, for it is not declared"),
-        ("visualization_msgs", "less than certain, for no use is sure", "silent, for it is not declared"),
-        ("rclcpp", "silent, for it is declared", "silent, for it is used: talker/talker.cpp:1"),
-        ("sensor_msgs", "silent, for it is declared", "silent, for its name stands here: talker/notes.txt:1"),
-        ("shape_msgs", "silent, for it is declared", "silent, for it is declared under a condition"),
-        ("tf2_msgs", "silent, for it is declared", "reported"),
-        ("eigen", "silent, for it is declared", "less than certain, for it may do its work without being named"),
-        ("builtin_interfaces", "silent, for it comes along: rclcpp > builtin_interfaces", "silent, for it is not declared"),
-        ("joy", "silent, for nothing that is seen uses it", "silent, for it is not declared"),
+        ("nav_msgs", "reported", NOT_DECLARED),
+        ("std_msgs", f"{PROVIDED}: sensor_msgs -> std_msgs", NOT_DECLARED),
+        ("map_msgs", f"{UNSURE}, because every use is optional", NOT_DECLARED),
+        ("diagnostic_msgs", f"{UNSURE}, because no use is certain", NOT_DECLARED),
+        ("visualization_msgs", f"{UNSURE}, because no use is certain", NOT_DECLARED),
+        ("rclcpp", DECLARED, "not reported, because it is used: talker/talker.cpp:1"),
+        ("sensor_msgs", DECLARED, "not reported, because its name appears here: talker/notes.txt:1"),
+        ("shape_msgs", DECLARED, "not reported, because it is declared under a condition"),
+        ("tf2_msgs", DECLARED, "reported"),
+        ("eigen", DECLARED, f"{UNSURE}, because it may be used without being named in the sources"),
+        ("builtin_interfaces", f"{PROVIDED}: rclcpp -> builtin_interfaces", NOT_DECLARED),
+        ("joy", "not reported, because no use of it was found", NOT_DECLARED),
     ],
 )
 def test_each_reason(workspace: Workspace, name: str, undeclared: str, unused: str) -> None:

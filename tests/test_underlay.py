@@ -288,9 +288,9 @@ def test_what_is_scanned_can_be_used_as_knowledge(merged: Path, tmp_path: Path, 
     ("files", "says"),
     [
         (None, "cannot be read: No such file or directory"),
-        ({"src/a/package.xml": "<package/>"}, "is no install prefix"),
-        ({}, "is no install prefix"),
-        ({"install": "a file"}, "is no install prefix"),
+        ({"src/a/package.xml": "<package/>"}, "is not an install prefix"),
+        ({}, "is not an install prefix"),
+        ({"install": "a file"}, "is not an install prefix"),
     ],
 )
 def test_a_folder_that_is_no_prefix_is_named(

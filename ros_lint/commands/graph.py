@@ -126,7 +126,7 @@ def _table(figures: Mapping[str, Metrics]) -> Iterator[str]:
     ways = [way for found in figures.values() for way in found.redundant]
     if ways:
         yield ""
-        yield "Redundant edges: another path already implies the same build order."
+        yield "Redundant edges, because another path implies the same build order:"
         yield from (f"  {way[0]} -> {way[-1]}: {' -> '.join(way)}" for way in ways)
 
 
