@@ -62,9 +62,9 @@ def table(judged: str, workspace: str) -> str:
     lines = [
         f"### {title}",
         "",
-        f"{total} dependencies are used and missing.",
+        f"{total} dependencies are missing.",
         "",
-        "| tool | found | missed | come with what is declared | false | not judged |",
+        "| tool | found | missed | transitive | false | not judged |",
         "|---|---|---|---|---|---|",
     ]
     for name, run in TOOLS.items():
