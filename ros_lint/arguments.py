@@ -70,7 +70,9 @@ def parser(command: str, *, top: bool = False) -> _Parser:
     listed = "\n".join(f"  {name:17}{summary}" for name, summary in COMMANDS.items())
     made = _Parser(
         "ros-lint" if top else f"ros-lint {command}",
-        description="Check ROS 2 workspaces without building them." if top else f"{COMMANDS[command].capitalize()}.",
+        description="Check ROS 2 workspaces without building them."
+        if top
+        else f"{COMMANDS[command][:1].upper()}{COMMANDS[command][1:]}.",
         epilog=_EPILOG.format(listed) if top else None,
         formatter_class=_Formatter,
         allow_abbrev=False,
@@ -143,7 +145,7 @@ def _index(made: argparse.ArgumentParser) -> None:
 
 
 def _rules(made: argparse.ArgumentParser) -> None:
-    made.add_argument("--format", choices=("text", "json"), default="text")
+    made.add_argument("--format", choices=("text", "json"), default="text", help="output format")
 
 
 def _rule(made: argparse.ArgumentParser) -> None:

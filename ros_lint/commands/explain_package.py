@@ -37,13 +37,17 @@ def run(workspace: Workspace, name: str, form: str = "text") -> tuple[str, str, 
     return "\n".join(_text(package) for package in packages), "", 0
 
 
+_HEADINGS = {"cannot be seen through": "could not be analysed"}
+"""Headings that differ from the keys of the JSON."""
+
+
 def _text(package: Package) -> str:
     renamed = f", {package.renamed} to colcon" if package.renamed else ""
     lines = [f"{package.name} ({package.type}{renamed}), {package.path or '.'}"]
     for title, rows in _sections(package, _MOST_PLACES):
         if not rows:
             continue
-        lines += ["", f"{title}:"]
+        lines += ["", f"{_HEADINGS.get(title, title)}:"]
         width = min(max(len(row.name) for row in rows), 60)
         note = max(len(row.note) for row in rows)
         lines += [f"  {row.name.ljust(width)}  {row.note.ljust(note)}  {row.span}" for row in rows]
@@ -120,7 +124,7 @@ def _maybe(conditional: bool) -> str:
 
 def _hidden(package: Package) -> Iterator[_Row]:
     for opaque in package.opaque:
-        yield _Row(opaque.reason, f"hides {', '.join(_facets(opaque.hides))}", opaque.span)
+        yield _Row(opaque.reason, f"may affect {', '.join(_facets(opaque.hides))}", opaque.span)
 
 
 def _facets(flags: Facet) -> list[str]:
