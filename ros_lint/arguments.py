@@ -132,10 +132,10 @@ def _launch(made: argparse.ArgumentParser) -> None:
 def _index(made: argparse.ArgumentParser) -> None:
     actions = made.add_subparsers(dest="action", required=True, metavar="ACTION")
     refresh = actions.add_parser("refresh", help="rebuild the data of distributions from rosdistro's index", allow_abbrev=False)
-    refresh.add_argument("--from", dest="source", required=True, metavar="INDEX", help="index-v4.yaml, a path or URL")
+    refresh.add_argument("--from", dest="source", required=True, metavar="INDEX", help="path or URL of rosdistro's index-v4.yaml")
     refresh.add_argument("--distro", action="append", default=[], metavar="NAME", help="only this distribution; may be repeated")
     refresh.add_argument(
-        "--rosdep", action="append", default=[], metavar="YAML", help="rosdep rules, a path or URL; may be repeated"
+        "--rosdep", action="append", default=[], metavar="YAML", help="path or URL of rosdep rules; may be repeated"
     )
     refresh.add_argument("--to", default="", metavar="FOLDER", help="output folder (default: the user's data folder)")
     scan = actions.add_parser("scan", help="generate the data from install prefixes", allow_abbrev=False)

@@ -83,7 +83,7 @@ def test_why_tells_every_way_with_tag_and_line() -> None:
         "   top -> middle: <depend> top/package.xml:7:3\n"
         "   middle -> low: <exec_depend> middle/package.xml:7:3\n"
         "   middle -> low: <build_depend> middle/package.xml:8:3\n"
-        "      for #include <low/low.hpp> middle/src/m.cpp:3:1\n",
+        "      because of #include <low/low.hpp> middle/src/m.cpp:3:1\n",
         "",
         0,
     )

@@ -122,7 +122,7 @@ def _tell_edge(model: _Model, edge: tuple[str, str], *, again: bool) -> Iterator
         yield f"   {name} -> {other}: {_tag(line.tag)}{condition} {line.place}"
     uses = [] if again else model.uses(name, other)
     for what, span in uses[:_MOST_USES]:
-        yield f"      for {what} {span}"
+        yield f"      because of {what} {span}"
     if len(uses) > _MOST_USES:
         yield f"      and {len(uses) - _MOST_USES} more"
 
