@@ -56,7 +56,7 @@ def _issue(issue: Issue, texts: Texts, style: Style) -> list[str]:
     if finding.confidence is not Confidence.HIGH:
         notes.append(f"note: {finding.confidence} confidence")
     if finding.fix:
-        how = "--fix" if finding.fix.safe else "--fix --unsafe-fixes; may change behaviour"
+        how = "--fix" if finding.fix.safe else "--fix --unsafe-fixes, may change behaviour"
         notes.append(f"{paint(style, 'good', 'fix')}: {safe(finding.fix.title, style)} ({how})")
     equals = paint(style, "gutter", f"{gutter} =")
     bar = [paint(style, "gutter", f"{gutter} |")] if notes else []
