@@ -105,11 +105,11 @@ class Rule(NamedTuple):
     """``ROS`` and three digits: 1xx workspace and manifest, 2xx dependencies, 3xx build scripts, 4xx install, 5xx launch,
     9xx the tool itself."""
     summary: str
-    """What must be so, lower case, no full stop: "a package that is used must be declared"."""
+    """Completes "checks that", lower case, no full stop: "used packages are declared"."""
     severity: Severity
     since: str
     doc: str
-    """The module's docstring with the headings What it finds / Why it matters / How to fix it / When it keeps silent."""
+    """The module's docstring with the headings What it finds / Why it matters / How to fix it / Limitations."""
     default: bool = True
     """Whether it runs without being asked for."""
     fixable: bool = False

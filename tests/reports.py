@@ -20,7 +20,7 @@ The build works as long as somebody else happens to build the missing package fi
 
 Add `<depend>` to `package.xml`. The fix does this.
 
-## When it keeps silent
+## Limitations
 
 A name that is in no index is not taken for a package.
 """

@@ -11,7 +11,7 @@ from ros_lint.testing import FENCE, read_cases
 
 ROOT = Path(__file__).parent.parent
 FIXTURES = ROOT / "fixtures"
-HEADINGS = ["What it finds", "Why it matters", "How to fix it", "When it keeps silent"]
+HEADINGS = ["What it finds", "Why it matters", "How to fix it", "Limitations"]
 RULES = registry.load()
 
 
@@ -37,8 +37,8 @@ def test_papers(rule: Rule) -> None:
 @pytest.mark.parametrize("rule", RULES, ids=by_name)
 def test_has_cases_for_and_against(rule: Rule) -> None:
     wants = [bool(case.wants()) for case in read_cases(FIXTURES / f"{rule.name}.md")]
-    assert any(wants), "no case in which the rule speaks"
-    assert not all(wants), "no case in which the rule keeps silent"
+    assert any(wants), "no case in which the rule reports something"
+    assert not all(wants), "no case in which the rule reports nothing"
 
 
 @pytest.mark.parametrize("rule", [rule for rule in RULES if rule.fixable], ids=by_name)

@@ -14,7 +14,7 @@ by what CMake enters into the index, so that the plugin seems to be exported and
 Remove them. Export plugins with `pluginlib_export_plugin_description_file(rviz_common plugins.xml)`; nodelets become
 components.
 
-## When it keeps silent
+## Limitations
 
 In a condition, as packages for both ROS versions have them, and for `find_package(catkin)` without `REQUIRED`. For the exports
 of a package that a build type under a condition has built with catkin: they serve ROS 1.

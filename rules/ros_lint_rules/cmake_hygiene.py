@@ -21,7 +21,7 @@ only when the compiler stops. A variable that is overwritten takes away what the
 Ask for 3.8 or more, write `REQUIRED`, remove the second search, set a variable only if it is not set:
 `if(NOT CMAKE_BUILD_TYPE) ... endif()`, and link targets by their names.
 
-## When it keeps silent
+## Limitations
 
 In conditions, loops and functions. It is off unless it is asked for.
 """

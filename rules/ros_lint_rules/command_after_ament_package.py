@@ -14,7 +14,7 @@ components and plugins are silently left out of the index.
 
 Move `ament_package()` to the end of the file. Plain `install()` rules may follow it.
 
-## When it keeps silent
+## Limitations
 
 Where either command stands in a condition, a loop or a function: then the order in the file is not the order in which
 they run. For `find_package(ament_lint_auto)` where a macro of another package may have found it before.

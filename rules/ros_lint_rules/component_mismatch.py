@@ -20,7 +20,7 @@ Write the same name, with its namespaces, into both. Take the words out that bel
 call that, with an `EXECUTABLE` that is called otherwise than the library. Install the library to `lib`. Register components
 in the `CMakeLists.txt` of the package, or in a macro instead of a function.
 
-## When it keeps silent
+## Limitations
 
 Where the components or the libraries of the package cannot be seen whole; for tests; where no source of the package has the
 macro, nor includes the header for it. A package that registers no component at all may compose its nodes by itself: the

@@ -13,7 +13,7 @@ the name of the group is misspelt.
 
 Correct the name, or add `<member_of_group>` to the packages that belong to it.
 
-## When it keeps silent
+## Limitations
 
 It is off by default, since members may be in other repositories. For tags under a condition that cannot be evaluated, and
 when there is no index of the distribution.

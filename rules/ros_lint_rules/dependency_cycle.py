@@ -17,7 +17,7 @@ every package is built alone, may not notice.
 Remove one of the edges that the finding names. Where it is really needed, move what both sides share into a package of
 its own, or the test that closes the cycle into a package that depends on both.
 
-## When it keeps silent
+## Limitations
 
 - Cycles through packages outside the workspace: those are built already.
 - `<doc_depend>`, `<conflict>` and `<replace>` order nothing, nor does a dependency whose condition is false.

@@ -19,7 +19,7 @@ with an error.
 - `ament_export_interfaces()`: `ament_export_targets()`.
 - `script-dir`: `script_dir`, `install-scripts`: `install_scripts`. The fix does these two and the one before.
 
-## When it keeps silent
+## Limitations
 
 - For distributions in which the command is not deprecated, so in Humble and Jazzy for `ament_target_dependencies()`. Where the
   command is gone, `removed-command` speaks instead.

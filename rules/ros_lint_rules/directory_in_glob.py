@@ -14,7 +14,7 @@ Match files: `glob('models/*.sdf')`. For a whole tree, walk it and add an entry 
     for folder, _, files in os.walk('models'):
         data_files.append((os.path.join('share', package_name, folder), [os.path.join(folder, f) for f in files]))
 
-## When it keeps silent
+## Limitations
 
 Where the pattern or the list cannot be evaluated.
 """

@@ -17,7 +17,7 @@ Python, `$(find-pkg-share nav2_bt_navigator)` in XML and YAML launch files, `pac
 cannot look up anything: the launch file gives such ones, or they are left out where the default is that file. A program is
 started by `ros2 run`, or as a node. A library is found by its name alone, since `setup.bash` says where libraries lie.
 
-## When it keeps silent
+## Limitations
 
 - In comments and docstrings, in tests, examples and documentation, in build scripts, and in launch files of ROS 1.
 - Of other paths in there, such as `/opt/ros/humble/setup.bash`, and of paths that are put together.

@@ -12,7 +12,7 @@ CMake stops at the second call, or what was exported between the two is lost.
 
 Keep the last one. The fix removes the others.
 
-## When it keeps silent
+## Limitations
 
 Where a call stands in a condition, a loop or a function.
 """

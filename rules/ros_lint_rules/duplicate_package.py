@@ -14,7 +14,7 @@ chosen packages, so `--packages-select` does not help to build one of the two.
 
 Rename one, remove one, or put an empty file `COLCON_IGNORE` into the folder of the one that is not to be built.
 
-## When it keeps silent
+## Limitations
 
 About folders that are ignored, and about packages of the same name in an underlay: see `shadowed-package`. Where each lies
 in a workspace of its own, such as `arm_ws/src` and `car_ws`, among the `extra_packages` of a micro-ROS build, or in a step of

@@ -12,7 +12,7 @@ Nothing is installed and nothing is said: `glob('launch/*.launch.py')` passes ov
 Correct the pattern, or remove the entry. `glob(os.path.join('launch', '*launch.[pxy][yma]*'))` takes all launch files, those
 that are called `a.launch.py` as well as `a_launch.py`; the fix writes this where launch files are passed over.
 
-## When it keeps silent
+## Limitations
 
 Where the pattern cannot be evaluated, where several globs are added up, and where git ignores what the pattern names: such
 files are made or fetched. That there is nothing yet in the folder, but for a `.gitkeep`, is said with little certainty; so is

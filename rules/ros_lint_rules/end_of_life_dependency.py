@@ -15,7 +15,7 @@ declared already, where nothing uses either of the two, or nothing is generated 
 and ROS 2 write `condition="$ROS_VERSION == 1"` into the tag. Where a module in Python of that name is imported, such as
 `serial`, the rosdep key of the module is meant, and the message names it.
 
-## When it keeps silent
+## Limitations
 
 For packages whose build type is catkin: they belong to ROS 1. For tags under a condition such as
 `condition="$ROS_VERSION == 1"`. Without a successor that is known the confidence is medium: others may have ported the

@@ -22,7 +22,7 @@ Write a `setup.cfg`:
 
 The fix does this, and adds what is missing to one that is there.
 
-## When it keeps silent
+## Limitations
 
 For entry points whose module does not use rclpy, and that no launch file of the workspace starts; in packages that extend the
 command `ros2`. A program that uses rclpy and defines no node of its own may be a tool, too: the confidence is medium.

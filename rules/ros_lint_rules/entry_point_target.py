@@ -15,7 +15,7 @@ Write `name = package.module:function` with names that exist. Where one module o
 file has one that Python cannot import (`my-node.py`), the message says so. The fix takes away the `()`, and writes the
 missing comma.
 
-## When it keeps silent
+## Limitations
 
 - For modules of other packages, but where this package has just that module under its own name, and where one of the
   workspace that has that name for sure has no such module.

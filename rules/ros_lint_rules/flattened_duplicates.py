@@ -13,7 +13,7 @@ The second one overwrites the first, and nothing is said.
 One entry for each folder: `('share/' + package_name + '/a', ['a/params.yaml'])`; or `install(DIRECTORY)`, which keeps
 folders.
 
-## When it keeps silent
+## Limitations
 
 Where one of them is installed under a condition, and where it is the same file twice.
 """

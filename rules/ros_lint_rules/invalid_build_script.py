@@ -15,7 +15,7 @@ The build stops there. For entries of the wrong form, colcon stops with an Asser
 Correct the place. An entry of `data_files` is `('share/' + package_name, ['package.xml'])`: a tuple of a folder below the
 prefix and a list of files.
 
-## When it keeps silent
+## Limitations
 
 For templates, for Python 2, and for Python that is newer than what can be read here. About names and calls where an error is
 caught, or where it is not known whether `setup.py` comes there. About interfaces where a folder of the package has not been

@@ -21,7 +21,7 @@ tells, in generated code.
 
 Write what the message says. The fix does this where it is sure what has to stand there.
 
-## When it keeps silent
+## Limitations
 
 - For files that nothing is generated from, in some build or at all, and for definitions in IDL.
 - For files that have line ends of other kinds than those of Unix and Windows.

@@ -22,7 +22,7 @@ name than it is declared by: the default there counts.
 
 Give the argument, or give it a default where it is declared; correct the name, or take the argument out.
 
-## When it keeps silent
+## Limitations
 
 - Which file is included, or which arguments it gets, is not known from the launch files alone; so it is with one that is
   passed only if something holds of which nothing is known, such as what a function finds out about the included file.

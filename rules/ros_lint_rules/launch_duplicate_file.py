@@ -12,7 +12,7 @@ found more than once in the share directory of package`.
 
 Rename one, or install it once. Including works all the same, since an include names the folder.
 
-## When it keeps silent
+## Limitations
 
 - The files are installed under conditions that are not known, or are not called like launch files.
 - Each of them is included by another launch file of the workspace: then they are parts, which nobody launches by name. So

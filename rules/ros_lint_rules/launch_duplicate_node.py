@@ -13,7 +13,7 @@ lifecycle manager reach one of the two, and nobody knows which.
 
 Give one of them another name, or put it into a namespace of its own.
 
-## When it keeps silent
+## Limitations
 
 - A name or a namespace is not given by the launch file, or not known.
 - One of the two starts only under a condition that does not hold, or that nobody knows; or later, when a timer or an

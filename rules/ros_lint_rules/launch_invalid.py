@@ -29,7 +29,7 @@ warning.
 The message names what is wrong. See the launch format of your distribution for tags and attributes. Where a Python launch
 file has nothing worse than keywords that have another name since Galactic, such as `node_executable`, the fix renames them.
 
-## When it keeps silent
+## Limitations
 
 - Launch files of ROS 1 as a whole, and files of another program whose nodes have neither package nor program.
 - Tags that packages add to the format.

@@ -20,7 +20,7 @@ mesh that is not there, RViz and Gazebo show nothing.
 
 Correct the path; the message names files of the same name that the package does install, or the package that has the file.
 
-## When it keeps silent
+## Limitations
 
 - The file is in the sources and not installed: that is `uninstalled-resource`.
 - A part of the package's build script that cannot be followed may install it.

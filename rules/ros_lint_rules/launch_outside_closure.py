@@ -16,7 +16,7 @@ It works on the machine of whoever wrote it, where everything is installed. Afte
 Add `<exec_depend>` to `package.xml`. The fix does this. It is unsafe where the message says that not every distribution has
 the name.
 
-## When it keeps silent
+## Limitations
 
 - The package comes with a declared dependency.
 - The package is used in other ways, too, and reported by `undeclared-dependency` or `wrong-dependency-kind`.

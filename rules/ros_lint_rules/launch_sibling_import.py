@@ -13,7 +13,7 @@ works when the file is run by hand: `No module named 'x'`, or `attempted relativ
 Make the module part of a Python package that is installed (`ament_python_install_package`, or `packages=` in `setup.py`)
 and import it from there; or include a launch file instead.
 
-## When it keeps silent
+## Limitations
 
 - The launch file changes `sys.path`.
 - The import is guarded, or inside a function.

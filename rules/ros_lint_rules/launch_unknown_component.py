@@ -13,7 +13,7 @@ everything else runs.
 Correct the name of the class, or register it: `rclcpp_components_register_node(library PLUGIN "ns::Class" EXECUTABLE x)`
 or `rclcpp_components_register_nodes(library "ns::Class")`. The fix corrects the name where one class must be meant.
 
-## When it keeps silent
+## Limitations
 
 - A part of the package's build script that cannot be followed may register the class.
 - For a released package: neither the sources of its release are known whole, nor those for an earlier and a later

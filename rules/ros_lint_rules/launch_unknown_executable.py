@@ -16,7 +16,7 @@ that only lies there, and what is built; if it lands in `bin/`, install it to
 `lib/${PROJECT_NAME}`, or say `install_scripts=$base/lib/<package>` in `setup.cfg`. The fix corrects the name where one
 executable must be meant.
 
-## When it keeps silent
+## Limitations
 
 - A part of the package's build script that cannot be followed may make the executable, or it installs a file of that name
   which is not in the sources: `missing-file` tells of it.

@@ -20,7 +20,7 @@ renamed, and one that was never ported from ROS 1.
 Correct the name; the fix does this where the name that was meant is beyond doubt. If the package is built from source
 elsewhere, check with the workspace that holds it as `--underlay`.
 
-## When it keeps silent
+## Limitations
 
 - There are no data about the distribution.
 - Nobody said which distribution is meant, and another one has the package.

@@ -26,7 +26,7 @@ without such a default. What the share directory lacks is installed first, as th
 nothing: its `meshdir` counts from the folder of the file. The Python of an environment, as `executable` in `setup.cfg`, is
 `/usr/bin/env python3`: the one that is active. One path in several files of a package is told once.
 
-## When it keeps silent
+## Limitations
 
 - In comments and docstrings, in tests, examples and documentation, in CMake files that are no part of the build or that a
   build has left, in launch files of ROS 1. In a display of RViz whose robot comes from a topic: the file that it keeps is not

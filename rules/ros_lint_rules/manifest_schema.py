@@ -16,7 +16,7 @@ it in an `<?xml-model ...?>` line, and then the tests of the package fail.
 As the message says. The fix brings the elements into the order name, version, description, maintainer, license, url,
 author, dependencies, group_depend, member_of_group, export.
 
-## When it keeps silent
+## Limitations
 
 This rule is off unless it is asked for. It does not look at XML namespaces and at text in `<export>`. It has no fix when
 an element would have to move that has a comment, shares its line with another one, or is a description or an export.

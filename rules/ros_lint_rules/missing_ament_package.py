@@ -13,7 +13,7 @@ no CMake configuration is written. `ros2 run` says "Package not found", and pack
 
 Call `ament_package()` once, as the last command of the top-level CMakeLists.txt. The fix appends it.
 
-## When it keeps silent
+## Limitations
 
 - A command or an included file that cannot be followed may call it, and so may another CMakeLists.txt of the package.
 - The package installs a CMake configuration of its own: other packages find that, as they do a plain CMake project.

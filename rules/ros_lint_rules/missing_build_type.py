@@ -17,7 +17,7 @@ Write the build type into `<export>`, as the fix does:
       <build_type>ament_cmake</build_type>
     </export>
 
-## When it keeps silent
+## Limitations
 
 For packages that depend on catkin, and for folders that do not show how they are meant to be built.
 """

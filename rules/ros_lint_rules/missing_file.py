@@ -17,7 +17,7 @@ folders and ignored files are not part of a repository.
 Correct the path, add the file to the repository, or remove the line. A folder that may be empty needs a file in it, or
 `OPTIONAL` in the install rule.
 
-## When it keeps silent
+## Limitations
 
 - Paths that cannot be evaluated, files in the build folder, and files that the build generates.
 - Under a condition that may not hold, with `OPTIONAL`, and a folder that `FILES_MATCHING` leaves out by its own name, as

@@ -19,7 +19,7 @@ those for whom the condition holds. What is exported stops those who find this p
 Add `find_package(package REQUIRED)`, before the first use. The fix corrects what is a slip for
 packages that are found.
 
-## When it keeps silent
+## Limitations
 
 - The package comes along with one that is found, so that it is mostly found, too, or nobody knows what comes along: the
   confidence is medium. Packages that are there for their commands, such as `ament_cmake_gtest`, come along by design.

@@ -14,7 +14,7 @@ brings it. Without the dependency the generated code does not compile.
 
 Add what the message names. The fix does this for package.xml.
 
-## When it keeps silent
+## Limitations
 
 - The interfaces are not installed, so that nobody but the package itself uses them.
 - The script cannot be followed everywhere.

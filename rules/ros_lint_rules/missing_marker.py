@@ -18,7 +18,7 @@ other builders do not, and then `ros2 run` says "Package not found".
 
 with an empty file `resource/<package>`. The fix adds what is missing, where that file is there.
 
-## When it keeps silent
+## Limitations
 
 Where `data_files` cannot be evaluated. Where marker or manifest are installed under another name, `name-mismatch` speaks.
 """

@@ -21,7 +21,7 @@ fix adds it to the list. A folder without `__init__.py` needs one, too. For a pr
 (`ament_python_install_package()`), or install it beside the program. For a neighbour, `from package_name.module import name`.
 In `CMakeLists.txt`: `ament_python_install_package(${PROJECT_NAME})`, which the fix adds.
 
-## When it keeps silent
+## Limitations
 
 For tests, for folders without modules, for those whose modules `data_files` puts elsewhere, and where `packages`
 cannot be evaluated. Of a folder that only modules import from which no entry point names, the confidence is medium.

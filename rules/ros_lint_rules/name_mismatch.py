@@ -16,7 +16,7 @@ Use the name of `package.xml` everywhere. Where a name is written out, the fix d
 is an unsafe one, for folders and files may be named after the same variable. There is none where another package has the
 name, too (see `duplicate-package`): then it may be `package.xml` that was copied.
 
-## When it keeps silent
+## Limitations
 
 Where the name is not known for certain: it comes from a variable that cannot be evaluated, or what is installed depends on
 a condition. About another name in `colcon.pkg`, by which colcon orders and selects the package. Further markers and manifests

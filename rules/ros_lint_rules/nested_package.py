@@ -16,7 +16,7 @@ Move the nested package beside the outer one. If the outer folder is not meant t
 a folder of their own and build from there (`colcon build --base-paths src`, `ros-lint src`), or rename the script. If
 the nested one is not meant to be built, put an empty `COLCON_IGNORE` beside its manifest.
 
-## When it keeps silent
+## Limitations
 
 - The folder, or one between the two, has `COLCON_IGNORE`, `AMENT_IGNORE` or `CATKIN_IGNORE`.
 - A `CMakeLists.txt` of the outer package takes the folder in with `add_subdirectory()`, or with a function of its own that is

@@ -17,7 +17,7 @@ A parameter file has the full name of the node, `ros__parameters`, and then the 
       ros__parameters:
         rate: 10.0
 
-## When it keeps silent
+## Limitations
 
 - Which file is given, or what the node is called, is not known from the launch file, even with the defaults of its arguments.
 - The file is installed by no package of the workspace, or rewritten before it is given.

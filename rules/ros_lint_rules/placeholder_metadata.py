@@ -13,7 +13,7 @@ documentation and the ROS index repeat these texts.
 
 Write what is meant. For licences use the SPDX names, such as `Apache-2.0`, `BSD-3-Clause` or `MIT`.
 
-## When it keeps silent
+## Limitations
 
 For every text that somebody has written, however short.
 """

@@ -22,7 +22,7 @@ The loader looks up names: "According to the loaded plugin descriptions the clas
 sources and in `add_library()`. The fix exports a description whose base classes are all of one package. Where the workspace has
 the base class and loads no plugins as that, the macro may be a left-over, and can go: this is an info.
 
-## When it keeps silent
+## Limitations
 
 Where the libraries cannot be seen whole, for tests, for nodelets, which ROS 2 does not have, for descriptions that are exported
 under a condition only, and for classes in packages that register some with macros of their own. Where a source has the name of

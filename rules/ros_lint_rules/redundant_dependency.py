@@ -13,7 +13,7 @@ versions `catkin_pkg` rejects the second case altogether, see rejected-manifest.
 
 Keep the more general tag, or the one that asks for a version. The fix removes the other.
 
-## When it keeps silent
+## Limitations
 
 For `<test_depend>` beside other tags, which REP 149 allows, for tags with different conditions, and when both ask for a
 version and the versions differ.

@@ -19,7 +19,7 @@ As the message says. The fix does it where there is only one way: it removes dup
 `<exec_depend>` for `<run_depend>` and the reverse, completes versions such as `1.0`, escapes `&`, and raises the format
 where a tag or attribute needs a newer one (an unsafe fix).
 
-## When it keeps silent
+## Limitations
 
 For manifests below another package and below markers such as `COLCON_IGNORE`, which colcon does not read. A manifest that
 declares XML entities, or that nests elements more than 200 levels deep, is reported although `catkin_pkg` may read it.

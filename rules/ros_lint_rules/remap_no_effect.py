@@ -13,7 +13,7 @@ read stops the node: `Couldn't parse remap rule`.
 
 Remove it, or correct the name.
 
-## When it keeps silent
+## Limitations
 
 - One side comes from an argument, or is computed in another way.
 - People write such remappings to list what a node has: the confidence is medium where no argument has the name.

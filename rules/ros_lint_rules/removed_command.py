@@ -16,7 +16,7 @@ link to targets: `target_link_libraries(t PUBLIC rclcpp::rclcpp ${std_msgs_TARGE
 
 The fix links to `${p_TARGETS}`, as the command did, where each package is named in all calls and is known to export targets.
 
-## When it keeps silent
+## Limitations
 
 In other distributions; where that package is found, or the command is defined in the package itself; under conditions, and
 for imports that `try` guards. The confidence is medium where nobody said which distribution is meant.

@@ -20,7 +20,7 @@ it shows only in builds without `--symlink-install`.
 `install(PROGRAMS scripts/a.py DESTINATION lib/${PROJECT_NAME})`, or `USE_SOURCE_PERMISSIONS` and `chmod +x`. The fix writes
 `PROGRAMS` for `FILES`, or adds `USE_SOURCE_PERMISSIONS` where the files have the bit.
 
-## When it keeps silent
+## Limitations
 
 For modules that scripts import from beside them: files without an interpreter line that run nothing when they are
 started, unless a launch file of the workspace starts them. If they run something, a test of their own say, the confidence

@@ -16,7 +16,7 @@ its files are looked for in the upper one.
 Build the packages of the underlay that depend on it in the workspace, too; or take the package out of the workspace, or
 rename it if it only happens to be called so.
 
-## When it keeps silent
+## Limitations
 
 Without an underlay. Packages that are released, but not installed below, are none: building them from source is what a
 workspace is for. When no package below depends on it and nothing is lost, it is only a note.

@@ -13,7 +13,7 @@ stops: "a Python module file or package with the same name 'x' has been installe
 
 Give the Python package another name, or put the interfaces into a package of their own, called `x_interfaces` or `x_msgs`.
 
-## When it keeps silent
+## Limitations
 
 Where either command is in a condition, or the name cannot be evaluated.
 """

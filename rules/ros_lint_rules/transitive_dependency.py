@@ -14,7 +14,7 @@ their business. Then this package breaks, without any change of its own.
 Declare what is used, in the tag that the message names. The fix does this. It is unsafe where the message says that not every
 distribution has the name.
 
-## When it keeps silent
+## Limitations
 
 - It is off unless asked for: most of ROS relies on what other packages bring along, such as `rclcpp` on `rcl`.
 - The files that use it are perhaps not built or installed, or colcon rejects `package.xml`: then the confidence is

@@ -16,7 +16,7 @@ the build farm sets none but these three.
 Write comparisons of `$VARIABLES` and words or quoted strings, joined by `and` and `or` (REP 149). Values are compared as
 strings: `"10" < "9"` is true.
 
-## When it keeps silent
+## Limitations
 
 About unknown variables that cannot change the outcome: one side of an `and` is false anyway. Findings about unknown
 variables are of medium confidence and shown with `--pedantic` only; the other rules take such dependencies for declared

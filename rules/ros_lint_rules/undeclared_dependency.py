@@ -16,10 +16,10 @@ Declare the package in `package.xml`, in the tag that the message names: `<depen
 needed at run time, `<exec_depend>` for what is needed at run time only, `<test_depend>` for tests. The fix does this.
 Where a tag is there, under a condition that does not hold, widen the condition.
 
-The fix is safe where the name resolves in the distribution that was stated, or in every active one where none was. Otherwise
-the message says which ones have the name or lack it, and the fix needs `--unsafe-fixes`.
+The fix is safe if the name resolves in the chosen distribution, or in every active one if none was chosen. Otherwise
+the message names the distributions that have or lack the name, and the fix needs `--unsafe-fixes`.
 
-## When it keeps silent
+## Limitations
 
 - The package comes with a declared one: see `transitive-dependency` for uses that hang on such a chain.
 - It is declared by a wrong name: `unknown-dependency` says so. Then the confidence is medium, and nothing is fixed here.

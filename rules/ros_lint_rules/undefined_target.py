@@ -18,7 +18,7 @@ packages that depend on this one that are told "exports the library 'x' which co
 Correct the name, or define the target before. Where one defined target has nearly the same name, the fix takes that. In the
 other package: `install(TARGETS ... EXPORT export_other)` and `ament_export_targets(export_other)`.
 
-## When it keeps silent
+## Limitations
 
 Where a command, a name or an included file cannot be followed; under conditions; in functions and loops, but for what
 `target_link_libraries()` and `ament_target_dependencies()` are given there for sure; about libraries that may be the

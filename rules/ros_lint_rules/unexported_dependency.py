@@ -20,7 +20,7 @@ not `gz_sim_vendor`. The fix does this; it needs `--unsafe-fixes`, for whoever f
 Of Qt, which `ament_export_dependencies()` can give no components, write `find_package(Qt5 REQUIRED COMPONENTS Widgets)` into a
 CMake file, and give that to `ament_package(CONFIG_EXTRAS file.cmake)`, as `rviz_common` does.
 
-## When it keeps silent
+## Limitations
 
 - `ament_auto_package()` does the exporting, `rosidl_generate_interfaces()` that of its `DEPENDENCIES`, or a file of
   `CONFIG_EXTRAS` searches the other package itself.

@@ -20,7 +20,7 @@ Add the file to the call, or remove it. The fix adds it below another of the sam
 refuses names like `motor_state.msg`: such a file has to be called `MotorState.msg` first. What an `ament_python` package
 defines has to move to one of `ament_cmake`. Of what is used and not there, correct the name, or add the file.
 
-## When it keeps silent
+## Limitations
 
 For packages that generate nothing, unless others import from them or have it in interfaces, for files in other folders, and
 where the list of files cannot be followed. So it does of copies that were left lying, such as `State copy.msg` or

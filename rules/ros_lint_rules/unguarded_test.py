@@ -13,7 +13,7 @@ and then CMake stops at `find_package()` or at an unknown command.
 
 Put it between `if(BUILD_TESTING)` and `endif()`.
 
-## When it keeps silent
+## Limitations
 
 Where the package is declared for the build as well, or comes along with what is; under any condition that asks for tests; in
 functions; where `find_package()` is not `REQUIRED`.

@@ -19,7 +19,7 @@ the destination is right for other programs, and wrong for nodes.
 
 `install(TARGETS talker DESTINATION lib/${PROJECT_NAME})`. The fix adds this rule, or corrects the destination.
 
-## When it keeps silent
+## Limitations
 
 For tests, examples and what measures; for targets that are also installed to `lib/<package>`; with
 `ament_auto_package(INSTALL_TO_PATH)`. Where something that cannot be followed may install the target, the confidence is

@@ -28,7 +28,7 @@ library is not installed, or is loaded, as plugins and components are, and nobod
 `ament_export_targets()` with an `install(TARGETS ... EXPORT ...)`, or `ament_export_include_directories()` and
 `ament_export_libraries()`.
 
-## When it keeps silent
+## Limitations
 
 For packages without `include/`, and where something that cannot be followed may install the headers. About who includes them,
 if that package adds a folder outside of its own to its include directories by hand, and for its tests.

@@ -16,7 +16,7 @@ to a rule that installs others so; the fix does this. In `setup.py` add to `data
 `(os.path.join('share', package_name, 'launch'), glob('launch/*.launch.py'))`; the fix does this, too, where `data_files` is
 written out.
 
-## When it keeps silent
+## Limitations
 
 - A part of the build script that cannot be followed may install the files, or a file of the package cannot be read.
 - A `CMakeLists.txt` has no command at all: that is a matter of `missing-ament-package`.

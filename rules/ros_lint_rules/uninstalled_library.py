@@ -18,7 +18,7 @@ stop: "exports the library 'x' which couldn't be found".
 `install(TARGETS x ARCHIVE DESTINATION lib LIBRARY DESTINATION lib RUNTIME DESTINATION bin)`. The fix adds this rule. Of a
 library with plugins, which nobody links, the export can be taken away instead.
 
-## When it keeps silent
+## Limitations
 
 For libraries of tests, for static libraries that are not exported (they become part of what links them), and where something
 that cannot be followed may install the library. Of a library that is made of nothing but headers, what links it takes nothing:

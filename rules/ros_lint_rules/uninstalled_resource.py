@@ -15,7 +15,7 @@ In `CMakeLists.txt` add the folder to `install(DIRECTORY ... DESTINATION share/$
 `setup.py` add an entry to `data_files`: `('share/' + package_name + '/config', glob('config/*'))`; the fix does this, too,
 where `data_files` is written out and the files are not too many.
 
-## When it keeps silent
+## Limitations
 
 - A part of the build script that cannot be followed may install the file, or one of its name from a folder that is chosen
   when it is built.

@@ -18,7 +18,7 @@ is neither among the `scripts` nor the entry points.
 `install(PROGRAMS scripts/a.py DESTINATION lib/${PROJECT_NAME})`. The fix adds this rule. In `setup.py`: an entry point,
 `'a = robot.a:main'`.
 
-## When it keeps silent
+## Limitations
 
 For files without interpreter line or executable bit, for tests, for what is put aside (`old/`, `node copy.py`), for those that
 the build itself runs, for those that import what only ROS 1 has, and where something that cannot be followed may install them.

@@ -17,7 +17,7 @@ Write the name of the package or the rosdep key. Where it is clear which one is 
 the message says that not every distribution has that name. When the package is not released, put its sources into the
 workspace, or name the prefix it is installed in with `--underlay`.
 
-## When it keeps silent
+## Limitations
 
 For tags under a condition that is false or cannot be evaluated, for packages of ROS 1 (build type catkin), and when there
 is no index of the distribution. Unless the name is clearly a slip, one that nothing else names, near a package that is used

@@ -14,7 +14,7 @@ outlived a rule.
 Write `ros-lint: ignore[rule-name] reason`, with names or codes from `ros-lint rules`, several of them separated by
 commas. Move `ros-lint: ignore-file[rule-name] reason` above the first line that is no comment.
 
-## When it keeps silent
+## Limitations
 
 About comments that only mention ros-lint, and about whatever looks like a comment and stands in a string.
 """

@@ -14,7 +14,7 @@ such file or directory". That others of the targets are given the package does n
 Give it to the target: `ament_target_dependencies(target package)`, or `target_link_libraries(target ${package_TARGETS})`. The
 fix adds it to the call that has the others.
 
-## When it keeps silent
+## Limitations
 
 - The script, or that of a package of the workspace which it finds, cannot be followed everywhere.
 - The target may get include directories from elsewhere: folders outside of the package, options of the compiler, variables

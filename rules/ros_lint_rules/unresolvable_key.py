@@ -14,7 +14,7 @@ library may have been there by chance, or under an older Ubuntu.
 Use the key that took its place, often `python3-…` for `python-…`; put a condition on the tag if it is needed for one
 distribution only; or add a rule to rosdistro. What is not released has to come as sources, named in a `.repos` file.
 
-## When it keeps silent
+## Limitations
 
 When nobody said which distribution is meant: then only keys that resolve on no platform of any supported distribution are
 reported. The platforms are those of the distribution (REP 2000), whatever machine ros-lint runs on. A package that a

@@ -15,7 +15,7 @@ Call `ament_lint_auto_find_test_dependencies()` in `if(BUILD_TESTING)` after `fi
 or take the linters out of `package.xml`. Where CMake calls linters by their names, such as `ament_cppcheck()`, take out those
 that it does not call.
 
-## When it keeps silent
+## Limitations
 
 - The script cannot be followed everywhere, or the package is none of `ament_cmake`.
 - Another tag than `<test_depend>` declares the linter: then it is there for others, as in a metapackage.

@@ -17,7 +17,7 @@ every machine, and tells readers something wrong. What depends on the group of a
 Remove the tag, and with a `<build_depend>` those for exporting it and for running what has no programs. The fix does this,
 and needs `--unsafe-fixes` where the confidence is less than high.
 
-## When it keeps silent
+## Limitations
 
 Where a type of it stands in C++ code by its bare name, which a header of a third package makes possible, and where a page
 of the package says to start something of it (`ros2 run`, `ros2 launch`). And

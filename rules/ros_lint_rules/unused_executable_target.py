@@ -11,7 +11,7 @@ It costs time in every build, and nobody can run it after the installation. Ofte
 
 Install it to `lib/${PROJECT_NAME}`, or build it only when tests or examples are wanted. The fix installs it.
 
-## When it keeps silent
+## Limitations
 
 Where something that cannot be followed may install it; where it is not part of every build, or an example; where a custom
 command runs it during the build; where `uninstalled-executable` speaks: a launch file starts it, or it is a node of a package

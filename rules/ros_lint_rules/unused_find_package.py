@@ -12,7 +12,7 @@ Configuring takes longer, and the package can only be built where the other one 
 
 Remove the `find_package()`, the target that is linked, and the dependency from `package.xml` if nothing else needs it.
 
-## When it keeps silent
+## Limitations
 
 - It is off unless asked for.
 - The package found gives CMake macros, plugins or components, or is a build tool.

@@ -13,7 +13,7 @@ finding of that rule on its line.
 
 Remove it, or the one name in it that is not needed. The fix does this.
 
-## When it keeps silent
+## Limitations
 
 About rules that did not run, because they are off, not selected, or failed: what they would have found is not known.
 """

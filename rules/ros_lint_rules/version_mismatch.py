@@ -13,7 +13,7 @@ one that nobody looked at.
 Write the same version into both. The fix, an unsafe one, takes that of `package.xml`, unless that is still the `0.0.0` of
 the template.
 
-## When it keeps silent
+## Limitations
 
 When the version in `setup.py` is not written out, and when the two differ by zeros at the end only.
 """

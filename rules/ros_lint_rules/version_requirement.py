@@ -13,7 +13,7 @@ from it cannot be installed.
 
 Check out or install a version that fits, or correct the attribute.
 
-## When it keeps silent
+## Limitations
 
 For packages that are only known from the index of the distribution, for names that the workspace has twice, for versions
 that are not numbers with dots, and for tags under a condition that is false or cannot be evaluated.

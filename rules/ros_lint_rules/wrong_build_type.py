@@ -15,7 +15,7 @@ types it takes the folder for no ROS package. Without the script the build fails
 Write one of `ament_cmake`, `ament_python`, `cmake`, `ament_cargo` or `ament_gradle`. Where it is clear which one is meant,
 the fix does this. Keep one of two types, or give each a condition.
 
-## When it keeps silent
+## Limitations
 
 For types under a condition that is false or has an unknown variable. Extensions of colcon can bring more types: the
 confidence is medium unless the name is a known mistake or close to a known type.

@@ -15,7 +15,7 @@ In a workspace it mostly works, for colcon puts every dependency on the path, wh
 
 Use the tag that the message names. The fix does this, and puts it among its like where the file keeps kinds together.
 
-## When it keeps silent
+## Limitations
 
 - The package comes along in the right way with another declared dependency. Where it is declared for tests only, the confidence
   is then low: it works until the other one drops it.
