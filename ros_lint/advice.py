@@ -1,4 +1,4 @@
-"""What to say of a name that ought to be declared: which tag to write, where it resolves, or why it cannot be declared."""
+"""Remedies for undeclared dependencies: the tag to write, where the name resolves, or why it cannot be declared."""
 
 from __future__ import annotations
 
@@ -14,46 +14,46 @@ if TYPE_CHECKING:
 
 
 class Advice(NamedTuple):
-    """The way out of a need, as far as there is one."""
+    """The remedy for an undeclared dependency, if there is one."""
 
     written: str
-    """The element to add, followed by what is to be known of it."""
+    """The element to add, followed by remarks in parentheses."""
     fix: Fix | None
-    """None when it cannot be declared, or when colcon rejects the manifest, which has to be mended first."""
+    """None when it cannot be declared, or when colcon rejects the manifest, which has to be fixed first."""
     obstacle: str
-    """Why it cannot be declared: goes on from "it cannot be declared: ". "" when it can."""
+    """Why it cannot be declared: completes "cannot be declared: ". "" when it can."""
     circular: bool
-    """Whether the obstacle is that it needs the package itself."""
+    """Whether the obstacle is that it depends on the package itself."""
     certain: bool = True
-    """Whether the need is as certain as its evidence: not where it is circular or colcon rejects the manifest."""
+    """Whether the need is as certain as its evidence: not if it is circular or colcon rejects the manifest."""
 
     @property
     def ending(self) -> str:
-        """Return how a message goes on that has said what is amiss."""
+        """Return the end of a message that has named the undeclared dependency."""
         return f", and it cannot be declared: {self.obstacle}" if self.obstacle else f": add {self.written}"
 
 
 def advice(package: Package, workspace: Workspace, name: str, role: Role) -> Advice:
-    """Return what to do about a package or key that is needed and is to be declared. The package has a manifest."""
+    """Return the remedy for a needed package or key that is not declared. The package has a manifest."""
     tag = tag_for(package, workspace, name, role)
     written = " and ".join(f"<{each}>{name}</{each}>" for each in tags_for(package, tag))
     if way := circle(package, workspace, name):
-        between = f", by way of {' > '.join(way[1:-1])}" if len(way) > 2 else ""
-        return Advice(written, None, f"it needs this package itself{between}", circular=True, certain=False)
+        between = f", through {' > '.join(way[1:-1])}" if len(way) > 2 else ""
+        return Advice(written, None, f"it depends on this package itself{between}", circular=True, certain=False)
     usable = not (package.manifest and package.manifest.problems)
     if (bare := workspace.by_name.get(name)) and all(each.manifest is None for each in bare):
-        obstacle = f"{bare[0].path} has no package.xml, so rosdep does not know it; give it one"
+        obstacle = f"{bare[0].path} has no package.xml, so rosdep does not know it; add one"
         return Advice(written, None, obstacle, circular=False, certain=usable)
     if lacks_rule(workspace, name):
         obstacle = f"rosdep has no rule for it{_where(workspace, name)}"
         return Advice(written, None, obstacle, circular=False, certain=usable)
     if is_of_pip(workspace, name):
-        written += " (from pip: what is released cannot depend on it)"
+        written += " (installed by pip: a released package cannot depend on it)"
     written += availability(workspace, name)
     if _is_exported(package, name):
-        written += " (the one in <export> declares nothing)"
+        written += " (the tag in <export> declares nothing)"
     edits = add_dependency(package, tag, name) if usable else ()
-    fix = naming(workspace, name, f"declare {name} as <{tag}>", *edits)
+    fix = naming(workspace, name, f"declare '{name}' as <{tag}>", *edits)
     return Advice(written, fix, "", circular=False, certain=usable)
 
 
@@ -86,17 +86,17 @@ def availability(workspace: Workspace, name: str) -> str:
     if not there:
         return " (no distribution has it)"
     if not here:
-        return f" ({target.distro} has none, only {', '.join(there)})"
+        return f" (not in {target.distro}, only in {', '.join(there)})"
     if len(lacking) < len(there):
         return f" (not in {', '.join(lacking)})" if lacking else ""
     return f" (only in {', '.join(there)})"
 
 
 def circle(package: Package, workspace: Workspace, name: str) -> tuple[str, ...]:
-    """Return a way by which a name needs a package itself, both ends included, or ().
+    """Return a path by which a name depends on the package itself, both ends included, or ().
 
-    Either as colcon orders the workspace, where each tag counts (reference, section B2.2), or when it is installed: in
-    another distribution, too, where this one has no such package.
+    In the workspace every tag counts, because colcon orders packages by all of them; otherwise the run-time dependencies of
+    the released package, of any distribution if the target distribution has no such package.
     """
     graph = workspace.graph if name in workspace.by_name else None
     if graph is not None and name in graph.arcs and package.colcon_name in graph.closure(name):
@@ -110,15 +110,15 @@ def circle(package: Package, workspace: Workspace, name: str) -> tuple[str, ...]
 
 
 def _is_exported(package: Package, name: str) -> bool:
-    """Whether a tag for a name stands in <export>, where catkin_pkg takes it for nobody's."""
+    """Return whether a dependency tag with the name is in <export>, where catkin_pkg ignores it."""
     exports = package.manifest.exports if package.manifest else ()
     return any(element.tag.endswith("depend") and element.text.strip() == name for element in exports)
 
 
 def lacks_rule(workspace: Workspace, name: str) -> bool:
-    """Whether a name is a key that resolves nowhere where the workspace is meant to run.
+    """Return whether a name is a rosdep key without a rule for the platform of the target distribution.
 
-    If nobody said for which distribution it is, any of them will do.
+    If the user did not choose a distribution, a rule for the platform of any distribution is enough.
     """
     world, knowledge = workspace.world, workspace.world.knowledge
     if world.is_package(name) or not world.is_key(name) or knowledge.resolves(name) is not False:
@@ -127,11 +127,11 @@ def lacks_rule(workspace: Workspace, name: str) -> bool:
 
 
 def is_of_pip(workspace: Workspace, name: str) -> bool:
-    """Whether a name is a key that only pip installs, which the build farm does not take."""
+    """Return whether a name is a rosdep key that only pip installs, which the build farm does not accept."""
     key = None if workspace.world.is_package(name) else workspace.world.knowledge.rosdep.get(name)
     return key is not None and bool(key.pip) and not key.apt
 
 
 def _where(workspace: Workspace, name: str) -> str:
     knowledge = workspace.world.knowledge
-    return f" on {knowledge.platform}, where {workspace.target.distro} runs" if knowledge.resolving(name) else ""
+    return f" on {knowledge.platform}, the platform of {workspace.target.distro}" if knowledge.resolving(name) else ""

@@ -178,9 +178,8 @@ _MOST_SKIPPED = 3
 
 
 def _command(written: str) -> str:
-    """Return what to say of a path that is not there, and may be meant for a command."""
-    near = similar(written, COMMANDS)
-    return f"; did you mean the command '{near[0]}'?" if near else ""
+    """Return a suggestion for a path that does not exist and resembles the name of a command."""
+    return next((f"; did you mean the command '{command}'?" for command in similar(written, COMMANDS)), "")
 
 
 def _base(paths: Sequence[str]) -> str:

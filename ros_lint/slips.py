@@ -1,4 +1,4 @@
-"""Names that look like one that means nothing, and how a message says so: in settings, on the command line, in files."""
+"""Suggestions for unknown names in settings, on the command line and in files."""
 
 from __future__ import annotations
 
@@ -6,17 +6,22 @@ from collections.abc import Iterable, Sequence
 
 
 def similar(name: str, names: Iterable[str], most: int = 1, least: float = 0.6) -> list[str]:
-    """Return which of some names look like another one, nearest first; ``least`` is how alike they are, from 0 to 1."""
+    """Return at most ``most`` of ``names`` that resemble ``name``, nearest first; ``least`` is the similarity, from 0 to 1."""
     from difflib import get_close_matches  # noqa: PLC0415  (slow to import, and needed for a slip only)
 
     return get_close_matches(name, list(names), most, least)
 
 
 def did_you_mean(names: Sequence[str], after: str = "; ") -> str:
-    """Return how a message goes on, ``after`` what it has said, that asks for what may be meant; "" if nothing is."""
-    return f"{after}did you mean {' or '.join(names)}?" if names else ""
+    """Return the end of a message that suggests some names, joined to it by ``after``; "" if there are none."""
+    return f"{after}did you mean {' or '.join(map(_quoted, names))}?" if names else ""
 
 
 def is_meant(names: Sequence[str]) -> str:
-    """Return how a message goes on that asks for the first of some names alone, as it can hardly be another one."""
-    return f"; is {names[0]} meant?" if names else ""
+    """Return the end of a message that suggests the first of some names; "" if there are none."""
+    return did_you_mean(names[:1])
+
+
+def _quoted(name: str) -> str:
+    """Return a name as messages show it: in quotes, except tags."""
+    return name if name.startswith("<") else f"'{name}'"

@@ -1,4 +1,4 @@
-"""What the messages of several rules have in common: lists that are cut short, and further places."""
+"""Shared parts of messages: shortened lists of names, and related places."""
 
 from __future__ import annotations
 
@@ -12,11 +12,12 @@ _MOST_NAMES = 3
 
 
 def few(names: Iterable[str]) -> str:
-    """Return the first of some names, with dots if there are more."""
-    first = list(islice(names, _MOST_NAMES + 1))
-    return ", ".join(first[:_MOST_NAMES]) + (" ..." if len(first) > _MOST_NAMES else "")
+    """Return the first three of some names, in quotes, and the number of the others."""
+    names = list(names)
+    first = ", ".join([f"'{name}'" for name in names[:_MOST_NAMES]])
+    return f"{first} and {len(names) - _MOST_NAMES} more" if len(names) > _MOST_NAMES else first
 
 
 def several(places: Iterable[Related]) -> tuple[Related, ...]:
-    """Return as many further places as help: the first of those that there are."""
+    """Return the first four related places: more do not help the reader."""
     return tuple(islice(places, _MOST_RELATED))

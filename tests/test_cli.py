@@ -228,7 +228,7 @@ def test_fixes_that_together_would_close_a_cycle(tmp_path: Path) -> None:
         (tmp_path / name / "CMakeLists.txt").write_text(cmake.format(name, f"find_package({find} REQUIRED)"))
     done = run(tmp_path, "--fix", "--select", "undeclared-dependency")
     assert "fixed 1 finding in 1 file" in done.stderr
-    assert "cannot be declared: it needs this package itself" in done.stdout
+    assert "cannot be declared: it depends on this package itself" in done.stdout
     assert run("order", tmp_path).returncode == 0
 
 
@@ -281,7 +281,7 @@ def test_papers() -> None:
     assert "undeclared-dependency" in run("rules").stdout
     assert json.loads(run("rules", "--format", "json").stdout)
     assert "## Why it matters" in run("rule", "ROS201").stdout
-    assert "did you mean undeclared-dependency?" in run("rule", "undeclared").stderr
+    assert "did you mean 'undeclared-dependency'?" in run("rule", "undeclared").stderr
     assert run("rule", "undeclared").returncode == 2
     assert json.loads(run("schema").stdout)["properties"]["distro"]
 

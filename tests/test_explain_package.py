@@ -57,7 +57,7 @@ def test_text_tells_the_first_places_and_json_all() -> None:
 def test_a_name_that_is_mistyped() -> None:
     out, err, code = explain_package.run(workspace(), "robots")
     assert (out, code) == ("", 2)
-    assert "did you mean robot?" in err
+    assert "did you mean 'robot'?" in err
 
 
 def test_either_name_of_a_package_that_colcon_calls_otherwise() -> None:

@@ -373,4 +373,4 @@ def test_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str], mo
     assert cli.main(["launch", "launch/a.launch.xml", *common]) == 1
     assert "pass robot:=VALUE" in capsys.readouterr().err
     assert cli.main(["launch", "p", "b.launch.xml", *common]) == 2
-    assert "did you mean a.launch.xml?" in capsys.readouterr().err
+    assert "did you mean 'a.launch.xml'?" in capsys.readouterr().err

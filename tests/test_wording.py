@@ -5,9 +5,9 @@ from ros_lint.wording import few, several
 
 
 def test_a_list_says_when_it_is_cut_short() -> None:
-    assert few(["a"]) == "a"
-    assert few(iter("abc")) == "a, b, c"
-    assert few("abcd") == "a, b, c ..."
+    assert few(["a"]) == "'a'"
+    assert few(iter("abc")) == "'a', 'b', 'c'"
+    assert few("abcde") == "'a', 'b', 'c' and 2 more"
 
 
 def test_of_many_places_the_first_are_shown() -> None:
@@ -20,6 +20,7 @@ def test_what_may_be_meant() -> None:
     assert similar("jazy", ["humble", "jazzy"]) == ["jazzy"]
     assert similar("jazy", ["humble", "jazzy"], 1, 0.95) == []
     assert did_you_mean([]) == is_meant([]) == ""
-    assert is_meant(["a", "b"]) == "; is a meant?"
-    assert did_you_mean(["a", "b"]) == "; did you mean a or b?"
-    assert did_you_mean(["a"], ", ") == ", did you mean a?"
+    assert is_meant(["a", "b"]) == "; did you mean 'a'?"
+    assert did_you_mean(["a", "b"]) == "; did you mean 'a' or 'b'?"
+    assert did_you_mean(["<a>"]) == "; did you mean <a>?"
+    assert did_you_mean(["a"], ", ") == ", did you mean 'a'?"

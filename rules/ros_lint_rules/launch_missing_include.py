@@ -102,7 +102,7 @@ def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
             hint = _hint(path, others_there)
             # A folder of meshes that is not there is one mistake.
             folder, _, name = path.rpartition("/")
-            key = (owner, f"{folder} {best.path}" if not hint or hint.endswith(f"/{name}?") else path, sure)
+            key = (owner, f"{folder} {best.path}" if not hint or hint.endswith(f"/{name}'?") else path, sure)
             alike.setdefault(key, []).append((path, hint, best, [place for _, place in others]))
     for (owner, _, sure), lacking in alike.items():
         (path, hint, first, beside), *more = lacking

@@ -59,7 +59,6 @@ from ros_lint.api import (
     few,
     generated_from,
     interface_names,
-    is_meant,
     per_package,
     place_of,
     relative,
@@ -227,7 +226,7 @@ def _of_nothing(used: _Used, maker: Package, workspace: Workspace) -> str | None
     if any(each.endswith((f"{kind}.py", f"{kind}/__init__.py", f".{kind}", ".idl")) for each in maker.files):
         return None
     having = [each.name for each in workspace.packages if interface in each.built.interfaces]
-    way_out = is_meant([f"that of {name}" for name in having]) or "; correct the name"
+    way_out = f"; did you mean that of '{having[0]}'?" if having else "; correct the name"
     return f"{used.maker} generates no interfaces, and so no {interface}{way_out}"
 
 
