@@ -1,23 +1,29 @@
 """
 ## What it finds
 
-Parts of ROS 1 in a package that is built by ament: `find_package(catkin)` and `catkin_package()` that always run, and
-`<nodelet>` or `<rviz>` in the exports of `package.xml`.
+Parts of ROS 1 in an ament package:
+
+- `find_package(catkin REQUIRED)` and `catkin_package()` that always run;
+- `<nodelet>` and `<rviz>` in the exports of `package.xml`.
 
 ## Why it matters
 
-There is no catkin in ROS 2, so CMake stops at `find_package(catkin REQUIRED)`. The exports do nothing: ROS 2 finds plugins
-by what CMake enters into the index, so that the plugin seems to be exported and is not.
+ROS 2 has no catkin, so CMake stops at `find_package(catkin REQUIRED)`. The exports have no effect, because ROS 2 finds plugins
+in the ament index, which CMake writes: the plugin looks exported but is not.
 
 ## How to fix it
 
-Remove them. Export plugins with `pluginlib_export_plugin_description_file(rviz_common plugins.xml)`; nodelets become
+Remove these parts. Export plugins with `pluginlib_export_plugin_description_file(rviz_common plugins.xml)`. Rewrite nodelets as
 components.
 
 ## Limitations
 
-In a condition, as packages for both ROS versions have them, and for `find_package(catkin)` without `REQUIRED`. For the exports
-of a package that a build type under a condition has built with catkin: they serve ROS 1.
+Not reported:
+
+- Commands under a condition, as in packages for both ROS versions.
+- `find_package(catkin)` without `REQUIRED`.
+- Exports under a condition.
+- Exports of a package that has the build type catkin under a condition: they serve ROS 1.
 """
 
 from __future__ import annotations
@@ -27,8 +33,8 @@ from collections.abc import Iterator
 from ros_lint.api import EXPORTING_PLUGINS, Finding, Package, Rule, Severity, Workspace, called
 
 _EXPORTS = {
-    "nodelet": "nodelets are components in ROS 2",
-    "rviz": "pluginlib_export_plugin_description_file(rviz_common ...) exports displays in ROS 2",
+    "nodelet": "convert the nodelet to a component",
+    "rviz": "export displays with pluginlib_export_plugin_description_file(rviz_common ...)",
 }
 
 
@@ -39,19 +45,19 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         if call.blocks or call.test:
             continue
         if call.name == "catkin_package":
-            yield Finding("catkin_package() is of ROS 1; ament_package() takes its place", call.place, call.name)
+            yield Finding("catkin_package() belongs to ROS 1; use ament_package()", call.place, call.name)
         elif call.texts[:1] == ("catkin",) and "REQUIRED" in call.texts:
-            message = "find_package(catkin) stops CMake, for there is no catkin in ROS 2; find each package by its name"
+            message = "find_package(catkin) stops CMake, because ROS 2 has no catkin; call find_package() for each package"
             yield Finding(message, call.span(0), "catkin")
     exports = package.manifest.exports
     if any(element.tag == "build_type" and element.text == "catkin" for element in exports):
         return
     for element in exports:
         if element.tag in _EXPORTS and not element.get("condition"):
-            done = EXPORTING_PLUGINS in package.built.calls
-            way = "remove it" if done else _EXPORTS[element.tag]
+            exported = EXPORTING_PLUGINS in package.built.calls
+            remedy = "remove it" if exported else _EXPORTS[element.tag]
             yield Finding(
-                f"<{element.tag}> in the exports does nothing in ROS 2; {way}",
+                f"<{element.tag}> in <export> has no effect in ROS 2; {remedy}",
                 element.span,
                 element.tag,
                 severity=Severity.INFO,
@@ -61,7 +67,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
 RULE = Rule(
     name="catkin-leftover",
     code="ROS309",
-    summary="an ament package should have no parts of catkin",
+    summary="ament packages contain no parts of catkin",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,

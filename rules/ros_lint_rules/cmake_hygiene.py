@@ -1,29 +1,30 @@
 """
 ## What it finds
 
-Habits in a CMakeLists.txt that bite later:
+Risky habits in a CMakeLists.txt:
 
-- `cmake_minimum_required()` with a version that CMake 4 has no support for (below 3.5) or will drop (below 3.10);
-- `find_package()` without `REQUIRED` or `QUIET`, when nothing asks whether the package was found;
-- a package that is found twice in the same way;
-- `CMAKE_BUILD_TYPE`, `CMAKE_INSTALL_PREFIX` or `CMAKE_PREFIX_PATH` overwritten without condition;
-- `include(FindX)` where `find_package(X)` is meant;
+- `cmake_minimum_required()` with a version that CMake 4 does not support (below 3.5) or has deprecated (below 3.10);
+- `find_package()` without `REQUIRED` or `QUIET`, if no condition checks whether the package was found;
+- the same `find_package()` call twice;
+- an unconditional `set()` of `CMAKE_BUILD_TYPE`, `CMAKE_INSTALL_PREFIX` or `CMAKE_PREFIX_PATH`;
+- `include(FindX)` instead of `find_package(X)`;
 - `link_directories()`.
 
 ## Why it matters
 
-CMake 4 is in the platforms of Lyrical and later, and stops at versions below 3.5. A package that is not found is noticed
-only when the compiler stops. A variable that is overwritten takes away what the user asked for on the command line:
-`colcon build --cmake-args -DCMAKE_BUILD_TYPE=Debug` does nothing.
+The platforms of Lyrical and later have CMake 4, which stops at versions below 3.5. Without `REQUIRED`, a missing package is
+noticed only when the compiler fails. An unconditional `set()` overrides the command line:
+`colcon build --cmake-args -DCMAKE_BUILD_TYPE=Debug` has no effect.
 
 ## How to fix it
 
-Ask for 3.8 or more, write `REQUIRED`, remove the second search, set a variable only if it is not set:
-`if(NOT CMAKE_BUILD_TYPE) ... endif()`, and link targets by their names.
+Require CMake 3.8 or newer. Write `REQUIRED`. Remove the second call. Set a variable only if it is not set:
+`if(NOT CMAKE_BUILD_TYPE) ... endif()`. Link targets by name.
 
 ## Limitations
 
-In conditions, loops and functions. It is off unless it is asked for.
+- Calls in conditions, loops and functions are not reported.
+- The rule is off by default.
 """
 
 from __future__ import annotations
@@ -52,24 +53,24 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             case "find_package":
                 earlier = first.setdefault(call.texts, call)
                 if earlier is not call:
-                    message = f"{name} is found already; remove one of the two"
-                    yield Finding(message, call.place, name, (Related("here", earlier.place),))
+                    message = f"'{name}' is already found with the same arguments; remove one of the two calls"
+                    yield Finding(message, call.place, name, (Related("the first call", earlier.place),))
                 elif not {"REQUIRED", "QUIET"}.intersection(call.texts) and _is_firm(package, call):
-                    message = f"find_package({name}) without REQUIRED: CMake goes on when it is not found; write it, or QUIET"
+                    message = f"find_package({name}) without REQUIRED: CMake goes on if it is missing; add REQUIRED or QUIET"
                     yield Finding(message, call.place, name, severity=Severity.INFO)
             case "set" if name in _OVERWRITTEN and not any(name in text for text in call.texts[1:]):
-                yield Finding(f"{name} is overwritten; set it only if it is not set", call.place, name)
+                yield Finding(f"set({name}) overrides the command line; set it only if it is not set", call.place, name)
             case "include" if re.fullmatch(r"Find\w+", name) and name[4:] != "PkgConfig":
-                yield Finding(f"include({name}): use find_package({name[4:]})", call.place, name[4:])
+                yield Finding(f"use find_package({name[4:]}) instead of include({name})", call.place, name[4:])
             case "link_directories":
-                message = "link_directories() reaches every target; link targets by name"
+                message = "link_directories() affects every later target; link targets by name instead"
                 yield Finding(message, call.place, relative(package, call.path))
             case _:
                 pass
 
 
 def _is_firm(package: Package, call: Call) -> bool:
-    """Whether the package is taken for needed: no condition made the search optional."""
+    """Return whether find_package() must succeed: no condition checks whether the package was found."""
     script = package.script
     assert script is not None
     span = call.span(0)
@@ -77,23 +78,23 @@ def _is_firm(package: Package, call: Call) -> bool:
 
 
 def _version(call: Call, workspace: Workspace) -> Iterator[Finding]:
-    match = next((found for text in call.texts if (found := re.match(r"(\d+)\.(\d+)", text))), None)
+    match = next((number for text in call.texts if (number := re.match(r"(\d+)\.(\d+)", text))), None)
     if match is None or "..." in " ".join(call.texts):
         return
     version = (int(match[1]), int(match[2]))
     if version < (3, 5):
-        gone = workspace.target.distro in _CMAKE_4
-        message = f"CMake 4 has no support for policies of {match[0]}; ask for 3.8 or more"
-        yield Finding(message, call.place, match[0], severity=Severity.ERROR if gone else None)
+        unsupported = workspace.target.distro in _CMAKE_4
+        message = f"CMake 4 does not support cmake_minimum_required(VERSION {match[0]}); require 3.8 or newer"
+        yield Finding(message, call.place, match[0], severity=Severity.ERROR if unsupported else None)
     elif version < (3, 10) and workspace.target.distro in _CMAKE_4:
-        message = f"support for policies of {match[0]} is deprecated in CMake 4; ask for 3.10 or more"
+        message = f"cmake_minimum_required(VERSION {match[0]}) is deprecated in CMake 4; require 3.10 or newer"
         yield Finding(message, call.place, match[0], severity=Severity.INFO)
 
 
 RULE = Rule(
     name="cmake-hygiene",
     code="ROS310",
-    summary="a CMakeLists.txt should leave the build to its user",
+    summary="CMakeLists.txt follows current CMake practice and leaves build settings to the user",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,

@@ -1,23 +1,26 @@
 """
 ## What it finds
 
-Commands after `ament_package()` that have to stand before it: `ament_export_*()`, `ament_environment_hooks()`,
+Commands after `ament_package()` that must come before it: `ament_export_*()`, `ament_environment_hooks()`,
 `rosidl_generate_interfaces()`, `ament_vendor()`, `pluginlib_export_plugin_description_file()`,
 `rclcpp_components_register_node()`, `rclcpp_components_register_nodes()`, and `find_package(ament_lint_auto)`.
 
 ## Why it matters
 
-`ament_package()` writes down what the package exports. Most of these commands stop CMake with an error when they come later;
-components and plugins are silently left out of the index.
+`ament_package()` writes the exports of the package to files. Most of these commands stop CMake with an error if they come
+later. Components and plugins are missing from the ament index without an error.
 
 ## How to fix it
 
-Move `ament_package()` to the end of the file. Plain `install()` rules may follow it.
+Move `ament_package()` to the end of the file. Plain `install()` commands may follow it.
 
 ## Limitations
 
-Where either command stands in a condition, a loop or a function: then the order in the file is not the order in which
-they run. For `find_package(ament_lint_auto)` where a macro of another package may have found it before.
+Not reported:
+
+- Either command in a condition, a loop or a function, because the order of execution is unknown. Commands in
+  `if(BUILD_TESTING)` are reported.
+- `find_package(ament_lint_auto)`, if a macro of another package may have found it before.
 """
 
 from __future__ import annotations
@@ -38,33 +41,33 @@ _STOP = (
     "ament_vendor",
     "rosidl_generate_interfaces",
 )
-_LOST = (EXPORTING_PLUGINS, *REGISTERING)
+_IGNORED = (EXPORTING_PLUGINS, *REGISTERING)
 
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
     if package.builds_with != "ament_cmake":
         return
     end: Call | None = None
-    # Elsewhere a macro may have found ament_lint_auto before, and a second search does nothing.
+    # A second find_package(ament_lint_auto) has no effect, and macros of other packages may contain the first one.
     plain = any(call.texts[:1] in (("ament_cmake",), ("ament_cmake_auto",)) for call in called(package, "find_package"))
     ends = [call for call in called(package, *ENDS) if not call.blocks]
-    for call in called(package, *ENDS, *_STOP, *_LOST, "find_package"):
+    for call in called(package, *ENDS, *_STOP, *_IGNORED, "find_package"):
         if call.blocks and (set(call.blocks) != {"if"} or not call.test):
             continue
         if call.name == "find_package" and (end is None or not plain):
             plain = plain and call.texts[:1] != ("ament_lint_auto",)
             continue
         if call.name in ENDS:
-            if ends[-1:] == [call]:  # of those before, duplicate-ament-package speaks
+            if ends[-1:] == [call]:  # duplicate-ament-package reports the earlier ones
                 end = call
         elif end is not None and (effect := _effect(call)):
-            related = Related("this ends the package", end.place)
-            yield Finding(f"{_quoted(call)} after {end.name}() {effect}; move it before", call.place, call.name, (related,))
+            related = Related("the package ends here", end.place)
+            yield Finding(f"{_quoted(call)} after {end.name}() {effect}; call it earlier", call.place, call.name, (related,))
 
 
 def _effect(call: Call) -> str:
-    if call.name in _LOST:
-        return "is lost"
+    if call.name in _IGNORED:
+        return "has no effect"
     if call.name != "find_package" or call.texts[:1] == ("ament_lint_auto",):
         return "stops CMake"
     return ""
@@ -77,7 +80,7 @@ def _quoted(call: Call) -> str:
 RULE = Rule(
     name="command-after-ament-package",
     code="ROS302",
-    summary="what a package exports must be said before ament_package()",
+    summary="exports come before ament_package()",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,

@@ -1,30 +1,40 @@
 """
 ## What it finds
 
-Components that cannot be loaded: CMake registers a class that no source makes loadable under this name with
-`RCLCPP_COMPONENTS_REGISTER_NODE`; a source does so and CMake does not register the class, or does so in a function or in the
-`CMakeLists.txt` of a subfolder; the library of a component is not installed, or not to `lib`. Also
-`rclcpp_components_register_nodes(library PLUGIN "robot::Talker" EXECUTABLE talker)`: this command takes names of classes
-and nothing else, so `PLUGIN`, `EXECUTABLE` and `talker` become components, and no executable is built.
+Components that cannot be loaded:
+
+- CMake registers a class, but no source has `RCLCPP_COMPONENTS_REGISTER_NODE` for this name.
+- A source has the macro, but CMake does not register the class.
+- CMake registers the class in a function or in the `CMakeLists.txt` of a subfolder.
+- The library of a component is not installed, or not installed to `lib`.
+- `rclcpp_components_register_nodes(library PLUGIN "robot::Talker" EXECUTABLE talker)`: this command takes only class names, so
+  `PLUGIN`, `EXECUTABLE` and `talker` become components, and no executable is built.
 
 ## Why it matters
 
-`ros2 component load` and `ComposableNode` look up the name in the index, then in the library, letter by letter: "Could not
-find requested resource in ament index", or "Failed to find class with the requested plugin name". The executable that
-`rclcpp_components_register_node(... EXECUTABLE x)` builds has the same trouble. The registration is a variable of CMake that
-`ament_package()` writes into the index: what a function or a subfolder sets is gone when it ends.
+`ros2 component load` and `ComposableNode` look up the exact name, first in the ament index, then in the library. They fail with
+"Could not find requested resource in ament index" or "Failed to find class with the requested plugin name". So does the
+executable that `rclcpp_components_register_node(... EXECUTABLE x)` builds. The registration is a CMake variable, which
+`ament_package()` writes to the index: a variable set in a function or subfolder is lost at its end.
 
 ## How to fix it
 
-Write the same name, with its namespaces, into both. Take the words out that belong to `rclcpp_components_register_node()`, or
-call that, with an `EXECUTABLE` that is called otherwise than the library. Install the library to `lib`. Register components
-in the `CMakeLists.txt` of the package, or in a macro instead of a function.
+- Write the same name, with its namespaces, in both places.
+- Remove the words that belong to `rclcpp_components_register_node()`, or call that command. Its `EXECUTABLE` must not have the
+  name of the library.
+- Install the library to `lib`.
+- Register components in the `CMakeLists.txt` of the package, or in a macro instead of a function.
 
 ## Limitations
 
-Where the components or the libraries of the package cannot be seen whole; for tests; where no source of the package has the
-macro, nor includes the header for it. A package that registers no component at all may compose its nodes by itself: the
-confidence is medium unless a launch file of the workspace loads the component.
+Not reported:
+
+- Packages whose components or libraries cannot be fully analysed.
+- Components of tests.
+- Registered classes without the macro, if no source of the package has the macro or includes its header.
+
+If a package registers no component at all, it may compose its nodes itself: the confidence is medium unless a launch file of
+the workspace loads the component.
 """
 
 from __future__ import annotations
@@ -67,38 +77,39 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     calls = called(package, "rclcpp_components_register_nodes")
     yield from (_confused(call, strays) for call in calls if (strays := _strays(call)))
-    made = [one for one in package.registrations if one.kind == "component" and not is_apart(relative(package, one.span.path))]
-    names = {one.name for one in made}
+    macros = [macro for macro in package.registrations if macro.kind == "component"]
+    macros = [macro for macro in macros if not is_apart(relative(package, macro.span.path))]
+    names = {macro.name for macro in macros}
     registered = {component.name.removeprefix("::") for component in script.components}
-    left = [one for one in made if one.name not in registered]
-    unmade = [component for component in script.components if component.name.removeprefix("::") not in names]
-    if not made and not _forgets_macro(package):
-        unmade = []  # the macro of somebody else may make them
-    # The only class that nobody makes is the only one that is compiled and that nobody registers, whatever the names.
-    only = left if len(unmade) == len(left) == 1 and library_of(package, left[0]) else []
-    for component in unmade:
-        alike = only or _alike(component, left)
-        left = [one for one in left if one not in alike]
-        yield _unmade(component, alike)
+    unregistered = [macro for macro in macros if macro.name not in registered]
+    lacking = [component for component in script.components if component.name.removeprefix("::") not in names]
+    if not macros and not _forgets_macro(package):
+        lacking = []  # a macro of another package may expand to RCLCPP_COMPONENTS_REGISTER_NODE
+    # One component without a macro and one compiled macro without a component belong together, whatever their names.
+    only = unregistered if len(lacking) == len(unregistered) == 1 and library_of(package, unregistered[0]) else []
+    for component in lacking:
+        alike = only or _alike(component, unregistered)
+        unregistered = [macro for macro in unregistered if macro not in alike]
+        yield _without_macro(component, alike)
     yield from _lost(script)
-    for one in left:
-        yield _unregistered(package, one, started=one.name in workspace.loaded.get(package.name, ()))
+    for macro in unregistered:
+        yield _unregistered(package, macro, loaded=macro.name in workspace.loaded.get(package.name, ()))
     if not package.hidden(Facet.LIBRARIES):
         yield from _libraries(package)
 
 
 def _forgets_macro(package: Package) -> bool:
-    """Whether a source includes what is only there to make components loadable, and none does, those of tests included."""
+    """Return whether a source includes the header of the macro, but no source has the macro, tests included."""
     included = any(use.via == "include" and "register_node_macro" in use.what for use in package.uses)
-    return included and all(one.kind != "component" for one in package.registrations)
+    return included and all(macro.kind != "component" for macro in package.registrations)
 
 
 _WORDS = {"PLUGIN": 0, "NO_UNDEFINED_SYMBOLS": 0, "EXECUTABLE": 1, "EXECUTOR": 1}
-"""What rclcpp_components_register_node() takes, with how many names that are no class stand after each word."""
+"""Keywords of rclcpp_components_register_node() that no class name follows, with the number of their values."""
 
 
 def _strays(call: Call) -> list[tuple[int, int]]:
-    """Return the first and last argument of what is taken for names of classes in a call, and belongs to the other command."""
+    """Return the ranges of arguments that CMake takes for class names but that belong to rclcpp_components_register_node()."""
     words = ((at, _WORDS[text]) for at, text in enumerate(call.texts) if at and text in _WORDS)
     return [(at, min(at + more, len(call.args) - 1)) for at, more in words]
 
@@ -106,17 +117,17 @@ def _strays(call: Call) -> list[tuple[int, int]]:
 def _confused(call: Call, strays: Sequence[tuple[int, int]]) -> Finding:
     words = " and ".join([call.texts[first] for first, _ in strays])
     return Finding(
-        f"rclcpp_components_register_nodes() takes names of classes only, and makes components of {words}, too; leave them "
-        "out, or call rclcpp_components_register_node()",
+        f"rclcpp_components_register_nodes() takes {words} for class names; remove them or call "
+        "rclcpp_components_register_node()",
         call.span(strays[0][0]),
         call.texts[0],
-        fix=Fix("leave them out", tuple([cmake_edits.drop(call, *stray) for stray in strays])),
+        fix=Fix(f"remove {words}", tuple([cmake_edits.drop(call, *stray) for stray in strays])),
         severity=Severity.WARNING,
     )
 
 
 def _lost(script: BuildScript) -> Iterator[Finding]:
-    """Speak of components that are registered where ament_package() does not see it, all at once."""
+    """Yield one finding for all components that are registered in a scope which ends before ament_package()."""
     seen = {component.name for component in script.components if not component.lost}
     lost = {component.name: component for component in script.components if component.name not in seen}
     if not lost:
@@ -124,22 +135,22 @@ def _lost(script: BuildScript) -> Iterator[Finding]:
     first, *others = lost.values()
     more = f" and {len(others)} more" if others else ""
     yield Finding(
-        f"{first.name}{more}: registered in a function or a subfolder, which ament_package() does not see, so nobody finds "
-        "the component; register it in CMakeLists.txt of the package itself",
+        f"'{first.name}'{more}: registered in the scope of a function or subfolder, so ament_package() does not write it to the "
+        "index; register it in the top CMakeLists.txt",
         first.span,
         first.name,
-        several(Related("also this one", other.span) for other in others),
+        several(Related("registered in such a scope, too", other.span) for other in others),
         confidence=Confidence.MEDIUM if first.conditional else Confidence.HIGH,
     )
 
 
-def _alike(component: Component, left: list[Registration]) -> list[Registration]:
-    """Return the registrations that are meant: of the same class in another namespace, or else of a similar class."""
+def _alike(component: Component, macros: list[Registration]) -> list[Registration]:
+    """Return the macros with the same class in another namespace, or else the macro with the most similar class."""
     last = component.name.rpartition("::")[2]
-    alike = [one for one in left if one.name.rpartition("::")[2] == last]
+    alike = [macro for macro in macros if macro.name.rpartition("::")[2] == last]
     if alike:
         return alike
-    plain = {_plain(one.name.rpartition("::")[2]): one for one in left}
+    plain = {_plain(macro.name.rpartition("::")[2]): macro for macro in macros}
     near = similar(_plain(last), plain, 1, 0.8)
     return [plain[near[0]]] if near else []
 
@@ -148,65 +159,65 @@ def _plain(name: str) -> str:
     return name.lower().replace("_", "")
 
 
-def _unmade(component: Component, alike: list[Registration]) -> Finding:
-    hint = f"; the sources say {alike[0].name}" if alike else f"; add RCLCPP_COMPONENTS_REGISTER_NODE({component.name}) to one"
+def _without_macro(component: Component, alike: list[Registration]) -> Finding:
+    hint = f"; the source says '{alike[0].name}'" if alike else f"; add RCLCPP_COMPONENTS_REGISTER_NODE({component.name})"
     place = component.span.inner(component.name) if len(alike) == 1 else None
-    fix = Fix(f"write {alike[0].name}", (Edit(place, alike[0].name),)) if place else None
-    related = several(Related("made loadable here", one.span) for one in alike)
+    fix = Fix(f"write '{alike[0].name}'", (Edit(place, alike[0].name),)) if place else None
+    related = several(Related("the macro in the source", macro.span) for macro in alike)
     subject = alike[0].name if alike else component.name
-    return Finding(f"no source makes the component {component.name} loadable{hint}", component.span, subject, related, fix)
+    return Finding(f"no source registers the component '{component.name}'{hint}", component.span, subject, related, fix)
 
 
-def _unregistered(package: Package, one: Registration, *, started: bool) -> Finding:
+def _unregistered(package: Package, macro: Registration, *, loaded: bool) -> Finding:
     script = package.script
     assert script is not None
-    library = library_of(package, one)
-    way = f'rclcpp_components_register_nodes({library or "..."} "{one.name}")'
+    library = library_of(package, macro)
+    command = f'rclcpp_components_register_nodes({library or "..."} "{macro.name}")'
     usable = library and "rclcpp_components" in found_names(package, script)
-    fix = Fix.of(f"register {one.name}", cmake_edits.at_end(script, way), safe=False) if usable else None
+    fix = Fix.of(f"register '{macro.name}'", cmake_edits.at_end(script, command), safe=False) if usable else None
     return Finding(
-        f"CMake does not register the component {one.name}; add {way}",
-        one.span,
-        one.name,
+        f"CMake does not register the component '{macro.name}'; add {command}",
+        macro.span,
+        macro.name,
         fix=fix,
-        confidence=Confidence.HIGH if library and (script.components or started) else Confidence.MEDIUM,
+        confidence=Confidence.HIGH if library and (script.components or loaded) else Confidence.MEDIUM,
         severity=Severity.WARNING,
     )
 
 
 def _libraries(package: Package) -> Iterator[Finding]:
-    """Speak of libraries with components that are not installed."""
+    """Yield the libraries with components that are not installed to lib."""
     script = package.script
     assert script is not None
     files = {provided.path.rpartition("/")[2] for provided in script.provides}
     listed = listed_to_install(package).union(provided.target for provided in script.provides)
     elsewhere = astray(package, (".so",))
     targets = {target.name: target for target in reversed(script.targets)}
-    told: set[str] = set()
+    reported: set[str] = set()
     for call in called(package, *REGISTERING):
         name = evaluated_name(package, call.texts[0]) if call.args else None
-        if name not in targets or name in told or call.blocks:
+        if name not in targets or name in reported or call.blocks:
             continue
         if place := elsewhere.get(name):
-            told.add(name)
+            reported.add(name)
             yield Finding(
-                f"the library {name} has components, and is installed to {place.path.rpartition('/')[0]}; "
-                "the index says that it is in lib, so install it there",
+                f"the library '{name}' has components but is installed to {place.path.rpartition('/')[0]}; install it to lib, "
+                "where the ament index expects it",
                 place.span,
                 name,
                 (Related("its components are registered here", call.span(0)),),
             )
         elif name not in listed and not any(file.startswith(f"lib{name}.") for file in files):
-            told.add(name)
-            fix = Fix.of(f"install {name}", cmake_edits.install_library(script, name))
-            message = f"the library {name} has components, and is not installed; install it to lib"
-            yield Finding(message, call.span(0), name, (Related("it is built here", targets[name].span),), fix)
+            reported.add(name)
+            fix = Fix.of(f"install '{name}'", cmake_edits.install_library(script, name))
+            message = f"the library '{name}' has components but is not installed; install it to lib"
+            yield Finding(message, call.span(0), name, (Related("the library is built here", targets[name].span),), fix)
 
 
 RULE = Rule(
     name="component-mismatch",
     code="ROS413",
-    summary="a component must have one name in CMake and in the sources, and its library must be installed",
+    summary="components have the same name in CMake and in the source, and their libraries are installed",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,
