@@ -30,7 +30,7 @@ def rule(name: str, code: str, severity: Severity, summary: str, *, default: boo
     return Rule(name, code, summary, severity, "0.1", DOC, default=default, fixable=True)
 
 
-CYCLE = rule("dependency-cycle", "ROS102", Severity.ERROR, "packages must not need each other")
+CYCLE = rule("dependency-cycle", "ROS102", Severity.ERROR, "packages do not depend on each other cyclically")
 UNDECLARED = rule("undeclared-dependency", "ROS201", Severity.ERROR, "a package that is used must be declared")
 TRANSITIVE = rule("transitive-dependency", "ROS203", Severity.WARNING, "what is used is declared itself", default=False)
 UNUSED = rule("unused-dependency", "ROS204", Severity.WARNING, "a declared package must be used")
@@ -91,7 +91,7 @@ FINDINGS = [
         CYCLE,
         "arm",
         Finding(
-            "packages need each other: arm -> hand -> arm",
+            "dependency cycle arm -> hand -> arm",
             at(ARM, '<depend\r\n    condition="$ROS_VERSION == 2"\r\n  >hand</depend>'),
             "arm hand",
             (Related("hand needs arm", at(HAND, "<depend>arm</depend>")),),

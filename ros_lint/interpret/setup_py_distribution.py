@@ -114,7 +114,7 @@ class Distribution:
                 if known.get(""):
                     self.moved.append(posixpath.normpath(path))
                 if not self._context.files.is_file(path):
-                    self._problem("missing-file", f"{path} does not exist", name, path)
+                    self._problem("missing-file", f"'{path}' does not exist", name, path)
 
     def _package(self, given: str, folders: Mapping[str, str]) -> None:
         files = self._context.files
@@ -122,7 +122,7 @@ class Distribution:
         folder = folder_of(name, folders)
         self.python_packages.append(name)
         if not files.is_folder(folder or "."):
-            self._problem("missing-file", f"there is no folder {folder} for the package {name}", given, folder)
+            self._problem("missing-file", f"folder '{folder}' of package '{name}' does not exist", given, folder)
         modules = files.modules(folder)
         self.python_packages += [f"{name}.{module}" for module in modules if module != "__init__"]
         lies = posixpath.normpath(folder)
@@ -157,12 +157,12 @@ class Distribution:
                 continue
             folder = posixpath.normpath(str(folder)) if str(folder) else ""
             if folder.startswith("/"):
-                self._problem("absolute-destination", f"{folder} is outside the install prefix", entry[0])
+                self._problem("absolute-destination", f"'{folder}' is outside the install prefix", entry[0])
                 continue
             if not isinstance(sources, (list, Unknown)) or not isinstance(entry, tuple):
                 self._problem("data-files-form", "colcon takes only tuples of a folder and a list of files", entry[0])
             if isinstance(sources, Globbed) and not sources:
-                message = f"no file matches {sources.pattern}, so nothing is installed to {folder}"
+                message = f"no file matches '{sources.pattern}', so nothing is installed to {folder}"
                 self._problem("empty-glob", message, entry[0], sources.pattern)
             for source, maybe_source in self._items(sources, _facet(folder)):
                 self._data_file(folder, source, maybe or maybe_source)
@@ -171,11 +171,11 @@ class Distribution:
         context = self._context
         path = context.files.inside(str(source))
         if path is not None and context.files.is_folder(path):
-            message = f"{path} is a folder, and only files can be copied: the build stops here"
+            message = f"'{path}' is a folder, but data_files can only copy files: the build fails"
             self._problem("directory-in-data-files", message, source, path)
             return
         if path is not None and not context.files.is_file(path):
-            self._problem("missing-file", f"{path} does not exist", source, path)
+            self._problem("missing-file", f"'{path}' does not exist", source, path)
             return
         # Whether a file outside the package is there is not known.
         self._provide(posixpath.join(folder, posixpath.basename(str(source))), path or "", maybe or not path, source)
@@ -184,7 +184,7 @@ class Distribution:
         for source, maybe in self._items(value, Facet.EXECUTABLES):
             path = self._context.files.inside(str(source))
             if path is not None and not self._context.files.is_file(path):
-                self._problem("missing-file", f"{path} does not exist", source, path)
+                self._problem("missing-file", f"'{path}' does not exist", source, path)
             elif self._context.scripts is not None:
                 installed = posixpath.join(self._context.scripts, posixpath.basename(str(source)))
                 self._provide(installed, path or "", maybe, source, program=True)
@@ -230,7 +230,7 @@ class Distribution:
         match = _ENTRY.match(line)
         if match is None:
             entry = line.strip()
-            self._problem("entry-point-form", f"{entry} is not of the form name = module:function", value, entry.split()[0])
+            self._problem("entry-point-form", f"'{entry}' is not of the form 'name = module:function'", value, entry.split()[0])
             return
         name, target = match[1], match[2]
         self.entry_points.append(EntryPoint(group, name, target, self._place(value, self._context.call)))

@@ -94,7 +94,7 @@ def _version(call: Call, workspace: Workspace) -> Iterator[Finding]:
 RULE = Rule(
     name="cmake-hygiene",
     code="ROS310",
-    summary="CMakeLists.txt follows current CMake practice and leaves build settings to the user",
+    summary="a CMakeLists.txt leaves build settings to the user and avoids risky habits",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,

@@ -1,22 +1,23 @@
 """
 ## What it finds
 
-A `<group_depend>` on a group that no package is a member of: not in the workspace, not in an underlay, not in the
-distribution.
+A `<group_depend>` on a group without members: no package of the workspace, an underlay or the distribution is in it.
 
 ## Why it matters
 
-A group without members gives no dependency at all, so the packages that were to be built before this one are not. Mostly
-the name of the group is misspelt.
+A group without members adds no dependency, so the packages that should be built before this one are not. Usually the name of
+the group is misspelt.
 
 ## How to fix it
 
-Correct the name, or add `<member_of_group>` to the packages that belong to it.
+Correct the name, or add `<member_of_group>` to the packages that belong to the group.
 
 ## Limitations
 
-It is off by default, since members may be in other repositories. For tags under a condition that cannot be evaluated, and
-when there is no index of the distribution.
+The rule is off by default because members may be in other repositories. Not reported:
+
+- Tags under a condition that cannot be evaluated.
+- Distributions without a package index.
 """
 
 from __future__ import annotations
@@ -32,7 +33,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for declared in package.group_depends:
         if declared.certain and not workspace.world.group_members(declared.name):
             yield Finding(
-                f"no package is a member of group {declared.name}, so nothing is built first for it: correct the name, or add "
+                f"no package is a member of group '{declared.name}', so this tag adds no dependency; correct the name, or add "
                 f"<member_of_group>{declared.name}</member_of_group> to its members",
                 declared.depend.name_span,
                 declared.name,
@@ -42,7 +43,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 RULE = Rule(
     name="dead-group",
     code="ROS118",
-    summary="a group that a package depends on must have members",
+    summary="groups that packages depend on have members",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,

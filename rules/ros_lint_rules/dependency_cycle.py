@@ -1,27 +1,29 @@
 """
 ## What it finds
 
-Packages that need each other, directly or through others: by dependencies for building, running or testing, by groups,
-or by what `colcon.pkg` and `colcon.meta` add. One finding for each knot of such packages. It tells a shortest cycle,
-the line of every edge of the cycle, and the edges to do without so that no cycle is left: the fewest, and of these
-rather test dependencies than those of run time, and rather those than what is compiled against.
+Packages that depend on each other, directly or through others: by build, run-time or test dependencies, by groups, or by
+dependencies that `colcon.pkg` and `colcon.meta` add.
+
+There is one finding for each set of packages that all depend on each other. It shows a shortest cycle with the line of every
+dependency in it, and which dependencies to remove so that no cycle remains. These are as few as possible, preferably test
+dependencies, then run-time dependencies, then build dependencies.
 
 ## Why it matters
 
-There is no order in which the packages could be built. `colcon build`, `test`, `list` and `graph` refuse the whole
-workspace, also for packages that have nothing to do with the cycle. Test dependencies count, which the build farm, where
-every package is built alone, may not notice.
+No build order exists. `colcon build`, `test`, `list` and `graph` stop for the whole workspace, even for packages outside the
+cycle. Test dependencies count as well; the build farm may not notice those, because it builds every package alone.
 
 ## How to fix it
 
-Remove one of the edges that the finding names. Where it is really needed, move what both sides share into a package of
-its own, or the test that closes the cycle into a package that depends on both.
+Remove one of the dependencies that the finding names. If it is needed, move the shared code to a package of its own, or move
+the test that closes the cycle to a package that depends on both.
 
 ## Limitations
 
-- Cycles through packages outside the workspace: those are built already.
-- `<doc_depend>`, `<conflict>` and `<replace>` order nothing, nor does a dependency whose condition is false.
-- Where a condition with an unknown variable decides, the confidence is medium.
+- Cycles through packages outside the workspace are not reported, because those are already built.
+- `<doc_depend>`, `<conflict>`, `<replace>` and dependencies with a false condition are ignored, because they do not affect the
+  build order.
+- The confidence is medium if the cycle depends on a condition with an unknown variable.
 """
 
 from __future__ import annotations
@@ -39,16 +41,16 @@ def check(workspace: Workspace) -> Iterator[Finding]:
         edges = tuple(zip(knot.cycle, (*knot.cycle[1:], knot.cycle[0]), strict=True))
         anchor = next(edge for edge in edges if edge in knot.cut)
         here, *rest = graph.reasons(anchor)
-        way = " -> ".join((*knot.cycle, knot.cycle[0]))
+        cycle = " -> ".join((*knot.cycle, knot.cycle[0]))
         yield Finding(
-            f"packages {'need' if knot.certain else 'may need'} each other: {way}{_others(knot)}; "
-            f"colcon refuses the workspace until {_way_out(knot, anchor, here)} gone",
+            f"{'' if knot.certain else 'possible '}dependency cycle {cycle}{_others(knot)}; "
+            f"colcon cannot build the workspace until {_removal(knot, anchor, here)} removed",
             here.span,
-            way,
+            cycle,
             (
-                *(Related(f"this {_named(reason)} has to go, too", reason.span) for reason in rest),
-                *(related for edge in edges if edge != anchor for related in _needs(graph, edge, knot)),
-                *(related for edge in knot.cut if edge not in edges for related in _needs(graph, edge, knot)),
+                *(Related(f"remove this {_named(reason)}, too", reason.span) for reason in rest),
+                *(related for edge in edges if edge != anchor for related in _reasons(graph, edge, knot)),
+                *(related for edge in knot.cut if edge not in edges for related in _reasons(graph, edge, knot)),
             ),
             confidence=Confidence.HIGH if knot.certain else Confidence.MEDIUM,
             package=graph.places[anchor[0]][0].name,
@@ -59,20 +61,20 @@ def _others(knot: Knot) -> str:
     if len(knot.names) == len(knot.cycle):
         return ""
     more = ", ..." if len(knot.names) > _MOST_NAMES else ""
-    return f" (a knot of {len(knot.names)}: {', '.join(knot.names[:_MOST_NAMES])}{more})"
+    return f" ({len(knot.names)} packages depend on each other: {', '.join(knot.names[:_MOST_NAMES])}{more})"
 
 
-def _way_out(knot: Knot, anchor: Edge, reason: Reason) -> str:
+def _removal(knot: Knot, anchor: Edge, reason: Reason) -> str:
     more = len(knot.cut) - 1
-    also = f" and {more} more edge{'s' if more > 1 else ''} are" if more else " is"
+    also = f" and {more} more dependenc{'ies' if more > 1 else 'y'} are" if more else " is"
     on = f"on {anchor[1]}" if reason.tag != "group_depend" else f"with its member {anchor[1]}"
     return f"this {_named(reason)} {on}{also}"
 
 
-def _needs(graph: Graph, edge: Edge, knot: Knot) -> Iterator[Related]:
-    out = ": removing this breaks the cycle" if edge in knot.cut else ""
+def _reasons(graph: Graph, edge: Edge, knot: Knot) -> Iterator[Related]:
+    hint = "; remove this, too" if edge in knot.cut else ""
     for reason in graph.reasons(edge):
-        yield Related(f"{edge[0]} needs {edge[1]} by {_named(reason)}{out}", reason.span)
+        yield Related(f"{edge[0]} depends on {edge[1]} by {_named(reason)}{hint}", reason.span)
 
 
 def _named(reason: Reason) -> str:
@@ -82,7 +84,7 @@ def _named(reason: Reason) -> str:
 RULE = Rule(
     name="dependency-cycle",
     code="ROS103",
-    summary="packages must not need each other",
+    summary="packages do not depend on each other cyclically",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,

@@ -1,29 +1,35 @@
 """
 ## What it finds
 
-What the distribution still takes but wants to be rid of: `rosidl_target_interfaces()` (since Humble),
-`ament_export_interfaces()` (since Foxy), `ament_target_dependencies()` (since Kilted), and keys with a dash in `setup.cfg`
-(`script-dir`, `install-scripts`; since setuptools 54).
+Commands and keys that are deprecated in the target distribution and that a later one removes:
+
+- `rosidl_target_interfaces()`, since Humble;
+- `ament_export_interfaces()`, since Foxy;
+- `ament_target_dependencies()`, since Kilted;
+- keys with a dash in `setup.cfg` (`script-dir`, `install-scripts`), since setuptools 54.
 
 ## Why it matters
 
-A later distribution stops there: `ament_target_dependencies()` is gone in Lyrical, and setuptools 78.0 refused dashed keys
-with an error.
+The build fails in a later distribution: `ament_target_dependencies()` was removed in Lyrical, and setuptools 78.0 stopped at
+dashed keys.
 
 ## How to fix it
 
-- `ament_target_dependencies(t p)`: `target_link_libraries(t PUBLIC p::p)`, or `${p_TARGETS}` for interface packages. The fix
-  links to `${p_TARGETS}`, as the command does, where each package is named in all calls and is known to export targets.
-- `rosidl_target_interfaces(t ${PROJECT_NAME} "rosidl_typesupport_cpp")`: `rosidl_get_typesupport_target(support
+- `ament_target_dependencies(t p)`: use `target_link_libraries(t PUBLIC p::p)`, or `${p_TARGETS}` for interface packages. The
+  fix links to `${p_TARGETS}`, as the command does. It is offered if all calls write the package names out and each package is
+  known to export targets.
+- `rosidl_target_interfaces(t ${PROJECT_NAME} "rosidl_typesupport_cpp")`: use `rosidl_get_typesupport_target(support
   ${PROJECT_NAME} "rosidl_typesupport_cpp")` and `target_link_libraries(t ${support})`.
-- `ament_export_interfaces()`: `ament_export_targets()`.
-- `script-dir`: `script_dir`, `install-scripts`: `install_scripts`. The fix does these two and the one before.
+- `ament_export_interfaces()`: use `ament_export_targets()`. The fix does this.
+- `script-dir` and `install-scripts`: write `script_dir` and `install_scripts`. The fix does this.
 
 ## Limitations
 
-- For distributions in which the command is not deprecated, so in Humble and Jazzy for `ament_target_dependencies()`. Where the
-  command is gone, `removed-command` speaks instead.
-- Under a condition, when what replaces the command is called under a condition, too: the script is for several distributions.
+Not reported:
+
+- Commands that the target distribution has not deprecated: in Humble and Jazzy, `ament_target_dependencies()`.
+- Commands that the target distribution has removed: see `removed-command`.
+- Commands under a condition, if the replacement is called under a condition, too: such a script supports several distributions.
 """
 
 from __future__ import annotations
@@ -53,7 +59,7 @@ _ALWAYS = {
     ),
     "ament_export_interfaces": ("ament_export_targets", "use ament_export_targets()"),
 }
-_SINCE_KILTED = {"ament_target_dependencies": ("target_link_libraries", "use target_link_libraries() with p::p, or ${p_TARGETS}")}
+_SINCE_KILTED = {"ament_target_dependencies": ("target_link_libraries", "use target_link_libraries() with p::p or ${p_TARGETS}")}
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -63,8 +69,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if package.builds_with == "ament_cmake":
         old = {**_ALWAYS, **(_SINCE_KILTED if workspace.target.distro == "kilted" else {})}
         for name, (successor, instead) in old.items():
-            replaced = any(_is_switched(call) for call in called(package, successor, anywhere=True))
-            calls = [call for call in called(package, name, anywhere=True) if not (replaced and _is_switched(call))]
+            replaced = any(_is_conditional(call) for call in called(package, successor, anywhere=True))
+            calls = [call for call in called(package, name, anywhere=True) if not (replaced and _is_conditional(call))]
             if not calls:
                 continue
             first, *others = calls
@@ -73,7 +79,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 fix = Fix.of(cmake_edits.LINKED, *cmake_edits.link_to_targets(calls, workspace), safe=False)
             elif name == "ament_export_interfaces":
                 fix = Fix("call ament_export_targets()", tuple(Edit(call.place, "ament_export_targets") for call in calls))
-            related = several(Related("also here", call.place) for call in others)
+            related = several(Related("also called here", call.place) for call in others)
             yield Finding(f"{name}() is deprecated; {instead}", first.place, name, related, fix)
     dashed = [problem for problem in script.problems if problem.kind == "dashed-key"]
     if dashed:
@@ -81,24 +87,25 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _dashed(keys: Sequence[Problem]) -> Finding:
-    """Speak of all keys with a dash at once: they are deprecated for one reason."""
+    """Return one finding for all keys with a dash, because they have the same reason."""
     first, *others = keys
-    better = " and ".join(dict.fromkeys(key.subject.replace("-", "_") for key in keys))
+    better = " and ".join(f"'{key}'" for key in dict.fromkeys(key.subject.replace("-", "_") for key in keys))
     fix = Fix(f"write {better}", tuple(Edit(key.span, key.subject.replace("-", "_")) for key in keys))
-    what = f"the keys {' and '.join(dict.fromkeys(key.subject for key in keys))} are" if others else f"the key {first.subject} is"
-    related = several(Related("and here", key.span) for key in others)
+    dashed = " and ".join(f"'{key}'" for key in dict.fromkeys(key.subject for key in keys))
+    what = f"the keys {dashed} are" if others else f"the key {dashed} is"
+    related = several(Related("also deprecated", key.span) for key in others)
     return Finding(f"{what} deprecated; write {better}", first.span, first.subject, related, fix)
 
 
-def _is_switched(call: Call) -> bool:
-    """Whether a command stands under a condition, other than that tests are wanted."""
+def _is_conditional(call: Call) -> bool:
+    """Return whether a call is under a condition other than BUILD_TESTING."""
     return call.blocks.count("if") > call.test
 
 
 RULE = Rule(
     name="deprecated-command",
     code="ROS307",
-    summary="what a later distribution removes should be replaced",
+    summary="build scripts use nothing that a later distribution removes",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,

@@ -1,22 +1,22 @@
 """
 ## What it finds
 
-A folder among the files of `data_files`, mostly because `glob('models/*')` matches it.
+A folder among the files of `data_files`, usually because `glob('models/*')` matches it.
 
 ## Why it matters
 
-setuptools copies files only. The build stops: `error: can't copy 'models/robot': doesn't exist or not a regular file`.
+setuptools copies only files. The build stops: `error: can't copy 'models/robot': doesn't exist or not a regular file`.
 
 ## How to fix it
 
-Match files: `glob('models/*.sdf')`. For a whole tree, walk it and add an entry for each folder:
+Match only files: `glob('models/*.sdf')`. To install a whole tree, add an entry for each folder:
 
     for folder, _, files in os.walk('models'):
         data_files.append((os.path.join('share', package_name, folder), [os.path.join(folder, f) for f in files]))
 
 ## Limitations
 
-Where the pattern or the list cannot be evaluated.
+Patterns and lists that cannot be evaluated are not reported.
 """
 
 from __future__ import annotations
@@ -30,18 +30,18 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_python":
         return
-    told: set[tuple[int, int]] = set()
+    reported: set[tuple[int, int]] = set()
     for problem in script.problems:
         at = problem.span[1:3]
-        if problem.kind == "directory-in-data-files" and at not in told:
-            told.add(at)
+        if problem.kind == "directory-in-data-files" and at not in reported:
+            reported.add(at)
             yield Finding(problem.message, problem.span, problem.subject)
 
 
 RULE = Rule(
     name="directory-in-glob",
     code="ROS411",
-    summary="data_files must list files, not folders",
+    summary="data_files list files, not folders",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,

@@ -1,20 +1,19 @@
 """
 ## What it finds
 
-A second `ament_package()` or `ament_auto_package()` in one CMakeLists.txt; `ament_auto_package()` calls `ament_package()`
-itself.
+A second `ament_package()` or `ament_auto_package()` in one CMakeLists.txt. `ament_auto_package()` calls `ament_package()` itself.
 
 ## Why it matters
 
-CMake stops at the second call, or what was exported between the two is lost.
+CMake stops at the second call, or the exports between the two calls are lost.
 
 ## How to fix it
 
-Keep the last one. The fix removes the others.
+Keep the last call. The fix removes the others.
 
 ## Limitations
 
-Where a call stands in a condition, a loop or a function.
+Calls in a condition, a loop or a function are not reported.
 """
 
 from __future__ import annotations
@@ -34,10 +33,10 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         if earlier.name == call.name and not earlier.args:
             fix = Fix(f"remove the first {earlier.name}()", (Edit(earlier.whole, ""),), safe=False)
         yield Finding(
-            f"{call.name}() ends a package that {earlier.name}() has ended before; call it once, at the end",
+            f"{call.name}() ends the package again after {earlier.name}(); keep only the last call",
             call.place,
             call.name,
-            (Related("the first time", earlier.place),),
+            (Related("the first call", earlier.place),),
             fix,
         )
 
@@ -45,7 +44,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
 RULE = Rule(
     name="duplicate-ament-package",
     code="ROS303",
-    summary="a package must call ament_package() once",
+    summary="each package calls ament_package() only once",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,

@@ -1,24 +1,31 @@
 """
 ## What it finds
 
-Several packages of one name in the workspace, and where they are. The name is the one that colcon uses: that of `package.xml`,
-or of `colcon.pkg` or `colcon.meta` where these set one. Plain CMake and Python packages have the name in `project()` or
-`setup()`.
+Several packages with the same name in the workspace, with their folders. The name is the one that colcon uses: that of
+`package.xml`, or of `colcon.pkg` or `colcon.meta` if these set one. Plain CMake and Python packages have the name in `project()`
+or `setup()`.
 
 ## Why it matters
 
-`colcon build` refuses the whole workspace: "Duplicate package names not supported". It looks at the names after it has
-chosen packages, so `--packages-select` does not help to build one of the two.
+`colcon build` rejects the whole workspace: "Duplicate package names not supported". It checks names after the selection of
+packages, so `--packages-select` cannot build one of the two.
 
 ## How to fix it
 
-Rename one, remove one, or put an empty file `COLCON_IGNORE` into the folder of the one that is not to be built.
+Rename one, remove one, or put an empty file `COLCON_IGNORE` into the folder of the one that should not be built.
 
 ## Limitations
 
-About folders that are ignored, and about packages of the same name in an underlay: see `shadowed-package`. Where each lies
-in a workspace of its own, such as `arm_ws/src` and `car_ws`, among the `extra_packages` of a micro-ROS build, or in a step of
-its own, such as `03-service` and `04-action`, the confidence is medium: these are built one by one.
+Not reported:
+
+- Packages in ignored folders.
+- Packages with the same name in an underlay: see `shadowed-package`.
+
+Reported with medium confidence, because such packages are built separately: each package is in
+
+- a workspace of its own, such as `arm_ws/src` and `car_ws`;
+- the `extra_packages` of a micro-ROS build;
+- a step of a course, such as `03-service` and `04-action`.
 """
 
 from __future__ import annotations
@@ -36,40 +43,41 @@ def check(workspace: Workspace) -> Iterator[Finding]:
         first, *others = same
         places = " and ".join(package.path or "." for package in same)
         yield Finding(
-            f"{len(same)} packages are called {name}: {places}; colcon refuses them: rename one or put COLCON_IGNORE into it",
+            f"{len(same)} packages have the name '{name}': {places}; colcon rejects the workspace; rename one or put "
+            "COLCON_IGNORE into its folder",
             first.place,
             name,
-            tuple(Related(f"{name} is here, too", package.place) for package in others),
-            confidence=Confidence.MEDIUM if _lie_apart(same) else Confidence.HIGH,
+            tuple(Related(f"another '{name}'", package.place) for package in others),
+            confidence=Confidence.MEDIUM if _are_built_separately(same) else Confidence.HIGH,
             package=first.name,
         )
 
 
-def _lie_apart(packages: Iterable[Package]) -> bool:
-    """Whether each package lies in a workspace of its own: those of one repository, and its steps, are built one by one."""
+def _are_built_separately(packages: Iterable[Package]) -> bool:
+    """Return whether each package is in a workspace or course step of its own: these are built separately."""
     places = [_workspace(package.path) for package in packages]
     return "" not in places and len(set(places)) == len(places)
 
 
 _STEP = r"\d+[-_. ]|(?:chapter|day|exercise|lab|lesson|part|step|tutorial|week)[-_ ]?\d"
-_BUILT_ALONE = re.compile(rf"{_STEP}|\w+_ws\Z|extra_packages\Z")
-"""How folders begin that are built one by one. ``extra_packages`` are those of a library for a microcontroller (micro-ROS)."""
+_BUILT_SEPARATELY = re.compile(rf"{_STEP}|\w+_ws\Z|extra_packages\Z")
+"""Beginnings of the names of folders that are built separately. micro-ROS builds ``extra_packages`` for a microcontroller."""
 
 
 def _workspace(path: str) -> str:
-    """Return the folder above the ``src`` that a package is in, or another that is built alone, "" where it lies in neither."""
+    """Return the folder above the ``src`` of a package, else a folder that is built separately, else ""."""
     top, inside, _ = f"/{path}/".partition("/src/")
     if inside:
         return top.removeprefix("/")
     parts = path.split("/")
-    alone = next((at for at, part in enumerate(parts) if _BUILT_ALONE.match(part.lower())), len(parts))
+    alone = next((at for at, part in enumerate(parts) if _BUILT_SEPARATELY.match(part.lower())), len(parts))
     return "/".join(parts[: alone + 1]) if alone < len(parts) else ""
 
 
 RULE = Rule(
     name="duplicate-package",
     code="ROS102",
-    summary="a name must belong to one package of the workspace",
+    summary="package names are unique in the workspace",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,
