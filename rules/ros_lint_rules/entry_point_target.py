@@ -1,26 +1,32 @@
 """
 ## What it finds
 
-Entry points that cannot work: the module does not exist in the package, it has no such function, the target ends with `()`,
-it has no `:function`, or two entries are glued to one because a comma is missing between them. And two programs of one name.
+Entry points that cannot work:
+
+- The module does not exist in the package, or does not define the function.
+- The target ends with `()`, or lacks `:function`.
+- Two entries are joined to one, because the comma between them is missing.
+- Two programs have the same name.
 
 ## Why it matters
 
-The build succeeds. The program is installed and stops when it is started, with ModuleNotFoundError or ImportError; of two
-glued entries neither is there. For two programs of one name setuptools stops the build: "Duplicate entry point".
+The build succeeds, but the installed program stops with ModuleNotFoundError or ImportError when it is started. Joined entries
+install neither program. At two programs of one name the build fails: "Duplicate entry point".
 
 ## How to fix it
 
-Write `name = package.module:function` with names that exist. Where one module or function has nearly the same name, or the
-file has one that Python cannot import (`my-node.py`), the message says so. The fix takes away the `()`, and writes the
-missing comma.
+Write `name = package.module:function` with names that exist. The message suggests a module or function with a similar name, and
+names a file that Python cannot import because of its name (`my-node.py`). The fix removes the `()`, adds the missing comma, or
+writes the suggested module.
 
 ## Limitations
 
-- For modules of other packages, but where this package has just that module under its own name, and where one of the
-  workspace that has that name for sure has no such module.
-- For modules that import `*`, define `__getattr__`, or cannot be read: they may have any name.
-- For modules that are made during the build, and for those that are not there where a file of the package cannot be read.
+Not reported:
+
+- Modules of other packages. Exceptions: this package has the same module under its own name, or a fully analysed package of the
+  workspace with that name has no such module.
+- Missing functions in modules that use `import *`, define `__getattr__` or cannot be read: they may define any name.
+- Modules that are generated during the build, and missing modules if a file of the package cannot be read.
 """
 
 from __future__ import annotations
@@ -66,45 +72,45 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _doubled(script: BuildScript) -> Iterator[Finding]:
-    """Speak of programs that are there twice in every build."""
+    """Yield the second of two programs with one name, if every build installs both."""
     always = {(p.path.rpartition("/")[2], p.span) for p in script.provides if p.program and not p.conditional}
     first: dict[tuple[str, str], EntryPoint] = {}
     for entry in script.entry_points:
         if (entry.name, entry.span) not in always:
             continue
-        other = first.setdefault((entry.group, entry.name), entry)
-        if other.span != entry.span:
-            way_out = "take one out" if other.target == entry.target else "give one another name"
-            message = f"there is {entry.name} = {other.target} already, and setuptools stops at a second {entry.name}: {way_out}"
-            yield Finding(message, entry.span, entry.name, (Related("the other one", other.span),))
+        earlier = first.setdefault((entry.group, entry.name), entry)
+        if earlier.span != entry.span:
+            remedy = "remove one" if earlier.target == entry.target else "rename one"
+            message = f"'{entry.name}' is already defined as {earlier.target}; setuptools stops at a second definition: {remedy}"
+            yield Finding(message, entry.span, entry.name, (Related("the first definition", earlier.span),))
 
 
 def _malformed(script: BuildScript, entry: EntryPoint) -> Finding:
     if _GLUED.search(entry.target):
-        message = f"two entries are glued to one: {entry.name} = {entry.target}; is a comma missing between them?"
+        message = f"'{entry.name} = {entry.target}' looks like two entries; is a comma missing between them?"
         gaps = [Edit(text.span, ",") for text in script.texts if text.kind == "gap" and entry.span.covers(text.span)]
-        return Finding(message, entry.span, entry.name, fix=Fix.of("write a comma between them", *gaps))
+        return Finding(message, entry.span, entry.name, fix=Fix.of("add the missing comma", *gaps))
     if entry.target.rstrip().endswith("()"):
-        message = f"the target of {entry.name} ends with (); write {entry.target.rstrip()[:-2]}"
+        message = f"the target of entry point '{entry.name}' ends with (); write {entry.target.rstrip()[:-2]}"
         return Finding(message, entry.span, entry.name, fix=_without_call(entry))
-    return Finding(f"{entry.name} = {entry.target} is not of the form name = module:function", entry.span, entry.name)
+    return Finding(f"'{entry.name} = {entry.target}' is not of the form 'name = module:function'", entry.span, entry.name)
 
 
 def _lacking(
     package: Package, script: BuildScript, entry: EntryPoint, name: str, attribute: str | None, workspace: Workspace
 ) -> Iterator[Finding]:
-    """Speak of the module of an entry, by its ``name``, and of the ``attribute`` in it, if one of them is not there."""
+    """Yield the finding if the module ``name`` of an entry, or the ``attribute`` in it, does not exist."""
     runs = entry.group in ("console_scripts", "gui_scripts")
     module = next((module for module in script.modules if module.name == name), None)
     if attribute is None:
         missing = list(_no_module(package, entry, name, "main", workspace)) if runs and module is None else []
         if missing:
-            yield missing[0]._replace(fix=None)  # a module that exists is not all that the entry lacks
+            yield missing[0]._replace(fix=None)  # a correct module name alone would not repair the entry
         elif runs:
-            way_out = f"write {name}:main"
+            remedy = f"write {name}:main"
             if module is not None and not module.open and "main" not in module.names:
-                way_out = f"{module.path} has no main, so define one there and {way_out}, or take the entry point out"
-            yield Finding(f"{entry.name} names a module and no function; {way_out}", entry.span, entry.name)
+                remedy = f"{module.path} has no 'main': define it and {remedy}, or remove the entry point"
+            yield Finding(f"entry point '{entry.name}' names a module but no function; {remedy}", entry.span, entry.name)
         return
     if module is None:
         yield from _no_module(package, entry, name, attribute, workspace)
@@ -112,58 +118,57 @@ def _lacking(
     first = attribute.partition(".")[0]
     if not module.open and first not in module.names and f"{name}.{first}" not in script.python_packages:
         near = similar(first, module.names, 1, 0.7)
-        hint = is_meant(near) or "; define it, or take the entry point out"
+        hint = is_meant(near) or "; define it, or remove the entry point"
         yield Finding(
-            f"{entry.name}: {module.path} has no {first}{hint}",
+            f"entry point '{entry.name}': {module.path} does not define '{first}'{hint}",
             entry.span,
             entry.name,
-            (Related("this module", place_of(package, module.path)),),
+            (Related("the module", place_of(package, module.path)),),
         )
 
 
 def _no_module(package: Package, entry: EntryPoint, name: str, function: str, workspace: Workspace) -> Iterator[Finding]:
-    """Speak of a module that is not in the sources, if it must be one of the package's own."""
+    """Yield the finding for a module that is not in the sources, if it must be one of this package."""
     script = package.script
     if script is None or name in script.python_packages or package.hidden(Facet.PYTHON) or workspace.unread(package):
         return
     tops = {module.partition(".")[0] for module in script.python_packages}
     own = name.partition(".")[0]
-    hint = "; add it, or take the entry point out"
-    taken = {other.target for other in script.entry_points}  # no two programs are the same one
+    hint = "; add it, or remove the entry point"
+    taken = {other.target for other in script.entry_points}  # no suggestion makes two programs the same
     files = [file for file in package.files if file.endswith(".py") and file.partition("/")[0] in tops]
-    strange = [file for file in files if not all(map(str.isidentifier, file[:-3].split("/")))]
-    named = {file[:-3].replace("/", ".") for file in files if file not in strange}
-    known = sorted(named.union(script.python_packages))  # whether they are installed is told of each folder
+    not_importable = [file for file in files if not all(map(str.isidentifier, file[:-3].split("/")))]
+    importable = {file[:-3].replace("/", ".") for file in files if file not in not_importable}
+    known = sorted(importable.union(script.python_packages))  # missing-python-module checks that they are installed
     modules = [module for module in known if "." in module and taken.isdisjoint((module, f"{module}:{function}"))]
-    # What lies in a folder that is no Python package is put aside: setup.py never installs it.
+    # Modules in folders that are not Python packages are no suggestions, because setup.py does not install them.
     modules = [module for module in modules if _is_in_package(module, name, script, package.files)]
     near = [module for module in similar(name, modules, 3, 0.9) if _is_slip(name, module)][:1]
     if own not in tops and own != package.name and not similar(own, [*tops, package.name], 1, 0.85):
-        # The name of a package that was copied, before a module that is here.
+        # In a copied package, entry points may still have the old package name before an existing module.
         near = [module for module in modules if module.partition(".")[2] == name.partition(".")[2]]
         if not _lacks(workspace, own, name) and (not near or workspace.world.by_import(own).known):
             return
     if near:
         hint = is_meant(near)
-    elif unusable := similar(f"{name.replace('.', '/')}.py", strange, 1, 0.9):
-        hint = f"; Python cannot import {unusable[0]} by its name: call it {name.rpartition('.')[2]}.py"
-    yield Finding(
-        f"{entry.name}: there is no module {name}{hint}", entry.span, entry.name, fix=_fix(entry, name, near[0] if near else "")
-    )
+    elif unusable := similar(f"{name.replace('.', '/')}.py", not_importable, 1, 0.9):
+        hint = f"; Python cannot import '{unusable[0]}' because of its name: rename it to {name.rpartition('.')[2]}.py"
+    fix = _fix(entry, name, near[0] if near else "")
+    yield Finding(f"entry point '{entry.name}': module '{name}' does not exist{hint}", entry.span, entry.name, fix=fix)
 
 
 def _is_slip(name: str, module: str) -> bool:
-    """Whether a name like that of a module may be a slip for it, and does not say another thing of the same: _old, not _slow."""
-    said, there = (set(_WORDS.split(each)) for each in (name, module))
-    strange, instead = " ".join(sorted(said - there)), " ".join(sorted(there - said))
-    return not strange or not instead or bool(similar(strange, [instead]))
+    """Return whether ``name`` is a plausible typo of ``module``: their differing words resemble each other."""
+    in_name, in_module = set(_WORDS.split(name)), set(_WORDS.split(module))
+    only_in_name, only_in_module = " ".join(sorted(in_name - in_module)), " ".join(sorted(in_module - in_name))
+    return not only_in_name or not only_in_module or bool(similar(only_in_name, [only_in_module]))
 
 
 _WORDS = re.compile(r"[._]")
 
 
 def _is_in_package(module: str, wanted: str, script: BuildScript, files: Sequence[str]) -> bool:
-    """Whether a module lies where the one that is wanted would lie, or else in a Python package."""
+    """Return whether a module is in the folder of the wanted module or in a Python package."""
     above = module.rpartition(".")[0]
     if above == wanted.rpartition(".")[0] or above in script.python_packages:
         return True
@@ -171,41 +176,41 @@ def _is_in_package(module: str, wanted: str, script: BuildScript, files: Sequenc
 
 
 def _lacks(workspace: Workspace, top: str, name: str) -> bool:
-    """Whether a package of the workspace that is all in sight has the modules of some name, and not this one."""
-    owners = [one for one in workspace.packages if one.name == top and top in one.built.python_packages]
+    """Return whether a fully analysed package of the workspace has the Python package ``top`` without the module ``name``."""
+    owners = [package for package in workspace.packages if package.name == top and top in package.built.python_packages]
     path = name.replace(".", "/")
     return bool(owners) and not any(
-        one.hidden(Facet.PYTHON)
-        or workspace.unread(one)
-        or name in one.built.python_packages
-        or any(f"/{file}".endswith((f"/{path}.py", f"/{path}/__init__.py")) for file in one.files)
-        for one in owners
+        owner.hidden(Facet.PYTHON)
+        or workspace.unread(owner)
+        or name in owner.built.python_packages
+        or any(f"/{file}".endswith((f"/{path}.py", f"/{path}/__init__.py")) for file in owner.files)
+        for owner in owners
     )
 
 
 def _without_call(entry: EntryPoint) -> Fix | None:
-    """Take away the () at the end, where the entry is a text of its own on one line."""
+    """Return the fix that removes the final (), if the entry is one string on one line."""
     span = entry.span
-    spare = span.end_column - span.column - len(entry.name) - len(entry.target) - len("'='")
-    if span.line != span.end_line or not 0 <= spare <= 2:  # blanks around the sign
+    blanks = span.end_column - span.column - len(entry.name) - len(entry.target) - len("'='")
+    if span.line != span.end_line or not 0 <= blanks <= 2:  # around the equals sign
         return None
     place = span._replace(column=span.end_column - 3, end_column=span.end_column - 1)
-    return Fix("take away the ()", (Edit(place, ""),))
+    return Fix("remove the ()", (Edit(place, ""),))
 
 
 def _fix(entry: EntryPoint, wrong: str, right: str) -> Fix | None:
-    """Write another module name, where the entry is written out on one line."""
+    """Return the fix that replaces the module name, if the entry is written out on one line."""
     inner = entry.span.inner(f"{entry.name} = {entry.target}")
     if not right or inner is None:
         return None
     start = inner.column + len(f"{entry.name} = ")
-    return Fix(f"write {right}", (Edit(inner._replace(column=start, end_column=start + len(wrong)), right),), safe=False)
+    return Fix(f"write '{right}'", (Edit(inner._replace(column=start, end_column=start + len(wrong)), right),), safe=False)
 
 
 RULE = Rule(
     name="entry-point-target",
     code="ROS406",
-    summary="an entry point must name a function that exists",
+    summary="entry points name functions that exist",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,

@@ -1,21 +1,25 @@
 """
 ## What it finds
 
-Two different files that are installed to one path: `data_files` drops the folders of its sources, so that `a/params.yaml`
-and `b/params.yaml` in one entry are both `share/<package>/params.yaml`; `install(FILES)` does the same.
+Different files that are installed to the same path. `data_files` ignores the folders of its sources: `a/params.yaml` and
+`b/params.yaml` in one entry are both installed as `share/<package>/params.yaml`. `install(FILES)` does the same.
 
 ## Why it matters
 
-The second one overwrites the first, and nothing is said.
+The second file overwrites the first without a warning.
 
 ## How to fix it
 
-One entry for each folder: `('share/' + package_name + '/a', ['a/params.yaml'])`; or `install(DIRECTORY)`, which keeps
-folders.
+Write one entry for each folder: `('share/' + package_name + '/a', ['a/params.yaml'])`. In CMake, use `install(DIRECTORY)`, which
+keeps folders.
 
 ## Limitations
 
-Where one of them is installed under a condition, and where it is the same file twice.
+Not reported:
+
+- Files that are installed under a condition.
+- The same file installed twice.
+- `__init__.py`.
 """
 
 from __future__ import annotations
@@ -36,19 +40,20 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     by_place: dict[tuple[Span, ...], list[str]] = {}
     for path, sources in by_path.items():
         if len(sources) > 1:
-            by_place.setdefault(tuple([each.span for each in sources.values()]), []).append(path)
+            by_place.setdefault(tuple([provided.span for provided in sources.values()]), []).append(path)
     yield from (_finding(paths, by_path[paths[0]]) for paths in by_place.values())
 
 
 def _finding(paths: list[str], sources: dict[str, Provided]) -> Finding:
-    """Speak of files that are installed to one path; with the ``paths`` after the first one it is the same."""
+    """Return the finding for the ``sources`` that are installed to the first path; the other paths have the same problem."""
     path, *more = paths
-    *others, last = sources.values()
-    which = f"{' and '.join(sources)} are both" if len(sources) == 2 else f"{few(sources)} ({len(sources)} files) are all"
-    places = {each.span: f"{each.source} is installed here" for each in reversed(others) if each.span != last.span}
-    as_well = f"; so it is with {few(more)}" if more else ""
+    *earlier, last = sources.values()
+    both = " and ".join(f"'{source}'" for source in sources)
+    which = f"{both} are both" if len(sources) == 2 else f"{few(sources)} are all"
+    places = {file.span: f"'{file.source}' is installed here" for file in reversed(earlier) if file.span != last.span}
+    also = f"; the same happens to {few(more)}" if more else ""
     return Finding(
-        f"{which} installed as {path}; the last one wins{as_well}",
+        f"{which} installed as {path}, so only the last one remains{also}",
         last.span,
         path,
         several(Related(message, span) for span, message in sorted(places.items())),
@@ -58,7 +63,7 @@ def _finding(paths: list[str], sources: dict[str, Provided]) -> Finding:
 RULE = Rule(
     name="flattened-duplicates",
     code="ROS414",
-    summary="two files must not be installed to one path",
+    summary="different files are not installed to the same path",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,

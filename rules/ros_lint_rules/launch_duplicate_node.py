@@ -1,24 +1,24 @@
 """
 ## What it finds
 
-Two nodes that have the same full name when a launch file is launched without arguments, in the file itself or by way of
-what it includes.
+Two nodes with the same full name that start when a launch file is launched without arguments. Included launch files count.
 
 ## Why it matters
 
-ROS 2 starts both, with a warning. Parameters, lifecycle and logging go by the name, so `ros2 param set /driver ...` and a
-lifecycle manager reach one of the two, and nobody knows which.
+ROS 2 starts both with a warning. Parameters, lifecycle and logging use the node name, so `ros2 param set /driver ...` and
+lifecycle managers reach an arbitrary one of the two.
 
 ## How to fix it
 
-Give one of them another name, or put it into a namespace of its own.
+Rename one of them, or put it into another namespace.
 
 ## Limitations
 
-- A name or a namespace is not given by the launch file, or not known.
-- One of the two starts only under a condition that does not hold, or that nobody knows; or later, when a timer or an
-  event comes.
-- Programs that end once they have done their work, such as those that spawn models and controllers.
+Not reported:
+
+- Nodes whose name or namespace is unknown or not set by the launch file.
+- Nodes under a condition that is false or unknown, and nodes that a timer or an event starts later.
+- Programs that exit after their work, such as those that spawn models and controllers.
 - Launch files of tests and examples.
 """
 
@@ -49,7 +49,7 @@ if TYPE_CHECKING:
     from ros_lint.api import Started
 
 _SHORT = frozenset({"spawner", "spawner.py", "unspawner", "spawn_entity.py", "create", "load_controller"})
-"""Executables that do one thing and end."""
+"""Executables that exit after their work."""
 
 Conditions = tuple[LaunchCondition, ...]
 
@@ -69,29 +69,29 @@ def _of(file: LaunchFile, names: _Names, workspace: Workspace) -> Iterator[Findi
 
 
 class _Names:
-    """What nodes may be called, whatever the conditions: to follow launch files through their includes costs more."""
+    """Possible names of nodes, regardless of conditions: a cheap test before launch files are followed through includes."""
 
     def __init__(self, workspace: Workspace) -> None:
         self._links = workspace.links
         self._known: dict[str, frozenset[str]] = {}
 
     def repeated(self, file: LaunchFile) -> set[str]:
-        """Return the names that stand twice: in a file, in two files that it includes, or in the file and an included one.
+        """Return the names that occur twice in a file and the files it includes.
 
-        What starts later, or under conditions that exclude each other, does not count.
+        Nodes that start later, or under conditions that exclude each other, do not count.
         """
         seen: dict[str, list[Conditions]] = {}
-        found: set[str] = set()
+        repeated: set[str] = set()
         for names, conditions in self._parts(file, (), ()):
-            for name in names - found:
-                others = seen.setdefault(name, [])
-                if any(agree((*conditions, *theirs)) for theirs in others):
-                    found.add(name)
-                others.append(conditions)
-        return found
+            for name in names - repeated:
+                earlier = seen.setdefault(name, [])
+                if any(agree((*conditions, *others)) for others in earlier):
+                    repeated.add(name)
+                earlier.append(conditions)
+        return repeated
 
     def of(self, file: LaunchFile) -> frozenset[str]:
-        """Return the names of nodes in a file and all that it includes."""
+        """Return the names of nodes in a file and the files it includes."""
         return self._all(file, ())
 
     def _parts(
@@ -131,7 +131,7 @@ def _in_file(everything: Sequence[Started]) -> Iterator[Finding]:
         if not name or here is None:
             continue
         other, top = first.setdefault(name, (started, here))
-        # Two of one include are told where that is launched by itself.
+        # Two nodes of one include are reported for the included file itself.
         if other is not started and not (top is here and started.depth):
             again.setdefault(here.span, []).append((name, started, other, here))
     for (name, started, other, here), *more in again.values():
@@ -139,23 +139,23 @@ def _in_file(everything: Sequence[Started]) -> Iterator[Finding]:
 
 
 def _finding(name: str, started: Started, other: Started, here: Started, more: int) -> Finding:
-    what = f"{started.target[0]} of {started.package[0]}" if started.package else started.target[0]
-    related = [Related("the other node", other.span)] if other.span != started.span else []
+    what = f"'{started.target[0]}' of '{started.package[0]}'" if started.package else f"'{started.target[0]}'"
+    related = [Related("the first node", other.span)] if other.span != started.span else []
     if here is started:
         return Finding(
-            f"{what} is the second node called {name}: give it another name or namespace", here.span, name, tuple(related)
+            f"{what} is the second node named '{name}'; give it another name or namespace", here.span, name, tuple(related)
         )
-    others = f"; {more} more {'is' if more == 1 else 'are'} there twice, too" if more else ""
+    others = f"; {more} more {'name is' if more == 1 else 'names are'} also used twice" if more else ""
     return Finding(
-        f"what is included here starts {what}, the second node called {name}{others}",
+        f"the included file starts {what}, the second node named '{name}'{others}",
         here.span,
         name,
-        (Related("the node", started.span), *related),
+        (Related("the second node", started.span), *related),
     )
 
 
 def _full_name(started: Started) -> str:
-    """Return the full name of a node that surely starts, at once and for long; "" when it is not known."""
+    """Return the full name of a node that certainly starts at once and keeps running; "" for other nodes and unknown names."""
     if started.kind not in ("node", "component") or not started.certain or started.later:
         return ""
     if len(started.name) != 1 or len(started.namespace) != 1 or len(started.target) != 1:
@@ -171,7 +171,7 @@ def _full_name(started: Started) -> str:
 RULE = Rule(
     name="launch-duplicate-node",
     code="ROS508",
-    summary="nodes that are launched together must have different names",
+    summary="nodes that are launched together have different names",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,

@@ -1,26 +1,27 @@
 """
 ## What it finds
 
-A Python launch file that imports a module from its own folder, by its name or with a leading dot.
+A Python launch file that imports a module from its own folder, by name or with a leading dot.
 
 ## Why it matters
 
-`ros2 launch` loads the file alone, and adds no folder to the places where Python looks. So the import fails, although it
-works when the file is run by hand: `No module named 'x'`, or `attempted relative import with no known parent package`.
+`ros2 launch` loads only the file itself and adds no folder to `sys.path`. The import fails, although it works if the file is
+run by hand: `No module named 'x'`, or `attempted relative import with no known parent package`.
 
 ## How to fix it
 
-Make the module part of a Python package that is installed (`ament_python_install_package`, or `packages=` in `setup.py`)
-and import it from there; or include a launch file instead.
+Make the module part of an installed Python package (`ament_python_install_package`, or `packages=` in `setup.py`) and import it
+from there. Or include a launch file instead.
 
 ## Limitations
 
-- The launch file changes `sys.path`.
-- The import is guarded, or inside a function.
-- Somebody offers a module of that name: a package of the workspace, one that is installed or released, a library, or Python
-  itself.
-- A part of the package's build script that cannot be followed may install Python modules, or a file of the workspace cannot be
-  read: it may say that another package has the module.
+Not reported:
+
+- Launch files that change `sys.path`.
+- Imports in `try` or in a function.
+- Modules with a name that a workspace, installed or released package, a library or Python itself provides.
+- Packages whose build script cannot be fully analysed: it may install Python modules.
+- Imports by name, if a file of the workspace cannot be read: it may show that another package has the module.
 - Launch files of tests and examples.
 """
 
@@ -40,15 +41,15 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         for name, span in launch.file.imports:
             if name.startswith("."):
                 yield Finding(
-                    f"{name} is imported relative to the launch file, which ros2 launch loads without a package; "
-                    "import it by its name from one that is installed",
+                    f"'{name}' is imported relative to the launch file, which ros2 launch loads without a package; "
+                    "import it by name from an installed package",
                     span,
                     name,
                 )
             elif _is_sibling(name, folder, files) and not (workspace.unread() or workspace.world.by_import(name).known):
                 yield Finding(
-                    f"{name} is imported from the folder of the launch file, where ros2 launch does not look; "
-                    "import it from a package that is installed",
+                    f"'{name}' is imported from the folder of the launch file, where Python does not look for it; "
+                    "import it from an installed package",
                     span,
                     name,
                 )
@@ -63,7 +64,7 @@ def _is_sibling(name: str, folder: str, files: frozenset[str]) -> bool:
 RULE = Rule(
     name="launch-sibling-import",
     code="ROS510",
-    summary="a launch file must import only what is installed as a Python module",
+    summary="launch files import only installed Python modules",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,
