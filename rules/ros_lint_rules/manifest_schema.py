@@ -1,25 +1,31 @@
 """
 ## What it finds
 
-What the XML schemas of REP 127, 140 and 149 want of a `package.xml` beyond what `catkin_pkg` asks for: the order of the
-elements, `url type` out of `website`, `bugtracker` and `repository`, versions without leading zeros, names of small
-letters, digits and single underscores, and nothing but elements in `<package>`. The rules are restated
-here; no schema is downloaded.
+A `package.xml` that `catkin_pkg` accepts but that violates the XML schemas of REP 127, 140 and 149:
+
+- Elements in the wrong order.
+- `url type` other than `website`, `bugtracker` and `repository`.
+- Versions with leading zeros.
+- Package names with anything but lower-case letters, digits and single underscores.
+- Text between the elements of `<package>`.
+
+No schema is downloaded.
 
 ## Why it matters
 
-Build tools do not look at the schema. `ament_xmllint`, which is part of `ament_lint_common`, does for manifests that name
-it in an `<?xml-model ...?>` line, and then the tests of the package fail.
+Build tools do not check the schema. `ament_xmllint`, a part of `ament_lint_common`, does so for manifests that name the schema
+in an `<?xml-model ...?>` line: the tests of the package fail.
 
 ## How to fix it
 
-As the message says. The fix brings the elements into the order name, version, description, maintainer, license, url,
-author, dependencies, group_depend, member_of_group, export.
+Follow the message. The fix sorts the elements: name, version, description, maintainer, license, url, author, dependencies,
+group_depend, member_of_group, export.
 
 ## Limitations
 
-This rule is off unless it is asked for. It does not look at XML namespaces and at text in `<export>`. It has no fix when
-an element would have to move that has a comment, shares its line with another one, or is a description or an export.
+- The rule is off by default.
+- XML namespaces and text in `<export>` are not checked.
+- There is no fix if an element to be moved has a comment, shares its line with another element, or is a description or an export.
 """
 
 from __future__ import annotations
@@ -57,27 +63,27 @@ def _order(manifest: Manifest) -> Iterator[Finding]:
     for child in children:
         if manifest_edits.schema_rank(child.tag) < manifest_edits.schema_rank(highest.tag):
             fix = Fix.of("sort the elements", *manifest_edits.sort(manifest))
-            message = f"<{child.tag}> stands after <{highest.tag}>, which the schema does not allow; move it before"
+            message = f"<{child.tag}> after <{highest.tag}> violates the schema; move it before <{highest.tag}>"
             yield _finding(message, child.span, "order")._replace(fix=fix)
             return
         highest = child
 
 
 def _text_between(manifest: Manifest) -> Iterator[Finding]:
-    for aside in manifest.strays:
-        yield _finding("text stands between the elements, where the schema wants none; remove it", aside, "text")
+    for span in manifest.strays:
+        yield _finding("the schema allows no text between elements; remove it", span, "text")
 
 
 def _element(element: Element) -> Iterator[Finding]:
     text, place = element.text, element.text_span
     if element.tag == "name" and not _NAME.fullmatch(text):
-        message = f'name "{text}" must be of small letters, digits and single underscores in the schema; rename the package'
+        message = f"the schema allows only lower-case letters, digits and single underscores in '{text}'; rename the package"
         yield _finding(message, place, "name")
     elif element.tag == "version":
         if not _VERSION.fullmatch(text):
-            yield _finding(f"version {text} must not have leading zeros in the schema; remove them", place, "version")
+            yield _finding(f"the schema allows no leading zeros in version {text}; remove them", place, "version")
         if (compatibility := element.get("compatibility")) and not _LIMIT.fullmatch(compatibility):
-            message = f"compatibility {compatibility} must not have leading zeros in the schema; remove them"
+            message = f"the schema allows no leading zeros in compatibility {compatibility}; remove them"
             yield _finding(message, element.span, "version")
     elif element.tag == "url" and element.get("type", "website") not in _URLS:
         message = f'url type "{element.get("type")}" is not in the schema; write website, bugtracker or repository'
@@ -87,12 +93,12 @@ def _element(element: Element) -> Iterator[Finding]:
 def _depend(depend: Depend) -> Iterator[Finding]:
     for attribute, limit in depend.versions:
         if not _LIMIT.fullmatch(limit):
-            message = f'{attribute}="{limit}" is not of the form 1.2.3 that the schema wants; write numbers with dots'
+            message = f'{attribute}="{limit}" violates the schema, which requires the form 1.2.3; write numbers and dots'
             yield _finding(message, depend.span, depend.name)
     grouped = depend.tag in ("group_depend", "member_of_group")
     if not (_GROUP_CONDITION if grouped else _CONDITION).fullmatch(depend.condition):
         quotes = " without quotes" if grouped else ""
-        message = f"condition {depend.condition} has a character that the schema does not allow; use words{quotes} only"
+        message = f"condition {depend.condition} contains a character that the schema does not allow; use only words{quotes}"
         yield _finding(message, depend.span, depend.name)
 
 
@@ -103,7 +109,7 @@ def _finding(message: str, span: Span, subject: str) -> Finding:
 RULE = Rule(
     name="manifest-schema",
     code="ROS111",
-    summary="a manifest must be valid by the schema of its format",
+    summary="manifests are valid by the schema of their format",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,

@@ -1,13 +1,13 @@
 """
 ## What it finds
 
-A package of type `ament_cmake` whose CMakeLists.txt never calls `ament_package()` or `ament_auto_package()`, or has no command
-at all.
+A package of type `ament_cmake` whose CMakeLists.txt never calls `ament_package()` or `ament_auto_package()`, or contains no
+command at all.
 
 ## Why it matters
 
-The package builds, and then nobody finds it: it is not entered into the ament index, its `package.xml` is not installed,
-no CMake configuration is written. `ros2 run` says "Package not found", and packages that depend on it fail to configure.
+The package builds but cannot be found afterwards: it is missing from the ament index, its `package.xml` is not installed, and
+no CMake configuration is written. `ros2 run` reports "Package not found", and dependent packages fail to configure.
 
 ## How to fix it
 
@@ -15,8 +15,10 @@ Call `ament_package()` once, as the last command of the top-level CMakeLists.txt
 
 ## Limitations
 
-- A command or an included file that cannot be followed may call it, and so may another CMakeLists.txt of the package.
-- The package installs a CMake configuration of its own: other packages find that, as they do a plain CMake project.
+Not reported:
+
+- A command or included file that cannot be analysed may call it, or another CMakeLists.txt of the package.
+- The package installs its own CMake configuration: other packages find it as a plain CMake project.
 """
 
 from __future__ import annotations
@@ -47,8 +49,8 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         return
     if script.is_empty:
         yield Finding(
-            "there is no command in CMakeLists.txt, so nothing is built or installed and the package will not be found; write "
-            "project(), what it builds, and ament_package()",
+            "CMakeLists.txt contains no command, so nothing is built or installed and the package will not be found; write "
+            "project(), the targets and ament_package()",
             beginning(script.path),
             "ament_package()",
         )
@@ -61,7 +63,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     if any(provided.path.rpartition("/")[2] in config_names(package.name) for provided in script.provides):
         return
     yield Finding(
-        "ament_package() is never called, so the package will not be found once it is installed; call it last",
+        "ament_package() is never called, so the installed package will not be found; call it at the end",
         next((call.place for call in called(package, "project")), beginning(script.path)),
         "ament_package()",
         fix=_fix(package),
@@ -80,7 +82,7 @@ def _fix(package: Package) -> Fix | None:
 RULE = Rule(
     name="missing-ament-package",
     code="ROS301",
-    summary="an ament_cmake package must call ament_package()",
+    summary="ament_cmake packages call ament_package()",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,

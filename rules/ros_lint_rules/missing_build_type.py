@@ -1,17 +1,17 @@
 """
 ## What it finds
 
-A `package.xml` in which no `<build_type>` counts, although the folder is built with ament: its `CMakeLists.txt` calls
+A `package.xml` without a `<build_type>` that applies, in a folder that is built with ament: its `CMakeLists.txt` calls
 `ament_package()`, or there is a `setup.py` and no `CMakeLists.txt`.
 
 ## Why it matters
 
-Without a build type colcon takes the package for one of ROS 1 and builds it as `catkin`: CMake stops because it has no
-catkin, or the package is built without its environment hooks.
+Without a build type colcon assumes a ROS 1 package and builds it as `catkin`. CMake stops because catkin is missing, or the
+package is built without its environment hooks.
 
 ## How to fix it
 
-Write the build type into `<export>`, as the fix does:
+Write the build type in `<export>`. The fix does this.
 
     <export>
       <build_type>ament_cmake</build_type>
@@ -19,7 +19,10 @@ Write the build type into `<export>`, as the fix does:
 
 ## Limitations
 
-For packages that depend on catkin, and for folders that do not show how they are meant to be built.
+Not reported:
+
+- Packages that depend on catkin.
+- Folders whose files do not show the build type.
 """
 
 from __future__ import annotations
@@ -35,22 +38,22 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     if conditions.build_types(manifest, workspace.target.context) or any(d.name == "catkin" for d in manifest.depends):
         return
-    meant = _meant(package)
-    if not meant:
+    needed = _needed(package)
+    if not needed:
         return
-    given = [export for export in manifest.exports if export.tag == "build_type"]
-    what = f"no <build_type> counts for {workspace.target.distro}" if given else "there is no <build_type>"
-    fix = None if given else Fix(f"write <build_type>{meant}</build_type>", (manifest_edits.set_build_type(manifest, meant),))
+    present = [export for export in manifest.exports if export.tag == "build_type"]
+    what = f"no <build_type> applies to {workspace.target.distro}" if present else "<build_type> is missing"
+    fix = None if present else Fix(f"write <build_type>{needed}</build_type>", (manifest_edits.set_build_type(manifest, needed),))
     yield Finding(
-        f"{what}, which means catkin; write <build_type>{meant}</build_type> into <export>",
-        given[0].span if given else manifest.name_span,
+        f"{what}, so colcon builds the package with catkin; write <build_type>{needed}</build_type> in <export>",
+        present[0].span if present else manifest.name_span,
         "build_type",
         fix=fix,
     )
 
 
-def _meant(package: Package) -> str:
-    """Return the build type that the scripts of a package need, or "" if that is not clear."""
+def _needed(package: Package) -> str:
+    """Return the build type that the build scripts of the package need, or "" if that is unclear."""
     if "CMakeLists.txt" in package.files:
         return "ament_cmake" if not set(ENDS).isdisjoint(package.built.calls) else ""
     return "ament_python" if "setup.py" in package.files else ""
@@ -59,7 +62,7 @@ def _meant(package: Package) -> str:
 RULE = Rule(
     name="missing-build-type",
     code="ROS107",
-    summary="a package that is built with ament must say so in its manifest",
+    summary="the manifests of ament packages have a build type",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,
