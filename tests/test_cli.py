@@ -356,7 +356,7 @@ def test_what_a_fix_brings_to_light_is_mended_along_with_it(tmp_path: Path) -> N
     (package / "launch" / "robot.launch.xml").write_text('<launch><node pkg="joy" exec="joy_node"/></launch>\n')
     arguments = ("--isolated", "--distro", "jazzy", "--fix")
     alone = run(tmp_path, *arguments, "--select", "uninstalled-launch")
-    assert "fix skipped: it would cause a new finding: joy_node of joy is started here" in alone.stderr
+    assert "fix skipped: it would cause a new finding: 'joy_node' of 'joy' is started here" in alone.stderr
     assert "fixed 2 findings in 2 files" in run(tmp_path, *arguments).stderr
     assert "install(DIRECTORY launch " in (package / "CMakeLists.txt").read_text()
     assert "<exec_depend>joy</exec_depend>" in (package / "package.xml").read_text()

@@ -179,15 +179,15 @@ def test_imports_are_mentions() -> None:
 @pytest.mark.parametrize(
     ("options", "problems"),
     [
-        ("data_files=[('share/pkg', ['nope.txt'])]", [("missing-file", "nope.txt does not exist", "'nope.txt'")]),
+        ("data_files=[('share/pkg', ['nope.txt'])]", [("missing-file", "'nope.txt' does not exist", "'nope.txt'")]),
         (
             "data_files=[('share/pkg', glob('models/*'))]",
-            [("directory-in-data-files", "models/robot is a folder, and only files can be copied: the build stops here",
+            [("directory-in-data-files", "'models/robot' is a folder, but data_files can only copy files: the build fails",
               "glob('models/*')")],
         ),
         (
             "data_files=[('share/' + package_name, sorted(glob('nope/*.py')))]",
-            [("empty-glob", "no file matches nope/*.py, so nothing is installed to share/pkg", "'share/' + package_name")],
+            [("empty-glob", "no file matches 'nope/*.py', so nothing is installed to share/pkg", "'share/' + package_name")],
         ),
         (
             "data_files=[['share/pkg', ['package.xml']]]",
@@ -195,17 +195,18 @@ def test_imports_are_mentions() -> None:
         ),
         (
             "data_files=[('/etc', ['package.xml'])]",
-            [("absolute-destination", "/etc is outside the install prefix", "'/etc'")],
+            [("absolute-destination", "'/etc' is outside the install prefix", "'/etc'")],
         ),
         (
             "packages=['pkg', 'pkg.none']",
-            [("missing-file", "there is no folder pkg/none for the package pkg.none", "'pkg.none'")],
+            [("missing-file", "folder 'pkg/none' of package 'pkg.none' does not exist", "'pkg.none'")],
         ),
-        ("py_modules=['none']", [("missing-file", "none.py does not exist", "'none'")]),
-        ("scripts=['none']", [("missing-file", "none does not exist", "'none'")]),
+        ("py_modules=['none']", [("missing-file", "'none.py' does not exist", "'none'")]),
+        ("scripts=['none']", [("missing-file", "'none' does not exist", "'none'")]),
         (
             "entry_points={'console_scripts': ['talker pkg.node:main']}",
-            [("entry-point-form", "talker pkg.node:main is not of the form name = module:function", "'talker pkg.node:main'")],
+            [("entry-point-form", "'talker pkg.node:main' is not of the form 'name = module:function'",
+              "'talker pkg.node:main'")],
         ),
         ("data_files=[('share/pkg', ['../outside.txt'])]", []),
     ],

@@ -278,8 +278,8 @@ def _missing(run: Run) -> list[Problem]:
         source = path.rstrip("/")
         # CMake takes a folder among the sources, and does nothing with it.
         if not unsure and run.generated.isdisjoint((source, path)) and not run.is_folder(source):
-            empty = f"there is nothing in {path}, and git keeps no empty folder: install() stops without it"
-            message = f"{source} does not exist" if source == path else empty
+            empty = f"'{path}' is missing or empty; git does not keep empty folders, so install() fails"
+            message = f"'{source}' does not exist" if source == path else empty
             found.append(Problem("missing-file", message, span, subject=source))
     return list(dict.fromkeys(found))
 

@@ -53,7 +53,7 @@ def find_package(run: Run, args: list[str]) -> int | None:
         if not required and not run.muted:
             run.loose.setdefault(name, []).append(span)
         if name == run.sources.name and required and certain and not (run.muted or run.unsure or run.normal(f"{name}_DIR")):
-            says = f"find_package() of {name}, which is this package: it is not there before it is built, so link its targets"
+            says = f"find_package({name}) looks for this package itself, which is not installed yet; link its targets instead"
             run.refused[Problem("no-package", says, span, subject=name)] = None
     found(run, name, required=required and certain)
     if module is not None and all(frame.file != run.named(module) for frame in run.frames):
@@ -148,11 +148,11 @@ def _doubt(run: Run, command: str, given: Mapping[str, Span]) -> None:
     own = run.sources.name
     asked = own in given and command == "ament_target_dependencies"
     if asked and own not in run.packages and run.normal(f"{own}_FOUND") is None:
-        _refuse(run, command, f"{own} is this one: link its targets with target_link_libraries()", given[own], own)
+        _refuse(run, command, f"'{own}' is this package; link its targets with target_link_libraries()", given[own], own)
 
 
 def _refuse(run: Run, command: str, what: str, span: Span, name: str) -> None:
-    says = f"{command}() takes packages that are found, and {what}"
+    says = f"{command}() expects packages that are found, but {what}"
     run.refused[Problem("no-package", says, span, subject=name)] = None
 
 

@@ -60,7 +60,7 @@ def _include_file(run: Run, name: str, optional: bool) -> int | None:
         return _skip(run, f"{posixpath.basename(name)} of another package")
     path = run.source(name)
     if path is not None and not name.startswith(BINARY) and path not in run.files:
-        run.problem("missing-script", f"include() of {path}, which does not exist", run.where(name), path)
+        run.problem("missing-script", f"include({path}): the file does not exist", run.where(name), path)
         return None
     run.open_world = run.wild = run.builds = True
     shown = run.relative(name) or name.replace(BINARY, "the build folder").replace("\1", "")
@@ -169,7 +169,7 @@ def _add_subdirectory(run: Run, args: list[str]) -> int | None:
             run.open_world = run.wild = run.builds = True
             run.hide(ANYTHING, f"add_subdirectory() of {path}, which has no CMakeLists.txt in sight", inside=path)
         else:
-            run.problem("missing-folder", f"add_subdirectory() of {path}, which does not exist", run.where(name), path)
+            run.problem("missing-folder", f"add_subdirectory({path}): the folder does not exist", run.where(name), path)
         return None
     run.enter_directory(path, _built_in(run, path, args[1:]))
     run.scopes.append(Variables())

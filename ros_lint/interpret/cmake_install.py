@@ -80,7 +80,7 @@ def _install_file(run: Run, value: str, path: str, program: bool, certain: bool,
         source = None
     if source is not None and not run.is_file(source):
         if run.is_folder(source) and source:
-            run.problem("file-is-directory", f"install(FILES) of {source}, which is a directory", span, source)
+            run.problem("file-is-directory", f"install(FILES) cannot install '{source}', because it is a directory", span, source)
             return
         if optional:
             return

@@ -76,7 +76,7 @@ def _install_directory(run: Run, value: str, source: str, target: str, rule: _Ru
     span = run.where(value)
     conditional = run.conditional or run.testing or not certain
     if run.is_file(source):
-        run.problem("directory-is-file", f"install(DIRECTORY) of {source}, which is a file", span, source)
+        run.problem("directory-is-file", f"install(DIRECTORY) cannot install '{source}', because it is a file", span, source)
         return
     more = unlisted(run, source, facet_of(run, target), span) if run.sources.unseen else []
     own = run.below(source)

@@ -1,30 +1,34 @@
 """
 ## What it finds
 
-A package that generates messages, services or actions and does not say all that this needs: it is no member of the
-group `rosidl_interface_packages`, it does not declare `rosidl_default_runtime`, or an interface has a field of another
-package that `rosidl_generate_interfaces()` does not list under `DEPENDENCIES`.
+A package that generates messages, services or actions but lacks one of these:
+
+- the group `rosidl_interface_packages` in `package.xml`;
+- the dependency `rosidl_default_runtime` in `package.xml`;
+- a package under `DEPENDENCIES` of `rosidl_generate_interfaces()`, if an interface has a field of that package.
 
 ## Why it matters
 
-Without the group, CMake stops. Without the run-time package the generated code cannot be loaded where nothing else
-brings it. Without the dependency the generated code does not compile.
+Without the group, CMake stops. Without the run-time package, the generated code cannot be loaded unless another package provides
+it. Without the dependency, the generated code does not compile.
 
 ## How to fix it
 
-Add what the message names. The fix does this for package.xml.
+Add what the message names. The fix changes `package.xml`.
 
 ## Limitations
 
-- The interfaces are not installed, so that nobody but the package itself uses them.
-- The script cannot be followed everywhere.
-- The other package comes along with one that is listed.
-- The run-time package comes along with another declared dependency, or may do so, or all that it brings does: then nothing
-  fails, the severity is info and the confidence medium.
-- The script names the run-time package, too, as in `ament_export_dependencies(rosidl_default_runtime)`: then
-  `undeclared-dependency` tells of it, once.
+Not reported:
 
-Where a folder of the package has a manifest of its own beside its CMakeLists.txt, CMake reads that one.
+- Interfaces that are not installed, because only the package itself uses them.
+- Missing `DEPENDENCIES` in scripts that cannot be fully analysed.
+- Field packages that a listed package provides transitively.
+- The run-time package, if the script names it, as in `ament_export_dependencies(rosidl_default_runtime)`: `undeclared-dependency`
+  reports it.
+- The group and the run-time package, if the CMakeLists.txt is in a subfolder with its own `package.xml`: CMake reads that one.
+
+If another declared dependency provides the run-time package, may do so, or provides all its dependencies, nothing fails: the
+severity is info and the confidence medium.
 """
 
 from __future__ import annotations
@@ -58,7 +62,7 @@ from ros_lint.api import (
 
 _RUNTIME = "rosidl_default_runtime"
 _CORE = "rosidl_core_runtime"
-"""What the messages have that the default runtime itself depends on."""
+"""The package that the core messages depend on instead of the default runtime."""
 _GENERATE = "rosidl_generate_interfaces"
 
 
@@ -71,14 +75,14 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     sure = Confidence.MEDIUM if place.optional or place.test else Confidence.HIGH
     inside = folders_of(relative(package, place.span.path))
-    if not any(f"{folder}/package.xml" in package.files for folder in inside):  # else CMake reads that one
+    if not any(f"{folder}/package.xml" in package.files for folder in inside):  # CMake would read that one
         if interface_names.GROUP not in package.groups and not _skips_check(package, place.span):
             yield Finding(
-                f"{_GENERATE}() stops here unless package.xml says <member_of_group>{interface_names.GROUP}</member_of_group>",
+                f"{_GENERATE}() fails without <member_of_group>{interface_names.GROUP}</member_of_group> in package.xml",
                 place.span,
                 interface_names.GROUP,
                 (),
-                Fix(f"join the group {interface_names.GROUP}", _join(manifest)),
+                Fix(f"join the group '{interface_names.GROUP}'", _join(manifest)),
                 sure,
             )
         yield from _runtime(package, workspace, place.span, sure)
@@ -103,23 +107,23 @@ def _join(manifest: Manifest) -> tuple[Edit, ...]:
 
 
 def _runtime(package: Package, workspace: Workspace, place: Span, sure: Confidence) -> Iterator[Finding]:
-    starts = [each.name for each in package.declared if each.role & (Role.EXEC | Role.EXPORT)]
-    told = {need.name for need, certain in undeclared(package, workspace) if certain}
-    if not {_RUNTIME, _CORE}.isdisjoint(starts) or _RUNTIME in told:
+    starts = [declared.name for declared in package.declared if declared.role & (Role.EXEC | Role.EXPORT)]
+    reported = {need.name for need, certain in undeclared(package, workspace) if certain}
+    if not {_RUNTIME, _CORE}.isdisjoint(starts) or _RUNTIME in reported:
         return
     closure = workspace.world.closure(starts)
     needed = workspace.world.closure([_RUNTIME])
-    all_else = len(needed) > 1 and set(needed.less(closure)) == {_RUNTIME}
-    along = _RUNTIME in closure or bool(closure.unknown) or all_else
+    only_itself = len(needed) > 1 and set(needed.less(closure)) == {_RUNTIME}
+    provided = _RUNTIME in closure or bool(closure.unknown) or only_itself
     tag = "run_depend" if package.manifest and package.manifest.format == 1 else "exec_depend"
     yield Finding(
-        f"what is generated here needs {_RUNTIME} at run time: add <{tag}>{_RUNTIME}</{tag}>",
+        f"the generated interfaces need '{_RUNTIME}' at run time; add <{tag}>{_RUNTIME}</{tag}>",
         place,
         _RUNTIME,
         (),
-        naming(workspace, _RUNTIME, f"declare {_RUNTIME} as <{tag}>", *add_dependency(package, tag, _RUNTIME)),
-        Confidence.MEDIUM if along else sure,
-        Severity.INFO if along else None,
+        naming(workspace, _RUNTIME, f"declare '{_RUNTIME}' as <{tag}>", *add_dependency(package, tag, _RUNTIME)),
+        Confidence.MEDIUM if provided else sure,
+        Severity.INFO if provided else None,
     )
 
 
@@ -130,15 +134,15 @@ def _fields(package: Package, workspace: Workspace, place: Span, sure: Confidenc
     along = come_along(workspace, listed)
     if along is None:
         return
-    said = set()
+    reported = set()
     for use in package.uses:
-        if use.via != "interface" or use.package in along | interface_names.UNDERLYING or use.package in said or not use.sure:
+        if use.via != "interface" or use.package in along | interface_names.UNDERLYING or use.package in reported or not use.sure:
             continue
         if not use.span.path.endswith((".msg", ".srv", ".action")):
             continue
-        said.add(use.package)
+        reported.add(use.package)
         yield Finding(
-            f"{use.package} is used here, but {_GENERATE}() is not told: add it to DEPENDENCIES",
+            f"'{use.package}' is used here, but {_GENERATE}() does not list it; add it to DEPENDENCIES",
             use.span,
             use.package,
             (),
@@ -150,7 +154,7 @@ def _fields(package: Package, workspace: Workspace, place: Span, sure: Confidenc
 RULE = Rule(
     name="missing-interface-runtime",
     code="ROS208",
-    summary="a package that generates interfaces must say all that they need",
+    summary="packages with interfaces declare all dependencies of the interfaces",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,

@@ -1,13 +1,13 @@
 """
 ## What it finds
 
-An `ament_python` package whose `data_files` do not install its marker in the ament index
-(`share/ament_index/resource_index/packages/<package>`), or its `package.xml`.
+An `ament_python` package whose `data_files` do not install its `package.xml` or its marker, the file
+`share/ament_index/resource_index/packages/<package>` of the ament index.
 
 ## Why it matters
 
-Without marker ROS does not know the package. colcon adds both for the time being, with a warning; Debian packages, pip and
-other builders do not, and then `ros2 run` says "Package not found".
+ROS finds packages by their marker. colcon still adds both files with a warning; Debian packages, pip and other builders do not,
+and then `ros2 run` reports "Package not found".
 
 ## How to fix it
 
@@ -16,11 +16,14 @@ other builders do not, and then `ros2 run` says "Package not found".
         ('share/' + package_name, ['package.xml']),
     ],
 
-with an empty file `resource/<package>`. The fix adds what is missing, where that file is there.
+The marker is an empty file `resource/<package>`. The fix adds the missing entry, if that file exists.
 
 ## Limitations
 
-Where `data_files` cannot be evaluated. Where marker or manifest are installed under another name, `name-mismatch` speaks.
+Not reported:
+
+- `data_files` that cannot be evaluated.
+- A marker or manifest installed under the name of another package: see `name-mismatch`.
 """
 
 from __future__ import annotations
@@ -41,20 +44,20 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     slot = setup_edits.slot(script, "data_files")
     paths = {provided.path for provided in script.provides}
     place = setup_edits.place(script)
-    unfound = any(problem.kind == "missing-file" and "resource/" in problem.subject for problem in script.problems)
-    if not unfound and not any(path.startswith(f"{_MARKERS}/") for path in paths):
+    source_missing = any(problem.kind == "missing-file" and "resource/" in problem.subject for problem in script.problems)
+    if not source_missing and not any(path.startswith(f"{_MARKERS}/") for path in paths):
         marker = f"resource/{package.name}"
         fix = None
         if slot and marker in package.files:
-            marker_too = setup_edits.joined(slot, package.name, "resource/")
-            fix = _add(slot, f"({setup_edits.quoted(slot, _MARKERS)}, [{marker_too}])")
-        astray = next((provided for provided in script.provides if provided.source == marker), None)
-        where = f"installed to {astray.path.rpartition('/')[0]}" if astray else "not installed"
-        adds = f"add {marker}" if marker in package.files else f"create an empty file {marker}, and add it"
-        way_out = f"install it to {_MARKERS}" if astray else f"{adds} to data_files"
+            element = setup_edits.joined(slot, package.name, "resource/")
+            fix = _add(slot, f"({setup_edits.quoted(slot, _MARKERS)}, [{element}])")
+        misplaced = next((provided for provided in script.provides if provided.source == marker), None)
+        where = f"installed to {misplaced.path.rpartition('/')[0]}" if misplaced else "not installed"
+        adds = f"add {marker}" if marker in package.files else f"create an empty file {marker} and add it"
+        remedy = f"install it to {_MARKERS}" if misplaced else f"{adds} to data_files"
         yield Finding(
-            f"the marker of the package is {where}, so ROS finds it only where colcon adds one; {way_out}",
-            astray.span if astray else place,
+            f"the marker of the package is {where}, so ROS finds the package only if colcon adds one; {remedy}",
+            misplaced.span if misplaced else place,
             marker,
             fix=fix,
         )
@@ -78,7 +81,7 @@ def _add(slot: Slot, element: str) -> Fix:
 RULE = Rule(
     name="missing-marker",
     code="ROS408",
-    summary="a Python package must install its marker and its manifest",
+    summary="ament_python packages install their marker and manifest",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,

@@ -1,34 +1,54 @@
 """
 ## What it finds
 
-Python packages in the sources of an `ament_python` package that are not installed: a sub-package that a written list
-`packages=[package_name]` leaves out, and the folder of an entry point, or one that its module imports from, that is
-not listed, or that `find_packages()` passes over because it has no `__init__.py`. And programs of any package that
-import a module which lies beside them in the sources, and not where they are installed; the module of an entry point
-is installed in its Python package, and so must name this when it imports its neighbours. And the Python package of an
-`ament_cmake` package, called as it is, of which nothing is installed: the confidence is high if it has a `setup.cfg`
-for `ament_python_install_package()`, or another package of the workspace imports it, else medium.
+Python modules that are in the sources but not installed where they are imported.
+
+In an `ament_python` package:
+
+- A sub-package that the list `packages=[package_name]` omits.
+- A folder with the module of an entry point, or one that such a module imports from, that is not in the list. `find_packages()`
+  omits it if it has no `__init__.py`.
+- A module of an entry point that imports a module of its own folder by its bare name. Both are installed in their Python
+  package, so the import needs the name of that package.
+
+In any package:
+
+- A program that imports a module next to it in the sources, if the module is not installed next to the program.
+
+In an `ament_cmake` package:
+
+- A Python package with the name of the package, if nothing of it is installed. The confidence is high if it has a `setup.cfg` for
+  `ament_python_install_package()` or another workspace package imports it, otherwise medium.
 
 ## Why it matters
 
-The import works in the source folder and with `colcon build --symlink-install`, and fails everywhere else with
-ModuleNotFoundError. That of an entry point's neighbour works where its file is started by hand, and nowhere else.
+The import works in the source folder and after `colcon build --symlink-install`, but fails everywhere else with
+ModuleNotFoundError. The bare import of a neighbouring module works only if the file is started by hand.
 
 ## How to fix it
 
-`packages=find_packages(exclude=['test'])`, or name the sub-package: `packages=[package_name, package_name + '.sub']`. The
-fix adds it to the list. A folder without `__init__.py` needs one, too. For a program, make the module part of a Python package
-(`ament_python_install_package()`), or install it beside the program. For a neighbour, `from package_name.module import name`.
-In `CMakeLists.txt`: `ament_python_install_package(${PROJECT_NAME})`, which the fix adds.
+- Write `packages=find_packages(exclude=['test'])`, or list the sub-package: `packages=[package_name, package_name + '.sub']`. The
+  fix extends the list. Add a missing `__init__.py` yourself.
+- For a program, make the module part of a Python package (`ament_python_install_package()`), or install it next to the program.
+- For a neighbouring module, write `from package_name.module import name`.
+- In `CMakeLists.txt`, call `ament_python_install_package(${PROJECT_NAME})`. The fix adds this.
 
 ## Limitations
 
-For tests, for folders without modules, for those whose modules `data_files` puts elsewhere, and where `packages`
-cannot be evaluated. Of a folder that only modules import from which no entry point names, the confidence is medium.
-About what a program imports, where anybody else offers a module of that name; the confidence is medium where the
-program changes `sys.path`, or a file of the package cannot be read. About the neighbours of an entry point's module,
-where any module of the Python package changes `sys.path`. About the Python package of an `ament_cmake` package that
-has a single module, and where the package makes interfaces, or builds what is imported by this name.
+Not reported:
+
+- Tests, folders without modules, and modules that `data_files` installs elsewhere.
+- Lists in `packages` that cannot be evaluated.
+- Imports of programs, if another package or library provides a module of that name.
+- Neighbouring modules of an entry point, if a module of the Python package changes `sys.path`.
+- The Python package of an `ament_cmake` package, if it has a single module, or if the package generates interfaces or builds a
+  module of that name.
+
+Reported with medium confidence:
+
+- Folders that are imported only by modules without an entry point.
+- Imports of programs that change `sys.path`.
+- Imports, if a file of the package cannot be read.
 """
 
 from __future__ import annotations
@@ -68,18 +88,18 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if script is None or package.builds_with != "ament_python" or package.hidden(Facet.PYTHON):
         return
     slot = setup_edits.slot(script, "packages")
-    beside = {provided.source.rpartition("/")[0] for provided in script.provides if provided.source.endswith(".py")}
-    told: set[str] = set()
-    left = _left_behind(package, workspace)
-    for lack in chain(_left_out(package, script, slot, beside), _of_entry_points(script), _imported(left, beside)):
-        if lack.name not in told:
-            told.add(lack.name)
-            way = _way(package, lack.folder, lack.name, slot)
+    as_data = {provided.source.rpartition("/")[0] for provided in script.provides if provided.source.endswith(".py")}
+    reported: set[str] = set()
+    imports = _uninstalled_imports(package, workspace)
+    for lack in chain(_unlisted(package, script, slot, as_data), _of_entry_points(script), _imported(imports, as_data)):
+        if lack.name not in reported:
+            reported.add(lack.name)
+            remedy = _remedy(package, lack.folder, lack.name, slot)
             yield Finding(
-                f"{lack.says}{way}",
+                f"{lack.message}{remedy}",
                 lack.span,
                 lack.name,
-                fix=None if way else _fix(slot, lack.name, package.name),
+                fix=None if remedy else _fix(slot, lack.name, package.name),
                 confidence=Confidence.HIGH if lack.sure else Confidence.MEDIUM,
             )
 
@@ -89,84 +109,86 @@ class _Lack(NamedTuple):
 
     name: str
     folder: str
-    says: str
+    message: str
     span: Span
     sure: bool = True
 
 
-def _left_out(package: Package, script: BuildScript, slot: Slot | None, beside: Container[str]) -> Iterator[_Lack]:
-    """Yield the packages below one that is installed. Modules ``beside`` others that data_files has are put elsewhere."""
+def _unlisted(package: Package, script: BuildScript, slot: Slot | None, as_data: Container[str]) -> Iterator[_Lack]:
+    """Yield the sub-packages of installed packages that are not installed, except folders that data_files installs."""
     installed = script.python_packages
     place = slot.end if slot else (script.name_span or beginning(script.path))
     for name, folder in _packages(package):
         inside = name.rpartition(".")[0] in installed and f"{folder}/__init__.py" in package.files
-        if inside and name not in installed and folder not in beside:
-            yield _Lack(name, folder, f"the Python package {name} is not installed; add it to packages", place)
+        if inside and name not in installed and folder not in as_data:
+            yield _Lack(name, folder, f"the Python package '{name}' is not installed; add it to packages", place)
 
 
 def _of_entry_points(script: BuildScript) -> Iterator[_Lack]:
-    """Yield the packages with modules that entry points name."""
+    """Yield the packages that contain the modules of entry points and are not installed."""
     for module in script.modules:
         inside = module.name.rpartition(".")[0]
         if inside and not {module.name, inside}.intersection(script.python_packages):
             entry = next(entry for entry in script.entry_points if entry.module == module.name)
-            says = f"{entry.name} needs {module.path}, and {inside} is not among the packages that are installed"
-            yield _Lack(inside, module.path.rpartition("/")[0], says, entry.span)
+            message = f"entry point '{entry.name}' needs {module.path}, but the package '{inside}' is not installed"
+            yield _Lack(inside, module.path.rpartition("/")[0], message, entry.span)
 
 
-def _imported(left_behind: Iterable[LeftBehind], beside: Container[str]) -> Iterator[_Lack]:
-    """Yield the packages that modules import which are installed."""
-    for left in left_behind:
-        folder, name = left.source.rstrip("/"), left.module
-        if "." in name and folder not in beside:
-            says = f"{left.program} imports what lies in {left.source}, and {name} is not among the packages that are installed"
-            yield _Lack(name, folder, says, left.span, left.sure)
+def _imported(imports: Iterable[LeftBehind], as_data: Container[str]) -> Iterator[_Lack]:
+    """Yield the packages that installed modules import and that are not installed."""
+    for item in imports:
+        folder, name = item.source.rstrip("/"), item.module
+        if "." in name and folder not in as_data:
+            message = f"{item.program} imports from {item.source}, but the package '{name}' is not installed"
+            yield _Lack(name, folder, message, item.span, item.sure)
 
 
-def _left_behind(package: Package, workspace: Workspace) -> Iterator[LeftBehind]:
-    """Yield what is imported and not installed. A file that cannot be read may say where else modules are sought."""
+def _uninstalled_imports(package: Package, workspace: Workspace) -> Iterator[LeftBehind]:
+    """Yield the imports of modules that are not installed, uncertain ones if an unreadable file may change sys.path."""
     unread = workspace.unread(package)
-    yield from (left._replace(sure=False) if unread else left for left in package.left_behind)
+    yield from (item._replace(sure=False) if unread else item for item in package.left_behind)
 
 
-def _way(package: Package, folder: str, name: str, slot: Slot | None) -> str:
-    """Return how a message goes on that says what makes a folder a Python package, "" if it is one."""
+def _remedy(package: Package, folder: str, name: str, slot: Slot | None) -> str:
+    """Return the end of the message: how the folder becomes a Python package; "" if it is one."""
     if f"{folder}/__init__.py" in package.files:
         return ""
-    return f"; add {folder}/__init__.py" + (f", and {name} to packages" if slot else "")  # find_packages() finds it by itself
+    return f"; add {folder}/__init__.py" + (
+        f" and add '{name}' to packages" if slot else ""
+    )  # find_packages() finds the folder then
 
 
 def _beside_programs(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    """Speak of modules that are not installed where the program is that imports them."""
+    """Yield modules that are not installed next to the program that imports them."""
     if package.hidden(Facet.PYTHON | Facet.EXECUTABLES | Facet.SHARE):
         return
     own = {module.partition(".")[0] for module in package.built.python_packages}
-    told: set[str] = set()
-    for left in _left_behind(package, workspace):
-        module = left.module
-        if "." in module or module in own or workspace.world.by_import(module).known or left.source in told:
+    reported: set[str] = set()
+    for item in _uninstalled_imports(package, workspace):
+        module = item.module
+        if "." in module or module in own or workspace.world.by_import(module).known or item.source in reported:
             continue
-        told.add(left.source)
-        place, slash, _ = left.program.rpartition("/")
-        there = f"is not installed to {place}, where Python looks for it"
+        reported.add(item.source)
+        place, slash, _ = item.program.rpartition("/")
+        why = f"is not installed to {place}, where Python looks for it"
         if not slash:
-            there = f"is installed as {left.program.rpartition('.')[0]}.{module}; import it by that name"
+            why = f"is installed as {item.program.rpartition('.')[0]}.{module}; import it by that name"
         yield Finding(
-            f"{left.program} imports {module}, and {left.source} {there}",
-            left.span,
-            left.source,
-            confidence=Confidence.HIGH if left.sure else Confidence.MEDIUM,
+            f"{item.program} imports '{module}', but {item.source} {why}",
+            item.span,
+            item.source,
+            confidence=Confidence.HIGH if item.sure else Confidence.MEDIUM,
         )
 
 
 def _of_cmake(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    """Speak of the Python package of an ament_cmake package that is not installed, nor any of its modules."""
+    """Yield the Python package of an ament_cmake package, if none of its modules is installed."""
     script = package.script
     hidden = package.hidden(Facet.PYTHON | Facet.EXECUTABLES | Facet.SHARE)
     if script is None or package.builds_with != "ament_cmake" or hidden or script.end is None:
         return
     if script.interfaces or any(module.partition(".")[0] == package.name for module in script.python_packages):
-        return  # what is imported under this name is generated, or built
+        return  # the module of this name is generated or built
     files = frozenset(package.files)
     folder = next((f for f in (package.name, f"src/{package.name}") if f"{f}/__init__.py" in files), "")
     modules = [file for file in package.files if file.startswith(f"{folder}/") and file.endswith(".py")] if folder else []
@@ -178,22 +200,22 @@ def _of_cmake(package: Package, workspace: Workspace) -> Iterator[Finding]:
         for use in other.uses
         if use.via == "import" and use.package == package.name != other.name and not use.optional and use.sure
     ]
-    why = f", and {users[0][0].name} imports it" if users else ""
+    why = f", but '{users[0][0].name}' imports it" if users else ""
     inner = "" if folder == package.name else f" PACKAGE_DIR {folder}"
     call = f"ament_python_install_package(${{PROJECT_NAME}}{inner})"
     yield Finding(
-        f"the Python package {folder}/ is not installed{why}; add {call}",
+        f"the Python package '{folder}/' is not installed{why}; add {call}",
         script.end,
         folder,
         several(Related("imported here", use.span) for _, use in users),
-        Fix.of(f"install {folder}/", cmake_edits.at_end(script, f"{_FIND}\n{call}"), safe=False),
+        Fix.of(f"install '{folder}/'", cmake_edits.at_end(script, f"{_FIND}\n{call}"), safe=False),
         Confidence.HIGH if users or f"{folder}/setup.cfg" in files else Confidence.MEDIUM,
         None if users else Severity.WARNING,
     )
 
 
 def _packages(package: Package) -> Iterator[tuple[str, str]]:
-    """Yield the folders with modules that may be Python packages, by dotted name."""
+    """Yield the folders with modules that may be Python packages, each with its dotted name."""
     folders = {file.rpartition("/")[0] for file in package.files if file.endswith(".py") and "/" in file}
     for folder in sorted(folders):
         parts = folder.removeprefix("src/").split("/")
@@ -206,13 +228,13 @@ def _fix(slot: Slot | None, name: str, package: str) -> Fix | None:
         return None
     inside = name.startswith(f"{package}.")
     element = setup_edits.joined(slot, package, "", name.removeprefix(package)) if inside else setup_edits.quoted(slot, name)
-    return Fix(f"add {name} to packages", (setup_edits.add(slot, element),))
+    return Fix(f"add '{name}' to packages", (setup_edits.add(slot, element),))
 
 
 RULE = Rule(
     name="missing-python-module",
     code="ROS409",
-    summary="every Python package of the sources must be installed",
+    summary="all Python packages in the sources are installed",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,

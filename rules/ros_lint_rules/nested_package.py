@@ -1,30 +1,37 @@
 """
 ## What it finds
 
-A valid `package.xml` with a build script beside it, in a folder below another package. Where a script makes one plain
-package of a folder with several, that is told once.
+A valid `package.xml` with a build script next to it, in a folder below another package. If a build script in the root turns a
+folder with several packages into one plain package, there is a single finding.
 
 ## Why it matters
 
-colcon looks no further once a folder is a package. The nested package is neither built nor listed nor tested, without a
-word. The outer package need not have a `package.xml`: a `CMakeLists.txt` with a `project()`, or a `setup.py`, in the
-root of a repository makes colcon take all of it for one plain package.
+colcon does not search below a package. The nested package is not built, listed or tested, without an error. The outer package
+needs no `package.xml`: with a `setup.py`, or a `CMakeLists.txt` with `project()`, in the root of a repository, colcon treats
+the whole repository as one plain package.
 
 ## How to fix it
 
-Move the nested package beside the outer one. If the outer folder is not meant to be a package, put the packages into
-a folder of their own and build from there (`colcon build --base-paths src`, `ros-lint src`), or rename the script. If
-the nested one is not meant to be built, put an empty `COLCON_IGNORE` beside its manifest.
+- Move the nested package next to the outer one.
+- If the outer folder should not be a package, put the packages into a folder of their own and build from there
+  (`colcon build --base-paths src`, `ros-lint src`), or rename the build script.
+- If the nested package should not be built, put an empty `COLCON_IGNORE` next to its manifest.
 
 ## Limitations
 
-- The folder, or one between the two, has `COLCON_IGNORE`, `AMENT_IGNORE` or `CATKIN_IGNORE`.
-- A `CMakeLists.txt` of the outer package takes the folder in with `add_subdirectory()`, or with a function of its own that is
-  called like it (`add_rosidl_subdirectory()`): it is a part of that package then.
-- The nested manifest would be rejected anyway, or has no build script beside it.
-- In folders of tests, templates, examples or vendored code the confidence is medium: such manifests are mostly data, as are
-  those that the outer package installs; and in folders for what is put aside, such as `legacy`. So it is where a file of the
-  outer package cannot be read, and where one of the two is of ROS 1 (catkin), which nobody builds with ROS 2.
+Not reported:
+
+- The folder, or a folder between the two packages, has `COLCON_IGNORE`, `AMENT_IGNORE` or `CATKIN_IGNORE`.
+- A `CMakeLists.txt` of the outer package adds the folder with `add_subdirectory()`, or with a function of a similar name
+  (`add_rosidl_subdirectory()`): it is a part of the outer package.
+- The nested manifest is invalid, or has no build script next to it.
+
+Reported with medium confidence:
+
+- Nested packages in folders of tests, templates, examples, vendored or old code (`legacy`), and nested packages that the outer
+  one installs: such manifests are usually data.
+- A file of the outer package cannot be read.
+- One of the two packages is a ROS 1 package (catkin).
 """
 
 from __future__ import annotations
@@ -38,7 +45,7 @@ _DATA = re.compile(
     r"\..*|tests?|testing|fixtures|data|resources?|templates?|examples?|demos?|docs?|vendor|third_?party|3rdparty|external|contrib",
     re.IGNORECASE,
 )
-"""Folders in which a manifest is rather data than a package that somebody forgot."""
+"""Names of folders in which a manifest is probably data."""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -50,7 +57,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for nested in inside:
         if nested not in together:
             yield Finding(
-                f"colcon does not see {nested.name}: it lies in {_outer(package)}; {_way_out(package, [nested], 'it')}",
+                f"colcon ignores '{nested.name}', because it is inside {_outer(package)}; {_remedy(package, [nested], 'it')}",
                 nested.name_span,
                 nested.name,
                 confidence=Confidence.HIGH if nested in lost else Confidence.MEDIUM,
@@ -58,57 +65,58 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _all_hidden(package: Package, lost: list[Manifest]) -> Finding:
-    """Return what to say where a script makes one plain package of a folder with several."""
+    """Return the finding for several packages below a folder that is one plain package because of its build script."""
     names = few(nested.name for nested in lost)
     return Finding(
-        f"colcon does not see {names} ({len(lost)} packages): they lie in {_outer(package)}; {_way_out(package, lost, 'them')}",
+        f"colcon ignores {names}, because they are inside {_outer(package)}; {_remedy(package, lost, 'them')}",
         package.place,
         package.name,
-        several(Related("this package", nested.name_span) for nested in lost),
+        several(Related("an ignored package", nested.name_span) for nested in lost),
     )
 
 
 def _is_lost(package: Package, nested: Manifest) -> bool:
-    """Whether a manifest is rather a package that somebody wants to build than data, and was not left behind with ROS 1."""
+    """Return whether a nested manifest is probably a package to be built, neither data nor of ROS 1."""
     data = any(_DATA.fullmatch(folder) or is_apart(f"{folder}/") for folder in _between(package, nested))
     return not (data or _is_installed(package, nested) or package.builds_with == "catkin" or _is_of_ros_1(nested))
 
 
 def _is_installed(package: Package, nested: Manifest) -> bool:
-    """Whether the outer package installs the manifest, with its folder."""
+    """Return whether the outer package installs the manifest with its folder."""
     installed = "/".join(nested.path.split("/")[-2:])
     return any(provided.path.endswith(f"/{installed}") for provided in package.built.provides)
 
 
 def _between(package: Package, nested: Manifest) -> list[str]:
-    """Return the folders from that of a package down to that of a nested manifest."""
+    """Return the folders between a package and a nested manifest."""
     return nested.path.removeprefix(f"{package.path}/").split("/")[:-1]
 
 
 def _is_of_ros_1(manifest: Manifest) -> bool:
-    """Whether a manifest asks for catkin, and names no build type."""
+    """Return whether a manifest depends on catkin and has no build type."""
     typed = any(element.tag == "build_type" for element in manifest.exports)
     return not typed and any(depend.name == "catkin" for depend in manifest.depends)
 
 
 def _outer(package: Package) -> str:
     if package.type.startswith("ros."):
-        return f"the package {package.name}"
+        return f"the package '{package.name}'"
     script = "CMakeLists.txt" if package.type == "cmake" else "setup.py"
-    return f"{package.path or 'a folder'}, which is the plain package {package.name} because of its {script}"
+    place = f"'{package.path}'" if package.path else "the root folder"
+    return f"{place}, which is the plain package '{package.name}' because of its {script}"
 
 
-def _way_out(package: Package, inside: list[Manifest], it: str) -> str:
-    """Return what to do. A root with a script of its own may be meant: then packages are sought in folders below it."""
+def _remedy(package: Package, inside: list[Manifest], it: str) -> str:
+    """Return the remedy. The build script of a root folder may be intended: then colcon can search the folders below."""
     folders = dict.fromkeys(folder for nested in inside for folder in _between(package, nested)[:1])
-    ways = f"move {it} out, or mark {it} with COLCON_IGNORE"
-    return ways if package.path or not folders else f"build with --base-paths {' '.join(folders)}, {ways}"
+    remedies = f"move {it} out, or mark {it} with COLCON_IGNORE"
+    return remedies if package.path or not folders else f"build with --base-paths {' '.join(folders)}, {remedies}"
 
 
 RULE = Rule(
     name="nested-package",
     code="ROS115",
-    summary="a package must not lie in another one",
+    summary="no package is inside another one",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,
