@@ -3,7 +3,8 @@
 
 Risky habits in a CMakeLists.txt:
 
-- `cmake_minimum_required()` with a version that CMake 4 does not support (below 3.5) or has deprecated (below 3.10);
+- `cmake_minimum_required()` with a version that CMake 4 does not support (below 3.5), and for Lyrical and later with one that
+  CMake 4 has deprecated (below 3.10);
 - `find_package()` without `REQUIRED` or `QUIET`, if no condition checks whether the package was found;
 - the same `find_package()` call twice;
 - an unconditional `set()` of `CMAKE_BUILD_TYPE`, `CMAKE_INSTALL_PREFIX` or `CMAKE_PREFIX_PATH`;

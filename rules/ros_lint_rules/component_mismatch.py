@@ -60,6 +60,7 @@ from ros_lint.api import (
     astray,
     called,
     cmake_edits,
+    did_you_mean,
     evaluated_name,
     found_names,
     is_apart,
@@ -117,7 +118,7 @@ def _strays(call: Call) -> list[tuple[int, int]]:
 def _confused(call: Call, strays: Sequence[tuple[int, int]]) -> Finding:
     words = " and ".join([call.texts[first] for first, _ in strays])
     return Finding(
-        f"rclcpp_components_register_nodes() takes {words} for class names; remove them or call "
+        f"rclcpp_components_register_nodes() accepts only class names, not {words}; remove that or call "
         "rclcpp_components_register_node()",
         call.span(strays[0][0]),
         call.texts[0],
@@ -139,7 +140,7 @@ def _lost(script: BuildScript) -> Iterator[Finding]:
         "index; register it in the top CMakeLists.txt",
         first.span,
         first.name,
-        several(Related("registered in such a scope, too", other.span) for other in others),
+        several(Related("also registered in a function or subfolder", other.span) for other in others),
         confidence=Confidence.MEDIUM if first.conditional else Confidence.HIGH,
     )
 
@@ -160,10 +161,10 @@ def _plain(name: str) -> str:
 
 
 def _without_macro(component: Component, alike: list[Registration]) -> Finding:
-    hint = f"; the source says '{alike[0].name}'" if alike else f"; add RCLCPP_COMPONENTS_REGISTER_NODE({component.name})"
+    hint = did_you_mean([alike[0].name]) if alike else f"; add RCLCPP_COMPONENTS_REGISTER_NODE({component.name})"
     place = component.span.inner(component.name) if len(alike) == 1 else None
     fix = Fix(f"write '{alike[0].name}'", (Edit(place, alike[0].name),)) if place else None
-    related = several(Related("the macro in the source", macro.span) for macro in alike)
+    related = several(Related("the source registers this class", macro.span) for macro in alike)
     subject = alike[0].name if alike else component.name
     return Finding(f"no source registers the component '{component.name}'{hint}", component.span, subject, related, fix)
 

@@ -67,14 +67,14 @@ def _others(knot: Knot) -> str:
 def _removal(knot: Knot, anchor: Edge, reason: Reason) -> str:
     more = len(knot.cut) - 1
     also = f" and {more} more dependenc{'ies' if more > 1 else 'y'} are" if more else " is"
-    on = f"on {anchor[1]}" if reason.tag != "group_depend" else f"with its member {anchor[1]}"
+    on = f"on '{anchor[1]}'" if reason.tag != "group_depend" else f"with its member '{anchor[1]}'"
     return f"this {_named(reason)} {on}{also}"
 
 
 def _reasons(graph: Graph, edge: Edge, knot: Knot) -> Iterator[Related]:
     hint = "; remove this, too" if edge in knot.cut else ""
     for reason in graph.reasons(edge):
-        yield Related(f"{edge[0]} depends on {edge[1]} by {_named(reason)}{hint}", reason.span)
+        yield Related(f"'{edge[0]}' depends on '{edge[1]}' by {_named(reason)}{hint}", reason.span)
 
 
 def _named(reason: Reason) -> str:

@@ -54,23 +54,23 @@ def check(workspace: Workspace) -> Iterator[Finding]:
             continue
         known_successor = world.successor(name)
         last = world.knowledge.names.end_of_life(name)[0]
-        for stranger in strangers(name, packages):
-            successor = known_successor or _imported(stranger, workspace)
-            unused = not stranger.called_so and _is_unused(stranger.package, name, successor)
-            remedy = _remedy(stranger.package, successor, unused=unused)
+        for unresolved in strangers(name, packages):
+            successor = known_successor or _imported(unresolved, workspace)
+            unused = not unresolved.called_so and _is_unused(unresolved.package, name, successor)
+            remedy = _remedy(unresolved.package, successor, unused=unused)
             yield Finding(
                 f"'{name}' was last released for {last} (as of {world.knowledge.date}); {remedy}",
-                stranger.declared.depend.name_span,
+                unresolved.declared.depend.name_span,
                 name,
                 confidence=Confidence.HIGH if successor else Confidence.MEDIUM,
-                package=stranger.package.name,
+                package=unresolved.package.name,
             )
 
 
-def _imported(stranger: Stranger, workspace: Workspace) -> str:
+def _imported(unresolved: Stranger, workspace: Workspace) -> str:
     """Return the rosdep key of a Python module with the declared name that the package imports, or ""."""
-    uses = [use for use in stranger.called_so if use.package != stranger.name]
-    if not stranger.runs_python or not uses or any(use.via != "import" for use in uses):
+    uses = [use for use in unresolved.called_so if use.package != unresolved.name]
+    if not unresolved.runs_python or not uses or any(use.via != "import" for use in uses):
         return ""
     return uses[0].package if workspace.world.is_key(uses[0].package) else ""
 

@@ -130,17 +130,17 @@ def _in_file(everything: Sequence[Started]) -> Iterator[Finding]:
         name = _full_name(started)
         if not name or here is None:
             continue
-        other, top = first.setdefault(name, (started, here))
+        earlier, origin = first.setdefault(name, (started, here))
         # Two nodes of one include are reported for the included file itself.
-        if other is not started and not (top is here and started.depth):
-            again.setdefault(here.span, []).append((name, started, other, here))
-    for (name, started, other, here), *more in again.values():
-        yield _finding(name, started, other, here, len(more))
+        if earlier is not started and not (origin is here and started.depth):
+            again.setdefault(here.span, []).append((name, started, earlier, here))
+    for (name, started, earlier, here), *more in again.values():
+        yield _finding(name, started, earlier, here, len(more))
 
 
-def _finding(name: str, started: Started, other: Started, here: Started, more: int) -> Finding:
+def _finding(name: str, started: Started, earlier: Started, here: Started, more: int) -> Finding:
     what = f"'{started.target[0]}' of '{started.package[0]}'" if started.package else f"'{started.target[0]}'"
-    related = [Related("the first node", other.span)] if other.span != started.span else []
+    related = [Related("the first node", earlier.span)] if earlier.span != started.span else []
     if here is started:
         return Finding(
             f"{what} is the second node named '{name}'; give it another name or namespace", here.span, name, tuple(related)

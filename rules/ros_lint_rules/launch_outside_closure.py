@@ -36,7 +36,7 @@ Reported with medium confidence:
 - Commands in front of nodes under a condition, which are mostly for debugging.
 - The other package depends on this one, so declaring it would close a cycle that colcon rejects. The launch file may belong in
   the other package.
-- Each of two packages needs the other and declares it not: only one of them can.
+- Two packages need each other and neither declares it: only one of them can declare the other.
 """
 
 from __future__ import annotations
@@ -145,10 +145,10 @@ def _in_wrong_tags(package: Package, workspace: Workspace) -> frozenset[str]:
 
 def _needs(workspace: Workspace, name: str, package: Package) -> bool:
     """Return whether ``name`` needs ``package`` without declaring it: only one of the two can declare the other."""
-    for other in workspace.by_name.get(name, ()):
-        if any(need.name == package.name and sure for need, sure in undeclared(other, workspace)):
+    for candidate in workspace.by_name.get(name, ()):
+        if any(need.name == package.name and sure for need, sure in undeclared(candidate, workspace)):
             return True
-        if any(lacking == package.name for lacking, _ in _lacking(other, workspace)):
+        if any(lacking == package.name for lacking, _ in _lacking(candidate, workspace)):
             return True
     return False
 
@@ -156,7 +156,7 @@ def _needs(workspace: Workspace, name: str, package: Package) -> bool:
 def _elsewhere(best: Span, others: Sequence[LaunchReference]) -> Iterator[Span]:
     """Yield the other places, one for each line."""
     lines = {(best.path, best.line)}
-    for span in [other.package_span for other in others]:
+    for span in [reference.package_span for reference in others]:
         if (span.path, span.line) not in lines:
             lines.add((span.path, span.line))
             yield span
