@@ -108,7 +108,10 @@ KNOWN = '{"folders": [], "known": [{"rule": "", "package": "", "subject": "", "c
         ('{"folders": [], "known": [{"rule": "one"}]}', "known.json: not a baseline file"),
         ('{"folders": [], "known": {"rule": "one"}}', "known.json: not a baseline file"),
         ('{"folders": [], "known": [{"rule": "", "package": "", "subject": "", "count": "many", "sure": 1}]}', "known.json: not"),
-        *((KNOWN.replace("1", count), "known.json: not a baseline") for count in ("1e999", "NaN", "-1", "0", "1e9", "9" * 5000, '"1"')),
+        *(
+            (KNOWN.replace("1", count), "known.json: not a baseline")
+            for count in ("1e999", "NaN", "-1", "0", "1e9", "9" * 5000, '"1"')
+        ),
         ("[" * 100_000, "known.json: not a baseline file"),
         (b"\xff\xfe", "known.json: not a baseline file"),
     ],
@@ -125,7 +128,7 @@ def test_files_of_another_kind_or_size_are_named(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "fifo")
     (tmp_path / "large").write_text(KNOWN + " " * (64 << 20))
     for name, reason in (("fifo", "not a regular file"), ("large", "larger than 65536 KB")):
-        with pytest.raises(BaselineError, match=f"{name}: {reason}; --write-baseline makes the file"):
+        with pytest.raises(BaselineError, match=f"{name}: {reason}; --write-baseline creates the file"):
             baseline.read(str(tmp_path / name))
     (tmp_path / "good").write_text(KNOWN)
     assert baseline.read(str(tmp_path / "good")).known

@@ -308,7 +308,7 @@ def test_a_plugin_brings_rules(demo: Path, tmp_path: Path) -> None:
     file.write_text("plugins = true\nselect = ['mine']\n")
     done = run(demo, env={"PYTHONPATH": path})
     assert f"{file}:1: plugins has no effect" in done.stderr
-    assert "there is no rule mine" in done.stderr
+    assert "unknown rule 'mine'" in done.stderr
     file.unlink()
     (site / "mine_rules.py").write_text("import nothing_of_that_name")
     done = run(demo, "--plugins", env={"PYTHONPATH": path})

@@ -55,7 +55,7 @@ def test_a_script_that_fails_us_is_told_of(monkeypatch: pytest.MonkeyPatch) -> N
 
     monkeypatch.setattr(cmake, "evaluate", fail)
     workspace = load("")
-    reason = "ros-lint failed on it (ValueError: oh); please report this"
+    reason = "ros-lint failed on this file (ValueError: oh); please report this bug"
     assert [(entry.what, entry.reason) for entry in workspace.not_checked] == [("p/CMakeLists.txt", reason)]
     assert workspace.by_name["p"][0].hidden(Facet.SHARE)
 
