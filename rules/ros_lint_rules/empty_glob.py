@@ -5,7 +5,7 @@ A `glob()` in the `data_files` of `setup.py` that matches no file.
 
 ## Why it matters
 
-Nothing is installed, without an error: `glob('launch/*.launch.py')` does not match `robot_launch.py`.
+Nothing is installed, and setuptools reports no error: `glob('launch/*.launch.py')` does not match `robot_launch.py`.
 
 ## How to fix it
 

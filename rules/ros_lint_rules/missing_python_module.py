@@ -6,8 +6,8 @@ Python modules that are in the sources but not installed where they are imported
 In an `ament_python` package:
 
 - A sub-package that the list `packages=[package_name]` omits.
-- A folder with the module of an entry point, or one that such a module imports from, that is not in the list. `find_packages()`
-  omits it if it has no `__init__.py`.
+- A folder that contains the module of an entry point, or that an installed module imports from, if the list omits it, or
+  `find_packages()` omits it because it has no `__init__.py`.
 - A module of an entry point that imports a module of its own folder by its bare name. Both are installed in their Python
   package, so the import needs the name of that package.
 

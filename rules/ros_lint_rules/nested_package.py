@@ -6,9 +6,9 @@ folder with several packages into one plain package, there is a single finding.
 
 ## Why it matters
 
-colcon does not search below a package. The nested package is not built, listed or tested, without an error. The outer package
-needs no `package.xml`: with a `setup.py`, or a `CMakeLists.txt` with `project()`, in the root of a repository, colcon treats
-the whole repository as one plain package.
+colcon does not search below a package. It does not build, list or test the nested package, and reports no error. The outer
+package needs no `package.xml`: if the root of a repository has a `setup.py`, or a `CMakeLists.txt` with `project()`, colcon
+treats the whole repository as one plain package.
 
 ## How to fix it
 
