@@ -189,7 +189,7 @@ def _read_by_path(action: LaunchAction) -> Iterator[LaunchValue]:
 
 
 _GIVES_FILE = frozenset({"-d", "--display-config", "--params-file"})
-"""Options of RViz and of all nodes that a file follows."""
+"""Options with a file name as value, of RViz and of all nodes."""
 
 
 def _is_interpreter(machine: MachinePath, file: str) -> bool:

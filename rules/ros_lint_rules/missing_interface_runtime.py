@@ -62,7 +62,7 @@ from ros_lint.api import (
 
 _RUNTIME = "rosidl_default_runtime"
 _CORE = "rosidl_core_runtime"
-"""The package that the core messages depend on instead of the default runtime."""
+"""Declared by the interface packages that rosidl_default_runtime itself depends on."""
 _GENERATE = "rosidl_generate_interfaces"
 
 

@@ -144,7 +144,7 @@ def _imported(imports: Iterable[LeftBehind], as_data: Container[str]) -> Iterato
 
 
 def _uninstalled_imports(package: Package, workspace: Workspace) -> Iterator[LeftBehind]:
-    """Yield the imports of modules that are not installed, uncertain ones if an unreadable file may change sys.path."""
+    """Yield the imports of modules that are not installed; they are uncertain if an unreadable file may change sys.path."""
     unread = workspace.unread(package)
     yield from (item._replace(sure=False) if unread else item for item in package.left_behind)
 
