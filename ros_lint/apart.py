@@ -14,7 +14,7 @@ _PUT_ASIDE = frozenset({"attic", "backup", "backups", "deprecated", "legacy", "o
 _APART = frozenset({"example", "examples", "sample", "samples", "template", "templates", "doc", "docs"}) | _PUT_ASIDE
 _COPY = re.compile(r" (?:copy(?: \d+)?|\((?:\d+|(?:another |\d+\w\w )?copy)\))\.\w+\Z")
 """What editors and file managers call the copy of a file."""
-_KEPT = re.compile(r"[ _.-](?:backup|bak|old)(?:[ _.-]?v?\d+)*(?:\.launch)?\.\w+\Z")
+_KEPT = re.compile(r"[ _.-](?:backup|bak|old)\d*(?:(?:[ _.-]v?|v)\d+)*(?:\.launch)?\.\w+\Z")
 """What people call a file that they keep."""
 
 _OF_TESTS = re.compile(r"(?:^|_)(?:tests?|testing)(?:_|$)")

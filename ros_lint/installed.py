@@ -24,7 +24,7 @@ _LIBRARIES = (".a", ".la", ".pyc")
 _LIBRARY = re.compile(r"\.so(\.\d+)*$|\.dylib$|\.dll$")
 _LAUNCH_CONTENT = {
     ".py": re.compile(rb"^(?:async )?def generate_launch_description\b", re.MULTILINE),
-    ".xml": re.compile(rb"\A(?:\xef\xbb\xbf)?(?:\s|<\?.*?\?>|<!--.*?-->)*<launch[\s/>]", re.DOTALL),
+    ".xml": re.compile(rb"\A(?:\xef\xbb\xbf)?(?:\s|<\?[^?]*(?:\?(?!>)[^?]*)*\?>|<!--[^-]*(?:-(?!->)[^-]*)*-->)*<launch[\s/>]"),
     ".yaml": re.compile(rb"\A(?:#.*\n|---.*\n|\s)*launch:"),
 }
 _LAUNCH_CONTENT[".yml"] = _LAUNCH_CONTENT[".yaml"]

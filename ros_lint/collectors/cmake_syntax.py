@@ -76,7 +76,7 @@ class Parsed(NamedTuple):
 _SET_ASIDE = re.compile(r"""^[ \t]*\#[ \t\#"]*((?:msg|srv|action)/\w+)\.(?:msg|srv|action|idl)\b""", re.MULTILINE)
 
 _TOKEN = re.compile(
-    r"""(?:[ \t\r\n]+|\#(?!\[=*\[)[^\n]*)*                         # spaces and line comments
+    r"""[ \t\r\n]*(?:\#(?!\[=*\[)[^\n]*(?:\n[ \t\r\n]*|\Z))*       # spaces and line comments
     (?:([^ \t\r\n()\#"\\$;\[\0]+(?=[ \t\r\n()\#]))                 # 1: plain
     |([()])                                                         # 2: parenthesis
     |"([^"\\\0]*(?:\\[^\0][^"\\\0]*)*)"                             # 3: quoted
@@ -85,15 +85,16 @@ _TOKEN = re.compile(
     |(?!\[=*\[)((?:\$\([A-Za-z0-9_]*\)|[^ \t\r\n()\#"\\\0]|\\[^\0\n])      # 7: unquoted
       (?:\$\([A-Za-z0-9_]*\)|[^ \t\r\n()\#"\\\0]|\\[^\0\n]               #    with quotes inside (legacy)
         |"(?:\$\([A-Za-z0-9_]*\)|[^()\#"\\\r\n\0]|\\[^\0\n])*")*)
-    |\Z)""",
+    |\Z
+    |((?s:.)))                                                      # 8: nothing begins so
+    """,
     re.VERBOSE,
 )
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
 _PLACEHOLDER = re.compile(r"@\w+@\Z")
 _NEW_LINE = re.compile(r"\n")
-_OPENING = re.compile(r"(?:[ \t\r]|#\[(=*)\[(?s:.*?)\]\1\])*\(")
+_OPENING = re.compile(r"(?:[ \t\r]|#\[(=*)\[(?s:(?!\]\1\]).)*\]\1\])*\(")
 """What leads to the parenthesis of a command: spaces and bracket comments."""
-_BLANK = re.compile(r"(?:[ \t\r\n]+|#(?!\[=*\[)[^\n]*)*")
 _MARKS = dict.fromkeys((1, 2, 3), "\ufffd")
 
 
@@ -146,12 +147,10 @@ class _Reader:
         template = is_template(self.source.path)
         strange = "\r" in text or "\1" in text or "\2" in text or "\3" in text
         for match in _TOKEN.finditer(text):
-            if match.start() != position:
-                raise self._wrong(position)
             position = match.end()
             group = match.lastindex
             if glued >= 0:  # after a bracket
-                if group is not None and group != 2 and text[glued] not in " \t\r\n":
+                if group not in (None, 2, 8) and text[glued] not in " \t\r\n":
                     raise _SyntaxError("an argument is not separated from the one before it", glued, position)
                 glued = -1
             if depth:
@@ -194,6 +193,8 @@ class _Reader:
                     glued = position
                 elif group == 6:
                     glued = position
+                elif group == 8:
+                    raise self._wrong(position - 1)
             elif group == 1 or group == 7:  # noqa: PLR1714  (a tuple test is slower, and this runs for every command)
                 name = match[group]
                 end, begin = position, match.start(group)
@@ -213,10 +214,10 @@ class _Reader:
             elif group == 2 and text[position - 1] == "(" and name:
                 depth = 1
                 args = []
+            elif group == 8:
+                raise self._wrong(position - 1)
             elif group is not None and group != 6:
                 raise _SyntaxError("only a command can stand here", match.start(group) - (group in (3, 5)), position)
-        if position != len(text):
-            raise self._wrong(position)
         if depth:
             raise _SyntaxError(f'")" is missing at the end of {name}()', begin, end)
         if "\r" in text:
@@ -226,18 +227,15 @@ class _Reader:
         """Return whether only spaces and bracket comments stand between a name and its parenthesis."""
         return _OPENING.match(self.text, offset) is not None
 
-    def _wrong(self, position: int) -> _SyntaxError:
-        """Return the error at the first thing after an offset that is no token."""
-        blank = _BLANK.match(self.text, position)
-        at = blank.end() if blank else position
-        what = self.text[at : at + 1]
+    def _wrong(self, at: int) -> _SyntaxError:
+        """Return the error at an offset where no token begins."""
+        what = self.text[at]
         reasons = {
             '"': "a string is not closed",
             "[": "a bracket argument is not closed",
             "#": "a comment is not closed",
         }
-        reason = reasons.get(what, f"{what!r} cannot stand here" if what else "the file ends too early")
-        return _SyntaxError(reason, at, min(at + 1, len(self.text)))
+        return _SyntaxError(reasons.get(what, f"{what!r} cannot stand here"), at, at + 1)
 
     def _count_lines(self) -> None:
         """Take lines from the text, which also ends them at a carriage return."""

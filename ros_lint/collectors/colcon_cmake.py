@@ -19,15 +19,16 @@ if TYPE_CHECKING:
     from ros_lint.text import Span, Text
 
 # colcon looks for these words anywhere, so my_project(x) counts as project(x).
-_PROJECT = re.compile(r"""project\s*\(\s*("?)([a-zA-Z0-9_-]+)\1(?:\s+[^)]*)?\)""", re.IGNORECASE)
-_FIND_PACKAGE = re.compile(r"""find_package\s*\(\s*("?)([a-zA-Z0-9_-]+)\1(?:\s+[^)]*)?\)""", re.IGNORECASE)
+_PROJECT = re.compile(r"""project\s*\(\s*("?)([a-zA-Z0-9_-]+)\1(?:\s[^)]*)?\)""", re.IGNORECASE)
+_FIND_PACKAGE = re.compile(r"""find_package\s*\(\s*("?)([a-zA-Z0-9_-]+)\1(?:\s[^)]*)?\)""", re.IGNORECASE)
 _PKG_CONFIG = re.compile(
     r"""pkg_(?:check_modules|search_module)\s*\(\s*("?)[a-zA-Z0-9_]+\1"""
     r"""(?:\s+(?:(?-i:REQUIRED|QUIET|NO_CMAKE_PATH|NO_CMAKE_ENVIRONMENT_PATH)))*([^)]+)\)""",
     re.IGNORECASE,
 )
 _SUBDIRECTORY = re.compile(
-    r"""\badd_(?:\w+_)?subdirectory\s*\(\s*"?(?:\$\{(?:CMAKE_CURRENT|PROJECT|CMAKE)_(?:SOURCE|LIST)_DIR\}/)?(?:\./)*([^\s"$)]+?)/*["\s)]""",
+    r"""\badd_(?:\w+_)?subdirectory\s*\(\s*"?(?:\$\{(?:CMAKE_CURRENT|PROJECT|CMAKE)_(?:SOURCE|LIST)_DIR\}/)?(?:\./)*"""
+    r"""(/*[^\s"$)/]+(?:/+[^\s"$)/]+)*|/)/*["\s)]""",
     re.IGNORECASE,
 )
 _WORD = re.compile(r"\S+")
@@ -46,7 +47,7 @@ class Project(NamedTuple):
 
 def project(text: Text) -> Project:
     """Return the name that colcon gives to the folder of a ``CMakeLists.txt``."""
-    match = _PROJECT.search(_Bare(text).content)
+    match = _PROJECT.search(_Bare(text).closed())
     name = match[2] if match else ""
     toplevel = name == "Project" and "catkin_workspace()" in text.text.splitlines()
     return Project(name, toplevel)
@@ -60,8 +61,9 @@ def depends(text: Text) -> tuple[ColconDepend, ...]:
     if "find_package" not in (lower := text.text.lower()) and "pkg_" not in lower:
         return ()
     bare = _Bare(text)
-    found = [(match[2], *match.span(2)) for match in _FIND_PACKAGE.finditer(bare.content)]
-    found += list(_modules(bare.content))
+    content = bare.closed()
+    found = [(match[2], *match.span(2)) for match in _FIND_PACKAGE.finditer(content)]
+    found += list(_modules(content))
     return tuple(ColconDepend(name, Role.BUILD | Role.EXEC, bare.span(start, end)) for name, start, end in found)
 
 
@@ -100,6 +102,10 @@ class _Bare:
             size += 1
             offset += len(line)
         self.content = "".join(pieces)
+
+    def closed(self) -> str:
+        """Return the content up to its last closing parenthesis: without one behind it, each opening one costs a search."""
+        return self.content[: self.content.rfind(")") + 1]
 
     def span(self, start: int, end: int) -> Span:
         return self._text.span(self._origin(start), self._origin(end - 1) + 1)

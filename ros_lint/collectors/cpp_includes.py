@@ -25,18 +25,18 @@ if TYPE_CHECKING:
 # 4 the macro that gives the name; 5 word and 6 condition of a conditional.
 _DIRECTIVE = re.compile(
     r"""\#(?:(?<=[^\\\r]\n\#)|())[ \t]*
-    (?:(?:include(?:_next)?|import)\b[ \t]*(?:([<"])([^>"\n]+)[>"]|([A-Za-z_][^\n]*))
+    (?:(?:include(?:_next)?|import)\b[ \t]*(?:([<"])([^<>"\n]+)[>"]|([A-Za-z_][^\n]*))
     |(if(?:n?def)?|el(?:if(?:n?def)?|se)|endif)\b([^\n]*))""",
     re.VERBOSE,
 )
 _NAMED, _COMPUTED, _CONDITIONAL = 3, 4, 6  # the last group that takes part
 
 _HIDING = re.compile(
-    r"""//(?:[^\\\n]|\\\r?\n|\\.)*
+    r"""//(?:[^\\\n]|\\(?:\r\n|.))*
     |/\*.*?(?:\*/|\Z)
     |(?P<raw>\b(?:u8|[uUL])?R"(?P<mark>[^()\\\s]{0,16})\(.*?\)(?P=mark)")
-    |"(?:[^"\\\n]|\\\r?\n|\\.)*"
-    |(?<![0-9a-fA-F])'(?:[^'\\\n]|\\\r?\n|\\.)*'
+    |"(?:[^"\\\n]|\\(?:\r\n|.))*"
+    |(?<![0-9a-fA-F])'(?:[^'\\\n]|\\(?:\r\n|.))*'
     |^[ \t]*\#[ \t]*(?:include(?:_next)?|import)[ \t]*<[^>\n]+>
     |\\\r?\n""",
     re.VERBOSE | re.DOTALL | re.MULTILINE,

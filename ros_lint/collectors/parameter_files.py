@@ -18,8 +18,21 @@ if TYPE_CHECKING:
 _MARK = "ros__parameters"
 _LINE = re.compile(r"^([ ]*)([\"']?ros__parameters[\"']?[ \t]*:|[^\s#])", re.MULTILINE)
 """A line that says something, and whether it begins the parameters of a node."""
-_KEY = re.compile(r"([ ]*)([\"']?)([^\s\"'#:{}\[\],&*!|>%@`-][^\"'#:{}\[\],]*?|/?\*\*?[^\"'#:{}\[\],]*?)\2[ \t]*:(?=\s|$)")
-_FIRST = re.compile(r"^[ ]*[\"']?([^\s\"'#:{}\[\],&!|>%@`-][^\"'#:{}\[\]\n]*?)[\"']?[ \t]*:(?=\s)", re.MULTILINE)
+# A key ends with a letter or with its quote: were the blanks behind it a part of it as well, a long row of them could be
+# parted in as many ways.
+_KEY = re.compile(
+    r"""([ ]*)(["'])?
+    ((?:[^\s"'\#:{}\[\],&*!|>%@`-]|/?\*\*?)
+      (?(2)[^"'\#:{}\[\],]*|(?:[^"'\#:{}\[\],]*[^"'\#:{}\[\], \t])?))
+    (?(2)\2)[ \t]*:(?=\s|$)""",
+    re.VERBOSE,
+)
+_FIRST = re.compile(
+    r"""^[ ]*["']?
+    ([^\s"'\#:{}\[\],&!|>%@`-](?:[^"'\#:{}\[\]\n]*[^"'\#:{}\[\] \t\n])?(?:[ \t]*(?=["']))?)
+    ["']?[ \t]*:(?=\s)""",
+    re.VERBOSE | re.MULTILINE,
+)
 _ANY = "/**"
 
 

@@ -35,7 +35,7 @@ from collections.abc import Iterator
 
 from ros_lint.api import Depend, Element, Finding, Fix, Manifest, Package, Rule, Severity, Span, Workspace, manifest_edits
 
-_NAME = re.compile(r"[a-z](_?[a-z0-9]+)*")
+_NAME = re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)*")
 _VERSION = re.compile(r"(0|[1-9][0-9]*)(\.(0|[1-9][0-9]*)){2}")
 _LIMIT = re.compile(r"(0|[1-9][0-9]*)(\.(0|[1-9][0-9]*)){0,2}")
 _CONDITION = re.compile(r"""[$A-Za-z0-9_\s"'<>!=()-]*""")
