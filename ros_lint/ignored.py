@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from typing import NamedTuple
+from functools import lru_cache
+from itertools import count
+from typing import Final, NamedTuple
 
+from ros_lint.text import octets
 from ros_lint.tree import Tree, folders_of, join, parent, text_of
+from ros_lint.wildcards import LONGEST, letters, spaced
 
 _NAME = ".gitignore"
 
@@ -16,8 +20,8 @@ class Pattern(NamedTuple):
 
     folder: str
     """Where the file lies; what is not below it is not meant."""
-    regex: str
-    """Of a path below the folder. Most runs never ask, so it is compiled when it is needed."""
+    glob: str
+    """Of a path below the folder. Most runs never ask, so it is translated when it is needed."""
     negated: bool
     """Whether it takes back what an earlier line said."""
 
@@ -38,25 +42,30 @@ def find(tree: Tree, packages: Iterable[tuple[str, Iterable[str]]]) -> tuple[Pat
 def patterns(folder: str, text: str) -> Iterator[Pattern]:
     """Yield what the text of a ``.gitignore`` in a folder says."""
     for written in text.split("\n"):
-        line = re.sub(r"(?<!\\)[ \t\r]+\Z", "", written)
-        if not line or line.startswith("#"):
+        line = _trimmed(written.removesuffix("\r"))
+        if line.startswith("#"):
             continue
         negated = line.startswith("!")
-        line = line[negated:]
-        whole = line.rstrip("/")
+        whole = line[negated:].removesuffix("/")
         if whole:
-            anywhere = "" if "/" in whole else "(?:.*/)?"
-            yield Pattern(folder, anywhere + _regex(whole.lstrip("/")) + r"\Z", negated)
+            yield Pattern(folder, whole.removeprefix("/") if "/" in whole else f"**/{whole}", negated)
+
+
+def _trimmed(line: str) -> str:
+    """Return a line without the spaces at its end, but for one that is escaped."""
+    stripped = line.rstrip(" ")
+    backslashes = len(stripped) - len(stripped.rstrip("\\"))
+    return line[: len(stripped) + backslashes % 2]
 
 
 def is_ignored(given: Iterable[Pattern], path: str) -> bool:
     """Return whether git leaves out a path, which need not exist: it, or a folder it is in."""
     ours = [
-        (re.compile(one.regex, re.DOTALL), len(one.folder) + 1 if one.folder else 0, one.negated)
+        (regex, len(octets(one.folder)) + 1 if one.folder else 0, one.negated)
         for one in given
-        if not one.folder or path.startswith(f"{one.folder}/")
+        if (not one.folder or path.startswith(f"{one.folder}/")) and (regex := _compiled(one.glob))
     ]
-    parts = path.split("/")
+    parts = octets(path).split("/")
     for number in range(len(parts)) if ours else ():
         place = "/".join(parts[: number + 1])
         said = [not negated for regex, start, negated in ours if len(place) > start and regex.match(place, start)]
@@ -65,27 +74,83 @@ def is_ignored(given: Iterable[Pattern], path: str) -> bool:
     return False
 
 
-_PIECES = re.compile(r"(\A\*\*/|/\*\*/|/\*\*\Z)|(\*+)|(\?)|(\[!?\]?[^\]/]*\])|\\(.)|(.)", re.DOTALL)
+# --- patterns (wildmatch.c of git) ----------------------------------------------------------------------------------
+
+_TOKEN = re.compile(r"((?:\A|(?<=/))\*\*+(?=/|\Z))|(\*+)|(\?)|(\[)|(\\?/)|\\(.)|([^\\])", re.DOTALL)
+# Groups: 1 any number of folders, 2 star, 3 question mark, 4 bracket, 5 slash, 6 escaped and 7 other characters.
+_ELEMENT = re.compile(r"\[:([^\]]*):\]|(?:\\(.)|([^\\]))(?:-(?:\\(.)|([^\]\\])))?", re.DOTALL)
+"""What stands in brackets: a class by its name (group 1), or a character (2, 3) and perhaps the end of a range (4, 5)."""
+_CLASSES: Final = {
+    "alnum": "09AZaz", "alpha": "AZaz", "blank": "\t\t  ", "cntrl": "\0\x1f\x7f\x7f", "digit": "09", "graph": "!~",
+    "lower": "az", "print": " ~", "punct": "!/:@[`{~", "space": "\t\n\r\r  ", "upper": "AZ", "xdigit": "09AFaf",
+}  # fmt: skip
+"""The first and the last character of each range."""
 
 
-def _regex(glob: str) -> str:
-    """Return a regular expression for a pattern without what marks it as negated, anchored or a folder."""
-    return "".join(_translated(match) for match in _PIECES.finditer(glob))
+class _MalformedError(Exception):
+    """git matches nothing with the pattern."""
 
 
-def _translated(match: re.Match[str]) -> str:
-    across, stars, question, several, escaped, one = match.groups()
-    if across:
-        return {"**/": "(?:.*/)?", "/**/": "/(?:.*/)?", "/**": "/.*"}[across]
-    if stars:
-        return "[^/]*"
-    if question:
-        return "[^/]"
-    if several:
-        return _class(several)
-    return re.escape(escaped or one)
+@lru_cache(maxsize=1024)
+def _compiled(glob: str) -> re.Pattern[str] | None:
+    """Return an expression for a path as :func:`~ros_lint.text.octets`, None when git matches nothing with the pattern."""
+    try:
+        names = _names(octets(glob))
+    except _MalformedError:
+        return None
+    numbers = count()
+    pieces = [""]
+    for rest, name in zip(range(len(names) - 1, -1, -1), names, strict=True):
+        if name:
+            pieces[-1] += spaced(name, "[^/]*", numbers) + ("/" if rest else "")
+        else:
+            pieces.append("" if rest else "[^/]+")
+    return re.compile(spaced(pieces, "(?:[^/]+/)*", numbers) + r"\Z")
 
 
-def _class(several: str) -> str:
-    inner = several[1:-1].replace("\\", "\\\\").replace("[", "\\[")
-    return f"[^/{inner[1:]}]" if inner.startswith("!") else f"[{inner}]"
+def _names(glob: str) -> list[list[str]]:
+    """Return for each name in a pattern what stands between its stars, as expressions; an empty list for ``**``."""
+    if len(glob) > LONGEST:
+        raise _MalformedError
+    names = [[""]]
+    at = 0
+    while at < len(glob):
+        match = _TOKEN.match(glob, at)
+        if match is None:
+            raise _MalformedError
+        at = match.end()
+        pieces = names[-1]
+        match match.lastindex:
+            case 1:
+                pieces.clear()
+            case 2:
+                pieces.append("")
+            case 3:
+                pieces[-1] += "[^/]"
+            case 4:
+                letter, at = _letter(glob, at)
+                pieces[-1] += letter
+            case 5:
+                names.append([""])
+            case _:
+                pieces[-1] += re.escape(match[6] or match[7])
+    return names
+
+
+def _letter(glob: str, at: int) -> tuple[str, int]:
+    """Return an expression for a bracket that is open at an offset, and the offset behind it."""
+    negated = glob[at : at + 1] in ("!", "^")
+    at += negated
+    ranges: list[tuple[int, int]] = []
+    while not ranges or glob[at : at + 1] != "]":
+        match = _ELEMENT.match(glob, at)
+        if match is None or (match[1] is not None and match[1] not in _CLASSES):
+            raise _MalformedError
+        at = match.end()
+        if match[1] is not None:
+            ends = _CLASSES[match[1]]
+        else:
+            low = match[2] or match[3]
+            ends = low + low + low + (match[4] or match[5] or low)  # the first character counts even where the range is empty
+        ranges += [(ord(low), ord(high)) for low, high in zip(ends[::2], ends[1::2], strict=True)]
+    return letters(ranges, negated=negated), at + 1

@@ -206,6 +206,11 @@ def raw(text: str) -> bytes:
     return text.encode("utf-8", "surrogateescape")
 
 
+def octets(text: str) -> str:
+    """Return a text with one character for each of its bytes (:func:`raw`), for tools that match byte by byte."""
+    return text if text.isascii() else raw(text).decode("latin-1")
+
+
 def from_raw(data: bytes) -> str:
     """Return the piece of a text, or the path, that :func:`raw` made bytes of."""
     return data.decode("utf-8", "surrogateescape")

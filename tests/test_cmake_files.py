@@ -42,6 +42,8 @@ def _line(choice: random.Random) -> str:
         "src/*.cpp", "src/*", "*", "src/[ab].cpp", "src/?.*pp", "src/*/*.cpp", "*/*.cpp", "launch/*.launch.py", "*.txt",
         "src/sub", "src/[!a]*.cpp", "sr?/sub/*", "nothing/*", "src/[a-b]*", "src/../*.txt", "src/a.cpp", "launch/[A-Z]*",
         "../config/*", "../*.txt", "../*/*.yaml", "../other/../package/*.txt", "src/../../other/src/*", "../*", "../pack/x.txt",
+        "[z-a]*", "src/[b-a].cpp", "src/[!b-a].cpp", "src/a[--0]1.cpp", "src/*[&&~~b]*p", "*a*.*n*h*y",
+        "[]x]*/[[]*", "src/*.c*p*", "launch/?.l*",
     )  # fmt: skip
     paths = (
         "src/a.cpp", "src/sub/c.tar.gz", "/abs/path/x.y.z", "a.txt", ".hidden", "dir.d/file", "../up.txt", "src/./a/../b.cpp",

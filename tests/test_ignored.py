@@ -12,8 +12,12 @@ import pytest
 from ros_lint.ignored import find, is_ignored, patterns
 from ros_lint.tree import MemoryTree
 
-NAMES = ("a", "b.so", "lib", "ab", "x y")
-PIECES = ("a", "b.so", "*", "**", "?", "*.so", "lib", "[ab]", "[!a]b", "a*", "ab", r"x\ y", "[a-c]*")
+NAMES = ("a", "b.so", "lib", "ab", "x y", "-", "é", "]b", "&")
+PIECES = (
+    "a", "b.so", "*", "**", "?", "*.so", "lib", "[ab]", "[!a]b", "a*", "ab", r"x\ y", "[a-c]*", "[z-a]", "[l-a]ib",
+    "[a-\\\\]", "[--0]", "[&&a]", "[~~]",
+    "[[:alpha:]]b", "[[:none:]]", "[]]b", "[", "a[", "*b*", "*[.b]*o", "??", "a\\", r"x\ y ", "[^a]", "[/a]b",
+)  # fmt: skip
 
 
 def _line(choice: random.Random) -> str:

@@ -18,6 +18,8 @@ from typing import Any, Final
 import ros_lint
 import ros_lint_rules
 from ros_lint.collectors import colcon_cmake
+from ros_lint.ignored import is_ignored, patterns
+from ros_lint.interpret.cmake_glob import of_paths
 from ros_lint.text import Text
 
 _LONG: Final = 100_000
@@ -45,6 +47,8 @@ _TABLE: Final = (
     ("ros_lint.collectors.parameter_files._KEY", "match", "a", " ", ""),
     ("ros_lint.installed._LAUNCH_CONTENT['.xml']", "search", "", "<!-- a -->\n", "<a>"),
     ("ros_lint.installed._LAUNCH_CONTENT['.xml']", "search", "", "<?a?>", "<a>"),
+    ("ros_lint.interpret.cmake_truth.NUMBER", "fullmatch", "", "9", "z"),
+    ("ros_lint.interpret.cmake_truth.NUMBER", "fullmatch", "0x", "f", "z"),
     ("ros_lint_rules.manifest_schema._NAME", "fullmatch", "", "a", "-"),
     ("ros_lint_rules.manifest_schema._NAME", "fullmatch", "", "a_a", "-"),
 )
@@ -89,9 +93,9 @@ def _use(label: str, pattern: re.Pattern[Any], methods: Sequence[str], text: str
 
 
 def _run_table() -> None:
-    patterns = _compiled()
+    compiled = _compiled()
     for name, method, prefix, part, suffix in _TABLE:
-        _use(f"{name} {part!r}", patterns[name], [method], prefix + part * _LONG + suffix)
+        _use(f"{name} {part!r}", compiled[name], [method], prefix + part * _LONG + suffix)
 
 
 def _run_all() -> None:
@@ -107,6 +111,19 @@ def _run_collectors() -> None:
         colcon_cmake.depends(Text("CMakeLists.txt", prefix + part * _LONG))
 
 
+def _run_globs() -> None:
+    path = "/".join(["a" * 200] * 15)
+    for pattern in ("*a" * 8 + "b", "*a" * 2000 + "b", "**/" * 12 + "b", "**/" * 1300 + "b", "**/*a*/" * 500):
+        _limit(f".gitignore {pattern[:40]}")
+        assert not is_ignored(list(patterns("", pattern)), path)
+    for pattern in (" " * _LONG + "b", "\\ " * _LONG):
+        _limit(f".gitignore {pattern[:40]}")
+        list(patterns("", pattern))
+    for count in (8, 2000):
+        _limit(f"file(GLOB) of {count} stars")
+        assert not of_paths(["*a" * count + "b"], recurse=True).fullmatch(path)
+
+
 def _check(name: str) -> None:
     """Run a function in a child process. The last line that it has printed says what took too long."""
     done = subprocess.run([sys.executable, __file__, name], capture_output=True, text=True, check=False)
@@ -120,6 +137,10 @@ def test_expressions_that_were_slow_take_linear_time() -> None:
 
 def test_collectors_that_were_slow_take_linear_time() -> None:
     _check("_run_collectors")
+
+
+def test_wildcards_take_linear_time() -> None:
+    _check("_run_globs")
 
 
 def test_no_expression_takes_exponential_time() -> None:

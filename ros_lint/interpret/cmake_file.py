@@ -8,12 +8,12 @@ from itertools import pairwise
 from typing import Final
 
 from ros_lint.interpret.cmake_basic import nothing
-from ros_lint.interpret.cmake_glob import glob_regex
+from ros_lint.interpret.cmake_glob import of_paths
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_targets import generate
 from ros_lint.interpret.cmake_truth import TRUE_WORDS
 from ros_lint.interpret.cmake_values import ATOM, HOLE, TREE, is_fixed, is_known, join
-from ros_lint.text import raw
+from ros_lint.text import octets, raw
 from ros_lint.tree import is_outside, within
 
 
@@ -102,15 +102,15 @@ def _matches(run: Run, pattern: str, recurse: bool, folders: bool) -> list[str]:
     folder = run.reached(top)
     if folder is None or (is_outside(folder) and not run.below(folder)):
         return [HOLE]
-    *heads, last = map(glob_regex, parts[fixed:])
-    whole = re.compile("".join(f"{head}/" for head in heads) + ("(?:[^/]+/)*" if recurse else "") + last)
+    whole = of_paths(parts[fixed:], recurse=recurse)
     files = [within(folder, file) for file in run.below(folder)]
-    found = [file for file in files if whole.fullmatch(file)]
+    found = [file for file in files if whole.fullmatch(octets(file))]
     if folders:
         above = {file[:end] for file in files for end in range(len(file)) if file[end] == "/"}
-        if recurse and heads:
+        if recurse and len(parts) - fixed > 1:
             return [HOLE]
-        found += [name for name in above if recurse or whole.fullmatch(name)]  # the search lists every folder it enters
+        # The search lists every folder that it enters.
+        found += [name for name in above if recurse or whole.fullmatch(octets(name))]
     return [f"{top}/{name}" for name in found]
 
 

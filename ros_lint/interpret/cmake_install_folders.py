@@ -9,11 +9,11 @@ from typing import Final, NamedTuple
 from ros_lint.facts.build import Provided
 from ros_lint.facts.sight import Facet
 from ros_lint.interpret.cmake_arguments import sections
-from ros_lint.interpret.cmake_glob import glob_regex
+from ros_lint.interpret.cmake_glob import of_ends
 from ros_lint.interpret.cmake_install_places import facet_of, hide, place_of
 from ros_lint.interpret.cmake_run import Run
 from ros_lint.interpret.cmake_values import ATOM, HOLE, is_known, sure
-from ros_lint.text import Span
+from ros_lint.text import Span, octets
 from ros_lint.tree import is_outside
 from ros_lint.tree import join as join_path
 
@@ -149,12 +149,12 @@ def _chosen(file: str, top: str, rule: _Rule) -> tuple[bool, bool | None]:
     end = -1
     while True:  # the folder and those on the way to the file
         folder = f"{top}/{file[:end]}" if end > 0 else top
-        if any(pattern.excluded and pattern.matches.search(folder) for pattern in rule.patterns):
+        if any(pattern.excluded and pattern.matches.search(octets(folder)) for pattern in rule.patterns):
             return False, None
         end = file.find("/", end + 1)
         if end < 0:
             break
-    matching = [pattern for pattern in rule.patterns if pattern.matches.search(f"{top}/{file}")]
+    matching = [pattern for pattern in rule.patterns if pattern.matches.search(octets(f"{top}/{file}"))]
     if any(pattern.excluded for pattern in matching) or (rule.only and not matching):
         return False, None
     given = [pattern.executable for pattern in matching if pattern.executable is not None]
@@ -173,7 +173,7 @@ def _patterns(args: list[str]) -> list[_Pattern] | None:
         if not is_known(text):
             return None
         index += 1
-        regex = _regex(text) if word == "REGEX" else re.compile(f"/{glob_regex(text)}$")
+        regex = _regex(text) if word == "REGEX" else of_ends(text)
         if regex is None:
             return None
         excluded, executable = False, None

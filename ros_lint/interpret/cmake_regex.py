@@ -7,8 +7,8 @@ from collections.abc import Callable
 from functools import lru_cache
 from typing import TYPE_CHECKING, Final
 
-from ros_lint.interpret.cmake_values import BINARY, HOLE, PREFIX, TREE, is_fixed, is_known
-from ros_lint.text import from_raw, raw
+from ros_lint.interpret.cmake_values import BINARY, HOLE, PREFIX, TREE, is_fixed, is_known, natural
+from ros_lint.text import from_raw, octets
 
 if TYPE_CHECKING:
     from ros_lint.interpret.cmake_run import Run
@@ -20,7 +20,7 @@ class RegexError(Exception):
 
 @lru_cache(maxsize=512)
 def _compiled(text: str) -> re.Pattern[str]:
-    return re.compile(_Translator(_bytes(text)).whole(), re.DOTALL)
+    return re.compile(_Translator(octets(text)).whole(), re.DOTALL)
 
 
 def translated(text: str) -> re.Pattern[str] | None:
@@ -31,14 +31,9 @@ def translated(text: str) -> re.Pattern[str] | None:
         return None
 
 
-def _bytes(text: str) -> str:
-    """Return a text with one character for each of its bytes."""
-    return text if text.isascii() else raw(text).decode("latin-1")
-
-
 def is_in(pattern: re.Pattern[str], text: str) -> bool:
     """Return whether a translated expression matches somewhere in a text."""
-    return pattern.search(_bytes(text)) is not None
+    return pattern.search(octets(text)) is not None
 
 
 def _text(text: str) -> str:
@@ -153,7 +148,8 @@ def clear(run: Run) -> None:
     last = run.get("CMAKE_MATCH_COUNT")
     if last is None:
         return
-    for index in range(int(last or 0) + 1 if is_known(last) else 10):
+    highest = 0 if not last else natural(last)
+    for index in range(10 if highest is None else min(highest + 1, 10)):
         if run.get(f"CMAKE_MATCH_{index}"):
             run.set(f"CMAKE_MATCH_{index}", "")
     # Where it is empty it may also be unset, and then it stays so.
@@ -184,7 +180,7 @@ def find(run: Run, regex: str, text: str) -> bool | None:
         forget(run)
         return None
     clear(run)
-    match = pattern.search(_bytes(text))
+    match = pattern.search(octets(text))
     if match is None:
         return False
     store(run, _groups(match))
@@ -204,7 +200,7 @@ def every(regex: str, text: str) -> list[tuple[str, str, tuple[str, ...]]]:
     pattern = translated(regex)
     if pattern is None:
         raise RegexError(regex)
-    whole = _bytes(text)
+    whole = octets(text)
     anchored = "^" in regex.replace("[^", "")
     at = 0
     found: list[tuple[str, str, tuple[str, ...]]] = []

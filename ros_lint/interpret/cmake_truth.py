@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from functools import lru_cache
 from typing import TYPE_CHECKING, Final, NamedTuple
@@ -17,8 +18,9 @@ TRUE: Final = 4
 
 
 NUMBER = re.compile(
-    r"\s*[-+]?(?:0[xX](?:[0-9a-fA-F]+\.?[0-9a-fA-F]*|\.[0-9a-fA-F]+)(?:[pP][-+]?\d+)?"
-    r"|(?!0[xX])(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)"
+    r"\s*[-+]?(?:0[xX](?:[0-9a-fA-F]+(?:\.[0-9a-fA-F]*)?|\.[0-9a-fA-F]+)(?:[pP][-+]?\d+)?"
+    r"|(?!0[xX])(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?)",
+    re.ASCII,
 )
 """As much of a text as C's scanf() takes for a number, infinities left out."""
 TRUE_WORDS: Final = frozenset({"1", "ON", "YES", "TRUE", "Y"})
@@ -92,4 +94,9 @@ def constant(text: str) -> bool | None:
 def number_of(text: str) -> float:
     """Return the value of a text that NUMBER matches."""
     text = text.strip()
-    return float.fromhex(text) if "x" in text.lower() else float(text)
+    if "x" not in text.lower():
+        return float(text)
+    try:
+        return float.fromhex(text)
+    except OverflowError:
+        return -math.inf if text.startswith("-") else math.inf

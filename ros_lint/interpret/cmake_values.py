@@ -11,6 +11,7 @@ A value is a ``str``. Four characters that no CMake file can hold (the parser se
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from typing import Final
 
@@ -40,6 +41,14 @@ def is_known(value: str) -> bool:
 def is_fixed(value: str) -> bool:
     """Return whether the value is one text, even if a piece of it cannot be seen."""
     return HOLE not in value and MAYBE not in value
+
+
+def natural(text: str) -> int | None:
+    """Return the number that a text of at most nine ASCII digits is, None for any other text."""
+    return int(text) if _NATURAL.fullmatch(text) else None
+
+
+_NATURAL: Final = re.compile("[0-9]{1,9}")
 
 
 def flat(value: str) -> str:
