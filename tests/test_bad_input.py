@@ -316,3 +316,11 @@ def test_modules_of_the_workspace_are_not_loaded(tmp_path: Path) -> None:
         assert b"Traceback" not in done.stderr, done.stderr.decode()
         assert done.returncode in (0, 1), done.stderr.decode()
         assert not (tmp_path / "sprung").exists()
+
+
+def test_a_version_of_more_digits_than_python_makes_a_number_of(tmp_path: Path) -> None:
+    package(tmp_path / "arm", "arm")
+    manifest = package(tmp_path / "robot", "robot") / "package.xml"
+    depend = f'<depend version_gte="{"9" * 5000}">arm</depend>'
+    manifest.write_text(GOOD.format("robot").replace("<export>", f"{depend}<export>"))
+    assert "version-requirement" in rules(lint(tmp_path), "robot/package.xml")

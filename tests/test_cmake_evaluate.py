@@ -170,6 +170,26 @@ def test_values_do_not_grow_without_end() -> None:
     assert not script.opaque
 
 
+_HUGE = "9" * 5000
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        f"math(EXPR x {_HUGE}+1)",
+        f"cmake_minimum_required(VERSION {_HUGE})",
+        f"cmake_minimum_required(VERSION 3.{_HUGE})",
+        'cmake_parse_arguments(PARSE_ARGV ² A "" "" "")',
+        'string(REGEX REPLACE "a" "\\\\²" x "a")',
+        "file(GLOB x [z-a])",
+        'string(REPEAT "" 99999999999999999999 x)',
+        "set(CMAKE_MATCH_COUNT x)\nstring(REGEX MATCH a x a)\nset(CMAKE_MATCH_COUNT 999999999)\nstring(REGEX MATCH a x a)",
+    ],
+)
+def test_odd_numbers_and_patterns_do_not_stop_a_script(line: str) -> None:
+    assert paths(run(f"{line}\ninstall(FILES package.xml DESTINATION share/pkg)")) == {"share/pkg/package.xml": False}
+
+
 def test_no_script() -> None:
     script = evaluate(Sources("pkg", "", (), {}))
     assert hidden(script) & Facet.USES

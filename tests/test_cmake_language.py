@@ -200,6 +200,11 @@ _SMALL = (
     'set(L "é;a")\nlist(TRANSFORM L APPEND x REGEX "^é" OUTPUT_VARIABLE A)\nlist(FILTER L EXCLUDE REGEX "é")',
     "cmake_policy(VERSION 3.25)\nfunction(f)\nblock(SCOPE_FOR POLICIES)\nset(A 1)\nset(B 2)\nblock(PROPAGATE C)\nset(A 3)\n"
     "return(PROPAGATE A B)\nendblock()\nendblock()\nendfunction()\nf()",
+    'string(REPEAT 9 5000 B)\nif("${B}" VERSION_LESS "1${B}")\ntrace(1)\nendif()',
+    'string(REPEAT 9 5000 B)\nif("1.${B}" VERSION_GREATER "1.${B}.0")\ntrace(2)\nendif()',
+    'if("²" VERSION_LESS "0")\ntrace(1)\nendif()\nif("1" EQUAL "٣")\ntrace(2)\nendif()',
+    "string(REPEAT f 5000 B)\nif(0x${B} GREATER 5)\ntrace(1)\nendif()\nif(-0x${B} LESS 5)\ntrace(2)\nendif()",
+    'string(REPEAT 0 5000 B)\nmath(EXPR A "${B}7 + 0x${B}f")',
     'option(L "")\nforeach(i 1)\nif(L)\nelseif(1)\nif(NOT "${U1}" STREQUAL x)\nbreak()\nendif()\nendif()\nset(A y)\nendforeach()',
 )
 

@@ -11,11 +11,11 @@ from ros_lint.collectors.cmake_syntax import parse
 from ros_lint.facts.sight import ANYTHING
 from ros_lint.interpret.cmake_arguments import parse_keywords
 from ros_lint.interpret.cmake_flow import run_file, run_named
-from ros_lint.interpret.cmake_run import Handler, Run
+from ros_lint.interpret.cmake_run import MOST_STEPS, Handler, Run
 from ros_lint.interpret.cmake_state import BREAK, CONTINUE, RETURN, STOP, Frame
 from ros_lint.interpret.cmake_tools import started
 from ros_lint.interpret.cmake_truth import TRUE_WORDS, is_off
-from ros_lint.interpret.cmake_values import HOLE, MAYBE, certainly_set, elements, is_fixed, is_known, join, merge, split
+from ros_lint.interpret.cmake_values import HOLE, MAYBE, certainly_set, elements, is_fixed, is_known, join, merge, natural, split
 from ros_lint.text import Text
 
 
@@ -159,8 +159,11 @@ def _policies(run: Run, wanted: str) -> None:
 @lru_cache(maxsize=256)
 def _version(wanted: str) -> tuple[int, int] | None:
     """Return the version up to which policies are new, given ``3.5`` or ``3.5...3.20``."""
-    match = re.match(r"(\d+)(?:\.(\d+))?", wanted.rpartition("...")[2])
-    return (int(match[1]), int(match[2] or 0)) if is_known(wanted) and match else None
+    match = re.match(r"([0-9]+)(?:\.([0-9]+))?", wanted.rpartition("...")[2])
+    if match is None or not is_known(wanted):
+        return None
+    major, minor = natural(match[1]), natural(match[2] or "0")
+    return None if major is None or minor is None else (major, minor)
 
 
 def _project(run: Run, args: list[str]) -> None:
@@ -219,17 +222,17 @@ def _parse_arguments(run: Run, args: list[str]) -> None:
 
 def _rest_of_call(run: Run, first: str) -> list[str] | None:
     """Return the arguments of the function from one on; None if nobody knows which these are."""
-    argc = run.get("ARGC") or ""
-    if not first.isdigit():
+    begin, end = natural(first), natural(run.get("ARGC") or "")
+    if begin is None:
         return None
-    if argc.isdigit():
-        return [run.get(f"ARGV{index}") or "" for index in range(int(first), int(argc))]
+    if end is not None:
+        return [run.get(f"ARGV{index}") or "" for index in range(begin, end)] if end <= MOST_STEPS else None
     firm: list[str] = []
     while (arg := run.get(f"ARGV{len(firm)}")) and not _NOT_ONE.search(arg):
         firm.append(arg)
-    if int(first) > len(firm):
+    if begin > len(firm):
         return None
-    return [*firm[int(first) :], *elements(run.get("ARGV") or HOLE)[len(firm) :]]
+    return [*firm[begin:], *elements(run.get("ARGV") or HOLE)[len(firm) :]]
 
 
 _NOT_ONE = re.compile(f"[{HOLE}{MAYBE};\\\\[\\]]")

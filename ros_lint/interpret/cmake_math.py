@@ -8,8 +8,10 @@ from typing import Final
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_values import HOLE, is_known
 
-_TOKEN = re.compile(r"\s*(?:(0[xX][0-9a-fA-F]+|\d+)|(<<|>>|[-+*/%|&^~()]))")
+_TOKEN = re.compile(r"\s*(?:(0[xX][0-9a-fA-F]+|[0-9]+)|(<<|>>|[-+*/%|&^~()]))")
 _BINARY: Final = {"|": 1, "^": 2, "&": 3, "<<": 4, ">>": 4, "+": 5, "-": 5, "*": 6, "/": 6, "%": 6}
+_MOST_DIGITS: Final = 19
+"""Of a number of 64 bits."""
 _LOWEST, _HIGHEST = -(1 << 63), (1 << 63) - 1
 
 
@@ -72,9 +74,11 @@ def _unary(tokens: list[str], at: int) -> tuple[int, int]:
         if at >= len(tokens) or tokens[at] != ")":
             raise _MathError
         return value, at + 1
-    if not sign[0].isdigit():
+    base = 16 if sign[1:2] in ("x", "X") else 10
+    digits = sign[2 * (base == 16) :].lstrip("0") or "0"
+    if not sign[0].isdigit() or len(digits) > _MOST_DIGITS:
         raise _MathError
-    return _bounded(int(sign, 16) if sign[1:2] in ("x", "X") else int(sign)), at + 1
+    return _bounded(int(digits, base)), at + 1
 
 
 def _operate(sign: str, left: int, right: int) -> int:

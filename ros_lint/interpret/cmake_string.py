@@ -150,7 +150,7 @@ def _repeat(text: str, count: str) -> str:
     number = int(count)
     if number < 0 or number * len(text) > LONGEST:
         return HOLE
-    return text * number
+    return text * number if text else ""
 
 
 def _join(glue: str, *inputs: str) -> str:
@@ -310,7 +310,7 @@ def _replacement(template: str) -> list[str | int]:
             index += 1
             continue
         following = template[index + 1 : index + 2]
-        if following.isdigit():
+        if "0" <= following <= "9":
             parts.append(int(following))
         elif following == "n":
             parts.append("\n")

@@ -153,28 +153,35 @@ def _numbers(compare: Callable[[float, float], bool]) -> Callable[[str, str], bo
     return compared
 
 
-_COMPONENT = re.compile(r"\s*([-+]?)(\d+)")
+_COMPONENT = re.compile(r"\s*([-+]?)(\d+)", re.ASCII)
 
 
 def compare_versions(left: str, right: str) -> int:
     """Return -1, 0 or 1 as VERSION_LESS and the like see it: component by component, each read as C's strtoul() does."""
     at, other = 0, 0
-    while left[at : at + 1].isdigit() or right[other : other + 1].isdigit():
+    while "0" <= left[at : at + 1] <= "9" or "0" <= right[other : other + 1] <= "9":
         first, at = _component(left, at)
         second, other = _component(right, other)
         if first != second:
-            return -1 if first < second else 1
+            return -1 if (len(first), first) < (len(second), second) else 1
         at += left[at : at + 1] == "."
         other += right[other : other + 1] == "."
     return 0
 
 
-def _component(text: str, at: int) -> tuple[int, int]:
+def _component(text: str, at: int) -> tuple[str, int]:
+    """Return the digits of a component without leading zeros, for it may have any number of them, and where it ends."""
     match = _COMPONENT.match(text, at)
     if match is None:
-        return 0, at
-    number = int(match[2])
-    return (-number % (1 << 64) if match[1] == "-" else number), match.end()
+        return "", at
+    digits = match[2].lstrip("0")
+    if match[1] == "-" and digits:
+        digits = str(max((1 << 64) - int(digits[:_MOST_DIGITS]), 1))
+    return digits, match.end()
+
+
+_MOST_DIGITS: Final = 20
+"""Of a number of 64 bits."""
 
 
 def _versions(compare: Callable[[int, int], bool]) -> Callable[[str, str], bool]:

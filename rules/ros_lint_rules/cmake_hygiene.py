@@ -79,7 +79,7 @@ def _is_firm(package: Package, call: Call) -> bool:
 
 
 def _version(call: Call, workspace: Workspace) -> Iterator[Finding]:
-    match = next((number for text in call.texts if (number := re.match(r"(\d+)\.(\d+)", text))), None)
+    match = next((number for text in call.texts if (number := re.match(r"([0-9]{1,9})\.([0-9]{1,9})", text))), None)
     if match is None or "..." in " ".join(call.texts):
         return
     version = (int(match[1]), int(match[2]))

@@ -27,7 +27,8 @@ from collections.abc import Callable, Iterator
 
 from ros_lint.api import Finding, Package, Related, Rule, Severity, Workspace
 
-_Version = tuple[int, ...]
+_Version = tuple[tuple[int, str], ...]
+"""Components as numbers of digits and these digits, because there is no limit to a number in package.xml."""
 _TESTS: dict[str, tuple[str, Callable[[_Version, _Version], bool]]] = {
     "version_lt": ("below", operator.lt),
     "version_lte": ("at most", operator.le),
@@ -64,10 +65,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _numbers(version: str) -> _Version:
     """Return a version as numbers, missing ones 0; empty when it has anything else."""
-    if not re.fullmatch(r"\d+(\.\d+){0,3}", version):
+    if not re.fullmatch(r"[0-9]+(\.[0-9]+){0,3}", version):
         return ()
-    found = tuple(int(part) for part in version.split("."))
-    return found + (0,) * (4 - len(found))
+    digits = [part.lstrip("0") for part in version.split(".")]
+    return tuple((len(part), part) for part in [*digits, *[""] * (4 - len(digits))])
 
 
 RULE = Rule(
