@@ -43,6 +43,7 @@ from ros_lint.collectors.launch_py_objects import (
 )
 from ros_lint.collectors.launch_py_operations import text_of
 from ros_lint.collectors.launch_py_released import HELPERS, helper, placed
+from ros_lint.collectors.launch_py_repeats import UnderWay, begin
 from ros_lint.collectors.launch_py_statements import LEAVE, execute
 from ros_lint.collectors.launch_py_texts import Within, texts
 from ros_lint.collectors.launch_text import fill, is_settled, joined
@@ -84,7 +85,7 @@ class Machine(Notes):
         self._sources: dict[str, Source | None] = {}
         self._placed: dict[tuple[int, int], tuple[_Definition, ast.AST, ast.AST]] = {}
         self._left = STEPS
-        self._depth = 0
+        self._under_way: list[UnderWay] = []
 
     # --- bounds and conditions ------------------------------------------------------------------------------------
 
@@ -237,20 +238,21 @@ class Machine(Notes):
         node, source = function.node, function.frame.source
         if source.lent:
             node, source = self._lent(function, call, caller.source)
-        if self._depth >= _DEEPEST_CALL:
+        if len(self._under_way) >= _DEEPEST_CALL:
             self.lose([arguments, keywords])
             return Unknown("calls that are nested too deeply")
         frame = Frame(source, function.frame, function.taking(arguments, keywords))
+        if not begin(self._under_way, function, frame.names, len(self.conditions)):
+            self.lose([arguments, keywords])
+            return Unknown(f"the result of {getattr(node, 'name', 'a function')}() within itself")
         if isinstance(node, ast.Lambda):
-            self._depth += 1
             try:
                 return self.evaluate(node.body, frame)
             finally:
-                self._depth -= 1
+                self._under_way.pop()
         before, left = self.conditions, self._left
         self._left = min(left, _STEPS_A_CALL)
         allowed = self._left
-        self._depth += 1
         try:
             signal = execute(self, node.body, frame)
         except OutOfBudget:
@@ -263,7 +265,7 @@ class Machine(Notes):
                 raise
             signal = LEAVE  # this way out of several ends here
         finally:
-            self._depth -= 1
+            self._under_way.pop()
             self._left = left - (allowed - self._left)
             self.conditions = before
         if frame.source.yields and function.yields():
