@@ -275,6 +275,21 @@ return [
     assert len(includes) == 15
 
 
+@pytest.mark.parametrize(
+    ("line", "end"),
+    [
+        ("if unknown{0}(): return [Node(package='a', executable='b{0}')]", "return []"),
+        ("if unknown{0}(): node = Node(package='a', executable='b{0}')", "return [node]"),
+        ("node = Node(package='a', executable='b{0}') if unknown{0}() else node", "return [node]"),
+    ],
+)
+def test_too_many_alternatives_are_perhaps_launched_each(line: str, end: str) -> None:
+    lines = [line.format(number) for number in range(30)]
+    source, found = collect("a.launch.py", body("\n".join(["node = None", *lines, end])))
+    assert sorted(said(source, found)) == sorted(f"node? a b{number}" for number in range(30))
+    assert [one.reason for one in found.opaque] == ["what is launched is not known: one of too many values"]
+
+
 def test_modules_of_the_workspace_are_followed() -> None:
     helper = """\
 from .names import P

@@ -215,7 +215,7 @@ def _choice(machine: Machine, node: ast.IfExp, frame: Frame) -> Value:
     opposite = opposite_of(condition)
     with machine.under(opposite):
         second = machine.evaluate(node.orelse, frame)
-    return union([Guarded(first, (condition,)), Guarded(second, (opposite,))])
+    return machine.joined([Guarded(first, (condition,)), Guarded(second, (opposite,))])
 
 
 def _attribute(machine: Machine, node: ast.Attribute, frame: Frame) -> Value:

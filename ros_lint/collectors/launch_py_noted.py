@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from ros_lint.collectors.launch_py_misuse import Misused
 from ros_lint.collectors.launch_py_objects import (
@@ -69,6 +69,13 @@ class Notes:
     def guard(self, value: Value) -> Value:
         """Return a value as it goes into a collection now."""
         return Guarded(value, self.conditions) if self.conditions else value
+
+    def joined(self, values: Sequence[Guarded]) -> Value:
+        """Return one of several values. Where these are too many to be kept apart, what they hold may be launched."""
+        found = union(values)
+        if isinstance(found, Unknown):
+            self.lose(values)
+        return found
 
     def lose(self, value: Value) -> None:
         """Note that a value goes where it cannot be followed: what it holds may be launched."""

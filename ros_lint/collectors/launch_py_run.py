@@ -277,7 +277,7 @@ class Machine(Notes):
         if len(frame.returned) == 1:
             return frame.returned[0].value
         count = len(before)
-        return union(Guarded(one.value, one.conditions[count:]) for one in frame.returned)
+        return self.joined([Guarded(one.value, one.conditions[count:]) for one in frame.returned])
 
     # --- what the library needs -----------------------------------------------------------------------------------
 

@@ -29,7 +29,6 @@ from ros_lint.collectors.launch_py_objects import (
     Value,
     alternatives,
     plain,
-    union,
 )
 from ros_lint.collectors.launch_py_operations import opposite_of, truth
 from ros_lint.collectors.launch_text import presence
@@ -107,7 +106,7 @@ def _either(
         if name not in first_names:
             first_names[name] = value
         elif first_names[name] is not value:
-            first_names[name] = union([Guarded(first_names[name], (condition,)), Guarded(value, (opposite,))])
+            first_names[name] = machine.joined([Guarded(first_names[name], (condition,)), Guarded(value, (opposite,))])
     return first if first == second else NEXT
 
 
