@@ -323,6 +323,12 @@ return [Node(package=n['p'], executable=n['e']) for n in data['nodes']]
     assert [(one.package, one.name) for one in found.references if one.kind == "node"] == [("a", "b"), ("c", "d")]
 
 
+@pytest.mark.parametrize("reading", ["yaml.safe_load('{e: b}')", 'json.loads(\'{"e": "b"}\')'])
+def test_contents_that_are_written_out(reading: str) -> None:
+    program = f"import json, yaml\nreturn [Node(package='a', executable={reading}['e'])]"
+    assert said(*collect("a.launch.py", body(program))) == ["node a b"]
+
+
 def test_nothing_of_it_runs(tmp_path: Path) -> None:
     trap = tmp_path / "sprung"
     text = f"import os\nopen({str(trap)!r}, 'w').write('x')\nos.system('touch {trap}')\n"

@@ -270,7 +270,7 @@ def _content(machine: Machine, text: Value) -> Value:
 
     loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     try:
-        return yaml.load(text, Loader=loader)  # noqa: S506  (one of the two safe loaders)
+        return yaml.load(str(text), Loader=loader)  # noqa: S506  (one of the two safe loaders)
     except (yaml.YAMLError, ValueError, RecursionError):
         raise Raised from None
 
