@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from ros_lint.collectors import launch_text
+from ros_lint.collectors import launch_py_paths, launch_text
 from ros_lint.collectors.launch_py_builtins import FUNCTIONS
 from ros_lint.collectors.launch_py_call import Call, Rule, nothing, unknown, unknown_text
 from ros_lint.collectors.launch_py_methods import built_for, items
@@ -31,7 +31,6 @@ from ros_lint.collectors.launch_py_objects import (
 from ros_lint.collectors.launch_py_operations import INSTALLED, text_of
 from ros_lint.collectors.launch_py_texts import conditions_of
 from ros_lint.collectors.launch_text import UNKNOWN, joined, presence
-from ros_lint.collectors.python_methods import ON_PATHS, PATH_SPLITS
 from ros_lint.facts.launch import LaunchCondition
 
 if TYPE_CHECKING:
@@ -305,8 +304,11 @@ _STANDARD = frozenset(
 _BY_NAME: Mapping[str, Rule] = {
     **FUNCTIONS,
     "os.path.join": _join,
-    **{name: _on_path(function) for name, function in ON_PATHS.items()},
-    **{name: _split(function) for name, function in PATH_SPLITS.items()},
+    "os.path.basename": _on_path(lambda path: launch_py_paths.split(path)[1]),
+    "os.path.dirname": _on_path(lambda path: launch_py_paths.split(path)[0]),
+    "os.path.normpath": _on_path(posixpath.normpath),
+    "os.path.split": _split(launch_py_paths.split),
+    "os.path.splitext": _split(launch_py_paths.split_suffix),
     "os.path.abspath": _on_path(str),
     "os.path.realpath": _on_path(str),
     "os.path.expanduser": _on_path(str),

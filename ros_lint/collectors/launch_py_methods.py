@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import posixpath
 from typing import TYPE_CHECKING, Any
 
 from ros_lint.collectors.launch_expression import EVALUATED
@@ -39,6 +38,7 @@ from ros_lint.collectors.launch_py_operations import (
     with_format,
     without,
 )
+from ros_lint.collectors.launch_py_paths import call_of_path, of_path
 from ros_lint.collectors.launch_text import (
     LONGEST,
     UNKNOWN,
@@ -55,7 +55,6 @@ from ros_lint.facts.launch import LaunchCondition
 
 if TYPE_CHECKING:
     import ast
-    from collections.abc import Sequence
 
     from ros_lint.collectors.launch_py_objects import Frame
     from ros_lint.collectors.launch_py_run import Machine
@@ -104,7 +103,7 @@ def attribute(machine: Machine, owner: Value, node: ast.Attribute, frame: Frame)
     if isinstance(owner, Source):
         return owner.names.get(name, Unknown(f"{name} of a module"))
     if isinstance(owner, FilePath):
-        return _of_path(owner, name)
+        return of_path(owner, name)
     if isinstance(owner, Made):
         return _of_made(owner, name)
     if isinstance(owner, Context):
@@ -151,28 +150,6 @@ def built_for(builder: Made) -> str:
     return package if isinstance(package, str) and is_plain(package) else ""
 
 
-def _of_path(owner: FilePath, name: str) -> Value:
-    head, tail = posixpath.split(owner.text)
-    stem, dot, suffix = tail.rpartition(".")
-    match name:
-        case "parent":
-            return FilePath(head)
-        case "name":
-            return tail
-        case "stem":
-            return stem if dot else tail
-        case "suffix":
-            return dot + suffix if stem else ""
-        case "parents":
-            found: list[FilePath] = []
-            while head and (not found or head != found[-1].text):
-                found.append(FilePath(head))
-                head = posixpath.dirname(head)
-            # What lies above a folder that is known only by name is not known.
-            return found if is_plain(owner.text) else [*found, *[FilePath(UNKNOWN)] * 12]
-    return Method(owner, name)
-
-
 _OF_MARKED = STRIPS | SPLITS | {"replace"}
 """Methods that mean something for texts, too, in which something stands that is known at launch only."""
 _OF_PLAIN = TEXT_METHODS | {"zfill", "encode"}
@@ -192,7 +169,7 @@ def call_method(
     if isinstance(owner, dict):
         return _of_dict(machine, owner, name, arguments, keywords)
     if isinstance(owner, FilePath):
-        return _call_of_path(machine, owner, name, arguments, node, frame)
+        return call_of_path(machine, owner, name, arguments, node, frame)
     if isinstance(owner, tuple) and name == "index":
         return Unknown("index in a tuple")
     machine.lose([owner, arguments, keywords])
@@ -370,27 +347,3 @@ def _updated(machine: Machine, owner: dict[Any, Value], arguments: list[Value], 
             if pairs is None:
                 owner[UNKNOWN] = Unknown("elements that are not known")
                 machine.lose(one.value)
-
-
-def _call_of_path(
-    machine: Machine, owner: FilePath, name: str, arguments: Sequence[Value], node: ast.Call, frame: Frame
-) -> Value:
-    match name:
-        case "joinpath":
-            return machine.join_paths(owner, list(arguments), node, frame)
-        case "as_posix" | "__str__" | "__fspath__":
-            return written(owner.text, node, frame.source)
-        case "resolve" | "absolute" | "expanduser":
-            return owner
-        case "with_suffix" | "with_name":
-            given = plain(arguments[0]) if arguments else None
-            if isinstance(given, str):
-                head, tail = posixpath.split(owner.text)
-                return FilePath(posixpath.join(head, given if name == "with_name" else tail.rpartition(".")[0] + given))
-        case "open" | "read_text" | "read_bytes":
-            return machine.open_file(owner.text, node, frame.source)
-        case "exists" | "is_file":
-            return machine.ask((owner.text,))
-        case "write_text" | "write_bytes":
-            machine.ask((owner.text,))  # it need not be there before
-    return Unknown(f"{name}() of a path")

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Iterable, Iterator
+from pathlib import PurePosixPath
 from typing import Any, Final, NamedTuple
 
-from ros_lint.collectors.launch_text import MOST, UNKNOWN, agree, conditional, conditions_of, configuration
+from ros_lint.collectors.launch_text import MOST, UNKNOWN, agree, conditional, conditions_of, configuration, is_plain
 from ros_lint.facts.launch import LaunchCondition
 from ros_lint.text import Text
 
@@ -95,12 +96,12 @@ class Union:
 
 
 class FilePath:
-    """A path of pathlib."""
+    """A path of pathlib. A text that is known whole is written as pathlib writes it: ``a/b`` for ``a//b/``."""
 
     __slots__ = ("text",)
 
     def __init__(self, text: str) -> None:
-        self.text = text
+        self.text = str(PurePosixPath(text)) if is_plain(text) else text
 
 
 class Api:

@@ -49,6 +49,8 @@ _PREFIX = re.compile(rf"/{_ROOT}([^/\s]*)((?:/[^/\s'\":;,\ue012-\ue015]*)*)")
 _INNERMOST = re.compile("\ue010([^\ue010\ue011]*)\ue011")
 # A name that is computed begins with the mark of another one.
 _NAME_OF_CONFIGURATION = re.compile("\ue010([^\ue010\ue011\ue016]*)([\ue010\ue011\ue016])")
+BRACKETS = re.compile("([\ue010\ue012\ue014])|[\ue011\ue013\ue015]")
+"""Begins (in group 1) or ends a part of a text that is known later."""
 _EXPRESSION_MARKS = re.compile("([\ue012\ue013])")
 _INNER_EXPRESSION = re.compile("\ue012([^\ue012\ue013]*)\ue013")
 _ENDS = re.compile("\ue010\\$|[\ue010-\ue015]")
