@@ -7,10 +7,24 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ros_lint.collectors.launch_py_methods import items
-from ros_lint.collectors.launch_py_objects import Api, Frame, Instance, Made, Unknown, Value, Written, alternatives, plain, union
-from ros_lint.collectors.launch_py_operations import hashable, operation
+from ros_lint.collectors.launch_py_objects import (
+    PERHAPS,
+    Api,
+    Frame,
+    Guarded,
+    Instance,
+    Made,
+    Raised,
+    Unknown,
+    Value,
+    Written,
+    alternatives,
+    plain,
+    union,
+)
+from ros_lint.collectors.launch_py_operations import hashable, may_have_more, operation
 from ros_lint.collectors.launch_py_texts import SUBSTITUTIONS
-from ros_lint.collectors.launch_text import is_plain
+from ros_lint.collectors.launch_text import UNKNOWN, is_plain
 
 if TYPE_CHECKING:
     from ros_lint.collectors.launch_py_run import Machine
@@ -81,10 +95,12 @@ def _unpack(machine: Machine, targets: Sequence[ast.expr], value: Value, frame: 
 
 
 def _store(machine: Machine, target: ast.Subscript, value: Value, frame: Frame) -> None:
-    key = plain(machine.evaluate(target.slice, frame)) if not isinstance(target.slice, ast.Slice) else Unknown("a slice")
+    key = _key(machine, target.slice, frame)
     for one in alternatives(machine.evaluate(target.value, frame)):
         owner = one.value
-        if isinstance(owner, dict):
+        if isinstance(owner, list) and isinstance(key, slice) and not machine.conditions:
+            _store_slice(machine, owner, key, value)
+        elif isinstance(owner, dict):
             name = hashable(key)
             if machine.conditions and name in owner:
                 owner[name] = union([owner[name], machine.guard(value)])
@@ -96,6 +112,25 @@ def _store(machine: Machine, target: ast.Subscript, value: Value, frame: Frame) 
             _set_variable(machine, target, key, value, frame)
         else:
             machine.lose(value)
+
+
+def _key(machine: Machine, node: ast.expr, frame: Frame) -> Value:
+    """Return what stands between brackets: a value, or a slice if it is one whose ends are known."""
+    if not isinstance(node, ast.Slice):
+        return plain(machine.evaluate(node, frame))
+    ends = [plain(machine.evaluate(end, frame)) if end is not None else None for end in (node.lower, node.upper, node.step)]
+    return slice(*ends) if all(end is None or isinstance(end, int) for end in ends) else Unknown("a slice")
+
+
+def _store_slice(machine: Machine, owner: list[Value], key: slice, value: Value) -> None:
+    given = items(machine, value)
+    if given is None:
+        machine.lose(value)
+        given = [Unknown("elements that are not known")]
+    try:
+        owner[key] = given
+    except ValueError:
+        raise Raised("ValueError") from None
 
 
 def _set_variable(machine: Machine, target: ast.Subscript, name: Value, value: Value, frame: Frame) -> None:
@@ -147,10 +182,43 @@ def _nonlocal(_machine: Machine, node: ast.Nonlocal, frame: Frame) -> None:
             frame.declared[name] = around
 
 
-def _delete(_machine: Machine, node: ast.Delete, frame: Frame) -> None:
-    for target in node.targets:
-        if isinstance(target, ast.Name):
-            frame.names.pop(target.id, None)
+def _delete(machine: Machine, node: ast.Delete, frame: Frame) -> None:
+    waiting = list(node.targets)
+    while waiting:
+        target = waiting.pop(0)
+        if isinstance(target, (ast.Tuple, ast.List)):
+            waiting += target.elts
+        elif isinstance(target, ast.Name):
+            frame.declared.get(target.id, frame).names.pop(target.id, None)
+        elif isinstance(target, ast.Attribute):
+            owner = plain(machine.evaluate(target.value, frame))
+            if isinstance(owner, Instance):
+                owner.attributes.pop(target.attr, None)
+        elif isinstance(target, ast.Subscript):
+            key = _key(machine, target.slice, frame)
+            for one in alternatives(machine.evaluate(target.value, frame)):
+                _delete_element(machine, one.value, key)
+
+
+def _delete_element(machine: Machine, owner: Value, key: Value) -> None:
+    """Remove an element of a list or a dictionary; an element that is removed only under conditions is perhaps there."""
+    if isinstance(owner, dict):
+        key = hashable(key)
+        known = UNKNOWN not in owner and key != UNKNOWN
+    elif isinstance(owner, list):
+        known = isinstance(key, (int, slice)) and not may_have_more(owner)
+    else:
+        return
+    try:
+        if not machine.conditions:
+            del owner[key]
+        elif isinstance(key, slice):
+            owner[key] = [Guarded(one, (PERHAPS,)) for one in owner[key]]
+        else:
+            owner[key] = Guarded(owner[key], (PERHAPS,))
+    except (LookupError, TypeError) as error:
+        if known:
+            raise Raised(type(error).__name__) from None
 
 
 STATEMENTS: dict[type[ast.stmt], Callable[[Machine, Any, Frame], None]] = {

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import builtins
+import collections.abc
+import numbers
+import typing
 from collections.abc import Callable, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from ros_lint.collectors import launch_text
+from ros_lint.collectors import launch_py_collections, launch_text
 from ros_lint.collectors.launch_py_call import Call, Rule, nothing, unknown, unknown_text
-from ros_lint.collectors.launch_py_methods import call_method, items, of_instance, sort
+from ros_lint.collectors.launch_py_methods import call_method, of_instance
 from ros_lint.collectors.launch_py_misuse import note
 from ros_lint.collectors.launch_py_objects import (
     Api,
@@ -41,19 +45,19 @@ def _str(call: Call) -> Value:
 
 def _number(kind: type) -> Rule:
     def rule(call: Call) -> Value:
-        value = plain(call.get(0))
-        if value is None and not call.arguments:
-            return kind()
-        try:
-            if isinstance(value, (int, float, bool)) or (
-                isinstance(value, str) and launch_text.is_plain(value) and len(value) < 50
-            ):
-                return kind(value)
-        except (ValueError, OverflowError):
-            raise Raised from None
+        values = [plain(value) for value in (*call.arguments, *call.keywords.values())]
+        if all(isinstance(value, (int, float)) or _is_short_text(value) for value in values):
+            try:
+                return kind(*values)
+            except (TypeError, ValueError, OverflowError) as error:
+                raise Raised(type(error).__name__) from None
         return Unknown("a number")
 
     return rule
+
+
+def _is_short_text(value: Value) -> bool:
+    return isinstance(value, str) and launch_text.is_plain(value) and len(value) < 50
 
 
 def _bool(call: Call) -> Value:
@@ -124,99 +128,28 @@ def _keep(value: Value, function: Callable[[Value], Value]) -> Value:
     return function(value)
 
 
-def _zip(call: Call) -> Value:
-    rows = [items(call.machine, argument) for argument in call.arguments]
-    if any(row is None for row in rows):
-        return unknown(call)
-    return [tuple(plain(one) for one in row) for row in zip(*(row or [] for row in rows), strict=False)]
-
-
-def _sorted(call: Call) -> Value:
-    found = call.items(0)
-    if found is None:
-        return unknown(call)
-    sort(found)
-    return found
-
-
-def _reversed(call: Call) -> Value:
-    found = call.items(0)
-    return found[::-1] if found is not None else unknown(call)
-
-
-def _map(call: Call) -> Value:
-    rows = [items(call.machine, argument) for argument in call.arguments[1:]]
-    if not rows or any(row is None for row in rows):
-        return unknown(call)
-    return [
-        call.machine.call(call.arguments[0], [plain(one) for one in row], {}, call.node, call.frame)
-        for row in zip(*(row or [] for row in rows), strict=False)
-    ]
-
-
-def _filter(call: Call) -> Value:
-    found = call.items(1)
-    if found is None:
-        return unknown(call)
-    kept = []
-    for one in found:
-        asked = call.machine.call(call.arguments[0], [plain(one)], {}, call.node, call.frame) if call.arguments[0] else one
-        answer, condition = truth(call.machine, asked)
-        if answer is not False:
-            kept.append(one if answer else Guarded(one, (condition,)))
-    return kept
-
-
-def _any_all(wanted: bool) -> Rule:
-    def rule(call: Call) -> Value:
-        found = call.items(0)
-        answers = [truth(call.machine, one)[0] for one in found] if found is not None else [None]
-        if wanted in answers:
-            return wanted
-        return Unknown("any or all") if None in answers else not wanted
-
-    return rule
-
-
-def _extreme(function: Callable[[Any], Any]) -> Rule:
-    def rule(call: Call) -> Value:
-        found = call.items(0) if len(call.arguments) == 1 else call.arguments
-        values = [plain(one) for one in found or ()]
-        if values and all(isinstance(value, (int, float)) for value in values):
-            return function(values)
-        return Unknown("a number")
-
-    return rule
-
-
-def _sum(call: Call) -> Value:
-    if len(call.arguments) < 2 or not isinstance(plain(call.get(1)), list):
-        return _extreme(sum)(call)
-    found, parts = call.items(1), call.items(0)
-    if found is None or parts is None:
-        return unknown(call)
-    for part in parts:
-        inner = items(call.machine, part)
-        if inner is None:
-            return unknown(call)
-        conditions = part.conditions if isinstance(part, Guarded) else ()
-        call.machine.spend(len(inner))
-        found += [Guarded(one, conditions) for one in inner]
-    return found
-
-
 def _isinstance(call: Call) -> Value:
     value, kind = plain(call.get(0)), plain(call.get(1))
     kinds = kind if isinstance(kind, tuple) else (kind,)
     names = {one.last for one in kinds if isinstance(one, Api)}
     if isinstance(value, (str, int, float, list, dict, tuple, type(None))) and len(names) == len(kinds):
-        own = {"Written": "str", "NoneType": "NoneType"}.get(type(value).__name__, type(value).__name__)
-        return own in names or (own == "bool" and "int" in names)
+        if isinstance(value, list) and any("set" in name.lower() for name in names):
+            return Unknown("a kind")  # a set is kept as a list
+        return any(_is_of(value, name) for name in names)
     if isinstance(value, Made) and len(names) == len(kinds):
         return value.name in names or (Unknown("a kind") if names & {"Action", "Substitution", "Entity"} else False)
     if isinstance(value, Instance):
         return any(isinstance(one, Class) and value.cls is one for one in kinds) or Unknown("a kind")
     return Unknown("a kind")
+
+
+def _is_of(value: Value, name: str) -> bool:
+    """Return whether a known value is of a class of Python, collections.abc, numbers or typing, by the name of the class."""
+    if name == "NoneType":
+        return value is None
+    kinds = [getattr(module, name, None) for module in (builtins, collections.abc, numbers)]
+    kind = next(filter(None, kinds), None) or typing.get_origin(getattr(typing, name, None))
+    return isinstance(kind, type) and isinstance(value, kind)
 
 
 def _getattr(call: Call) -> Value:
@@ -283,16 +216,6 @@ def _partial(call: Call) -> Value:
     return Bound(call.arguments[0], call.arguments[1:], call.keywords) if call.arguments else unknown(call)
 
 
-def _chain(call: Call) -> Value:
-    found: list[Value] = []
-    for argument in call.arguments:
-        inner = items(call.machine, argument)
-        if inner is None:
-            return unknown(call)
-        found += inner
-    return found
-
-
 def _copied(call: Call) -> Value:
     value = plain(call.get(0))
     if isinstance(value, list):
@@ -349,12 +272,12 @@ BUILTINS: Mapping[str, Value] = {
 """Names that Python binds."""
 
 FUNCTIONS: Mapping[str, Rule] = {
+    **launch_py_collections.FUNCTIONS,
     "yaml.safe_load": _parsed,
     "yaml.load": _parsed,
     "json.load": _parsed,
     "json.loads": _parsed,
     "functools.partial": _partial,
-    "itertools.chain": _chain,
     "copy.copy": _copied,
     "copy.deepcopy": _copied_whole,
     "collections.OrderedDict": _dict,
@@ -364,23 +287,11 @@ FUNCTIONS: Mapping[str, Rule] = {
     "builtins.float": _number(float),
     "builtins.bool": _bool,
     "builtins.list": _list,
-    "builtins.set": _list,
-    "builtins.frozenset": _list,
     "builtins.tuple": _tuple,
     "builtins.dict": _dict,
     "builtins.len": _length,
     "builtins.range": _range,
     "builtins.enumerate": _enumerate,
-    "builtins.zip": _zip,
-    "builtins.sorted": _sorted,
-    "builtins.reversed": _reversed,
-    "builtins.map": _map,
-    "builtins.filter": _filter,
-    "builtins.any": _any_all(True),
-    "builtins.all": _any_all(False),
-    "builtins.min": _extreme(min),
-    "builtins.max": _extreme(max),
-    "builtins.sum": _sum,
     "builtins.isinstance": _isinstance,
     "builtins.getattr": _getattr,
     "builtins.print": nothing,

@@ -21,6 +21,7 @@ from ros_lint.collectors.launch_py_objects import (
     Unknown,
     Value,
     alternatives,
+    around,
     plain,
     union,
     written,
@@ -40,6 +41,7 @@ from ros_lint.collectors.launch_py_operations import (
     truth,
     with_format,
 )
+from ros_lint.collectors.launch_py_order import unique
 from ros_lint.collectors.launch_text import UNKNOWN, expression, joined, quoted
 from ros_lint.facts.launch import LaunchCondition
 
@@ -74,7 +76,8 @@ def _tuple(machine: Machine, node: ast.Tuple, frame: Frame) -> Value:
 
 def _set(machine: Machine, node: ast.Set, frame: Frame) -> Value:
     # Kept as a list: its order is of no account, and what is in it need not have a hash.
-    return _elements(machine, node.elts, frame)
+    found = _elements(machine, node.elts, frame)
+    return unique(found) if isinstance(found, list) else found
 
 
 def _elements(machine: Machine, nodes: Iterable[ast.expr], frame: Frame) -> Value:
@@ -108,6 +111,7 @@ def _dict(machine: Machine, node: ast.Dict, frame: Frame) -> Value:
         found[hashable(key)] = value
     if unknown:
         machine.lose(found)
+        found[UNKNOWN] = Unknown("elements that are not known")
     return found
 
 
@@ -282,7 +286,7 @@ def _comprehension(machine: Machine, node: ast.ListComp | ast.SetComp | ast.Gene
     if isinstance(of, Api) and of.name == INSTALLED:
         return of  # whatever is made of each: who asks what is in it asks what is installed
     _generate(machine, node.generators, of, inner, lambda: found.append(machine.guard(machine.evaluate(node.elt, inner))))
-    return found
+    return unique(found) if isinstance(node, ast.SetComp) else found
 
 
 def _dict_comprehension(machine: Machine, node: ast.DictComp, frame: Frame) -> Value:
@@ -307,7 +311,7 @@ def _generate(
     if values is None:
         guards.append((Unknown("element of what is not known"), (PERHAPS,)))
     else:
-        guards = [(plain(one), _around(one)) for one in values]
+        guards = [(plain(one), around(one)) for one in values]
     for value, conditions in guards:
         bind(machine, first.target, value, frame)
         needed = list(conditions)
@@ -323,14 +327,6 @@ def _generate(
                     _generate(machine, rest, machine.evaluate(rest[0].iter, frame), frame, produce)
                 else:
                     produce()
-
-
-def _around(value: Value) -> Conditions:
-    conditions: Conditions = ()
-    while isinstance(value, Guarded):
-        conditions += value.conditions
-        value = value.value
-    return conditions
 
 
 def _slice_object(machine: Machine, node: ast.Slice, frame: Frame) -> Value:  # noqa: ARG001

@@ -323,6 +323,7 @@ _BY_NAME: Mapping[str, Rule] = {
     "pathlib.Path": _path,
     "pathlib.PurePath": _path,
     "pathlib.PosixPath": _path,
+    "pathlib.PurePosixPath": _path,
     "pathlib.Path.cwd": lambda call: FilePath(UNKNOWN),
     "pathlib.Path.home": lambda call: FilePath(UNKNOWN),
     "context.launch_configurations.get": _configured,

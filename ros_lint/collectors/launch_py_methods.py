@@ -25,6 +25,7 @@ from ros_lint.collectors.launch_py_objects import (
     Value,
     alternatives,
     plain,
+    same,
     union,
     written,
 )
@@ -38,6 +39,7 @@ from ros_lint.collectors.launch_py_operations import (
     with_format,
     without,
 )
+from ros_lint.collectors.launch_py_order import arranged, is_known, unique
 from ros_lint.collectors.launch_py_paths import call_of_path, of_path
 from ros_lint.collectors.launch_text import (
     LONGEST,
@@ -164,6 +166,9 @@ def call_method(
         machine.spend(len(owner) // 8)
     if isinstance(owner, str):
         return _of_text(machine, owner, name, arguments, keywords, node, frame)
+    if isinstance(owner, list) and name == "sort":
+        owner[:] = arranged(machine, list(owner), keywords, node, frame)
+        return None
     if isinstance(owner, list):
         return _of_list(machine, owner, name, arguments)
     if isinstance(owner, dict):
@@ -227,7 +232,7 @@ def _formatted(owner: str, arguments: list[Value], keywords: dict[str, Value], n
     except ValueError:
         raise Raised from None
     count = 0
-    for literal, field, spec, _ in fields:
+    for literal, field, spec, conversion in fields:
         rows.append((literal,))
         if field is None:
             continue
@@ -236,8 +241,8 @@ def _formatted(owner: str, arguments: list[Value], keywords: dict[str, Value], n
         value = arguments[int(key)] if key.isdigit() and int(key) < len(arguments) else keywords.get(key)
         if value is None:
             rows.append((UNKNOWN,))
-        elif spec:
-            rows.append(tuple(with_format(plain(value), one, spec, -1) for one in text_of(value)))
+        elif spec or conversion in ("r", "a"):
+            rows.append(tuple(with_format(plain(value), one, spec or "", ord(conversion or "s")) for one in text_of(value)))
         else:
             rows.append(text_of(value))
     return texts_made(joined(rows, "".join), node, frame)
@@ -246,8 +251,13 @@ def _formatted(owner: str, arguments: list[Value], keywords: dict[str, Value], n
 def _of_list(machine: Machine, owner: list[Value], name: str, arguments: list[Value]) -> Value:
     first = arguments[0] if arguments else None
     match name:
-        case "append" | "add":
+        case "append":
             machine.spend(1)
+            owner.append(machine.guard(first))
+            return None
+        case "add" if any(same(one, first) for one in owner):
+            return None
+        case "add":
             owner.append(machine.guard(first))
             return None
         case "extend" | "update":
@@ -258,6 +268,8 @@ def _of_list(machine: Machine, owner: list[Value], name: str, arguments: list[Va
             else:
                 machine.spend(len(found))
                 owner += [machine.guard(one) for one in found]
+            if name == "update":
+                owner[:] = unique(owner)
             return None
         case "insert":
             position = plain(first)
@@ -273,17 +285,15 @@ def _of_list(machine: Machine, owner: list[Value], name: str, arguments: list[Va
         case "clear":
             owner.clear()
             return None
-        case "sort":
-            sort(owner)
-            return None
-        case "remove":
-            for index, one in enumerate(owner):
-                if plain(one) is plain(first) or (isinstance(first, str) and plain(one) == first):
-                    del owner[index]
-                    break
+        case "remove" | "discard":
+            same_ones = [index for index, one in enumerate(owner) if same(plain(one), plain(first))]
+            if same_ones:
+                del owner[same_ones[0]]
+            elif name == "remove" and all(map(is_known, (*owner, first))):
+                raise Raised("ValueError")
             return None
         case "union":
-            return [*owner, *(one for argument in arguments for one in items(machine, argument) or [])]
+            return unique([*owner, *(one for argument in arguments for one in items(machine, argument) or [])])
     return Unknown(f"{name}() of a list")
 
 
@@ -294,13 +304,7 @@ def _popped(owner: list[Value], position: Value) -> Value:
     try:
         return plain(owner.pop(index))
     except IndexError:
-        raise Raised from None
-
-
-def sort(values: list[Value]) -> None:
-    """Sort a list in place, if it holds what can be sorted."""
-    if all(isinstance(plain(value), str) for value in values) or all(isinstance(plain(value), (int, float)) for value in values):
-        values.sort(key=plain)
+        raise Raised("IndexError") from None
 
 
 def _of_dict(machine: Machine, owner: dict[Any, Value], name: str, arguments: list[Value], keywords: dict[str, Value]) -> Value:
@@ -322,16 +326,24 @@ def _of_dict(machine: Machine, owner: dict[Any, Value], name: str, arguments: li
                 return owner.pop(key) if name == "pop" else owner[key]
             if UNKNOWN in owner:
                 return union([owner[UNKNOWN], default])
+            if name == "pop" and len(arguments) == 1 and key != UNKNOWN:
+                raise Raised("KeyError")
             if name == "setdefault":
                 owner[key] = default
             return default
+        case "clear":
+            owner.clear()
+            return None
+        case "popitem" if UNKNOWN not in owner:
+            if not owner:
+                raise Raised("KeyError")
+            return owner.popitem()
         case "update":
             return _updated(machine, owner, arguments, keywords)
     return Unknown(f"{name}() of a dictionary")
 
 
 def _updated(machine: Machine, owner: dict[Any, Value], arguments: list[Value], keywords: dict[str, Value]) -> None:
-    owner.update(keywords)
     for argument in arguments:
         for one in alternatives(argument):
             if isinstance(one.value, dict):
@@ -347,3 +359,4 @@ def _updated(machine: Machine, owner: dict[Any, Value], arguments: list[Value], 
             if pairs is None:
                 owner[UNKNOWN] = Unknown("elements that are not known")
                 machine.lose(one.value)
+    owner.update(keywords)

@@ -297,7 +297,11 @@ class Frame:
 
 
 class Raised(Exception):  # noqa: N818  (it stands for any exception of the program)
-    """The program raises."""
+    """The program raises an exception of the class ``kind``, "" if that is unknown."""
+
+    def __init__(self, kind: str = "") -> None:
+        super().__init__(kind)
+        self.kind = kind
 
 
 class OutOfBudget(Exception):  # noqa: N818
@@ -311,13 +315,13 @@ def union(values: Iterable[Value]) -> Value:
         for one in alternatives(value):
             if len(one.conditions) > 1 and not agree(one.conditions):
                 continue
-            if not any(_same(one.value, other.value) and one.conditions == other.conditions for other in found):
+            if not any(same(one.value, other.value) and one.conditions == other.conditions for other in found):
                 found.append(one)
         if len(found) > MOST:
             return Unknown("one of too many values")
     if not found:
         return Unknown("no value")
-    if all(_same(one.value, found[0].value) for one in found):
+    if all(same(one.value, found[0].value) for one in found):
         return found[0].value
     return Union(tuple(found))
 
@@ -352,7 +356,17 @@ def plain(value: Value) -> Value:
     return value
 
 
-def _same(one: Value, other: Value) -> bool:
+def around(value: Value) -> Conditions:
+    """Return the conditions around a value."""
+    conditions: Conditions = ()
+    while isinstance(value, Guarded):
+        conditions += value.conditions
+        value = value.value
+    return conditions
+
+
+def same(one: Value, other: Value) -> bool:
+    """Return whether two values are the same for certain."""
     if one is other:
         return True
     if isinstance(one, str) and isinstance(other, str):

@@ -163,8 +163,10 @@ def with_format(value: Value, text: str, spec: Value, conversion: int) -> str:
     if not isinstance(spec, str) or not is_plain(spec) or not is_plain(text) or len(spec) > 8:
         return UNKNOWN
     try:
-        if conversion == 114:
-            return format(repr(value if isinstance(value, _NUMBERS) else text), spec)
+        if conversion in _CONVERSIONS and isinstance(value, (str, *_NUMBERS)):
+            return format(_CONVERSIONS[conversion](value if isinstance(value, _NUMBERS) else text), spec)
+        if conversion in _CONVERSIONS and isinstance(value, FilePath):
+            return UNKNOWN
         return format(value if isinstance(value, _NUMBERS) else text, spec)
     except (ValueError, OverflowError, MemoryError):
         return UNKNOWN
@@ -177,6 +179,7 @@ def texts_made(found: tuple[str, ...], node: ast.expr, frame: Frame) -> Value:
     return union(guarded_text(one, written(one, node, frame.source)) for one in found)
 
 
+_CONVERSIONS = {ord("r"): repr, ord("a"): ascii}
 _OPERATORS = {**ARITHMETIC, **BITWISE}
 _ORDERS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="}
 
@@ -307,7 +310,7 @@ def _contained(op: ast.cmpop, left: Value, right: Value) -> Value:
         return (left in right) is wanted if isinstance(left, int) else Unknown("membership that is not known")
     elif isinstance(right, (list, tuple, dict)) and isinstance(left, (str, *_NUMBERS, type(None))):
         inner = [plain(one) for one in right]
-        if any(isinstance(one, (str, *_NUMBERS)) and one == left for one in inner):
+        if any(isinstance(one, (str, *_NUMBERS, type(None))) and one == left for one in inner):
             return wanted
         known = all(isinstance(one, (*_NUMBERS, type(None))) or (isinstance(one, str) and is_plain(one)) for one in inner)
         if known and (not isinstance(left, str) or is_plain(left)):
@@ -383,19 +386,19 @@ def subscript(machine: Machine, owner: Value, key: Value) -> Value:
             return owner[name]
         if isinstance(key, Unknown) or UNKNOWN in owner:
             return union(owner.values()) if owner else Unknown("element of an empty dictionary")
-        raise Raised
+        raise Raised("KeyError")
     if isinstance(owner, (list, tuple)):
         if isinstance(key, int) and (-len(owner) <= key < len(owner) or not may_have_more(owner)):
             try:
                 return plain(owner[key])
             except IndexError:
-                raise Raised from None
+                raise Raised("IndexError") from None
         return union(owner) if owner else Unknown("element of an empty list")
     if isinstance(owner, str) and is_plain(owner) and isinstance(key, int):
         try:
             return owner[key]
         except IndexError:
-            raise Raised from None
+            raise Raised("IndexError") from None
     if isinstance(owner, str) and isinstance(key, int) and waits(owner):
         return expression(f"{quoted(owner)}[{key}]")
     return machine.subscript_of_library(owner, key)

@@ -7,6 +7,7 @@ names that differ afterwards stand for one of several values.
 from __future__ import annotations
 
 import ast
+import builtins
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -203,23 +204,42 @@ def _try(machine: Machine, node: ast.Try, frame: Frame) -> int:
         return execute(machine, node.finalbody, frame) or signal
     guarded = any(map(catches_missing_file, node.handlers))
     machine.guarded += guarded
-    raised = False
+    raised: Raised | None = None
     signal = NEXT
     try:
         signal = execute(machine, node.body, frame)
-    except Raised:
-        raised = True
+    except Raised as error:
+        raised = error
     finally:
         machine.guarded -= guarded
-    if raised:
-        for handler in node.handlers[:1]:
-            if handler.name:
-                frame.names[handler.name] = Unknown("an exception")
-            signal = execute(machine, handler.body, frame)
+    if raised is not None:
+        handler = next((handler for handler in node.handlers if _may_catch(handler, raised.kind)), None)
+        if handler is None:
+            execute(machine, node.finalbody, frame)
+            raise raised
+        if handler.name:
+            frame.names[handler.name] = Unknown("an exception")
+        signal = execute(machine, handler.body, frame)
     elif signal == NEXT:
         signal = execute(machine, node.orelse, frame)
     final = execute(machine, node.finalbody, frame)
     return final or signal
+
+
+def _may_catch(handler: ast.ExceptHandler, kind: str) -> bool:
+    """Return whether a handler may catch an exception of a class of Python; "" is for any exception."""
+    raised = getattr(builtins, kind, None) if kind else None
+    if handler.type is None or raised is None:
+        return True
+    caught = handler.type.elts if isinstance(handler.type, ast.Tuple) else [handler.type]
+    return any(_is_above(node, raised) for node in caught)
+
+
+def _is_above(node: ast.expr, raised: type) -> bool:
+    if not isinstance(node, (ast.Name, ast.Attribute)):
+        return True
+    above = getattr(builtins, node.id if isinstance(node, ast.Name) else node.attr, None)
+    return isinstance(above, type) and issubclass(raised, above)
 
 
 def _looks_up(body: Sequence[ast.stmt]) -> bool:
@@ -232,8 +252,9 @@ def _return(machine: Machine, node: ast.Return, frame: Frame) -> int:
     return LEAVE
 
 
-def _raise(_machine: Machine, _node: ast.Raise, _frame: Frame) -> int:
-    raise Raised
+def _raise(_machine: Machine, node: ast.Raise, _frame: Frame) -> int:
+    made = node.exc.func if isinstance(node.exc, ast.Call) else node.exc
+    raise Raised(made.id if isinstance(made, ast.Name) and hasattr(builtins, made.id) else "")
 
 
 def _break(_machine: Machine, _node: ast.Break, _frame: Frame) -> int:
