@@ -216,7 +216,7 @@ for arg in sys.argv:
     if arg.startswith('x'):
         return [Node(package='a', executable='b')]
 return [Node(package='a', executable='c')]
-=> node? a b, node a c
+=> node? a b, node? a c
 
 return unknown_helper(Node(package='a', executable='b'))
 => node? a b
@@ -288,6 +288,14 @@ def test_too_many_alternatives_are_perhaps_launched_each(line: str, end: str) ->
     source, found = collect("a.launch.py", body("\n".join(["node = None", *lines, end])))
     assert sorted(said(source, found)) == sorted(f"node? a b{number}" for number in range(30))
     assert [one.reason for one in found.opaque] == ["what is launched is not known: one of too many values"]
+
+
+@pytest.mark.parametrize("end", ["break", "return [Node(package='a', executable='b')]"])
+def test_endless_loops_that_may_be_left_are_left(end: str) -> None:
+    program = f"while True:\n    if input() == 'q':\n        {end}\nreturn [Node(package='a', executable='b')]"
+    source, found = collect("a.launch.py", body(program))
+    assert {line.replace("?", "") for line in said(source, found)} == {"node a b"}
+    assert not found.opaque
 
 
 def test_modules_of_the_workspace_are_followed() -> None:

@@ -62,7 +62,10 @@ def _augmented(machine: Machine, node: ast.AugAssign, frame: Frame) -> None:
 def bind(machine: Machine, target: ast.expr, value: Value, frame: Frame) -> None:
     """Give a value to a target of an assignment."""
     if isinstance(target, ast.Name):
-        frame.declared.get(target.id, frame).names[target.id] = value
+        around = frame.declared.get(target.id)
+        if around is not None and machine.conditions and target.id in around.names:
+            value = machine.joined([Guarded(around.names[target.id], ()), Guarded(value, machine.conditions)])
+        (around or frame).names[target.id] = value
     elif isinstance(target, (ast.Tuple, ast.List)):
         _unpack(machine, target.elts, value, frame)
     elif isinstance(target, ast.Attribute):

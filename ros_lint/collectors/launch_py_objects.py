@@ -281,10 +281,21 @@ class Context:
     __slots__ = ()
 
 
+class Exit(NamedTuple):
+    """A way out of a turn, a loop or a function that is taken only under conditions."""
+
+    signal: int
+    """What it leaves, as :mod:`ros_lint.collectors.launch_py_branches` numbers it."""
+    conditions: Conditions
+    """All conditions that hold where it is taken."""
+    names: dict[str, Value]
+    """The names of the function there."""
+
+
 class Frame:
     """The names of a function that runs, or of a module."""
 
-    __slots__ = ("declared", "names", "outer", "returned", "source", "yielded")
+    __slots__ = ("declared", "exits", "names", "outer", "returned", "source", "yielded")
 
     def __init__(self, source: Source, outer: Frame | None, names: dict[str, Value]) -> None:
         self.source = source
@@ -292,6 +303,8 @@ class Frame:
         self.names = names
         self.declared: dict[str, Frame] = {}
         """Names that ``global`` or ``nonlocal`` gives to another frame."""
+        self.exits: list[Exit] = []
+        """The ways out, in order, of the blocks that are being followed."""
         self.returned: list[Guarded] = []
         self.yielded: list[Value] = []
 

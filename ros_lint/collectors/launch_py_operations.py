@@ -26,6 +26,7 @@ from ros_lint.collectors.launch_py_objects import (
     union,
     written,
 )
+from ros_lint.collectors.launch_py_order import MOST_COMPARED, is_known, is_small
 from ros_lint.collectors.launch_py_texts import texts
 from ros_lint.collectors.launch_text import (
     LONGEST,
@@ -51,7 +52,6 @@ INSTALLED = "installed packages"
 
 _NUMBERS = (int, float, bool)
 _MOST_ITEMS = 5_000
-_MOST_COMPARED = 500
 
 
 def each(value: Value, function: Callable[[Value], Value]) -> Value:
@@ -131,21 +131,6 @@ def _shown(value: Any) -> str:
         elif not (one is None or isinstance(one, (str, *_NUMBERS))):
             return UNKNOWN
     return str(value)
-
-
-def _is_small(value: Any) -> bool:
-    """Return whether a collection has few elements, those of the collections in it counted wherever they are."""
-    stack, count = [value], 0
-    while stack:
-        one = stack.pop()
-        count += 1
-        if count > _MOST_COMPARED:
-            return False
-        if isinstance(one, dict):
-            stack += one.values()
-        elif isinstance(one, (list, tuple, set)):
-            stack += one
-    return True
 
 
 def hashable(key: Value) -> Any:
@@ -287,12 +272,11 @@ def _one_compare(op: ast.cmpop, left: Value, right: Value) -> Value:
             return Unknown("comparison with what is not known")
     elif isinstance(left, str) and isinstance(right, str) and not (is_plain(left) and is_plain(right)):
         return _asked(f"{quoted(left)} {_ORDERS[type(op)]} {quoted(right)}")
-    if (
-        isinstance(left, (list, tuple, dict, set))
-        and isinstance(right, type(left))
-        and not (_is_small(left) and _is_small(right))
-    ):
-        return Unknown("a comparison of much")
+    if isinstance(left, (list, tuple, dict, set)) and isinstance(right, type(left)):
+        if not (is_small(left) and is_small(right)):
+            return Unknown("a comparison of much")
+        if not (is_known(left) and is_known(right)):
+            return Unknown("comparison with what is not known")
     try:
         return bool(COMPARISONS[type(op)](left, right))
     except (TypeError, RecursionError):
@@ -317,7 +301,7 @@ def _contained(op: ast.cmpop, left: Value, right: Value) -> Value:
             return not wanted
         if known and len(inner) == 1 and isinstance(inner[0], str):
             return Unknown("comparison with an argument", LaunchCondition((str(left),), inner[0], wanted))
-        if known and isinstance(left, str) and len(inner) <= _MOST_COMPARED:
+        if known and isinstance(left, str) and len(inner) <= MOST_COMPARED:
             one_of = ", ".join([quoted(one) for one in inner if isinstance(one, str)])
             return _asked(f"{quoted(left)} {'in' if wanted else 'not in'} ({one_of},)")
     return Unknown("membership that is not known")

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from ros_lint.collectors.launch_py_objects import Frame
     from ros_lint.collectors.launch_py_run import Machine
 
+MOST_COMPARED = 500
+"""How many values a collection may hold that is compared with another collection."""
+
 
 def arranged(machine: Machine, values: list[Value], keywords: Mapping[str, Value], node: ast.Call, frame: Frame) -> list[Value]:
     """Return values in the order of list.sort() with its keywords, or as they are if their order is unknown."""
@@ -51,11 +54,28 @@ def _keys(machine: Machine, values: list[Value], keywords: Mapping[str, Value], 
     return keys if all(map(is_known, keys)) else None
 
 
-def is_known(key: Value) -> bool:
-    """Return whether a value is a number, a known text, or a list or tuple of such values."""
-    if isinstance(key, (list, tuple)):
-        return all(map(is_known, key))
-    return isinstance(key, (int, float)) or (isinstance(key, str) and is_plain(key))
+def is_known(value: Value) -> bool:
+    """Return whether a value is None, a number, a known text, or a collection of such values."""
+    if isinstance(value, dict):
+        return all(map(is_known, value.values())) and all(map(is_known, value))
+    if isinstance(value, (list, tuple)):
+        return all(map(is_known, value))
+    return value is None or isinstance(value, (int, float)) or (isinstance(value, str) and is_plain(value))
+
+
+def is_small(value: Any) -> bool:
+    """Return whether a collection has few elements, those of the collections in it counted wherever they are."""
+    stack, count = [value], 0
+    while stack:
+        one = stack.pop()
+        count += 1
+        if count > MOST_COMPARED:
+            return False
+        if isinstance(one, dict):
+            stack += one.values()
+        elif isinstance(one, (list, tuple, set)):
+            stack += one
+    return True
 
 
 def _ordered(keys: list[Any], *, reverse: bool = False) -> list[int]:

@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 
 from ros_lint.collectors.launch_expression import evaluate
+from ros_lint.collectors.launch_py_branches import LEAVE
 from ros_lint.collectors.launch_py_builtins import BUILTINS
 from ros_lint.collectors.launch_py_eval import EVALUATE
 from ros_lint.collectors.launch_py_library import call_library, subscript_library
@@ -44,7 +45,7 @@ from ros_lint.collectors.launch_py_objects import (
 from ros_lint.collectors.launch_py_operations import text_of
 from ros_lint.collectors.launch_py_released import HELPERS, helper, placed
 from ros_lint.collectors.launch_py_repeats import UnderWay, begin
-from ros_lint.collectors.launch_py_statements import LEAVE, execute
+from ros_lint.collectors.launch_py_statements import execute
 from ros_lint.collectors.launch_py_texts import Within, texts
 from ros_lint.collectors.launch_text import fill, is_settled, joined
 from ros_lint.facts.launch import LaunchCondition
@@ -166,6 +167,10 @@ class Machine(Notes):
         if self._left < 0:
             raise OutOfBudget
         return EVALUATE[type(node)](self, node, frame)
+
+    def execute(self, body: Sequence[ast.stmt], frame: Frame) -> int:
+        """Follow statements, and return how they end. Raises Raised and OutOfBudget."""
+        return execute(self, body, frame)
 
     def function(self, node: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda, frame: Frame) -> Function:
         """Return a function of the program."""

@@ -1,8 +1,4 @@
-"""Statements of Python launch files.
-
-Where a branch depends on what is not known, both sides are followed on the same objects, under a condition each, and
-names that differ afterwards stand for one of several values.
-"""
+"""Statements of Python launch files."""
 
 from __future__ import annotations
 
@@ -13,10 +9,9 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from ros_lint.collectors import launch_py_bindings
 from ros_lint.collectors.launch_py_bindings import bind
-from ros_lint.collectors.launch_py_methods import items
+from ros_lint.collectors.launch_py_branches import BREAK, CONTINUE, LEAVE, NEXT, either, follow_for, follow_while, gives_up
 from ros_lint.collectors.launch_py_misuse import note
 from ros_lint.collectors.launch_py_objects import (
-    PERHAPS,
     Api,
     Bound,
     Class,
@@ -24,14 +19,12 @@ from ros_lint.collectors.launch_py_objects import (
     Frame,
     Function,
     Guarded,
-    OutOfBudget,
     Raised,
     Unknown,
     Value,
-    alternatives,
     plain,
 )
-from ros_lint.collectors.launch_py_operations import opposite_of, truth
+from ros_lint.collectors.launch_py_operations import truth
 from ros_lint.collectors.launch_text import presence
 from ros_lint.collectors.python_look_ups import catches_missing_file, catches_missing_package
 from ros_lint.collectors.python_values import LOOK_UPS, callee
@@ -40,11 +33,7 @@ from ros_lint.facts.launch import LaunchCondition
 if TYPE_CHECKING:
     from ros_lint.collectors.launch_py_run import Machine
 
-_MOST_TURNS = 2_000
 _Node = TypeVar("_Node", bound=ast.AST)
-
-NEXT, BREAK, CONTINUE, LEAVE = range(4)
-"""How a statement ends: with the next one, or by leaving a turn, a loop or the function."""
 
 
 def execute(machine: Machine, body: Sequence[ast.stmt], frame: Frame) -> int:
@@ -75,116 +64,12 @@ def _if(machine: Machine, node: ast.If, frame: Frame) -> int:
     answer, condition = truth(machine, value)
     if answer is not None:
         return execute(machine, node.body if answer else node.orelse, frame)
-    return _either(machine, node.body, node.orelse, condition, frame)
-
-
-def _either(
-    machine: Machine, body: Sequence[ast.stmt], other: Sequence[ast.stmt], condition: LaunchCondition, frame: Frame
-) -> int:
-    """Follow both sides of a branch, and join what they leave behind."""
-    condition = machine.fresh(condition)
-    before, opposite = machine.conditions, opposite_of(condition)
-    start = dict(frame.names)
-    first = _side(machine, body, (*before, condition), frame)
-    first_names = frame.names
-    frame.names = start
-    second = _side(machine, other, (*before, opposite), frame)
-    second_names = frame.names
-    machine.conditions = before
-    if first == LEAVE and second == LEAVE:
-        return LEAVE
-    if LEAVE in (first, second):
-        # The rest of the function runs only if the other side was taken.
-        frame.names = _kept(first_names, second_names) if first == LEAVE else _kept(second_names, first_names)
-        leaving = body if first == LEAVE else other
-        if _stops(leaving):
-            machine.asked.pop(condition.texts, None)  # it does not do without
-        if not _gives_up(leaving, everywhere=not before):
-            machine.conditions = (*before, opposite if first == LEAVE else condition)
-        return NEXT
-    frame.names = first_names
-    for name, value in second_names.items():
-        if name not in first_names:
-            first_names[name] = value
-        elif first_names[name] is not value:
-            first_names[name] = machine.joined([Guarded(first_names[name], (condition,)), Guarded(value, (opposite,))])
-    return first if first == second else NEXT
+    return either(machine, node.body, node.orelse, condition, frame)
 
 
 def _may_leave(body: Sequence[ast.stmt]) -> bool:
     ways_out = (ast.Return, ast.Raise, ast.Break, ast.Continue)
     return any(isinstance(node, ways_out) for statement in body for node in ast.walk(statement))
-
-
-def _gives_up(body: Sequence[ast.stmt], *, everywhere: bool) -> bool:
-    """Whether a block stops the whole launch file, so that what is beyond is what it does whenever it works.
-
-    Where not everyone comes by, an error that is made there tells those who do what they have to install.
-    """
-    last = body[-1] if body else None
-    return _stops(body) and (everywhere or not (isinstance(last, ast.Raise) and isinstance(last.exc, ast.Call)))
-
-
-def _stops(body: Sequence[ast.stmt]) -> bool:
-    """Whether a block ends the program, unless somebody catches what it raises."""
-    last = body[-1] if body else None
-    if isinstance(last, ast.Raise):
-        return True
-    return isinstance(last, ast.Expr) and isinstance(last.value, ast.Call) and callee(last.value) in ("exit", "quit", "_exit")
-
-
-def _side(machine: Machine, body: Sequence[ast.stmt], conditions: Conditions, frame: Frame) -> int:
-    machine.conditions = conditions
-    try:
-        return execute(machine, body, frame)
-    except Raised:
-        return LEAVE
-
-
-def _for(machine: Machine, node: ast.For | ast.AsyncFor, frame: Frame) -> int:
-    values = items(machine, machine.evaluate(node.iter, frame))
-    before = machine.conditions
-    if values is None:
-        bind(machine, node.target, Unknown("element of what is not known"), frame)
-        return _perhaps(machine, node.body, frame)
-    for turn, value in enumerate(values):
-        if turn > _MOST_TURNS:
-            raise OutOfBudget
-        machine.spend(1)
-        guards = next(alternatives(value)).conditions if isinstance(value, Guarded) else ()
-        bind(machine, node.target, plain(value), frame)
-        machine.conditions = (*before, *guards)
-        signal = execute(machine, node.body, frame)
-        if signal == LEAVE:
-            return signal
-        if signal == BREAK:
-            machine.conditions = before
-            return NEXT
-        if len(machine.conditions) == len(before) + len(guards):
-            machine.conditions = before
-    return execute(machine, node.orelse, frame)
-
-
-def _perhaps(machine: Machine, body: Sequence[ast.stmt], frame: Frame) -> int:
-    """Follow a block that may run any number of times."""
-    signal = _either(machine, body, (), PERHAPS, frame)
-    return signal if signal == LEAVE else NEXT
-
-
-def _while(machine: Machine, node: ast.While, frame: Frame) -> int:
-    for _ in range(_MOST_TURNS):
-        machine.spend(1)
-        answer, _condition = truth(machine, machine.evaluate(node.test, frame))
-        if answer is None:
-            return _perhaps(machine, node.body, frame)
-        if not answer:
-            return execute(machine, node.orelse, frame)
-        signal = execute(machine, node.body, frame)
-        if signal == LEAVE:
-            return signal
-        if signal == BREAK:
-            return NEXT
-    raise OutOfBudget
 
 
 def _with(machine: Machine, node: ast.With | ast.AsyncWith, frame: Frame) -> int:
@@ -196,12 +81,13 @@ def _with(machine: Machine, node: ast.With | ast.AsyncWith, frame: Frame) -> int
 
 
 def _try(machine: Machine, node: ast.Try, frame: Frame) -> int:
+    before = machine.conditions
     missing = next((handler for handler in node.handlers if catches_missing_package(handler)), None)
-    if missing is not None and _looks_up(node.body) and not _gives_up(missing.body, everywhere=not machine.conditions):
+    if missing is not None and _looks_up(node.body) and not gives_up(missing.body, everywhere=not machine.conditions):
         # A package that is looked up may be missing, and the file does without.
         there = LaunchCondition((presence(machine.another()),), None)
-        signal = _either(machine, [*node.body, *node.orelse], missing.body, there, frame)
-        return execute(machine, node.finalbody, frame) or signal
+        signal = either(machine, [*node.body, *node.orelse], missing.body, there, frame)
+        return _finally(machine, node, frame, before) or signal
     guarded = any(map(catches_missing_file, node.handlers))
     machine.guarded += guarded
     raised: Raised | None = None
@@ -215,15 +101,22 @@ def _try(machine: Machine, node: ast.Try, frame: Frame) -> int:
     if raised is not None:
         handler = next((handler for handler in node.handlers if _may_catch(handler, raised.kind)), None)
         if handler is None:
-            execute(machine, node.finalbody, frame)
+            _finally(machine, node, frame, before)
             raise raised
         if handler.name:
             frame.names[handler.name] = Unknown("an exception")
         signal = execute(machine, handler.body, frame)
     elif signal == NEXT:
         signal = execute(machine, node.orelse, frame)
-    final = execute(machine, node.finalbody, frame)
-    return final or signal
+    return _finally(machine, node, frame, before) or signal
+
+
+def _finally(machine: Machine, node: ast.Try, frame: Frame, before: Conditions) -> int:
+    """Follow what comes at the end of a try statement, which runs whatever way the statement is left."""
+    after, machine.conditions = machine.conditions, before
+    signal = execute(machine, node.finalbody, frame)
+    machine.conditions = (*after, *machine.conditions[len(before) :])
+    return signal
 
 
 def _may_catch(handler: ast.ExceptHandler, kind: str) -> bool:
@@ -357,18 +250,13 @@ def _class(machine: Machine, node: ast.ClassDef, frame: Frame) -> int:
     return NEXT
 
 
-def _kept(left: dict[str, Value], rest: dict[str, Value]) -> dict[str, Value]:
-    """Return the names after a branch of which one side left the function."""
-    return {**{name: value for name, value in left.items() if name not in rest}, **rest}
-
-
 _STATEMENTS: dict[type[ast.stmt], Callable[[Machine, Any, Frame], int | None]] = {
     **launch_py_bindings.STATEMENTS,
     ast.Expr: _expression,
     ast.If: _if,
-    ast.For: _for,
-    ast.AsyncFor: _for,
-    ast.While: _while,
+    ast.For: follow_for,
+    ast.AsyncFor: follow_for,
+    ast.While: follow_while,
     ast.With: _with,
     ast.AsyncWith: _with,
     ast.Try: _try,
