@@ -437,6 +437,10 @@ a = [1, 2, 3, 4]
 del a[1:3]
 values = a
 
+bases = [object]
+class A(*bases): x = 1
+values = [A.x, A().x]
+
 class A: pass
 a = A()
 a.x = 1
@@ -794,6 +798,10 @@ n = 2
 n **= 3
 n -= 1
 values = [d, t, s, n]
+
+class Grid:
+    def __getitem__(self, key): return 'x'
+values = [Grid()[0:1, 2]]
 
 class A: pass
 class B(A): pass

@@ -144,3 +144,29 @@ def test_depth_is_bounded() -> None:
     assert xml(nested(100)) == ["node a b"]
     _, found = collect("a.launch.xml", f"<launch>{nested(5000)}</launch>")
     assert [problem.message for problem in found.problems] == ["elements are nested too deeply"]
+
+
+@pytest.mark.parametrize(
+    ("body", "problems"),
+    [
+        ('<unset_env name="X"/>', []),
+        ('<unset_env/>', ["missing-attribute"]),
+        ('<unset_env name="X" value="b"/>', ["unexpected-attribute"]),
+        ('<reset_env/>', []),
+        ('<reset_env name="X"/>', ["unexpected-attribute"]),
+        ('<reset/>', []),
+        ('<reset><keep name="x" value="$(var x)"/></reset>', []),
+        ('<reset><keep name="x"/></reset>', ["missing-attribute"]),
+        ('<reset keep="x"/>', ["unexpected-attribute"]),
+        ('<shutdown/>', []),
+        ('<shutdown reason="$(var x)" if="$(var y)"/>', []),
+        ('<shutdown because="x"/>', ["unexpected-attribute"]),
+    ],
+)
+def test_actions_that_start_nothing(body: str, problems: list[str]) -> None:
+    """launch/actions: unset_environment_variable.py, reset_environment.py, reset_launch_configurations.py, shutdown_action.py."""
+    _, found = collect("a.launch.xml", f"<launch>{body}<node pkg='a' exec='b'/></launch>")
+    assert [problem.kind for problem in found.problems] == problems
+    conditions = [len(action.conditions) for action in found.actions]
+    assert [action.kind for action in found.actions] == ["other", "node"] or problems
+    assert conditions == [int(" if=" in body), 0] or problems

@@ -62,8 +62,12 @@ def _single(kind: str, name: str) -> Rule:
 def _append_environment(reader: Reader, entity: Entity) -> LaunchAction:
     action = _assignment("environment")(reader, entity)
     reader.need_truth(entity, "prepend")
-    reader.optional(entity, "separator")
-    return action._replace(name=LaunchValue(("append",), entity.span))
+    before = reader.typed(entity, "prepend", "bool") is True
+    separator = reader.optional(entity, "separator")
+    return action._replace(
+        name=LaunchValue(("prepend" if before else "append",), entity.span),
+        arguments=(("separator", separator),) if separator else (),
+    )
 
 
 def _unset_environment(reader: Reader, entity: Entity) -> LaunchAction:

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from ros_lint.collectors import launch_py_events, launch_py_nodes, launch_text
+from ros_lint.collectors.launch_expression import means_true
 from ros_lint.collectors.launch_py_methods import items
 from ros_lint.collectors.launch_py_nodes import nested, started_node
 from ros_lint.collectors.launch_py_objects import Conditions, Made, Source, Value, alternatives, plain
@@ -126,7 +127,15 @@ def _assigns(kind: str, *names: tuple[str, ...]) -> Rule:
 
 def _append(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
     (action,) = _assigns("environment", ("name",), ("value",))(walker, made, conditions)
-    return [action._replace(name=LaunchValue(("append",), place_of(made)))]
+    first = made.get(2, "prepend")
+    before = plain(first) is True or (isinstance(first, str) and means_true(first) is True)
+    separator = walker.value(made, 3, "separator")
+    return [
+        action._replace(
+            name=LaunchValue(("prepend" if before else "append",), place_of(made)),
+            arguments=(("separator", separator),) if separator else (),
+        )
+    ]
 
 
 def _one_value(kind: str, *names: str) -> Rule:

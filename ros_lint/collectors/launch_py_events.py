@@ -18,6 +18,7 @@ from ros_lint.collectors.launch_py_objects import (
     plain,
 )
 from ros_lint.collectors.launch_py_walk import Rule, Walker, place_of
+from ros_lint.collectors.launch_text import UNKNOWN
 from ros_lint.facts.launch import LaunchAction
 
 
@@ -87,7 +88,11 @@ def _opaque_function(walker: Walker, made: Made, conditions: Conditions) -> list
 
 
 def _for_each(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
-    result = walker.run(made.get(1, "function"), [Unknown("a value of ForEach")] * 3, {}, made)
+    """What a function makes that is called with keywords for each of some values, all of which may be given."""
+    function = plain(made.get(1, "function"))
+    spec = function.node.args if isinstance(function, Function) else None
+    names = [argument.arg for argument in (*spec.args, *spec.kwonlyargs)] if spec else []
+    result = walker.run(function, [], dict.fromkeys([*names, UNKNOWN], Unknown(f"a value of {made.name}")), made)
     return walker.actions(result, (*conditions, PERHAPS), place_of(made))
 
 
@@ -98,4 +103,5 @@ RULES: Mapping[str, Rule] = {
     "RegisterEventHandler": _event,
     "OpaqueFunction": _opaque_function,
     "ForEach": _for_each,
+    "ForLoop": _for_each,
 }

@@ -138,7 +138,7 @@ def _command(made: Made, within: Within) -> tuple[str, ...]:
 
 
 def _choice(made: Made, within: Within) -> tuple[str, ...]:
-    parts = (made.get(0, "condition"), made.get(1, "if_value"), made.get(2, "else_value") or "")
+    parts = (made.get(0, "condition"), made.get(1, "if_value") or "", made.get(2, "else_value") or "")
     return joined(
         [texts(part, within) for part in parts],
         lambda row: launch_text.expression(f"_if({', '.join(quoted(one) for one in row)})"),

@@ -269,8 +269,13 @@ class _Run:
         if action.kind == "parameter":
             return scope._replace(parameters=(*scope.parameters, *((name, texts) for name in names)))
         before = dict(scope.environment)
-        added = action.name is not None
-        pairs = tuple((name, joined([before.get(name, (UNKNOWN,)), texts], ":".join) if added else texts) for name in names)
+        if action.name is None:
+            pairs = tuple((name, texts) for name in names)
+        else:
+            separators = self._texts(dict(action.arguments).get("separator"), scope) or (":",)
+            order = -1 if action.name.texts == ("prepend",) else 1
+            rows = [(before.get(name, (UNKNOWN,)), separators, texts)[::order] for name in names]
+            pairs = tuple((name, joined(row, "".join)) for name, row in zip(names, rows, strict=True))
         return scope._replace(environment=(*(one for one in scope.environment if one[0] not in names), *pairs))
 
     def _group(self, action: LaunchAction, scope: Scope) -> Scope:

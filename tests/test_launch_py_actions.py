@@ -1,0 +1,108 @@
+"""What classes and functions of the launch libraries make in Python launch files.
+
+The expectations are what the sources of launch say: launch/actions, launch/substitutions and launch/utilities.
+"""
+
+import pytest
+
+from ros_lint.collectors import launch_py
+from ros_lint.collectors.launch_text import UNKNOWN, prefix
+from ros_lint.facts.launch import LaunchFile
+from ros_lint.interpret.launch_expand import expand
+from ros_lint.text import Text
+from tests.launch_cases import said
+
+FRAME = """\
+from launch import LaunchDescription
+from launch.actions import *
+from launch.substitutions import *
+from launch.utilities import normalize_to_list_of_substitutions
+from launch_ros.actions import Node
+from launch_ros.substitutions import FindPackagePrefix
+
+{}
+
+def generate_launch_description():
+{}
+"""
+
+
+def collect(body: str, functions: str = "") -> tuple[Text, LaunchFile]:
+    source = Text("a.launch.py", FRAME.format(functions, "".join(f"    {line}\n" for line in body.split("\n"))))
+    return source, launch_py.collect(source)
+
+
+@pytest.mark.parametrize(
+    ("text", "given", "wanted"),
+    [
+        ("IfElseSubstitution(LaunchConfiguration('x'), 'b', 'c')", {"x": "true"}, "b"),
+        ("IfElseSubstitution(LaunchConfiguration('x'), 'b', 'c')", {"x": "false"}, "c"),
+        ("IfElseSubstitution(LaunchConfiguration('x'), if_value='b')", {"x": "0"}, ""),
+        ("IfElseSubstitution(LaunchConfiguration('x'), else_value='c')", {"x": "1"}, ""),
+        ("IfElseSubstitution(LaunchConfiguration('x'), else_value='c')", {"x": "0"}, "c"),
+        ("StringJoinSubstitution([['b', LaunchConfiguration('x')], 'c'], delimiter='.')", {"x": "d"}, "bd.c"),
+        ("StringJoinSubstitution(['b', 'c'])", {}, "bc"),
+        ("StringJoinSubstitution(('b', 'c'), LaunchConfiguration('x'))", {"x": "-"}, "b-c"),
+        ("StringJoinSubstitution(unknown())", {}, UNKNOWN),
+        ("[FindPackagePrefix('p'), '/lib']", {}, f"{prefix('p')}/lib"),
+        ("normalize_to_list_of_substitutions(LaunchConfiguration('x'))", {"x": "b"}, "b"),
+    ],
+)
+def test_substitutions(text: str, given: dict[str, str], wanted: str) -> None:
+    _, file = collect(f"return LaunchDescription([Node(package='a', executable={text})])")
+    (started,) = expand(file, given).started
+    assert started.target == (wanted,)
+
+
+@pytest.mark.parametrize(
+    ("value", "given", "wanted"),
+    [
+        ("context.launch_configurations['x']", {"x": "b"}, "b"),
+        ("context.launch_configurations.get('x')", {"x": "b"}, "b"),
+        ("context.launch_configurations.get('x', 'c')", {"x": "b"}, "b"),
+        ("context.launch_configurations.get('x', 'c')", {}, "c"),
+    ],
+)
+def test_configurations_of_the_context(value: str, given: dict[str, str], wanted: str) -> None:
+    function = f"def setup(context):\n    return [Node(package='a', executable={value})]"
+    _, file = collect("return LaunchDescription([OpaqueFunction(function=setup)])", function)
+    (started,) = expand(file, given).started
+    assert started.target == (wanted,)
+
+
+@pytest.mark.parametrize(
+    ("actions", "wanted"),
+    [
+        ("AppendEnvironmentVariable('X', 'b')", f"{UNKNOWN}:b"),
+        ("SetEnvironmentVariable('X', 'a'), AppendEnvironmentVariable('X', 'b')", "a:b"),
+        ("SetEnvironmentVariable('X', 'a'), AppendEnvironmentVariable('X', 'b', prepend=True)", "b:a"),
+        ("SetEnvironmentVariable('X', 'a'), AppendEnvironmentVariable(name='X', value='b', prepend='true')", "b:a"),
+        ("SetEnvironmentVariable('X', 'a'), AppendEnvironmentVariable('X', 'b', False, separator='; ')", "a; b"),
+    ],
+)
+def test_variables_of_the_environment_that_are_added_to(actions: str, wanted: str) -> None:
+    _, file = collect(f"return LaunchDescription([{actions}, Node(package='a', executable='c')])")
+    (started,) = expand(file, {}).started
+    assert started.environment == (("X", (wanted,)),)
+
+
+@pytest.mark.parametrize(
+    "function",
+    [
+        "def each(name, id):\n    return [Node(package='a', executable='b')]",
+        "def each(*, name, p='a'):\n    return [Node(package='a', executable='b', name=name, namespace=p)]",
+        "def each(**values):\n    return [Node(package='a', executable='b', name=values['name'])]",
+        "def each(i):\n    return [Node(package='a', executable='b', name=f'n{i}')] if i else []",
+    ],
+)
+@pytest.mark.parametrize("action", ["ForEach", "ForLoop"])
+def test_actions_that_are_made_for_each_value(action: str, function: str) -> None:
+    source, file = collect(f"return LaunchDescription([{action}(LaunchConfiguration('x'), function=each)])", function)
+    assert said(source, file) == ["node? a b"]
+    assert not file.opaque
+
+
+def test_defaults_of_functions_that_are_called_for_each_value_may_be_replaced() -> None:
+    function = "def each(p='a'):\n    return [Node(package=p, executable='b')]"
+    _, file = collect("return LaunchDescription([ForEach(LaunchConfiguration('x'), function=each)])", function)
+    assert [UNKNOWN in action.package.texts for action in file.actions if action.package] == [True]
