@@ -5,6 +5,7 @@ Which collector reads which file is said here and nowhere else. Collectors thems
 
 from __future__ import annotations
 
+import errno
 import gc
 import os
 import re
@@ -38,9 +39,6 @@ Kind = Literal[
     "cargo",
     "matlab",
 ]
-
-MOST_BYTES = 4 << 20
-"""A larger file is not read: it is generated data, and no source."""
 
 FAILED = "ros-lint failed on this file ({}); please report this bug"
 
@@ -199,13 +197,13 @@ def _read_and_collect(tree: Tree, path: str, kind: Kind) -> Collected:
     try:
         data = tree.read(path)
     except OSError as error:
+        if kind == "program" and error.errno == errno.EFBIG:
+            return Collected()  # no script has as much: it is compiled
         return _unreadable(path, kind, error.strerror or str(error))
     if kind == "program":
         if not _OF_PYTHON.match(data):
             return Collected()
         kind = "python"
-    if len(data) > MOST_BYTES:
-        return _unreadable(path, kind, f"{len(data) >> 20} MB is too large for a source file")
     if b"\0" in data[:1024] and not data.startswith((b"\xff\xfe", b"\xfe\xff")):
         return _unreadable(path, kind, "binary data")
     try:

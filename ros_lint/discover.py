@@ -179,7 +179,7 @@ class _Walk:
         try:
             return self._tree.list(path)
         except OSError as error:
-            self._not_checked.append(_unread(path, error))
+            self._not_checked.append(NotChecked.of(path, error))
             return None
 
     def _read_meta(self, places: Sequence[str]) -> Settings:
@@ -211,7 +211,7 @@ class _Walk:
         except FileNotFoundError:
             return None  # in the folder of that name
         except OSError as error:
-            self._not_checked.append(_unread(path, error))
+            self._not_checked.append(NotChecked.of(path, error))
         except colcon_yaml.ColconYamlError as error:
             self._not_checked.append(NotChecked(path, str(error), error.span))
         return None
@@ -254,7 +254,7 @@ class _Files:
         try:
             entries = self._tree.list(path)
         except OSError as error:
-            self.not_checked.append(_unread(path, error))
+            self.not_checked.append(NotChecked.of(path, error))
             self.unseen.append(Skipped(child, "it cannot be read"))
             return None
         if _APART.isdisjoint([entry[0] for entry in entries]):
@@ -295,7 +295,7 @@ class _Files:
         try:
             self.nested.append(manifests.collect(read(path, self._tree.read(path))))
         except OSError as error:
-            self.not_checked.append(_unread(path, error))
+            self.not_checked.append(NotChecked.of(path, error))
 
     def _not_followed(self, target: str, crossed: tuple[str, ...]) -> str:
         """Return why a link is not followed, or "". ``crossed`` are the folders with it and the links on the way."""
@@ -307,7 +307,3 @@ class _Files:
             return "a link to a folder that another link already leads to"
         self._linked.add(target)
         return ""
-
-
-def _unread(path: str, error: OSError) -> NotChecked:
-    return NotChecked(path or ".", error.strerror or str(error), beginning(path))

@@ -8,8 +8,9 @@ from functools import lru_cache
 from itertools import count
 from typing import Final, NamedTuple
 
-from ros_lint.text import octets
-from ros_lint.tree import Tree, folders_of, join, parent, text_of
+from ros_lint.report import NotChecked
+from ros_lint.text import octets, read
+from ros_lint.tree import Tree, folders_of, join, parent
 from ros_lint.wildcards import LONGEST, letters, spaced
 
 _NAME = ".gitignore"
@@ -26,17 +27,30 @@ class Pattern(NamedTuple):
     """Whether it takes back what an earlier line said."""
 
 
-def find(tree: Tree, packages: Iterable[tuple[str, Iterable[str]]]) -> tuple[Pattern, ...]:
-    """Return the patterns for packages, given by folder with the files in it: later ones win. What cannot be read has none."""
+class Ignores(NamedTuple):
+    """What the ``.gitignore`` files of a workspace say, and those that cannot be read."""
+
+    patterns: tuple[Pattern, ...]
+    """Later patterns win."""
+    not_checked: tuple[NotChecked, ...]
+
+
+def find(tree: Tree, packages: Iterable[tuple[str, Iterable[str]]]) -> Ignores:
+    """Return the patterns for packages, given by folder with the files in it."""
     paths = {_NAME}
     for folder, files in packages:
         paths.update([join(folder, file) for file in files if file.rpartition("/")[2] == _NAME])
         paths.update([join(above, _NAME) for above in folders_of(folder)])
     found: list[Pattern] = []
-    for path in sorted(paths, key=lambda one: (one.count("/"), one)):
-        text = text_of(tree, path)
-        found += patterns(parent(path), text.text) if text else ()
-    return tuple(found)
+    unread: list[NotChecked] = []
+    for path in sorted(paths, key=lambda path: (path.count("/"), path)):
+        try:
+            found += patterns(parent(path), read(path, tree.read(path)).text)
+        except (FileNotFoundError, NotADirectoryError):
+            continue
+        except OSError as error:
+            unread.append(NotChecked.of(path, error))
+    return Ignores(tuple(found), tuple(unread))
 
 
 def patterns(folder: str, text: str) -> Iterator[Pattern]:

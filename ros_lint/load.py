@@ -108,9 +108,10 @@ class Loader:
         world = World(tuple(self._members(reads, discovery.rejected)), self._underlays, self._knowledge, awaited)
         packages = tuple(self._join(tree, reads, world, sources))
         unusable = tuple(self._unusable(manifest) for manifest in discovery.rejected if not self._exclude(manifest.path))
-        not_checked = dict.fromkeys((*discovery.not_checked, *_unreadable(collected), *_failed(reads)))
         ignores = ignored.find(tree, ((found.path, found.files) for found in founds))
-        return Workspace(packages, unusable, world, self.target, tuple(not_checked), lists, ignores)
+        unread = (*discovery.not_checked, *source_lists.unreadable(tree, lists), *ignores.not_checked, *_unreadable(collected))
+        not_checked = tuple(dict.fromkeys((*unread, *_failed(reads))))
+        return Workspace(packages, unusable, world, self.target, not_checked, lists, ignores.patterns)
 
     def text(self, path: str) -> Text | None:
         """Return the text of a file, None if it cannot be read."""

@@ -14,7 +14,7 @@ from ros_lint.options import COMMANDS, OPTIONS
 from ros_lint.registry import BUILTIN
 from ros_lint.report import RefusalError, Target
 from ros_lint.slips import did_you_mean, similar
-from ros_lint.tree import DiskTree, upwards
+from ros_lint.tree import DiskTree, repository_of
 
 if TYPE_CHECKING:
     from ros_lint import underlay
@@ -34,12 +34,19 @@ class Asked(NamedTuple):
     """Absolute. Every path in the output is relative to it: the root of the repository, or the workspace itself."""
     roots: tuple[str, ...]
     """What was asked for, relative to the base."""
+    inside: tuple[str, ...]
+    """Absolute. The folders that links of the workspace may lead into: the repository, or what was asked for."""
     target: Target
     places: tuple[str, ...]
     """Folders with data of the released world that go before those shipped."""
     cache: str
     """The folder for what is kept between runs, or ""."""
     warnings: tuple[str, ...]
+
+    @property
+    def disk(self) -> DiskTree:
+        """Return the files of the workspace."""
+        return DiskTree(self.base, self.inside)
 
 
 class Opened(NamedTuple):
@@ -72,13 +79,14 @@ def ask(said: Mapping[str, Any], environment: Mapping[str, str]) -> Asked:
         if not os.path.isdir(path):
             raise UsageError(f"{written}: not a directory; pass a workspace or a package")
     base = _base(paths)
+    inside = (base,) if repository_of(base) else tuple(repository_of(path) or path for path in paths)
     settings = settle(
         {name: value for name, value in said.items() if name != "paths"}, os.path.commonpath(paths), environment, base
     )
     places = (user_directory(environment),)
     target, warnings = _target(settings, places)
     roots = tuple("" if path == base else os.path.relpath(path, base).replace(os.sep, "/") for path in paths)
-    return Asked(settings, base, roots, target, places, cache.folder(environment) if settings["cache"] else "", warnings)
+    return Asked(settings, base, roots, inside, target, places, cache.folder(environment) if settings["cache"] else "", warnings)
 
 
 def opened(asked: Asked, progress: Progress, workspace: Tree | None = None, machine: Tree | None = None) -> Opened:
@@ -92,17 +100,22 @@ def opened(asked: Asked, progress: Progress, workspace: Tree | None = None, mach
     knowledge = Knowledge(asked.target.distro, asked.places)
     underlays, unread = _underlays(settings, asked.target.distro, base, machine)
     loader = Loader(
-        workspace or DiskTree(base),
+        workspace or asked.disk,
         asked.roots,
         asked.target,
         underlays=underlays,
         knowledge=knowledge,
         exclude=_excluder(settings["exclude"]),
         jobs=settings["jobs"],
-        cache=cache.Cache(asked.cache, base),
+        cache=cache.Cache(asked.cache, _kept_by(asked)),
         progress=progress,
     )
     return Opened(loader, settings, knowledge, base, asked.roots, (*asked.warnings, *unread))
+
+
+def _kept_by(asked: Asked) -> str:
+    """Return the name by which the facts of files are kept: they depend on where links may lead."""
+    return asked.base if asked.inside == (asked.base,) else os.pathsep.join((asked.base, *asked.inside))
 
 
 _OF_NO_MATTER = frozenset((
@@ -132,7 +145,7 @@ def reports(asked: Asked) -> cache.Reports:
     libraries = [spec.origin or "" for name in _LIBRARIES if (spec := find_spec(name))]
     data = [*libraries, *(file for folder in folders for file in cache.files_below(folder))]
     prefixes = [os.path.abspath(prefix) for prefix in settings["underlay"] if prefix]
-    said = repr((asked.roots, asked.target, values, prefixes, settings.origin("underlay")))
+    said = repr((asked.roots, asked.inside, asked.target, values, prefixes, settings.origin("underlay")))
     return cache.Reports(asked.cache, asked.base, said, data)
 
 
@@ -189,11 +202,6 @@ def _base(paths: Sequence[str]) -> str:
     """
     common = os.path.commonpath(paths)
     return repository_of(common) or common
-
-
-def repository_of(folder: str) -> str:
-    """Return the root of the repository that a folder is in, or ""."""
-    return next((above for above in upwards(folder) if os.path.exists(os.path.join(above, ".git"))), "")
 
 
 def _target(settings: Settings, places: Sequence[str]) -> tuple[Target, tuple[str, ...]]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.environment import ROS_2
+from ros_lint.text import beginning
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -87,6 +88,11 @@ class NotChecked(NamedTuple):
     what: str
     reason: str
     span: Span | None
+
+    @classmethod
+    def of(cls, path: str, error: OSError) -> NotChecked:
+        """Return a file or folder that cannot be read. ``path`` is relative to the base, "" is the base."""
+        return cls(path or ".", error.strerror or str(error), beginning(path))
 
 
 class Report(NamedTuple):

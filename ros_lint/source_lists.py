@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
+from ros_lint.report import NotChecked
 from ros_lint.tree import Tree, join, parent, text_of
 
 _ENDINGS = (".repos", ".rosinstall", ".gitmodules")
@@ -37,11 +38,23 @@ def find(tree: Tree, roots: Sequence[str], files: Iterable[str]) -> tuple[str, .
                 entries = tree.list(folder)
             except OSError:
                 continue
-            found.update(join(folder, entry.name) for entry in entries if entry.name.endswith(_ENDINGS))
+            lists = [entry.name for entry in entries if entry.name.endswith(_ENDINGS) and entry.kind != "directory"]
+            found.update(join(folder, name) for name in lists)
             if number == 0:
                 inner = [entry.name for entry in entries if entry.kind == "directory" and not entry.name.startswith(".")]
                 folders += [join(top, name) for name in inner]
     return tuple(sorted(found))
+
+
+def unreadable(tree: Tree, lists: Iterable[str]) -> Iterator[NotChecked]:
+    """Yield the lists that cannot be read, such as a FIFO of that name."""
+    for path in lists:
+        try:
+            tree.read(path)
+        except FileNotFoundError:
+            continue  # a link to nothing
+        except OSError as error:
+            yield NotChecked.of(path, error)
 
 
 _SUBMODULE = re.compile(r"^[ \t]*path[ \t]*=[ \t]*(.+?)[ \t\r]*$", re.MULTILINE)

@@ -43,7 +43,7 @@ def of_package(tree: Tree, package: Package, source: Source, world: World, types
     found = mentioned(wanted, source, libraries, _may_trace) if wanted else {}
     left = [name for name in wanted if name not in found]
     if left:
-        found = {**found, **traces(left, _contents(tree, package), libraries)}
+        found = {**found, **traces(left, _contents(tree, package, package.files), libraries)}
         left = [name for name in left if name not in found]
     if left:
         found = {**found, **types.used(source, left)}
@@ -83,12 +83,10 @@ def of_found(tree: Tree, package: Package, source: Source, world: World, types: 
     wanted = [each.name for each in not_seen_used(package) if not is_unseen_by_name(world, each.name)]
     if not wanted:
         return frozenset()
-    texts: dict[bool, list[tuple[str, bytes]]] = {True: [], False: []}
-    for path, data in _contents(tree, package):
-        texts[path.endswith(_OF_BUILD)].append((path, data))
-    found = frozenset(traces(wanted, texts[False], whole=True))
-    scripts = b"\n".join([data for _, data in texts[True]])
-    found |= {name for name in wanted if re.search(_VARIABLE % re.escape(raw(name)), scripts)}
+    scripts, others = ([file for file in package.files if file.endswith(_OF_BUILD) is of_build] for of_build in (True, False))
+    found = frozenset(traces(wanted, _contents(tree, package, others), whole=True))
+    commands = b"\n".join([data for _, data in _contents(tree, package, scripts)])
+    found |= {name for name in wanted if re.search(_VARIABLE % re.escape(raw(name)), commands)}
     if len(found) < len(wanted):
         folders = _unknown_folders(package, source)
         found |= {name for name in wanted if any(f"{name}_".startswith(f"{folder}_") for folder in folders)}
@@ -107,11 +105,12 @@ def unwritten(tree: Tree, package: Package) -> frozenset[str]:
     if not wanted:
         return frozenset()
     sources = [file for file in package.files if file.endswith(_OF_CODE) or file.endswith(_OF_BUILD)]
-    data = b"\n".join([content for _, content in contents(tree, package.path, sources)])
-    if _PUT_TOGETHER.search(data):
-        return frozenset()
-    words = {name: raw(name.rpartition("::")[2]) for name in wanted}
-    return frozenset([name for name, word in words.items() if word and not re.search(rb"\b%s\b" % re.escape(word), data)])
+    words = {name: word for name in wanted if (word := raw(name.rpartition("::")[2]))}
+    for _, data in contents(tree, package.path, sources):
+        if _PUT_TOGETHER.search(data):
+            return frozenset()
+        words = {name: word for name, word in words.items() if not re.search(rb"\b%s\b" % re.escape(word), data)}
+    return frozenset(words)
 
 
 _PUT_TOGETHER = re.compile(rb"#[ \t]*define\b(?:[^\n]|\\\n)*(?:PLUGINLIB_EXPORT_|CLASS_LOADER_REGISTER_)CLASS")
@@ -143,9 +142,9 @@ _VARIABLE = rb"\$\{%s_(?!(?:TARGETS|LIBRAR|INCLUDE_DIR|DEFINITIONS|FOUND|VERSION
 _OF_BUILD = ("CMakeLists.txt", ".cmake")
 
 
-def _contents(tree: Tree, package: Package) -> Iterator[tuple[str, bytes]]:
-    """Yield the files of a package that may say that it uses something: no prose, and not the manifest itself."""
-    for path, data in contents(tree, package.path, filter(_may_trace, package.files)):
+def _contents(tree: Tree, package: Package, files: Iterable[str]) -> Iterator[tuple[str, bytes]]:
+    """Yield those files of a package that may say that it uses something: no prose, and not the manifest itself."""
+    for path, data in contents(tree, package.path, filter(_may_trace, files)):
         if b"\0" not in data[:1024]:
             yield path, data
 
@@ -164,15 +163,41 @@ def traces(
 ) -> dict[str, Span]:
     """Return a place for every name that stands as a word in one of the files, dashes and underscores taken as equal.
 
-    ``files`` are paths with contents. They are searched all at once and as they are: few of them have a name in question.
+    ``files`` are paths with contents. Many are searched at once and as they are: few of them have a name in question.
     ``words`` are sought for some of the names instead, anywhere and whatever their capitals. With ``whole`` the part of a
     longer name does not count: ``tf2`` is not in ``tf2_ros``.
     """
-    listed = list(files)
+    found: dict[str, Span] = {}
+    for batch in _batches(files):
+        found.update(_traces_in(batch, [name for name in names if name not in found], words or {}, whole))
+        if len(found) == len(names):
+            break
+    return {name: found[name] for name in names if name in found}
+
+
+_BATCH = 1 << 24
+"""Bytes of texts that are held in memory to be searched together. Few packages have more."""
+
+
+def _batches(files: Iterable[tuple[str, bytes]]) -> Iterator[list[tuple[str, bytes]]]:
+    """Yield the files in groups, each of which ends with the file that fills it."""
+    batch: list[tuple[str, bytes]] = []
+    size = 0
+    for path, data in files:
+        batch.append((path, data))
+        size += len(data)
+        if size >= _BATCH:
+            yield batch
+            batch, size = [], 0
+    yield batch
+
+
+def _traces_in(
+    listed: Sequence[tuple[str, bytes]], names: Sequence[str], words: Mapping[str, Sequence[str]], whole: bool
+) -> dict[str, Span]:
     data = b"\n".join([content for _, content in listed])
     starts = list(accumulate([len(content) + 1 for _, content in listed], initial=0))
     found: dict[str, Span] = {}
-    words = words or {}
     lower = data.lower() if words else b""
     for name in names:
         if name in words:

@@ -6,12 +6,14 @@ Paths are relative to the base of the tree, with forward slashes; the base itsel
 
 from __future__ import annotations
 
+import errno
 import os
 import posixpath
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from operator import itemgetter
 from typing import Literal, NamedTuple, Protocol
 
+from ros_lint import files
 from ros_lint.text import Text, raw, read
 
 Kind = Literal["file", "directory", "other"]
@@ -134,6 +136,11 @@ def upwards(folder: str) -> Iterator[str]:
         folder = above
 
 
+def repository_of(folder: str) -> str:
+    """Return the root of the repository that a folder of the machine is in, or ""."""
+    return next((above for above in upwards(folder) if os.path.exists(os.path.join(above, ".git"))), "")
+
+
 def _followed(entry: os.DirEntry[str]) -> Entry:
     try:
         kind: Kind = "directory" if entry.is_dir() else "file" if entry.is_file() else "other"
@@ -142,13 +149,21 @@ def _followed(entry: os.DirEntry[str]) -> Entry:
     return Entry(entry.name, kind, entry.is_symlink())
 
 
+LEADS_OUT = "links to a place outside of the workspace"
+
+
 class DiskTree:
-    """The files below a directory. Reads, and never writes."""
+    """The files below a directory. Reads, and never writes.
 
-    __slots__ = ("_base",)
+    ``inside`` are the real paths of the folders that links to files may lead into, by default the directory itself. A file
+    in a folder that is reached by a link which leads out of these may link into that folder, too, and into its repository.
+    """
 
-    def __init__(self, base: str) -> None:
+    __slots__ = ("_base", "_inside")
+
+    def __init__(self, base: str, inside: Sequence[str] = ()) -> None:
         self._base = base
+        self._inside = tuple(inside)
 
     def place(self, path: str) -> str:
         """Return the path as the operating system takes it."""
@@ -169,19 +184,26 @@ class DiskTree:
         return found
 
     def read(self, path: str) -> bytes:
-        # os.open and one large read are twice as fast as open() on the many small files of a workspace.
-        handle = os.open(self.place(path), os.O_RDONLY)
+        """Return the bytes of a file. Raises OSError, with EXDEV for a link that leads out of the workspace."""
         try:
-            parts = []
-            while part := os.read(handle, 1 << 16):
-                parts.append(part)
-                if len(part) < 1 << 16:
-                    break
-            while len(parts) > 1 and (part := os.read(handle, 1 << 20)):
-                parts.append(part)
-            return parts[0] if len(parts) == 1 else b"".join(parts)
-        finally:
-            os.close(handle)
+            return files.read(self.place(path), links=False)
+        except OSError as error:
+            if error.errno not in _IS_LINK:
+                raise
+        target = self.identity(path)
+        if not self._may_lead_to(target, parent(path)):
+            raise OSError(errno.EXDEV, LEADS_OUT, self.place(path))
+        return files.read(target)
+
+    def _may_lead_to(self, target: str, folder: str) -> bool:
+        """Return whether a link in a folder may lead to a place."""
+        inside = self._inside or (self.identity(""),)
+        if _is_in(target, inside):
+            return True
+        linked = ""  # the real path of the outermost folder that is reached by a link which leads out
+        while folder and not _is_in(real := self.identity(folder), inside):
+            linked, folder = real, parent(folder)
+        return bool(linked) and _is_in(target, (linked, repository_of(linked) or linked))
 
     def stamp(self, path: str) -> Stamp:
         found = os.stat(self.place(path))
@@ -191,8 +213,16 @@ class DiskTree:
         return os.path.realpath(os.path.join(self._base, path))
 
 
+_IS_LINK = (errno.ELOOP, errno.EMLINK)
+"""The errors of O_NOFOLLOW: of Linux and macOS, and of FreeBSD."""
+
+
+def _is_in(path: str, folders: Iterable[str]) -> bool:
+    return any(is_below(path, folder) for folder in folders)
+
+
 class Machine(DiskTree):
-    """All files of the machine, by their absolute paths."""
+    """All files of the machine, by their absolute paths. Links are followed wherever they lead."""
 
     __slots__ = ()
 
@@ -201,6 +231,9 @@ class Machine(DiskTree):
 
     def place(self, path: str) -> str:
         return path
+
+    def read(self, path: str) -> bytes:
+        return files.read(path)
 
 
 Told = list[Entry] | Stamp | str | int

@@ -47,7 +47,7 @@ def test_files_are_found_above_packages_and_in_them() -> None:
     tree = MemoryTree(
         {".gitignore": "*.so\n", "src/.gitignore": "!keep.so\n", "src/arm/.gitignore": "/made\n", "x/.gitignore": "*\n"}
     )
-    given = find(tree, [("src/arm", (".gitignore", "a.cpp"))])
+    given = find(tree, [("src/arm", (".gitignore", "a.cpp"))]).patterns
     assert is_ignored(given, "src/arm/lib/a.so")
     assert not is_ignored(given, "src/arm/lib/keep.so")
     assert is_ignored(given, "src/arm/made/a.yaml")

@@ -16,7 +16,7 @@ from ros_lint.collectors.launch_py_names import ACTIONS
 from ros_lint.collectors.launch_py_objects import Function, Made
 from ros_lint.collectors.launch_py_texts import is_text
 from ros_lint.collectors.launch_py_walk import span_of
-from ros_lint.collectors.python_syntax import refusal
+from ros_lint.collectors.python_syntax import NO_FILE, refusal
 from ros_lint.collectors.python_unbound import tried, unbound
 from ros_lint.collectors.python_values import callee
 from ros_lint.facts.sight import Problem
@@ -32,7 +32,7 @@ def misplaced(tree: ast.Module, source: Text) -> Iterator[Problem]:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            compile(tree, source.path, "exec", dont_inherit=True)  # nothing is run
+            compile(tree, NO_FILE, "exec", dont_inherit=True)  # nothing is run
     except SyntaxError as error:
         yield refusal(source, error.msg, error.lineno or 1, error.offset or 1)
     except (ValueError, RecursionError, MemoryError):

@@ -33,6 +33,10 @@ Node = ast.expr | ast.stmt | ast.alias | ast.keyword
 """What stands in a place of its own."""
 
 
+NO_FILE = ""
+"""The file name to compile sources by. For a syntax error CPython opens the file of that name, relative to the current folder."""
+
+
 class NotPythonError(Exception):
     """A source is no Python for the interpreter that runs."""
 
@@ -53,9 +57,9 @@ def parse(source: Text) -> ast.Module:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # about escapes in somebody's strings
             try:
-                return ast.parse(source.text)
+                return ast.parse(source.text, NO_FILE)
             except UnicodeEncodeError:  # Python takes bytes that are no UTF-8 in comments of what it imports
-                return ast.parse(raw(source.text))
+                return ast.parse(raw(source.text), NO_FILE)
     except SyntaxError as error:
         raise NotPythonError(error.msg, error.lineno or 1, error.offset or 1) from None
     except (ValueError, RecursionError, MemoryError) as error:

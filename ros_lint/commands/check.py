@@ -12,7 +12,7 @@ from ros_lint import __version__, opening
 from ros_lint.progress import Progress
 from ros_lint.report import Hidden, RefusalError, Report, Unseen
 from ros_lint.rule import Severity
-from ros_lint.tree import DiskTree, Machine, RecordedTree, text_of
+from ros_lint.tree import Machine, RecordedTree, text_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -118,7 +118,7 @@ def _alone(asked: Asked) -> Iterator[str]:
 def _checked(asked: Asked, progress: Progress) -> Report:
     """Return the report of a run, or the one of an earlier run if nothing that it depends on has changed."""
     reports = opening.reports(asked)
-    disks = DiskTree(asked.base), Machine()
+    disks = asked.disk, Machine()
     recorded = [RecordedTree(disk) for disk in disks]
     if kept := reports.fetch(recorded):
         return kept
@@ -181,10 +181,8 @@ def _print(report: Report, asked: Asked) -> int:
     from ros_lint import reporters  # noqa: PLC0415
 
     settings = asked.settings
-    tree = DiskTree(asked.base)
-
     render = reporters.reporter(settings["format"])
-    text = render(report, partial(text_of, tree), _style(settings))
+    text = render(report, partial(text_of, asked.disk), _style(settings))
     if settings["output"]:
         try:
             with open(settings["output"], "w", encoding="utf-8", newline="\n") as file:

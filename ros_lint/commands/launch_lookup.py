@@ -157,8 +157,10 @@ class LookUp:
     def _read(self, path: str) -> LaunchFile | Absent:
         try:
             data = self._tree.read(path)
-        except OSError:
+        except (FileNotFoundError, NotADirectoryError):
             return Absent("no such file", surely=True)
+        except OSError as error:
+            return Absent(f"it cannot be read: {error.strerror or error}", surely=False)
         return self._collected(path, data)
 
     def _collected(self, path: str, data: bytes) -> LaunchFile | Absent:

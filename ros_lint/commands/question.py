@@ -9,9 +9,9 @@ from typing import Any
 
 from ros_lint.config import ConfigError
 from ros_lint.knowledge.store import KnowledgeError
-from ros_lint.opening import Opened, UsageError, open_workspace, repository_of
+from ros_lint.opening import Opened, UsageError, open_workspace
 from ros_lint.progress import Progress
-from ros_lint.tree import upwards
+from ros_lint.tree import repository_of, upwards
 from ros_lint.workspace import Workspace
 
 Answer = tuple[str, str, int]

@@ -12,12 +12,15 @@ from bisect import bisect_left
 from operator import gt
 from typing import TYPE_CHECKING, Generic, TypeVar
 
+from ros_lint import files
 from ros_lint.report import RefusalError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
 
 T = TypeVar("T")
+
+_MOST_BYTES = 1 << 28
 
 SHIPPED = os.path.join(os.path.dirname(os.path.abspath(__file__)), "data")
 
@@ -71,8 +74,7 @@ class Store:
         if path is None:
             return "", []
         try:
-            with open(path, "rb") as file:
-                text = file.read().decode("utf-8")
+            text = files.read(path, _MOST_BYTES).decode("utf-8")
         except (OSError, UnicodeDecodeError) as error:
             raise KnowledgeError(f"{path} cannot be read: {error}; {_advice(path)}") from error
         head, _, body = text.partition("\n")
