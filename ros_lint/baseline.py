@@ -12,7 +12,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
-from ros_lint import bounded, edits
+from ros_lint import edits, files
 from ros_lint.report import UNSURE, Hidden, Issue, RefusalError, Report
 from ros_lint.reporters.encode import encode
 from ros_lint.rule import Confidence
@@ -74,7 +74,7 @@ def read(path: str) -> Baseline:
     import json  # noqa: PLC0415
 
     try:
-        data = json.loads(bounded.read(path, _MOST_BYTES).decode("utf-8"))
+        data = json.loads(files.read(path, _MOST_BYTES).decode("utf-8"))
         return Baseline(tuple(map(str, data["folders"])), dict(map(_entry, data["known"])))
     except OSError as error:
         raise BaselineError(f"{path}: {error.strerror or error}; --write-baseline creates the file") from error

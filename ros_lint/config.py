@@ -11,7 +11,7 @@ import sys
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from ros_lint import bounded
+from ros_lint import files
 from ros_lint.options import BY_NAME, MOST, OPTIONS, Option
 from ros_lint.report import RefusalError
 from ros_lint.slips import did_you_mean, similar
@@ -105,7 +105,7 @@ def find(start: str) -> str:
 def read(path: str) -> tuple[dict[str, Any], tuple[str, ...]]:
     """Return the settings of a file, checked against the table of options, and warnings. Raises ConfigError."""
     try:
-        data = bounded.read(path, _MOST_BYTES)
+        data = files.read(path, _MOST_BYTES)
     except OSError as error:
         raise ConfigError(f"{path}: {error.strerror or error}") from error
     table: Any = _load_toml(path, data)

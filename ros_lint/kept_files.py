@@ -14,7 +14,7 @@ from collections.abc import Callable, Mapping
 from functools import lru_cache
 from typing import Any
 
-from ros_lint import bounded
+from ros_lint import files
 from ros_lint.sealed import Sealed
 
 MODULES = (
@@ -83,9 +83,9 @@ def load(path: str, state: str) -> Any:
             return maker(module, name)
 
     try:
-        if not bounded.is_private(os.path.dirname(path)):
+        if not files.is_private(os.path.dirname(path)):
             return None
-        head, _, body = bounded.read_own(path, _MOST_BYTES).partition(b"\n")
+        head, _, body = files.read(path, _MOST_BYTES, links=False, own=True).partition(b"\n")
         return Facts(io.BytesIO(body)).load() if head == _head(state, body) else None
     except Exception:  # what a damaged pickle raises is not limited: MemoryError, RecursionError, OverflowError and others
         return None
@@ -100,7 +100,7 @@ def save(path: str, state: str, value: Any) -> bool:
     folder, temporary = os.path.dirname(path), ""
     try:
         os.makedirs(folder, mode=0o700, exist_ok=True)
-        if not bounded.is_private(folder):
+        if not files.is_private(folder):
             return False
         body = io.BytesIO()
         pickler = pickle.Pickler(body, protocol=5)

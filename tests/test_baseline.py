@@ -127,7 +127,7 @@ def test_bad_files_are_named(tmp_path: Path, text: str | bytes, complaint: str) 
 def test_files_of_another_kind_or_size_are_named(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "fifo")
     (tmp_path / "large").write_text(KNOWN + " " * (64 << 20))
-    for name, reason in (("fifo", "not a regular file"), ("large", "larger than 65536 KB")):
+    for name, reason in (("fifo", "not a regular file"), ("large", "65 MB is more than the limit of 64 MB")):
         with pytest.raises(BaselineError, match=f"{name}: {reason}; --write-baseline creates the file"):
             baseline.read(str(tmp_path / name))
     (tmp_path / "good").write_text(KNOWN)

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import pytest
 
 import ros_lint
-from ros_lint import bounded, kept_files
+from ros_lint import files, kept_files
 from ros_lint.facts.sight import Facet, Opaque
 from ros_lint.rule import Confidence, Severity
 from ros_lint.sealed import Sealed
@@ -214,16 +214,16 @@ def test_what_cannot_be_kept_leaves_nothing_behind(place: Place) -> None:
     assert kept_files.load(str(place.file), "state") == KEPT
 
 
-def test_bounded_files(tmp_path: Path) -> None:
+def test_files_of_a_limited_size(tmp_path: Path) -> None:
     (tmp_path / "a").write_bytes(b"12345")
-    assert bounded.read(str(tmp_path / "a"), 5) == b"12345"
-    with pytest.raises(OSError, match="larger than 0 KB"):
-        bounded.read(str(tmp_path / "a"), 4)
+    assert files.read(str(tmp_path / "a"), 5) == b"12345"
+    with pytest.raises(OSError, match="is more than the limit of 1 KB"):
+        files.read(str(tmp_path / "a"), 4)
     (tmp_path / "link").symlink_to("a")
-    assert bounded.read(str(tmp_path / "link"), 5) == b"12345"
+    assert files.read(str(tmp_path / "link"), 5) == b"12345"
     os.mkfifo(tmp_path / "fifo")
     for path in (tmp_path / "fifo", Path("/dev/zero")):
         with pytest.raises(OSError, match="not a regular file"):
-            bounded.read(str(path), 5)
+            files.read(str(path), 5)
     with pytest.raises(IsADirectoryError):
-        bounded.read(str(tmp_path), 5)
+        files.read(str(tmp_path), 5)
