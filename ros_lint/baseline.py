@@ -7,7 +7,6 @@ So do the suppressions of eslint.
 
 from __future__ import annotations
 
-import os
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
@@ -90,7 +89,7 @@ _WAY_OUT = "--write-baseline rewrites it"
 def write(path: str, report: Report, folders: Sequence[str]) -> None:
     """Write what a report shows, in one step. Raises BaselineError."""
     try:
-        edits.write_all(os.getcwd(), {path: text(report, folders).encode("utf-8")})
+        edits.write(path, text(report, folders).encode("utf-8"))
     except edits.EditError as error:
         raise BaselineError(str(error)) from error
 

@@ -5,16 +5,24 @@ from __future__ import annotations
 import os
 import re
 import tempfile
+import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
+from functools import partial
 from itertools import groupby
 
+from ros_lint import files
 from ros_lint.rule import Edit, Fix
 from ros_lint.text import Text, read
 from ros_lint.tree import Tree
 
 
 class EditError(Exception):
-    """A file that cannot be written as wanted. The message names it."""
+    """A file that cannot be written as wanted. The message names it. ``written`` are the files that were written before."""
+
+    def __init__(self, message: str, written: Sequence[str] = ()) -> None:
+        super().__init__(message)
+        self.written = tuple(written)
 
 
 def choose(fixes: Iterable[Fix]) -> tuple[Fix, ...]:
@@ -31,7 +39,10 @@ def choose(fixes: Iterable[Fix]) -> tuple[Fix, ...]:
 
 
 def apply(fixes: Iterable[Fix], texts: Callable[[str], Text]) -> dict[str, str]:
-    """Return the new text of every file that changes. The fixes do not collide, see :func:`choose`."""
+    """Return the new text of every file that changes. The fixes do not collide, see :func:`choose`.
+
+    Raises EditError for a text that has no such place.
+    """
     edits: dict[str, list[Edit]] = {}
     for fix in fixes:
         for edit in fix.edits:
@@ -62,51 +73,127 @@ def encode(changed: Mapping[str, str], texts: Callable[[str], Text]) -> dict[str
     return result
 
 
-def write_all(base: str, changed: Mapping[str, bytes]) -> None:
+def write(path: str, data: bytes) -> None:
+    """Replace or create one file whole or not at all; to a FIFO or a device it is written. Raises EditError."""
+    try:
+        if os.path.exists(path) and not os.path.isfile(path):
+            with open(path, "wb") as stream:
+                stream.write(data)
+            return
+    except OSError as error:
+        raise _no_write(path, error) from error
+    target = os.path.realpath(path)
+    _ask(path, target)
+    _replace(path, target, data)
+
+
+def write_all(base: str, changed: Mapping[str, bytes], before: Mapping[str, bytes]) -> None:
     """Replace or create files, each in one step.
 
-    Raises EditError; when a file is seen to be read-only, nothing is written at all.
+    ``before`` has what the changes were made of, and nothing for files that they create. A file that no longer has these
+    bytes is not written. Raises EditError: when a file is seen to be read-only or changed, before anything is written.
     """
-    for path in changed:
-        _ask(path, os.path.realpath(os.path.join(base, path)))
+    targets = {path: os.path.realpath(os.path.join(base, path)) for path in changed}
+    for path, target in targets.items():
+        _ask(path, target)
+        if not _is_still(target, before.get(path)):
+            raise EditError(f"{path}: {_CHANGED}; nothing was changed")
+    written: list[str] = []
     for path, data in changed.items():
-        _write(path, os.path.realpath(os.path.join(base, path)), data)
+        try:
+            _replace(path, targets[path], data, partial(_is_still, targets[path], before.get(path)))
+        except EditError as error:
+            left = [other for other in changed if other not in written]
+            raise EditError(f"{error}; {_so_far(written, left)}", written) from error
+        written.append(path)
+
+
+_CHANGED = "changed since it was read; fix skipped"
+
+
+def _so_far(written: Sequence[str], left: Sequence[str]) -> str:
+    if not written:
+        return "nothing was changed"
+    return f"written already: {', '.join(written)}; not written: {', '.join(left)}"
+
+
+def _is_still(target: str, before: bytes | None) -> bool:
+    """Return whether a file has some bytes, or for None does not exist."""
+    try:
+        return files.read(target) == before
+    except FileNotFoundError:
+        return before is None
+    except OSError:
+        return False
+
+
+def _no_write(path: str, error: OSError) -> EditError:
+    return EditError(f"{path}: cannot be written: {error.strerror or error}")
 
 
 def _ask(path: str, target: str) -> None:
-    # Asked of the permission bits and not of the system, which lets root write everywhere.
+    # Permission bits are asked as well as the system, which lets root write everywhere.
+    folder = os.path.dirname(target)
     try:
-        for place in (target, os.path.dirname(target)) if os.path.lexists(target) else (os.path.dirname(target),):
+        for place in (target, folder) if os.path.lexists(target) else (folder,):
             if not os.stat(place).st_mode & 0o222:
                 raise EditError(f"{path}: cannot be written: it is read-only; nothing was changed")
     except OSError as error:
-        raise EditError(f"{path}: cannot be written: {error.strerror or error}; nothing was changed") from error
+        raise EditError(f"{_no_write(path, error)}; nothing was changed") from error
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise EditError(f"{path}: cannot be written: no permission to write to its folder; nothing was changed")
 
 
-def _write(path: str, target: str, data: bytes) -> None:
-    """Permissions are kept, and a link stays a link."""
+def _replace(path: str, target: str, data: bytes, may_be: Callable[[], bool] = lambda: True) -> None:
+    """Write a file beside the target and rename it. Permissions are kept, and a link stays a link.
+
+    ``may_be`` is asked when all but the rename is done. Raises EditError, with the target as it was.
+    """
+    folder = os.path.dirname(target)
     temporary = ""
     try:
-        handle, temporary = tempfile.mkstemp(prefix=".ros-lint-", dir=os.path.dirname(target))
+        _remove_left_over(folder)
+        handle, temporary = tempfile.mkstemp(prefix=_PREFIX, suffix=_SUFFIX, dir=folder)
         with os.fdopen(handle, "wb") as file:
             file.write(data)
             file.flush()
             os.fsync(file.fileno())
         os.chmod(temporary, os.stat(target).st_mode & 0o7777 if os.path.exists(target) else _NEW_MODE)
+        if not may_be():
+            raise EditError(f"{path}: {_CHANGED}")
         os.replace(temporary, target)
+        temporary = ""
     except OSError as error:
-        if temporary and os.path.exists(temporary):
-            os.unlink(temporary)
-        raise EditError(f"{path}: cannot be written: {error.strerror or error}") from error
+        raise _no_write(path, error) from error
+    finally:
+        if temporary:
+            with suppress(OSError):
+                os.unlink(temporary)
 
 
+_PREFIX, _SUFFIX = ".ros-lint-", ".part"
+_LEFT_OVER = re.compile(rf"{re.escape(_PREFIX)}[a-z0-9_]{{8}}{re.escape(_SUFFIX)}")
+_OLD = 3600
+"""Seconds after which no run is still writing a file."""
 _NEW_MODE = 0o644
+
+
+def _remove_left_over(folder: str) -> None:
+    """Remove the files of runs that were killed while they wrote into a folder."""
+    with os.scandir(folder) as entries:
+        mine = [entry for entry in entries if _LEFT_OVER.fullmatch(entry.name) and entry.is_file(follow_symlinks=False)]
+    for entry in mine:
+        with suppress(OSError):
+            if time.time() - entry.stat().st_mtime > _OLD:
+                os.unlink(entry.path)
 
 
 def _apply_to(source: Text, edits: Sequence[Edit]) -> str:
     text = source.text
     by_return = "\r\n" in text and text.count("\r\n") == text.count("\n")
     in_order = sorted(edits, key=lambda edit: (edit.span[1:], edit.kind, edit.order))
+    if any(edit.span.end_line > source.line_count for edit in in_order):
+        raise EditError(f"{source.path}: {_CHANGED}")
     # From the end, so that earlier offsets stay true.
     for span, at_place in reversed([(span, list(group)) for span, group in groupby(in_order, lambda edit: edit.span)]):
         start = source.offset(span.line, span.column)

@@ -6,7 +6,8 @@ changed (a fix on trial) is joined again without reading the rest.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from typing import NamedTuple
 
 from ros_lint import (
@@ -74,6 +75,9 @@ class Loader:
         progress: Progress = lambda what, done, all_: None,
     ) -> None:
         self.tree = tree
+        self.held: dict[str, bytes] = {}
+        """What files have had since :meth:`hold` was called for them."""
+        self._unheld = tree
         self.target = target
         self._context = target.context
         self._roots = tuple(roots)
@@ -112,6 +116,17 @@ class Loader:
         unread = (*discovery.not_checked, *source_lists.unreadable(tree, lists), *ignores.not_checked, *_unreadable(collected))
         not_checked = tuple(dict.fromkeys((*unread, *_failed(reads))))
         return Workspace(packages, unusable, world, self.target, not_checked, lists, ignores.patterns)
+
+    def hold(self, paths: Iterable[str]) -> None:
+        """Read some files once more and hold what they have: whatever becomes of them, each further load sees just that.
+
+        A file that cannot be read is not held.
+        """
+        for path in paths:
+            with suppress(OSError):
+                self.held[path] = self._unheld.read(path)
+        self.tree = OverlayTree(self._unheld, self.held)
+        self._collected = dict(self._changed(self.held))
 
     def text(self, path: str) -> Text | None:
         """Return the text of a file, None if it cannot be read."""

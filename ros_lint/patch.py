@@ -5,6 +5,8 @@ from __future__ import annotations
 import difflib
 import re
 
+from ros_lint.text import raw
+
 
 def unified(path: str, before: str | None, after: str) -> str:
     """Return the difference of two texts of a file, with a line of context around each change. Line ends are kept.
@@ -14,6 +16,12 @@ def unified(path: str, before: str | None, after: str) -> str:
     old = "/dev/null" if before is None else f"a/{path}"
     lines = difflib.unified_diff(_lines(before or ""), _lines(after), old, f"b/{path}", n=1)
     return "".join(line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n" for line in lines)
+
+
+def unified_bytes(path: str, before: bytes | None, after: bytes) -> bytes:
+    """Return what :func:`unified` does for two states of a file as they are on the disk, whatever their encoding."""
+    was = None if before is None else before.decode("latin-1")  # a letter for each byte, for difflib compares texts
+    return unified(raw(path).decode("latin-1"), was, after.decode("latin-1")).encode("latin-1")
 
 
 def _lines(text: str) -> list[str]:

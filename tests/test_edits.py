@@ -75,7 +75,7 @@ def test_files_are_replaced_whole(tmp_path: Path) -> None:
     target.write_bytes(b"old")
     target.chmod(0o755)
     (tmp_path / "link").symlink_to("real")
-    edits.write_all(str(tmp_path), {"link": b"new"})
+    edits.write_all(str(tmp_path), {"link": b"new"}, {"link": b"old"})
     assert target.read_bytes() == b"new"
     assert target.stat().st_mode & 0o777 == 0o755
     assert (tmp_path / "link").is_symlink()
@@ -92,7 +92,7 @@ def test_one_read_only_place_keeps_everything_as_it_is(tmp_path: Path, what: str
     place.chmod(0o555 if what == "folder" else 0o444)
     try:
         with pytest.raises(edits.EditError, match="d/b: cannot be written: it is read-only; nothing was changed"):
-            edits.write_all(str(tmp_path), {"a": b"new", "d/b": b"new"})
+            edits.write_all(str(tmp_path), {"a": b"new", "d/b": b"new"}, {"a": b"old", "d/b": b"old"})
     finally:
         place.chmod(mode)
     assert (tmp_path / "a").read_bytes() == b"old"
@@ -106,7 +106,7 @@ def test_a_disk_that_fails_leaves_the_file(tmp_path: Path, monkeypatch: pytest.M
 
     monkeypatch.setattr(os, "replace", full)
     with pytest.raises(edits.EditError, match="a: cannot be written: No space left on device"):
-        edits.write_all(str(tmp_path), {"a": b"new"})
+        edits.write_all(str(tmp_path), {"a": b"new"}, {"a": b"old"})
     assert (tmp_path / "a").read_bytes() == b"old"
     assert os.listdir(tmp_path) == ["a"]
 
@@ -114,7 +114,7 @@ def test_a_disk_that_fails_leaves_the_file(tmp_path: Path, monkeypatch: pytest.M
 def test_a_file_comes_into_being(tmp_path: Path) -> None:
     text = edits.text_of(DiskTree(str(tmp_path)), "new")
     changed = edits.apply([Fix("", (Edit(Span("new", 1, 1, 1, 1), "a\n"),))], lambda _: text)
-    edits.write_all(str(tmp_path), edits.encode(changed, lambda _: text))
+    edits.write_all(str(tmp_path), edits.encode(changed, lambda _: text), {})
     assert (tmp_path / "new").read_bytes() == b"a\n"
     assert (tmp_path / "new").stat().st_mode & 0o777 == 0o644
     assert unified("new", None, "a\n") == "--- /dev/null\n+++ b/new\n@@ -0,0 +1 @@\n+a\n"

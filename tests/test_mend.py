@@ -45,6 +45,9 @@ class Proof(mend._Proof):
     def as_it_is(self, changed: Mapping[str, bytes], issue: Issue) -> Issue:
         return issue
 
+    def refused(self, changed: Mapping[str, bytes]) -> list[tuple[Issue, str]]:
+        return []
+
 
 @pytest.mark.parametrize("seed", range(40))
 def test_all_that_is_harmless_is_made(seed: int) -> None:

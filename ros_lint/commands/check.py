@@ -182,16 +182,17 @@ def _print(report: Report, asked: Asked) -> int:
 
     settings = asked.settings
     render = reporters.reporter(settings["format"])
-    text = render(report, partial(text_of, asked.disk), _style(settings))
+    data = render(report, partial(text_of, asked.disk), _style(settings)).encode("utf-8", "backslashreplace")
     if settings["output"]:
+        from ros_lint import edits  # noqa: PLC0415  (few runs write a file)
+
         try:
-            with open(settings["output"], "w", encoding="utf-8", newline="\n") as file:
-                file.write(text)
-        except OSError as error:
-            print(f"ros-lint: {settings['output']}: {error.strerror or error}", file=sys.stderr)
+            edits.write(settings["output"], data)
+        except edits.EditError as error:
+            print(f"ros-lint: {error}", file=sys.stderr)
             return 2
     else:
-        sys.stdout.buffer.write(text.encode("utf-8", "backslashreplace"))
+        sys.stdout.buffer.write(data)
         sys.stdout.buffer.flush()
     if not report.packages:
         print(opening.no_packages(asked), file=sys.stderr)

@@ -11,16 +11,19 @@ import gc
 import sys
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
+from functools import cached_property
 from typing import NamedTuple
 
 from ros_lint import edits, engine, registry
 from ros_lint.commands import check
 from ros_lint.opening import Opened
-from ros_lint.patch import line_before, unified
+from ros_lint.patch import line_before, unified_bytes
 from ros_lint.report import Issue, Report
 from ros_lint.rule import Confidence
 from ros_lint.text import Span, Text, read
+from ros_lint.tree import join
 from ros_lint.workspace import Workspace
+from ros_lint.writable import Writable
 
 _MOST_ROUNDS = 100
 """Fixes make way for others, and of those that are at odds one is made a round. No workspace needs as many."""
@@ -44,15 +47,16 @@ def run(opened: Opened, selection: engine.Selection) -> tuple[Report, int]:
     for issue, reason in mended.withheld:
         print(f"ros-lint: {issue.finding.span}: fix skipped: {reason} [{issue.rule.name}]", file=sys.stderr)
     if opened.settings["diff"]:
-        sys.stdout.write(diff(opened, mended.changed))
-        sys.stdout.flush()
+        sys.stdout.buffer.write(diff(opened, mended.changed))
+        sys.stdout.buffer.flush()
         return check.check(opened, proof.trial({}).workspace, selection), 0
     try:
-        edits.write_all(opened.base, mended.changed)
+        edits.write_all(opened.base, mended.changed, opened.loader.held)
         print(f"ros-lint: {_told(len(mended.made), len(mended.changed))}", file=sys.stderr)
     except edits.EditError as error:
         print(f"ros-lint: {error}", file=sys.stderr)
-        return check.check(opened, proof.trial({}).workspace, selection), 2
+        written = {path: mended.changed[path] for path in error.written}
+        return check.check(opened, proof.trial(written).workspace, selection), 2
     return check.check(opened, proof.trial(mended.changed).workspace, selection), 0
 
 
@@ -77,7 +81,7 @@ def _mended(proof: _Proof) -> Mended:
         made += done.made
         if not done.made:
             break  # else what was made may be what others waited for
-    return Mended(changed, tuple(made), tuple(done.withheld.values()))
+    return Mended(changed, tuple(made), (*done.withheld.values(), *proof.refused(changed)))
 
 
 class _Round:
@@ -137,13 +141,9 @@ class _Round:
             self.withheld[issue.identity] = (self._proof.as_it_is(self.changed, issue), reason)
 
 
-def diff(opened: Opened, changed: Mapping[str, bytes]) -> str:
+def diff(opened: Opened, changed: Mapping[str, bytes]) -> bytes:
     """Return the changes as one patch."""
-    parts = []
-    for path, data in sorted(changed.items()):
-        before = opened.loader.text(path)
-        parts.append(unified(path, before.text if before else None, read(path, data).text))
-    return "".join(parts)
+    return b"".join(unified_bytes(path, opened.loader.held.get(path), data) for path, data in sorted(changed.items()))
 
 
 class _Trial(NamedTuple):
@@ -185,6 +185,12 @@ def _blamed(group: Sequence[Issue], complaints: Iterable[_Complaint]) -> Mapping
     return found
 
 
+def _edited(issue: Issue) -> Iterable[str]:
+    """Return the files that the fix of an issue edits."""
+    fix = issue.finding.fix
+    return dict.fromkeys(edit.span.path for edit in fix.edits) if fix else ()
+
+
 _MOST_TRIALS = 2
 """That are remembered beside the workspace as it is: what passed is asked for again at once, what failed is not."""
 
@@ -214,6 +220,15 @@ class _Proof:
         self._every = registry.load(opened.settings["plugins"])
         self._rules = tuple(rule for rule in self._every if rule.default or rule in selection.rules)
         self._trials: list[_Trial] = []
+        self._met: set[str] = set()
+        """Files that fixes would edit: their bytes are held from then on, if they are there."""
+
+    @cached_property
+    def _writable(self) -> Writable:
+        workspace = self.trial({}).workspace
+        manifests = [package.manifest.path for package in workspace.unusable if package.manifest]
+        own = [join(package.path, file) for package in workspace.packages for file in package.files]
+        return Writable(self._opened.loader.tree, self._opened.roots, [*own, *manifests])
 
     def trial(self, changed: Mapping[str, bytes]) -> _Trial:
         for trial in self._trials:
@@ -227,7 +242,28 @@ class _Proof:
         return trial
 
     def fixable(self, changed: Mapping[str, bytes]) -> list[Issue]:
-        """Return the issues that are shown and carry a fix of the wanted kind."""
+        """Return the issues that are shown and carry a fix of the wanted kind, which may be written.
+
+        Places of edits are true of one state of a file only. So the files that are to be edited are held, and looked at anew.
+        """
+        while True:
+            issues = [issue for issue in self._with_fix(changed) if not self._refusal(issue)]
+            new = {path for issue in issues for path in _edited(issue)} - self._met
+            if not new:
+                return issues
+            self._met |= new
+            self._opened.loader.hold(new)
+            self._trials.clear()
+
+    def refused(self, changed: Mapping[str, bytes]) -> list[tuple[Issue, str]]:
+        """Return the issues whose fixes must not be written, and why."""
+        issues = self._with_fix(changed)
+        return [(self.as_it_is(changed, issue), reason) for issue in issues if (reason := self._refusal(issue))]
+
+    def _refusal(self, issue: Issue) -> str:
+        return next(filter(None, map(self._writable.refusal, _edited(issue))), "")
+
+    def _with_fix(self, changed: Mapping[str, bytes]) -> list[Issue]:
         issues = [issue for issue in self.trial(changed).issues if issue.rule in self._selection.rules]
         shown, _ = engine.show(issues, self._selection)
         unsafe = self._opened.settings["unsafe-fixes"]

@@ -72,7 +72,7 @@ def _issue(issue: Issue, texts: Texts, style: Style) -> list[str]:
 
 def _preview(fix: Fix, texts: Texts, style: Style, gutter: str) -> Iterator[str]:
     """Yield what a fix would change, as a diff beside the gutter of a frame."""
-    from ros_lint.edits import apply  # noqa: PLC0415  (diffs are shown on demand)
+    from ros_lint.edits import EditError, apply  # noqa: PLC0415  (diffs are shown on demand)
     from ros_lint.patch import unified  # noqa: PLC0415
 
     sources = {edit.span.path: texts(edit.span.path) for edit in fix.edits}
@@ -80,7 +80,11 @@ def _preview(fix: Fix, texts: Texts, style: Style, gutter: str) -> Iterator[str]
     if len(known) < len(sources):
         return
     bar = paint(style, "gutter", f"{gutter} |")
-    for path, changed in apply([fix], known.__getitem__).items():
+    try:
+        texts_after = apply([fix], known.__getitem__)
+    except EditError:  # the file changes while it is looked at
+        return
+    for path, changed in texts_after.items():
         yield f"{gutter}{paint(style, 'gutter', ':::')} {safe(path, style)}"
         for line in unified(path, known[path].text, changed).splitlines()[2:]:
             color = {"+": "added", "-": "removed"}.get(line[:1], "")
