@@ -9,6 +9,8 @@ import os
 import sys
 from typing import TYPE_CHECKING
 
+from ros_lint.streams import OutputError, prepare
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from typing import NoReturn
@@ -16,14 +18,38 @@ if TYPE_CHECKING:
 
 def run() -> NoReturn:
     """Run the command of this process and end it."""
-    code = main()
+    prepare()
+    try:
+        code = _flushed(main())
+    except SystemExit as end:  # of argparse: after help, and for arguments that it refuses
+        code = _flushed(end.code if isinstance(end.code, int) else 2)
+    except OSError:
+        code = 2  # standard error cannot be written
+    # Nothing is left to be saved. Taking a model of a large workspace to pieces would take as long as reading it.
+    os._exit(code)
+
+
+def _flushed(code: int) -> int:
+    """Write out what is left to be written. Returns the exit code, which is 2 when that is not possible."""
     try:
         sys.stdout.flush()
         sys.stderr.flush()
-    except OSError:
-        code = code or 2  # whoever read along has gone
-    # Nothing is left to be saved. Taking a model of a large workspace to pieces would take as long as reading it.
-    os._exit(code)
+    except OutputError as error:
+        return _without_output(error)
+    except BrokenPipeError:
+        return code or 2  # the reader has ended
+    return code
+
+
+def _without_output(error: OutputError) -> int:
+    """Say why standard output cannot be written, and drop what it still holds. Returns the exit code."""
+    print(f"ros-lint: {error}", file=sys.stderr)
+    _drop_output()
+    return 2
+
+
+def _drop_output() -> None:
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -44,9 +70,10 @@ def main(argv: Sequence[str] | None = None) -> int:
         command, options = parse(arguments)
         return _run(command, options)
     except BrokenPipeError:
-        # The reader has gone, as in `ros-lint | head`. Keep the interpreter from complaining about it once more.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _drop_output()  # the reader has ended, as in `ros-lint | head`
         return 2
+    except OutputError as error:
+        return _without_output(error)
     except KeyboardInterrupt:
         print("ros-lint: interrupted", file=sys.stderr)
         return 130
