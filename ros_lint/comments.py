@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator
 from functools import cache
 from typing import TYPE_CHECKING
 
+from ros_lint.safe_yaml import YamlError, tokens
 from ros_lint.suffixes import HEADERS, SOURCES
 
 if TYPE_CHECKING:
@@ -112,12 +113,9 @@ _TO_LINE_END = re.compile(r"#[^\r\n]*")
 
 
 def _in_yaml(text: str) -> Ranges:
-    import yaml  # noqa: PLC0415
-
     try:
-        tokens = yaml.scan(text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
-        ranges = [(token.start_mark.index, token.end_mark.index) for token in tokens]
-    except (yaml.YAMLError, UnicodeError):
+        ranges = tokens(text)
+    except YamlError:
         yield from _after_hash(text)  # such as a template of a YAML file
         return
     at = 0

@@ -28,6 +28,7 @@ from ros_lint.discover import Found, Skipped, discover
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.manifest import ROLES, Manifest, Role
+from ros_lint.facts.sight import Opaque
 from ros_lint.facts.sources import FileFacts, MachinePath
 from ros_lint.knowledge import Knowledge
 from ros_lint.knowledge.index import TAG_KINDS
@@ -315,9 +316,18 @@ def _unreadable(collected: Mapping[str, Collected]) -> Iterator[NotChecked]:
     for path, c in sorted(collected.items()):
         if c.unreadable:
             yield NotChecked(path, c.unreadable, beginning(path))
+        for fact in (c.facts, c.launch):
+            yield from _unchecked(fact.opaque if fact is not None else ())
 
 
 def _failed(reads: Sequence[_Read]) -> Iterator[NotChecked]:
     for done in reads:
         if done.script is not None and done.script.failed:
             yield from (NotChecked(opaque.span.path, opaque.reason, opaque.span) for opaque in done.script.opaque)
+        elif done.script is not None:
+            yield from _unchecked(done.script.opaque)
+
+
+def _unchecked(opaque: Iterable[Opaque]) -> Iterator[NotChecked]:
+    """Yield the places that exceed a bound."""
+    yield from (NotChecked(one.span.path, one.reason, one.span) for one in opaque if one.unchecked)

@@ -85,14 +85,41 @@ def test_what_is_no_yaml(text: str, line: int) -> None:
     assert found.opaque
 
 
-def test_an_alias_bomb_and_depth_end() -> None:
-    bomb = "launch:\n- group: &x0\n  - node: {pkg: a, exec: b}\n"
-    for number in range(1, 30):
-        bomb += f"- group: &x{number}\n" + f"  - group: *x{number - 1}\n" * 9
-    assert set(said(*collect("a.launch.yaml", bomb))) == {"node a b"}
-    assert said(*collect("a.launch.yaml", "launch: &a\n- group: *a\n- group: *a\n")) == []
-    deep = "launch:\n- " + "[" * 3000
-    assert collect("a.launch.yaml", deep)[1].problems
+def doubled(times: int, where: str = "") -> str:
+    """Return lists in each of which the one before stands twice."""
+    return "".join(f"{where}- &v{n} [*v{n - 1}, *v{n - 1}]\n" for n in range(1, times))
+
+
+BOMB = "launch:\n- group: &x0\n  - node: {pkg: a, exec: b}\n" + "".join(
+    f"- group: &x{number}\n" + f"  - group: *x{number - 1}\n" * 9 for number in range(1, 30)
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "reason", "line"),
+    [
+        (BOMB, "aliases repeat more than 200,000 values", 44),
+        ("launch: &a\n- group: *a\n- group: *a\n", "a value holds itself by an alias", 1),
+        ("launch:\n- let:\n    name: a\n    value: &v [*v]\n", "a value holds itself by an alias", 4),
+        ("launch:\n- &v0 [a, b]\n" + doubled(30), "aliases repeat more than 200,000 values", 18),
+        ("launch:\n- " + "[" * 3_000, "nested more than 100 levels deep", 2),
+        ("launch:\n- " + "- " * 3_000, "nested more than 100 levels deep", 2),
+        ("launch:\n- " + "? " * 3_000, "nested more than 100 levels deep", 2),
+        ("launch:\n" + "".join(" " * n + "a:\n" for n in range(1, 200)), "nested more than 100 levels deep", 101),
+        ("launch:\n- " + '["]", ' * 101 + "]" * 101, "nested more than 100 levels deep", 2),
+    ],
+)
+def test_what_exceeds_a_bound_is_not_checked(text: str, reason: str, line: int) -> None:
+    _, found = collect("a.launch.yaml", text)
+    assert [(opaque.reason, opaque.span.line, opaque.unchecked) for opaque in found.opaque] == [(reason, line, True)]
+    assert not found.problems
+
+
+def test_aliases_within_the_bound() -> None:
+    text = "launch:\n- arg: &v0\n    name: a\n- let:\n    name: b\n    value:\n" + doubled(15, "    ")
+    _, found = collect("a.launch.yaml", text + "- arg: *v0\n")
+    assert not any(opaque.unchecked for opaque in found.opaque)
+    assert [action.kind for action in found.actions] == ["argument", "argument"]
 
 
 def test_children_that_are_an_empty_text_are_none() -> None:

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ros_lint.collectors import yaml_tree
 from ros_lint.facts.manifest import ColconDepend, ColconMeta, ColconSettings, Role
+from ros_lint.safe_yaml import YamlBoundError, YamlError, compose
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -57,9 +57,10 @@ def _settings(text: Text, values: Mapping[str, yaml.Node]) -> ColconSettings:
 
 def _top(text: Text) -> Mapping[str, yaml.Node]:
     try:
-        node = yaml_tree.compose(text)
-    except yaml_tree.YamlError as error:
-        raise ColconYamlError(f"it is no YAML: {error.message}", text.span(error.offset, error.offset)) from None
+        node = compose(text.text)
+    except YamlError as error:
+        reason = error.message if isinstance(error, YamlBoundError) else f"it is no YAML: {error.message}"
+        raise ColconYamlError(reason, text.span(error.offset, error.offset)) from None
     if node is not None and _kind(node) != "mapping":
         raise ColconYamlError("it holds no mapping", _span(text, node))
     return _mapping(node)

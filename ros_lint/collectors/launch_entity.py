@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Final, Literal
 from ros_lint.collectors.launch_tags import ROS_1
 from ros_lint.collectors.xml_tree import Element, attribute_places
 from ros_lint.facts.sight import Problem
+from ros_lint.safe_yaml import YamlError, load
 from ros_lint.text import Span
 
 if TYPE_CHECKING:
@@ -323,12 +324,9 @@ def _as_yaml(value: str) -> Any:
         if not _is_valid(found):
             raise ValueError(value)
         return found
-    import yaml  # noqa: PLC0415
-
-    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     try:
-        output = yaml.load(value, Loader=loader)  # noqa: S506  (one of the two safe loaders)
-    except Exception:  # the front end takes any failure for "not YAML"
+        output = load(value)
+    except YamlError:  # the front end takes any failure for "not YAML"
         return value
     if not _is_valid(output):
         raise ValueError(value)

@@ -30,6 +30,7 @@ from ros_lint.collectors.launch_py_objects import (
 )
 from ros_lint.collectors.launch_py_operations import each, text_of, truth
 from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN
+from ros_lint.safe_yaml import YamlBoundError, YamlError, load
 
 if TYPE_CHECKING:
     from ros_lint.collectors.launch_py_run import Machine
@@ -197,19 +198,12 @@ def _content(machine: Machine, text: Value) -> Value:
         machine.lose(text)
         return text if isinstance(text, Unknown) else Unknown("the content of a file")
     machine.spend(len(text) // 50)
-    if text.count("<<") > _MOST_MERGES:
-        return Unknown("the content of a file")
-    import yaml  # noqa: PLC0415  (takes 20 ms to import)
-
-    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     try:
-        return yaml.load(str(text), Loader=loader)  # noqa: S506  (one of the two safe loaders)
-    except (yaml.YAMLError, ValueError, RecursionError):
+        return load(text)
+    except YamlBoundError:
+        return Unknown("the content of a file")
+    except YamlError:
         raise Raised from None
-
-
-_MOST_MERGES = 5
-"""Each can double what there was."""
 
 
 def _partial(call: Call) -> Value:

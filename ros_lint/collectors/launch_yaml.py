@@ -8,6 +8,7 @@ from ros_lint.collectors import launch_markup
 from ros_lint.collectors.launch_entity import CHILDREN, NO_VALUE, Entity
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.sight import Facet, Opaque, Problem
+from ros_lint.safe_yaml import YamlBoundError, YamlError, compose, scalar
 from ros_lint.text import Text
 
 if TYPE_CHECKING:
@@ -19,10 +20,11 @@ _MOST_ENTITIES = 20_000
 
 def collect(source: Text) -> LaunchFile:
     """Return what a launch file in YAML says. Never raises."""
-    from ros_lint.collectors.yaml_tree import YamlError, compose  # noqa: PLC0415  (yaml takes 20 ms to import)
-
     try:
-        node = compose(source)
+        node = compose(source.text)
+    except YamlBoundError as error:
+        span = source.span(error.offset, error.offset)
+        return LaunchFile(source.path, "yaml", opaque=(Opaque(Facet.USES, error.message, span, unchecked=True),))
     except YamlError as error:
         span = source.span(error.offset, error.offset)
         return LaunchFile(
@@ -66,7 +68,7 @@ class _Reader:
     def _made(self, tag: str, start: int, end: int, value: yaml.Node, depth: int) -> Entity:
         import yaml  # noqa: PLC0415
 
-        self._left -= 1
+        self._left -= 1 + (len(value.value) if isinstance(value.value, list) else 0)
         attributes: dict[str, Any] = {}
         spots: dict[str, tuple[int, int]] = {}
         children: list[Entity] = []
@@ -115,12 +117,15 @@ def _is_scalar(node: yaml.Node) -> bool:
 
 
 def _value(node: yaml.Node) -> Any:
-    """Return the value of a scalar or of a list of scalars, NO_VALUE for anything else."""
+    """Return the value of a scalar or of a list of scalars, NO_VALUE for anything else.
+
+    Lists in lists are not entered: aliases can make few of them look like many.
+    """
     import yaml  # noqa: PLC0415
 
     if isinstance(node, yaml.SequenceNode):
-        found = [_value(item) for item in node.value[:1_000]]
-        return NO_VALUE if any(one is NO_VALUE or isinstance(one, list) for one in found) else found
+        found = [_value(item) if _is_scalar(item) else NO_VALUE for item in node.value[:1_000]]
+        return NO_VALUE if NO_VALUE in found else found
     if not isinstance(node, yaml.ScalarNode):
         return NO_VALUE
     kind = node.tag.rpartition(":")[2]
@@ -128,10 +133,7 @@ def _value(node: yaml.Node) -> Any:
         return str(node.value)
     if kind not in ("int", "float", "bool", "null"):
         return NO_VALUE
-    loader = yaml.SafeLoader("")
     try:
-        return loader.construct_object(node)
-    except (ValueError, yaml.YAMLError):
+        return scalar(node)
+    except YamlError:
         return NO_VALUE
-    finally:
-        loader.dispose()

@@ -45,6 +45,8 @@ class Opaque(NamedTuple):
     inside: str = ""
     """The folder with a build of its own that is what is not seen, in the package or beside it, "" if it may be any part of
     the build."""
+    unchecked: bool = False
+    """Whether the place exceeds a bound of ros-lint, so that the file counts as not checked."""
 
     def reaches(self, path: str) -> bool:
         """Return whether what is hidden may be at a path in the prefix, or in a folder there."""

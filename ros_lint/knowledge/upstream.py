@@ -14,6 +14,7 @@ from ros_lint.collectors import manifest as manifests
 from ros_lint.knowledge.index import Released
 from ros_lint.knowledge.manifests import context, describe
 from ros_lint.knowledge.store import KnowledgeError
+from ros_lint.safe_yaml import YamlError, load
 from ros_lint.text import Text
 
 if TYPE_CHECKING:
@@ -92,12 +93,10 @@ def _described(source: Source, listed: Released, xml: object, known: Mapping[str
 
 def load_yaml(place: str) -> Any:
     """Return what a YAML file holds, by path or URL, plain or gzipped. Raises KnowledgeError when it cannot be read."""
-    import yaml  # noqa: PLC0415  (only a refresh needs it)
-
     data = read(place)
     try:
-        return yaml.load(data, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))  # noqa: S506  (both are safe)
-    except (yaml.YAMLError, UnicodeDecodeError, RecursionError) as error:
+        return load(data.decode("utf-8-sig"))
+    except (YamlError, UnicodeDecodeError) as error:
         raise KnowledgeError(f"{place} is not valid YAML: {' '.join(str(error).split())}") from error
 
 

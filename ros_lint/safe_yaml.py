@@ -1,0 +1,190 @@
+"""YAML of unknown origin: the only module that calls the yaml library, and what bounds its input.
+
+libyaml calls itself for each level of nesting, and a text of a hundred kilobytes makes it overflow the stack, which ends the
+process. A few aliases stand for any number of values. Both are refused here before a node or an object is made.
+"""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from typing import TYPE_CHECKING, Any, Final, TypeVar
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    import yaml
+
+_Taken = TypeVar("_Taken")
+
+DEEPEST: Final = 100
+"""How many lists and mappings may stand in one another. Published workspaces have up to 27."""
+_MOST_REPEATED: Final = 200_000
+"""How many values aliases may repeat, those within repeated values included."""
+_MOST_BITS: Final = 4_096
+"""How large an integer may be. Python refuses to write one of more than 4,300 digits."""
+_LONGEST_FOR_PYTHON: Final = 50_000
+"""How many characters are read by the library's own Python code, which is slow."""
+_LEADING: Final = re.compile(r"^[ \t?:-]+", re.MULTILINE)
+
+
+class YamlError(Exception):
+    """A text is no YAML, or one of its values cannot be made. ``offset`` is from 0 to the length of the text."""
+
+    def __init__(self, message: str, offset: int = 0) -> None:
+        super().__init__(message)
+        self.message: Final = message
+        self.offset: Final = offset
+
+
+class YamlBoundError(YamlError):
+    """A text exceeds a bound of this module. It may be YAML all the same."""
+
+
+def compose(text: str) -> yaml.Node | None:
+    """Return the root node of the only document, None when there is none. Raises YamlError.
+
+    The marks of the nodes count characters of the text. Refused is what launch and colcon refuse, which read with the
+    library's Python code: that takes no tab within a plain text, and a "?" in brackets for a key, where libyaml does not.
+    """
+    strict = len(text) <= _LONGEST_FOR_PYTHON and ("\t" in text or "?" in text)
+    return _read(text, _loader(fast=not strict), _root)
+
+
+def load(text: str) -> Any:
+    """Return what the only document stands for, None when there is none. Raises YamlError."""
+    return _read(text, _loader(fast=True), _value)
+
+
+def scalar(node: yaml.ScalarNode) -> Any:
+    """Return the value of a scalar. Raises YamlError."""
+    return _read("", _loader(fast=True), lambda loader, _: loader.construct_object(node))
+
+
+def tokens(text: str) -> list[tuple[int, int]]:
+    """Return where the tokens of a text begin and end, in order. Raises YamlError."""
+    import yaml  # noqa: PLC0415
+
+    text = _bounded(text)
+    try:
+        return [(token.start_mark.index, token.end_mark.index) for token in yaml.scan(text, Loader=_loader(fast=True))]
+    except (yaml.YAMLError, UnicodeError) as error:
+        raise _as_yaml_error(error, len(text)) from None
+
+
+@cache
+def _loader(*, fast: bool) -> Any:
+    """Return the safe loader of the library in C or in Python, with integers bounded."""
+    import yaml  # noqa: PLC0415
+
+    class Loader(getattr(yaml, "CSafeLoader", yaml.SafeLoader) if fast else yaml.SafeLoader):  # type: ignore[misc]
+        """The safe loader."""
+
+    def integer(loader: Any, node: yaml.ScalarNode) -> int:
+        found: int = loader.construct_yaml_int(node)
+        if found.bit_length() > _MOST_BITS:
+            raise YamlBoundError(f"an integer of more than {_MOST_BITS:,} bits", _start(node))
+        return found
+
+    Loader.add_constructor("tag:yaml.org,2002:int", integer)
+    return Loader
+
+
+def _read(text: str, kind: Any, take: Callable[[Any, str], _Taken]) -> _Taken:
+    """Return what a function takes from a loader for a text. Raises YamlError for everything that goes wrong there."""
+    text = _bounded(text)
+    loader = None
+    try:
+        loader = kind(text)
+        return take(loader, text)
+    except YamlError:
+        raise
+    except Exception as error:  # a tag on the wrong value makes the library fail in any way
+        raise _as_yaml_error(error, len(text)) from None
+    finally:
+        if loader is not None:
+            loader.dispose()
+
+
+def _root(loader: Any, text: str) -> yaml.Node | None:
+    node: yaml.Node | None = loader.get_single_node()
+    if node is not None and "*" in text and "&" in text:
+        _check_aliases(node)
+    return node
+
+
+def _value(loader: Any, text: str) -> Any:
+    node = _root(loader, text)
+    return None if node is None else loader.construct_document(node)
+
+
+def _as_yaml_error(error: Exception, length: int) -> YamlError:
+    import yaml  # noqa: PLC0415
+
+    if isinstance(error, yaml.MarkedYAMLError):
+        mark = error.problem_mark or error.context_mark
+        offset = min(mark.index, length) if mark is not None else 0
+        return YamlError(error.problem or error.context or "not YAML", offset)
+    if isinstance(error, yaml.YAMLError):
+        return YamlError(str(error).partition("\n")[0])
+    if isinstance(error, UnicodeError):
+        return YamlError("not text that YAML allows")
+    return YamlError(f"a value that YAML cannot make ({type(error).__name__})")
+
+
+def _bounded(text: str) -> str:
+    """Return a text as one that the library can read: exactly a str, and nested no deeper than the bound."""
+    import yaml  # noqa: PLC0415
+
+    text = str(text)  # the library takes no subclass
+    # Brackets nest, and so do lines that begin further right: a column has a mapping and a list in it at most.
+    widest = max(map(len, _LEADING.findall(text)), default=0)
+    if text.count("[") + text.count("{") + 2 * (widest + 2) <= DEEPEST:
+        return text
+    depth = 0
+    opening = (yaml.SequenceStartEvent, yaml.MappingStartEvent)
+    try:
+        for event in yaml.parse(text, Loader=_loader(fast=True)):  # not recursive
+            if isinstance(event, opening):
+                depth += 1
+                if depth > DEEPEST:
+                    raise YamlBoundError(f"nested more than {DEEPEST} levels deep", _start(event))
+            elif isinstance(event, yaml.CollectionEndEvent):
+                depth -= 1
+    except (yaml.YAMLError, UnicodeError):
+        pass  # whoever reads it meets the error again
+    return text
+
+
+def _check_aliases(root: yaml.Node) -> None:
+    """Raise YamlBoundError if aliases repeat too much, or a value holds itself."""
+    sizes: dict[int, int] = {}
+    waiting: list[tuple[yaml.Node, bool]] = [(root, False)]
+    entered: set[int] = set()
+    while waiting:
+        node, left = waiting.pop()
+        key = id(node)
+        if left:
+            sizes[key] = 1 + sum(sizes[id(inner)] for inner in _within(node))
+            if sizes[key] - len(sizes) > _MOST_REPEATED:
+                raise YamlBoundError(f"aliases repeat more than {_MOST_REPEATED:,} values", _start(node))
+        elif key not in sizes:
+            if key in entered:
+                raise YamlBoundError("a value holds itself by an alias", _start(node))
+            entered.add(key)
+            waiting.append((node, True))
+            waiting += [(inner, False) for inner in _within(node)]
+
+
+def _start(found: yaml.Node | yaml.Event) -> int:
+    return found.start_mark.index if found.start_mark is not None else 0
+
+
+def _within(node: yaml.Node) -> Iterator[yaml.Node]:
+    """Yield what a node holds directly."""
+    if isinstance(node.value, list):
+        for item in node.value:
+            if isinstance(item, tuple):
+                yield from item
+            else:
+                yield item
