@@ -105,6 +105,7 @@ from ros_lint.needs import (
     wishes,
 )
 from ros_lint.providers import Meant
+from ros_lint.python_versions import STANDARD_LIBRARY, too_new
 from ros_lint.report import Target
 from ros_lint.resource_files import uninstalled as uninstalled_resources
 from ros_lint.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
@@ -132,6 +133,7 @@ __all__ = [
     "LINTERS",
     "PYTHON_LIKE",
     "REGISTERING",
+    "STANDARD_LIBRARY",
     "VENDOR",
     "Advice",
     "Broken",
@@ -301,6 +303,7 @@ __all__ = [
     "tag_for",
     "tells",
     "texts_of",
+    "too_new",
     "top_file",
     "undeclared",
     "unguarded_tests",

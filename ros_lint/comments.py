@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from functools import cache
 from typing import TYPE_CHECKING
 
@@ -95,18 +96,10 @@ def _in_cfg(text: str) -> Ranges:
 
 
 def _in_python(text: str) -> Ranges:
-    import io  # noqa: PLC0415
-    import tokenize  # noqa: PLC0415
+    from ros_lint import python_tokens  # noqa: PLC0415  (few files are looked at)
 
-    starts = [0, *(match.end() for match in re.finditer(r"\r\n|\r|\n", text))]
-    lines = io.StringIO(text, newline=None)  # the tokenizer would not take a lone carriage return for a line end
-    try:
-        for token in tokenize.generate_tokens(lines.readline):
-            if token.type == tokenize.COMMENT:
-                start = starts[token.start[0] - 1] + token.start[1]
-                yield start, start + len(token.string)
-    except (tokenize.TokenError, SyntaxError):
-        return
+    with suppress(python_tokens.TokenError):
+        yield from ((start, end) for kind, start, end in python_tokens.tokens(text) if kind == "comment")
 
 
 _TO_LINE_END = re.compile(r"#[^\r\n]*")

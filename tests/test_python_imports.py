@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from ros_lint.collectors import python
 from ros_lint.collectors.python_import_tree import walk
 from ros_lint.collectors.python_imports import scan
-from ros_lint.collectors.python_syntax import NotPythonError, parse, syntax_problem
+from ros_lint.collectors.python_syntax import NotPythonError, is_of_others, parse, refusal
 from ros_lint.facts.sight import Facet, Problem
 from ros_lint.text import Text, read
 
@@ -270,7 +270,7 @@ def syntax(source: Text) -> Problem | None:
     try:
         parse(source)
     except NotPythonError as error:
-        return syntax_problem(source, error)
+        return None if is_of_others(source) else refusal(source, error).problem()
     return None
 
 

@@ -14,7 +14,7 @@ from configparser import Error as ConfigError
 from configparser import RawConfigParser
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.collectors.python_syntax import NotPythonError, parse, span_of
+from ros_lint.collectors.python_syntax import NotPythonError, TooDeepError, parse, span_of
 from ros_lint.facts.manifest import ColconDepend, Role
 
 if TYPE_CHECKING:
@@ -74,6 +74,8 @@ def from_setup_py(setup_py: Text, setup_cfg: Text | None, pyproject: Text | None
     """Return what running a ``setup.py`` would give, as far as that can be read off it."""
     try:
         module = parse(setup_py)
+    except TooDeepError as error:
+        return PythonProject("", f"setup.py has {error.message}", ())
     except NotPythonError:
         return NO_PROJECT  # running it fails, too
     try:

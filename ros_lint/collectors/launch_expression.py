@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import ast
-import builtins
-import math
 import re
 from collections.abc import Callable, Mapping
 from functools import lru_cache
@@ -12,6 +10,8 @@ from typing import Any
 
 from ros_lint.collectors.launch_text import UNKNOWN
 from ros_lint.collectors.python_operators import ARITHMETIC, COMPARISONS
+from ros_lint.collectors.python_syntax import NotPythonError, read_expression
+from ros_lint.python_versions import BUILTINS, MATH
 
 _LONGEST = 2_000
 _MOST = 10_000
@@ -30,8 +30,8 @@ def evaluate(text: str) -> str:
     if len(text) > _LONGEST:
         return UNKNOWN
     try:
-        return str(_value(ast.parse(text.strip(), mode="eval").body))
-    except (_Unknown, SyntaxError, ValueError, TypeError, ArithmeticError, LookupError, RecursionError, MemoryError):
+        return str(_value(read_expression(text.strip())))
+    except (_Unknown, NotPythonError, ValueError, TypeError, ArithmeticError, LookupError, RecursionError, MemoryError):
         return UNKNOWN
 
 
@@ -39,8 +39,8 @@ def evaluate(text: str) -> str:
 def refused(text: str) -> tuple[str, ...] | None:
     """Return the names in an expression that Python does not know where launch evaluates it, None if it is no expression."""
     try:
-        tree = ast.parse(text.lstrip(), mode="eval")
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        tree = read_expression(text.lstrip())
+    except NotPythonError:
         return None
     names = [node for node in ast.walk(tree) if isinstance(node, ast.Name)]
     bound = {node.id for node in names if not isinstance(node.ctx, ast.Load)}
@@ -48,7 +48,7 @@ def refused(text: str) -> tuple[str, ...] | None:
     return tuple(dict.fromkeys([node.id for node in names if node.id not in bound and node.id not in _KNOWN]))
 
 
-_KNOWN = frozenset({*dir(builtins), *dir(math), "math"})
+_KNOWN = BUILTINS | MATH | {"math"}
 """PythonExpression knows what Python does, and what is in math."""
 
 

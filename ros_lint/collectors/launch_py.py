@@ -16,12 +16,13 @@ from ros_lint.collectors.launch_py_actions import LAUNCHED, walker
 from ros_lint.collectors.launch_py_arguments import dropped, not_taken
 from ros_lint.collectors.launch_py_names import strays
 from ros_lint.collectors.launch_py_objects import PERHAPS, Frame, Function, Modules, OutOfBudget, Raised, Source
-from ros_lint.collectors.launch_py_refused import misplaced, misused, no_conditions, no_texts, undefined
+from ros_lint.collectors.launch_py_refused import misused, no_conditions, no_texts, undefined
 from ros_lint.collectors.launch_py_run import Machine
 from ros_lint.collectors.launch_py_texts import Within, texts
 from ros_lint.collectors.launch_references import References
 from ros_lint.collectors.launch_text import UNKNOWN
-from ros_lint.collectors.python_syntax import NotPythonError, TooDeepError, parse, refusal, span_of
+from ros_lint.collectors.python_misplaced import misplaced
+from ros_lint.collectors.python_syntax import NotPythonError, read, refusal, span_of
 from ros_lint.facts.launch import LaunchAction, LaunchFile
 from ros_lint.facts.sight import Facet, Opaque, Problem
 from ros_lint.text import Span, Text
@@ -45,14 +46,11 @@ def collect(
         return LaunchFile(source.path, "python", opaque=(opaque,), test="launch" not in defined, helper=not defined)
     test, helper = "launch" not in defined and "test" in defined, not defined
     try:
-        tree = parse(source)
-    except TooDeepError:
-        opaque = Opaque(Facet.USES, "the file is nested too deeply, or no text", source.span(0, 0))
-        return LaunchFile(source.path, "python", (), (opaque,), (), test, helper)
+        tree, newer = read(source)
     except NotPythonError as error:
-        problem = refusal(source, error.message, error.line, error.column)
-        opaque = Opaque(Facet.USES, "the file is no Python that can be read", problem.span)
-        return LaunchFile(source.path, "python", (), (opaque,), (problem,), test, helper)
+        why = refusal(source, error)
+        problems = (why.problem(),) if why.known else ()
+        return LaunchFile(source.path, "python", (), (why.opaque(Facet.USES),), problems, test, helper)
     helper = helper or any(_asks_for_arguments(node) for node in tree.body)
     reading = _Reading(source, Machine(modules, files))
     try:
@@ -74,6 +72,7 @@ def collect(
         tuple(_imports(source, tree)),
         reading.asks(),
         tuple(sorted(map(str, reading.wants))),  # the cache takes none but plain texts
+        syntax=newer,
     )
 
 

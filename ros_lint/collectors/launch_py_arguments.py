@@ -17,7 +17,7 @@ from ros_lint.collectors.launch_py_texts import texts
 from ros_lint.collectors.launch_py_walk import span_of
 from ros_lint.collectors.launch_text import UNKNOWN
 from ros_lint.collectors.python_unbound import tried
-from ros_lint.collectors.python_values import callee
+from ros_lint.collectors.python_values import callee, dotted
 from ros_lint.facts.sight import Problem
 from ros_lint.slips import is_meant, similar
 
@@ -119,8 +119,8 @@ def dropped(tree: ast.Module, source: Source) -> Iterator[Problem]:
             continue
         parts = _joined(node)
         place = next((part for part in parts[1:] if _is_absolute(part)), None)
-        if place is not None and not _is_absolute(parts[0]):
-            said = ast.literal_eval(place)
+        if isinstance(place, ast.Constant) and not _is_absolute(parts[0]):
+            said = str(place.value)
             way_out = f"say {said.lstrip('/')!r}" if said.strip("/") else "leave it out"
             message = f"what stands before {said!r} is forgotten, for it begins with a slash: {way_out}"
             yield Problem("forgotten-path", message, span_of(place, source))
@@ -134,7 +134,7 @@ def _joined(node: ast.Call) -> list[ast.expr]:
     """Return what a call joins to a path."""
     if callee(node) == "PathJoinSubstitution" and node.args and isinstance(node.args[0], (ast.List, ast.Tuple)):
         return node.args[0].elts
-    return node.args if isinstance(node.func, ast.Attribute) and ast.unparse(node.func) in ("os.path.join", "path.join") else []
+    return node.args if dotted(node.func) in ("os.path.join", "path.join") else []
 
 
 def _is_absolute(node: ast.expr) -> bool:

@@ -7,7 +7,6 @@ function where conditions are.
 from __future__ import annotations
 
 import ast
-import warnings
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
@@ -16,7 +15,6 @@ from ros_lint.collectors.launch_py_names import ACTIONS
 from ros_lint.collectors.launch_py_objects import Function, Made
 from ros_lint.collectors.launch_py_texts import is_text
 from ros_lint.collectors.launch_py_walk import span_of
-from ros_lint.collectors.python_syntax import NO_FILE, refusal
 from ros_lint.collectors.python_unbound import tried, unbound
 from ros_lint.collectors.python_values import callee
 from ros_lint.facts.sight import Problem
@@ -24,19 +22,6 @@ from ros_lint.facts.sight import Problem
 if TYPE_CHECKING:
     from ros_lint.collectors.launch_py_misuse import How, Misused
     from ros_lint.collectors.launch_py_objects import Source, Value
-    from ros_lint.text import Text
-
-
-def misplaced(tree: ast.Module, source: Text) -> Iterator[Problem]:
-    """Yield what the parser takes and the compiler does not, such as a keyword that is given twice."""
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            compile(tree, NO_FILE, "exec", dont_inherit=True)  # nothing is run
-    except SyntaxError as error:
-        yield refusal(source, error.msg, error.lineno or 1, error.offset or 1)
-    except (ValueError, RecursionError, MemoryError):
-        return  # too deep for this Python, perhaps not for another
 
 
 def undefined(tree: ast.Module, source: Source, met: Iterable[tuple[ast.Name, Source]]) -> Iterator[Problem]:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import ast
 import posixpath
-import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 
@@ -49,12 +48,13 @@ from ros_lint.collectors.launch_py_statements import execute
 from ros_lint.collectors.launch_py_texts import Within, texts
 from ros_lint.collectors.launch_text import fill, is_settled, joined
 from ros_lint.facts.launch import LaunchCondition
+from ros_lint.python_versions import STANDARD_LIBRARY
 
 STEPS = 150_000
 _STEPS_A_CALL = 60_000
 _DEEPEST_CALL = 40
 
-_KNOWN = sys.stdlib_module_names | frozenset(
+_KNOWN = STANDARD_LIBRARY | frozenset(
     [
         "ament_index_python",
         "launch",

@@ -203,14 +203,14 @@ def _with_logic(text: str) -> str:
 
 
 def _said(inner: str) -> str:
-    import ast  # noqa: PLC0415  (only for people)
+    from ros_lint.collectors.python_ast import literal  # noqa: PLC0415  (only for people)
 
     match = _LOGIC.fullmatch(inner)
     try:
-        words = ast.literal_eval(f"({match[2]},)") if match else ()
-    except (SyntaxError, ValueError):
+        words = literal(f"({match[2]},)") if match else ()
+    except ValueError:
         words = ()
-    if match is None or not words:
+    if match is None or not words or not isinstance(words, tuple):
         return f"$(eval {inner})"
     said = " ".join(f"'{word}'" if not word or (" " in certain_part(word) and word[:2] != "$(") else word for word in words)
     return f"$({match[1].replace('_', '-')} {said})"

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from ros_lint.collectors.python_import_tree import Import, walk
 from ros_lint.collectors.python_imports import added_folders, scan
 from ros_lint.collectors.python_look_ups import Found, in_excerpt, literals, look_ups
-from ros_lint.collectors.python_syntax import NotPythonError, parse
+from ros_lint.collectors.python_syntax import NotPythonError, TooDeepError, parse, refusal
 from ros_lint.facts.sight import Facet, Opaque
 from ros_lint.facts.sources import FileFacts, ImportedType, Mention
 
@@ -117,6 +117,12 @@ def _remark(item: Import, added: bool) -> str:
     return ", with the error caught" if item.caught else ", from a folder added to sys.path" if added else ""
 
 
+def _why(source: Text, error: NotPythonError) -> Opaque:
+    if isinstance(error, TooDeepError):
+        return refusal(source, error).opaque(Facet.USES)
+    return Opaque(Facet.USES, "no Python that can be read", source.span(0, 0))
+
+
 def _unreadable(source: Text, error: NotPythonError) -> FileFacts:
     spans = source.spans([match.span(1) for match in _IMPORT_LINE.finditer(source.text)])
     return FileFacts(
@@ -125,5 +131,5 @@ def _unreadable(source: Text, error: NotPythonError) -> FileFacts:
             for span in spans
             for module in [source.slice(span)]
         ),
-        (Opaque(Facet.USES, f"no Python that can be read: {error.message}", source.span(0, 0)),),
+        (_why(source, error),),
     )

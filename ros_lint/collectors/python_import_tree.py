@@ -245,8 +245,9 @@ def _explains(handler: ast.ExceptHandler) -> bool:
 
 
 def _suppresses(item: ast.withitem) -> bool:
-    call = ast.unparse(item.context_expr)
-    return "suppress" in call and any(error in call for error in _IMPORT_ERRORS)
+    nodes = list(ast.walk(item.context_expr))
+    words = [str(getattr(node, "id", None) or getattr(node, "attr", "")) for node in nodes]
+    return any("suppress" in word for word in words) and not _IMPORT_ERRORS.isdisjoint(words)
 
 
 _FROM_AT = re.compile(r"from(?:\s|\\)*")

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import ast
 import re
-import warnings
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
+from typing import NamedTuple
 
-from ros_lint.facts.sight import Problem
-from ros_lint.text import Span, from_raw, raw
-
-if TYPE_CHECKING:
-    from ros_lint.text import Text
+from ros_lint.collectors import python_ast
+from ros_lint.collectors.python_code import DEEPEST, nests_too_deep, plain
+from ros_lint.facts.sight import Facet, NewerSyntax, Opaque, Problem
+from ros_lint.text import Span, Text, from_raw, raw
 
 # What only Python 2 reads. One is enough: such a file is not meant for the interpreter that looks at it.
 _PYTHON_2 = re.compile(
@@ -33,37 +32,98 @@ Node = ast.expr | ast.stmt | ast.alias | ast.keyword
 """What stands in a place of its own."""
 
 
-NO_FILE = ""
-"""The file name to compile sources by. For a syntax error CPython opens the file of that name, relative to the current folder."""
-
-
 class NotPythonError(Exception):
-    """A source is no Python for the interpreter that runs."""
-
-    def __init__(self, message: str, line: int, column: int) -> None:
-        super().__init__(message)
-        self.message = message
-        self.line = line
-        self.column = column
+    """A source is no Python of any version. :func:`refusal` says why."""
 
 
 class TooDeepError(NotPythonError):
-    """A source is nested too deeply for this interpreter, perhaps not for another; or no text."""
+    """A source exceeds a bound of ros-lint. It may be Python all the same."""
+
+    def __init__(self, message: str, span: Span) -> None:
+        super().__init__(message)
+        self.message = message
+        self.span = span
+
+
+class Parsed(NamedTuple):
+    """A source that some version of Python reads."""
+
+    tree: ast.Module
+    newer: tuple[NewerSyntax, ...]
+    """What came later than Python 3.10, in order."""
 
 
 def parse(source: Text) -> ast.Module:
     """Return the tree of a source. Raises :class:`NotPythonError`, also as :class:`TooDeepError`, and nothing else."""
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # about escapes in somebody's strings
-            try:
-                return ast.parse(source.text, NO_FILE)
-            except UnicodeEncodeError:  # Python takes bytes that are no UTF-8 in comments of what it imports
-                return ast.parse(raw(source.text), NO_FILE)
-    except SyntaxError as error:
-        raise NotPythonError(error.msg, error.lineno or 1, error.offset or 1) from None
-    except (ValueError, RecursionError, MemoryError) as error:
-        raise TooDeepError(str(error) or "nested too deeply", 1, 1) from None
+    return read(source).tree
+
+
+def read(source: Text) -> Parsed:
+    """Return the tree of a source, the same under every Python, and what is newer than 3.10 in it. Raises as :func:`parse`."""
+    if plain(source.text):
+        try:
+            tree = python_ast.module(source.text)
+        except SyntaxError:
+            raise NotPythonError from None
+        except python_ast.TooDeepForPythonError:
+            pass
+        else:
+            if not any(nests_too_deep(statement) for statement in _long_statements(source, tree)):
+                return Parsed(tree, ())
+    from ros_lint.collectors import python_reread  # noqa: PLC0415  (one source of two hundred)
+
+    return python_reread.read(source)
+
+
+def read_expression(text: str) -> ast.expr:
+    """Return the tree of an expression, the same under every Python. Raises :class:`NotPythonError`."""
+    source = Text("", text)
+    if plain(text) and not nests_too_deep(text):
+        try:
+            return python_ast.expression(text)
+        except (SyntaxError, python_ast.TooDeepForPythonError):
+            raise NotPythonError from None
+    body = parse(source).body
+    if len(body) != 1 or not isinstance(body[0], ast.Expr):
+        raise NotPythonError
+    return body[0].value
+
+
+def _long_statements(source: Text, tree: ast.Module) -> Iterator[str]:
+    """Yield the statements that are long enough to nest too deeply; of those with a body what stands before it.
+
+    Raises :class:`TooDeepError` where branches are too many, each of which stands in the one before.
+    """
+    waiting: list[tuple[_Part, int]] = [(statement, 0) for statement in tree.body]
+    while waiting:
+        part, branches = waiting.pop()
+        inner: list[_Part] = [each for name in _BODIES for each in getattr(part, name, ())]
+        if isinstance(part, ast.If) and len(part.orelse) == 1 and isinstance(part.orelse[0], ast.If):
+            if branches == DEEPEST:
+                raise TooDeepError(f"more than {DEEPEST} branches in a row", span_of(source, part))
+            waiting.append((part.orelse[0], branches + 1))
+            inner.pop()
+        waiting += [(each, 0) for each in inner]
+        first = part.pattern if isinstance(part, ast.match_case) else part
+        line, column = _beginning(first)
+        if inner and not isinstance(part, (ast.Try, ast.Expr)):
+            end_line, end_column = _beginning(inner[0].pattern if isinstance(inner[0], ast.match_case) else inner[0])
+        else:
+            end_line, end_column = first.end_lineno or line, first.end_col_offset or column
+        if end_line > line or end_column - column > DEEPEST:
+            start, end = _offset(source, line, column), _offset(source, end_line, end_column)
+            if end - start > DEEPEST:
+                yield source.text[start:end]
+
+
+_BODIES = ("body", "handlers", "cases", "orelse", "finalbody")
+_Part = ast.stmt | ast.ExceptHandler | ast.match_case
+
+
+def _beginning(node: ast.stmt | ast.ExceptHandler | ast.pattern) -> tuple[int, int]:
+    """Return line and column of the first decorator of a statement, or of the statement."""
+    decorators = getattr(node, "decorator_list", None)
+    return (decorators[0].lineno, decorators[0].col_offset) if decorators else (node.lineno, node.col_offset)
 
 
 def start_of(source: Text, node: Node) -> int:
@@ -90,28 +150,34 @@ def _offset(source: Text, line: int, column: int) -> int:
     return start + len(piece)
 
 
-def syntax_problem(source: Text, error: NotPythonError) -> Problem | None:
-    """Return what is wrong with a source, None when that may be the view of one interpreter only.
+class Refusal(NamedTuple):
+    """Why a source has no tree."""
 
-    No problem are Python 2, templates, and what libcst can read: the source may be newer than the interpreter.
-    """
-    if _TEMPLATE_NAME.search(source.path) or _TEMPLATE_MARK.search(source.text) or _PYTHON_2.search(source.text):
-        return None
-    from libcst import ParserSyntaxError, parse_module  # noqa: PLC0415  (costs more than a whole run without it)
+    message: str
+    """A clause."""
+    span: Span
+    known: bool
+    """Whether it is no Python of any version. If not, it counts as not checked."""
 
-    try:
-        parse_module(raw(source.text))
-    except ParserSyntaxError:
-        pass
-    except Exception:  # whatever else it does on odd input is no second opinion
-        return None
-    else:
-        return None
-    return refusal(source, error.message, error.line, error.column)
+    def problem(self) -> Problem:
+        return Problem("syntax", f"not valid Python: {self.message}", self.span)
+
+    def opaque(self, hides: Facet) -> Opaque:
+        """Return what the source hides, as one that is no Python or not checked."""
+        reason = "no Python that can be read" if self.known else self.message
+        return Opaque(hides, reason, self.span, unchecked=not self.known)
 
 
-def refusal(source: Text, message: str, line: int, column: int) -> Problem:
-    """Return what Python says against a source; the place that it names may lie behind the end of the file."""
-    line = min(max(line, 1), source.line_count)
-    column = min(max(column, 1), len(source.line(line)) + 1)
-    return Problem("syntax", f"not valid Python: {message}", Span(source.path, line, column, line, column))
+def refusal(source: Text, error: NotPythonError) -> Refusal:
+    """Return why a source has no tree."""
+    if isinstance(error, TooDeepError):
+        return Refusal(error.message, error.span, known=False)
+    from ros_lint.collectors.python_refused import reason  # noqa: PLC0415  (few sources are no Python)
+
+    offset, message, known = reason(source.text)
+    return Refusal(message, source.span(offset, offset), known)
+
+
+def is_of_others(source: Text) -> bool:
+    """Return whether a source is a template, or of Python 2."""
+    return bool(_TEMPLATE_NAME.search(source.path) or _TEMPLATE_MARK.search(source.text) or _PYTHON_2.search(source.text))

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import ast
-import builtins
 from collections.abc import Iterable, Iterator
+
+from ros_lint.python_versions import BUILTINS
 
 _ANYWHERE = frozenset({"exec", "eval", "globals", "locals", "vars", "setattr"})
 """What can bind names that are not written."""
 _MODULE = frozenset({"__file__", "__name__", "__doc__", "__package__", "__spec__", "__loader__", "__builtins__", "__path__"})
-_KNOWN = _MODULE | set(dir(builtins)) | {"copyright", "credits", "exit", "help", "license", "quit", "WindowsError"}
+_KNOWN = _MODULE | BUILTINS | {"copyright", "credits", "exit", "help", "license", "quit", "WindowsError"}
 """What Python binds, with what it does so only when it starts as people start it, or elsewhere."""
 
 

@@ -37,6 +37,15 @@ def callee(node: ast.Call) -> str:
     return function.id if isinstance(function, ast.Name) else ""
 
 
+def dotted(node: ast.expr) -> str:
+    """Return a dotted name as it is written, such as ``os.path.join``, "" for anything else."""
+    names: list[str] = []
+    while isinstance(node, ast.Attribute):
+        names.append(node.attr)
+        node = node.value
+    return ".".join([node.id, *reversed(names)]) if isinstance(node, ast.Name) else ""
+
+
 def argument(node: ast.Call, *names: str) -> ast.expr | None:
     """Return the argument that has one of some names, or else the first one."""
     for keyword in node.keywords:

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.python_syntax import NotPythonError, parse, span_of, start_of
+from ros_lint.collectors.python_values import callee, dotted
 from ros_lint.facts.setup_py import Slot
 
 if TYPE_CHECKING:
@@ -100,8 +101,8 @@ def _joins(found: ast.List) -> str:
     """Return how the last folder of data_files is put together that is not written as one text."""
     folders = [element.elts[0] for element in found.elts if isinstance(element, ast.Tuple) and element.elts]
     for folder in reversed(folders):
-        if isinstance(folder, ast.Call) and ast.unparse(folder.func).rpartition(".")[2] == "join":
-            return ast.unparse(folder.func)
+        if isinstance(folder, ast.Call) and callee(folder) == "join":
+            return dotted(folder.func)
         if isinstance(folder, ast.JoinedStr):
             return "f"
         if not isinstance(folder, ast.Constant):

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from ros_lint.collectors.python_syntax import NotPythonError, parse, span_of
+from ros_lint.collectors.python_syntax import NotPythonError, parse, range_of, span_of
 from ros_lint.collectors.python_values import callee
 from ros_lint.facts.setup_py import WrittenText
 
@@ -41,15 +41,11 @@ def _found(source: Text, tree: ast.Module) -> Iterator[WrittenText]:
 
 def _gaps(source: Text, node: ast.Constant) -> Iterator[WrittenText]:
     """Yield the ends of the texts that stand side by side and make one, but for the last."""
-    from tokenize import STRING, generate_tokens  # noqa: PLC0415  (few files have such a text)
+    from ros_lint.python_tokens import tokens  # noqa: PLC0415  (few files have such a text)
 
-    span = span_of(source, node)
-    start = source.offset(span.line, span.column)
-    lines = f"({source.slice(span)})".splitlines(keepends=True)
-    ends = [token.end for token in generate_tokens(iter(lines).__next__) if token.type == STRING]
-    for line, column in ends[:-1]:
-        at = start + sum(map(len, lines[: line - 1])) + column - 1
-        yield WrittenText("gap", "", source.span(at, at))
+    start, end = range_of(source, node)
+    ends = [start + token.end for token in tokens(source.text[start:end]) if token.kind == "string"]
+    yield from (WrittenText("gap", "", source.span(at, at)) for at in ends[:-1])
 
 
 def _last(pattern: ast.expr) -> ast.expr:

@@ -7,7 +7,7 @@ from typing import Final, NamedTuple
 
 from ros_lint.facts.cmake import Call, Target
 from ros_lint.facts.setup_py import EntryPoint, PythonModule, Slot, WrittenText
-from ros_lint.facts.sight import Facet, Opaque, Problem
+from ros_lint.facts.sight import Facet, NewerSyntax, Opaque, Problem
 from ros_lint.facts.sources import Mention
 from ros_lint.text import Span
 
@@ -192,6 +192,8 @@ class BuildScript(NamedTuple):
     set_aside: tuple[str, ...] = ()
     """Interfaces that stand in comments of its CMake files, as ``msg/Name``: somebody took them off a list."""
 
+    syntax: tuple[NewerSyntax, ...] = ()
+    """What not every version of Python reads in a setup.py."""
     refused: tuple[Problem, ...] = ()
     """What CMake refuses in commands that are seen through all the same, so that it hides nothing: "undefined-target" of what
     commands are given targets for, "no-package" of what they are given packages for. The subject is the name."""

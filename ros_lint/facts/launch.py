@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Final, Literal, NamedTuple
 
-from ros_lint.facts.sight import Opaque, Problem
+from ros_lint.facts.sight import NewerSyntax, Opaque, Problem
 from ros_lint.text import Span
 
 
@@ -135,3 +135,5 @@ class LaunchFile(NamedTuple):
     """Whether launch configurations are filled into a file of parameters (allow_substs), which can ask for any."""
     newer: tuple[Problem, ...] = ()
     """What not every distribution takes; ``kind`` is the first that does."""
+    syntax: tuple[NewerSyntax, ...] = ()
+    """What not every version of Python reads in a Python launch file."""

@@ -53,6 +53,15 @@ class Opaque(NamedTuple):
         return not self.below or f"{path}/".startswith(f"{self.below}/") or self.below.startswith(f"{path}/")
 
 
+class NewerSyntax(NamedTuple):
+    """A construct of Python that versions before the one named refuse."""
+
+    construct: str
+    """A noun in the plural."""
+    version: tuple[int, int]
+    span: Span
+
+
 class Problem(NamedTuple):
     """Something that makes a file wrong for the tools that read it."""
 

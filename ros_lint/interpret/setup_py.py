@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 from ros_lint.collectors import setup_cfg as setup_cfg_collector
 from ros_lint.collectors.python_import_tree import walk
-from ros_lint.collectors.python_syntax import NotPythonError, parse, span_of, syntax_problem
+from ros_lint.collectors.python_syntax import NotPythonError, is_of_others, read, refusal, span_of
 from ros_lint.collectors.python_unbound import tried, unbound
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.sight import Facet, Opaque, Problem
@@ -87,11 +87,12 @@ def _run(program: Program, source: Text, start: Span) -> BuildScript:
     """Run a setup.py. Return its imports, and what keeps it from being seen through."""
     script = BuildScript(source.path)
     try:
-        tree = parse(source)
+        tree, newer = read(source)
     except NotPythonError as error:
-        problem = syntax_problem(source, error)
-        opaque = Opaque(INSTALLED, f"no Python that can be read: {error.message}", start)
-        return script._replace(opaque=(opaque,), problems=(problem,) if problem else ())
+        if is_of_others(source):
+            return script._replace(opaque=(Opaque(INSTALLED, "no Python that can be read: a template, or Python 2", start),))
+        why = refusal(source, error)
+        return script._replace(opaque=(why.opaque(INSTALLED),), problems=(why.problem(),) if why.known else ())
     program.run(tree)
     imports = [item for item in walk(source, tree) if item.module != "__future__"]
     spans = source.spans([(item.start, item.start + len(item.module)) for item in imports])
@@ -101,7 +102,9 @@ def _run(program: Program, source: Text, start: Span) -> BuildScript:
             for item, span in zip(imports, spans, strict=True)
         )
     )
-    script = script._replace(problems=tuple(_failing(program, tree, source)))
+    script = script._replace(
+        problems=tuple(_failing(program, tree, source)), syntax=() if newer and is_of_others(source) else newer
+    )
     if program.end or not program.setups:
         reason = f"setup.py is not followed to its end: {program.end}" if program.end else "no call of setup() is seen"
         return script._replace(opaque=(Opaque(INSTALLED, reason, start),))

@@ -170,7 +170,10 @@ class Expressions(ABC):
 
     def _joined(self, node: ast.JoinedStr) -> Value:
         parts = [self.value(part) for part in node.values]
-        return unknown_in(parts) or Word.at("".join(parts), node)
+        unknown = unknown_in(parts)
+        if unknown is not None and unknown.node in node.values:  # whose places are not the same under each Python
+            return Unknown(unknown.reason, node)
+        return unknown or Word.at("".join(parts), node)
 
     def _formatted(self, node: ast.FormattedValue) -> Value:
         value = self.value(node.value)

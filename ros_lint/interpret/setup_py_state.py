@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable
+from copy import copy
 from typing import Any, Final
 
 from ros_lint.interpret.setup_py_values import Unknown, Value, either, merged
@@ -113,5 +114,36 @@ def _join(first: Container, second: Container, unknown: Unknown) -> Container:
 
 def at(node: ast.AST | None) -> str:
     """Return a short text of an expression, to be quoted in a reason."""
-    text = ast.unparse(node) if node is not None else "it"
+    text = ast.unparse(_shown(node, _DEEPEST)) if node is not None else "it"
     return text if len(text) <= 40 else text[:37] + "..."
+
+
+_DEEPEST = 30
+"""How deep an expression is shown."""
+
+
+def _shown(node: ast.AST, levels: int) -> ast.AST:
+    """Return a copy of a node without f-strings, which each Python writes in its own way, and without what is too deep."""
+    if isinstance(node, (ast.JoinedStr, ast.FormattedValue)):
+        return ast.Name(_template(node))
+    if levels <= 0 and isinstance(node, ast.expr):
+        return ast.Name("...")
+    found = copy(node)
+    for name, value in ast.iter_fields(node):
+        if isinstance(value, ast.AST):
+            setattr(found, name, _shown(value, levels - 1))
+        elif isinstance(value, list):
+            setattr(found, name, [_shown(item, levels - 1) if isinstance(item, ast.AST) else item for item in value])
+    return found
+
+
+def _template(node: ast.JoinedStr | ast.FormattedValue) -> str:
+    """Return an f-string as it can be written."""
+    parts = []
+    pieces: list[ast.expr] = node.values if isinstance(node, ast.JoinedStr) else [node]
+    for part in pieces:
+        if isinstance(part, ast.FormattedValue):
+            parts.append(f"{{{at(part.value)}}}")
+        else:
+            parts.append(str(getattr(part, "value", "")))
+    return f"f{''.join(parts)!r}"

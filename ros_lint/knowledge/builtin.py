@@ -2,19 +2,11 @@
 
 from __future__ import annotations
 
-import sys
+from ros_lint.python_versions import STANDARD_LIBRARY
 
-# What one version from 3.10 to 3.14 has and another has not: the answer must not depend on the Python that runs.
-_SOME_PYTHONS = """
-__future__ __main__ _thread aifc annotationlib asynchat asyncore audioop binhex cgi cgitb chunk compression crypt
-distutils imghdr imp lib2to3 mailcap msilib nis nntplib ossaudiodev pipes smtpd sndhdr spwd sunau telnetlib tomllib uu
-xdrlib
-"""
 _APART = frozenset({"tkinter"})
 """Modules that Debian and Ubuntu leave out of Python, for who wants them to install."""
-PYTHON_MODULES = (
-    frozenset({*_SOME_PYTHONS.split(), *(name for name in sys.stdlib_module_names if not name.startswith("_"))}) - _APART
-)
+PYTHON_MODULES = STANDARD_LIBRARY - _APART
 """Top-level modules of Python's standard library, of any version from 3.10 to 3.14, as far as they come with it."""
 
 _CMAKE_MODULES = """

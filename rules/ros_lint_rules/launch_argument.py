@@ -57,11 +57,11 @@ What does nothing is an info; it is a warning if it resembles an argument that i
 from __future__ import annotations
 
 import re
-import sys
 from collections.abc import Collection, Iterator, Mapping
 from typing import NamedTuple
 
 from ros_lint.api import (
+    STANDARD_LIBRARY,
     Broken,
     Confidence,
     Families,
@@ -276,7 +276,7 @@ def _empty(file: LaunchFile) -> Iterator[str]:
 def _is_of_launch(module: str) -> bool:
     """Whether a module surely asks for no launch configurations of its own."""
     top = module.partition(".")[0]
-    return top in _QUIET or top in sys.stdlib_module_names
+    return top in _QUIET or top in STANDARD_LIBRARY
 
 
 def _known_inside(file: LaunchFile, links: Links) -> frozenset[str]:

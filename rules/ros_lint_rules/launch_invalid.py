@@ -5,7 +5,7 @@ A launch file that the real front end refuses: it does not parse, has a tag, an 
 exist, misses one that is needed, or holds a value of another type; one in Python that gives a node, an argument or another
 thing of the launch libraries keywords which do not exist or were removed, or something without its keyword, comes to a name
 that nothing defines, or takes one from a module that has none; one that gives `PythonLaunchDescriptionSource` a file in XML;
-or one with something that came to the launch format after the distribution that was asked for.
+or one with something that came to the launch format, or to Python, after the distribution that was asked for.
 
 Also one with a path that begins right behind the share folder of a package, `[FindPackageShare('robot'), 'config', 'a.yaml']`
 where nothing joins the parts: that is `.../share/robotconfiga.yaml`; or with one that is joined with a slash in front,
@@ -60,6 +60,7 @@ from ros_lint.api import (
     Workspace,
     launchable,
     several,
+    too_new,
 )
 
 _FOR_OLD = re.compile(r"(?:^|[_.-])(?:crystal|dashing|el[eo]quent|foxy)(?:[_.-]|$)")
@@ -69,7 +70,8 @@ _MAY_BE_NEWER = frozenset({"unknown-tag", "unexpected-attribute", "unexpected-ch
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for launch in launchable(package):
-        problems = (*launch.file.problems, *_newer(launch.file.newer, workspace.target))
+        newer = (*_newer(launch.file.newer, workspace.target), *too_new(launch.file.syntax, workspace.target))
+        problems = (*launch.file.problems, *newer)
         if not problems:
             continue
         first, *others = sorted(problems, key=lambda problem: problem.span)
