@@ -26,9 +26,9 @@ def module(text: str) -> ast.Module:
 
 def _module(text: str) -> ast.Module:
     try:
-        return ast.parse(text)
+        return ast.parse(text, "")
     except UnicodeEncodeError:  # Python takes bytes that are no UTF-8 in comments of what it imports
-        return ast.parse(raw(text))
+        return ast.parse(raw(text), "")
 
 
 def expression(text: str) -> ast.expr:
@@ -36,7 +36,7 @@ def expression(text: str) -> ast.expr:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
-            return ast.parse(text, mode="eval").body
+            return ast.parse(text, "", mode="eval").body
         except ValueError as error:
             raise SyntaxError(str(error)) from None
         except (RecursionError, MemoryError) as error:
