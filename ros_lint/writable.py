@@ -22,9 +22,9 @@ class Writable:
         """Return why a file must not be written, or "" if it may be."""
         identity = self._tree.identity(path)
         if not any(is_below(identity, root) for root in self._roots):
-            return f"because {path} lies outside of the folders that were asked for"
+            return f"{path} is outside of the given folders"
         names = self._names.get(identity, ())
-        return f"because {' and '.join(names)} are the same file" if len(names) > 1 else ""
+        return f"{' and '.join(names)} are the same file" if len(names) > 1 else ""
 
 
 def names_of_files(tree: Tree, paths: Iterable[str]) -> dict[str, list[str]]:
