@@ -16,7 +16,7 @@ from ros_lint.interpret.cmake_install_folders import unlisted
 from ros_lint.interpret.cmake_released import released, run_released
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_state import Properties
-from ros_lint.interpret.cmake_targets import SOURCES, generate
+from ros_lint.interpret.cmake_targets import SOURCES
 from ros_lint.interpret.cmake_values import HOLE, MAYBE, elements, is_known, sure
 from ros_lint.tree import is_outside
 from ros_lint.tree import join as join_path
@@ -191,11 +191,6 @@ def _headers(run: Run, args: list[str]) -> None:
 _SCOPED: Final = frozenset({"kilted", "lyrical", "rolling"})
 
 
-def _generate(run: Run, args: list[str]) -> None:
-    for arg in args:
-        generate(run, arg)
-
-
 def _package(run: Run, args: list[str]) -> None:
     """``ros_lint_package(...)``: ament_package(), which makes the package findable and hands on its CONFIG_EXTRAS."""
     if run.muted:
@@ -337,7 +332,6 @@ COMMANDS: Final[dict[str, Handler]] = {
     "ros_lint_console_scripts": _scripts,
     "ros_lint_provide": _provide,
     "ros_lint_headers": _headers,
-    "ros_lint_generate": _generate,
     "ros_lint_needed": _needed,
     "ros_lint_package": _package,
     "ros_lint_unknown": _unknown,

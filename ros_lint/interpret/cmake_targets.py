@@ -36,6 +36,7 @@ def _add_library(run: Run, args: list[str]) -> None:
     _add(run, args, kind, (*_LIBRARY_TYPES, "EXCLUDE_FROM_ALL", "IMPORTED", "GLOBAL"))
     if shared and not is_known(shared) and (target := run.targets.get(args[0])) is not None and target["KIND"] == kind:
         target["PERHAPS"] = "static"
+        target["TYPE"] = HOLE
 
 
 def _add(run: Run, args: list[str], kind: str, keywords: tuple[str, ...]) -> None:
@@ -50,9 +51,9 @@ def _add(run: Run, args: list[str], kind: str, keywords: tuple[str, ...]) -> Non
     if "ALIAS" in args[1:2]:
         run.put(run.targets, name, Properties(KIND="alias", ALIASED=args[2] if len(args) > 2 else HOLE))
         return
+    target = Properties(KIND=kind, NAME=name, TYPE="EXECUTABLE" if kind == "executable" else f"{kind.upper()}_LIBRARY")
     if "IMPORTED" in args[1:4]:
-        kind = "imported"
-    target = Properties(KIND=kind, NAME=name)
+        target["KIND"] = "imported"
     run.put(run.targets, name, target)
     _build(run, name, target, args, keywords)
 
@@ -161,10 +162,6 @@ def _property(run: Run, name: str, wanted: str, missing: str) -> str:
         return HOLE
     if target["KIND"] == "alias":
         return _property(run, target["ALIASED"], wanted, missing) if target["ALIASED"] in run.targets else HOLE
-    types = {"executable": "EXECUTABLE"}
-    kind = target["KIND"]
-    if wanted == "TYPE":
-        return types.get(kind, f"{kind.upper()}_LIBRARY")
     if wanted in ("NAME", "OUTPUT_NAME") or (wanted in target and wanted != "SOURCES"):
         return target.get(wanted, missing)
     return HOLE
@@ -192,7 +189,7 @@ def generate(run: Run, path: str, *, folder: bool = False) -> None:
 
 def _custom_target(run: Run, args: list[str]) -> None:
     if args and is_known(args[0]):
-        run.put(run.targets, args[0], Properties(KIND="other"))
+        run.put(run.targets, args[0], Properties(KIND="other", NAME=args[0], TYPE="UTILITY"))
         _custom_command(run, args, optional=args[1:2] != ["ALL"])
 
 

@@ -69,7 +69,9 @@ _POLICY = re.compile(r"CMP(\d{4})")
 
 def _policy(_run: Run, token: Token) -> Truth:
     match = _POLICY.fullmatch(token.text)
-    return Truth(TRUE if match and int(match[1]) <= 50 else LIKELY)
+    if match is None:
+        return Truth(FALSE)
+    return Truth(TRUE if int(match[1]) <= 50 else LIKELY)
 
 
 def _unknown(_run: Run, _token: Token) -> Truth:

@@ -14,7 +14,6 @@
 #   ros_lint_console_scripts(dir setup.cfg)  console_scripts of a setup.cfg become programs
 #   ros_lint_provide(path [program])         a generated file is installed
 #   ros_lint_headers(scoped)                 include/ is installed, to include/<package> if scoped or as of Kilted
-#   ros_lint_generate(paths...)              files come into being during the build
 #   ros_lint_unknown(variables...)           variables hold something that cannot be known here
 #   ros_lint_of_index(variables...)          likewise, and it is what some package has put into the index
 #   ros_lint_extras(files...)                CMake code for packages that find this one
