@@ -42,8 +42,13 @@ from tests.setup_scripts import FILES, HEAD, script
         ("from skbuild import setup\nsetup(name='pkg')", Facet.SHARE | Facet.LIBRARIES, "setup() of skbuild may install"),
         ("data = []\nfill(data)\nsetup(name='pkg', data_files=data)", Facet.SHARE, "fill(data) may change it"),
         ("setup(name='pkg', data_files=[(os.sep.join(['share', x]), ['package.xml'])])", Facet.SHARE, "the name x"),
-        ("setup(name='pkg', data_files=[('share/pkg', ['package.xml'] * 10 ** 9)])", Facet.SHARE, "fails"),
-        ("setup(name='pkg', data_files=[('share/pkg', ['%99999d' % 1])])", Facet.SHARE, "fails with ValueError"),
+        (
+            "setup(name='pkg', data_files=[('share/pkg', ['package.xml'] * 10 ** 9)])",
+            Facet.SHARE,
+            "10 ** 9 is not followed",
+        ),
+        ("setup(name='pkg', data_files=[('share/pkg', ['package.xml'] * 1000000000)])", Facet.SHARE, "is too large"),
+        ("setup(name='pkg', data_files=[('share/pkg', ['%99999d' % 1])])", Facet.SHARE, "is too large"),
     ],
 )
 def test_what_is_not_known_is_opaque(body: str, hidden: Facet, reason: str) -> None:

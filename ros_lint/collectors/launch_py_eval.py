@@ -279,9 +279,18 @@ def _lambda(machine: Machine, node: ast.Lambda, frame: Frame) -> Value:
     return machine.function(node, frame)
 
 
+def _inside(node: ast.expr, frame: Frame) -> Frame:
+    """Return the names of a comprehension. What ``:=`` names in it has its name in the function around it."""
+    inner = Frame(frame.source, frame, {})
+    if frame.source.assigns_inside:
+        names = [one.target.id for one in ast.walk(node) if isinstance(one, ast.NamedExpr)]
+        inner.declared = {name: frame.declared.get(name, frame) for name in names}
+    return inner
+
+
 def _comprehension(machine: Machine, node: ast.ListComp | ast.SetComp | ast.GeneratorExp, frame: Frame) -> Value:
     found: list[Value] = []
-    inner = Frame(frame.source, frame, {})
+    inner = _inside(node, frame)
     of = machine.evaluate(node.generators[0].iter, inner)
     if isinstance(of, Api) and of.name == INSTALLED:
         return of  # whatever is made of each: who asks what is in it asks what is installed
@@ -291,7 +300,7 @@ def _comprehension(machine: Machine, node: ast.ListComp | ast.SetComp | ast.Gene
 
 def _dict_comprehension(machine: Machine, node: ast.DictComp, frame: Frame) -> Value:
     found: dict[Value, Value] = {}
-    inner = Frame(frame.source, frame, {})
+    inner = _inside(node, frame)
 
     def add() -> None:
         key = hashable(plain(machine.evaluate(node.key, inner)))

@@ -38,7 +38,7 @@ Modules = Callable[[str, Text], "Module | None"]
 class Source:
     """A module: its text, and the names that it binds when it runs."""
 
-    __slots__ = ("ascii", "lent", "names", "text", "yields")
+    __slots__ = ("ascii", "assigns_inside", "lent", "names", "text", "yields")
 
     def __init__(self, text: Text, *, lent: bool = False) -> None:
         self.text = text
@@ -46,6 +46,7 @@ class Source:
         self.lent = lent
         """Whether it is a helper of a released package: all of it stands where it is called, in the text of who calls it."""
         self.yields = "yield" in text.text
+        self.assigns_inside = ":=" in text.text
         self.names: dict[str, Value] = {}
 
 

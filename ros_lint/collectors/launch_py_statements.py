@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import builtins
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -26,6 +25,7 @@ from ros_lint.collectors.launch_py_objects import (
 )
 from ros_lint.collectors.launch_py_operations import truth
 from ros_lint.collectors.launch_text import presence
+from ros_lint.collectors.python_exceptions import catching, kind_raised
 from ros_lint.collectors.python_look_ups import catches_missing_file, catches_missing_package
 from ros_lint.collectors.python_values import LOOK_UPS, callee
 from ros_lint.facts.launch import LaunchCondition
@@ -99,7 +99,7 @@ def _try(machine: Machine, node: ast.Try, frame: Frame) -> int:
     finally:
         machine.guarded -= guarded
     if raised is not None:
-        handler = next((handler for handler in node.handlers if _may_catch(handler, raised.kind)), None)
+        handler = catching(node, raised.kind)
         if handler is None:
             _finally(machine, node, frame, before)
             raise raised
@@ -119,22 +119,6 @@ def _finally(machine: Machine, node: ast.Try, frame: Frame, before: Conditions) 
     return signal
 
 
-def _may_catch(handler: ast.ExceptHandler, kind: str) -> bool:
-    """Return whether a handler may catch an exception of a class of Python; "" is for any exception."""
-    raised = getattr(builtins, kind, None) if kind else None
-    if handler.type is None or raised is None:
-        return True
-    caught = handler.type.elts if isinstance(handler.type, ast.Tuple) else [handler.type]
-    return any(_is_above(node, raised) for node in caught)
-
-
-def _is_above(node: ast.expr, raised: type) -> bool:
-    if not isinstance(node, (ast.Name, ast.Attribute)):
-        return True
-    above = getattr(builtins, node.id if isinstance(node, ast.Name) else node.attr, None)
-    return isinstance(above, type) and issubclass(raised, above)
-
-
 def _looks_up(body: Sequence[ast.stmt]) -> bool:
     return any(isinstance(node, ast.Call) and callee(node) in LOOK_UPS for statement in body for node in ast.walk(statement))
 
@@ -146,8 +130,7 @@ def _return(machine: Machine, node: ast.Return, frame: Frame) -> int:
 
 
 def _raise(_machine: Machine, node: ast.Raise, _frame: Frame) -> int:
-    made = node.exc.func if isinstance(node.exc, ast.Call) else node.exc
-    raise Raised(made.id if isinstance(made, ast.Name) and hasattr(builtins, made.id) else "")
+    raise Raised(kind_raised(node))
 
 
 def _break(_machine: Machine, _node: ast.Break, _frame: Frame) -> int:

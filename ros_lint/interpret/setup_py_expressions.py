@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any, Final
 
 from ros_lint.interpret.setup_py_files import ROOT, Files
-from ros_lint.interpret.setup_py_operators import binary, compare, formatted
-from ros_lint.interpret.setup_py_state import ExhaustedError, Journal, at
+from ros_lint.interpret.setup_py_operators import UNARY, TooLargeError, binary, compare, formatted
+from ros_lint.interpret.setup_py_state import ExhaustedError, Journal, LeaveError, at
 from ros_lint.interpret.setup_py_values import (
     REST,
     Class,
@@ -41,6 +41,10 @@ class Expressions(ABC):
         self.scopes: Scopes = ({"__file__": f"{ROOT}/setup.py", "__name__": "__main__"},)
         self.strange: list[ast.Name] = []
         """Names that are asked for on the way that is surely taken, and mean nothing that is known."""
+        self.caught = 0
+        """How many try statements around catch what fails."""
+        self.inner = 0
+        """How many of the innermost scopes are those of comprehensions."""
         self._steps = 0
 
     @abstractmethod
@@ -71,7 +75,11 @@ class Expressions(ABC):
             if isinstance(found, (str, list, tuple)):
                 self._steps += len(found) >> 8  # copying is work, too
             return found
+        except TooLargeError:
+            return Unknown(f"{at(node)} is too large", node)
         except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
+            if self.caught:
+                raise LeaveError("raise", raised=type(error).__name__) from None
             return Unknown(f"{at(node)} fails with {type(error).__name__}", node)
 
     def truth(self, value: Value) -> bool | None:
@@ -205,7 +213,7 @@ class Expressions(ABC):
             truth = self.truth(value)
             return Unknown(f"{at(node)} is not known", node) if truth is None else not truth
         unknown = unknown_in([value])
-        return unknown or (-value if isinstance(node.op, ast.USub) else +value)
+        return unknown or UNARY[type(node.op)](value)
 
     def _compare(self, node: ast.Compare) -> Value:
         left = self.value(node.left)
@@ -276,9 +284,6 @@ class Expressions(ABC):
         parts = [None if part is None else self.value(part) for part in (node.lower, node.upper, node.step)]
         return unknown_in(parts) or slice(*parts)
 
-    def _lambda(self, node: ast.Lambda) -> Value:
-        return self.function(node)
-
     def function(self, node: ast.Lambda | ast.FunctionDef | ast.AsyncFunctionDef) -> Function:
         """Return a function as a value."""
         defaults = tuple(self.value(default) for default in node.args.defaults)
@@ -286,8 +291,13 @@ class Expressions(ABC):
         return Function(node, self.scopes, defaults, keywords)
 
     def _named(self, node: ast.NamedExpr) -> Value:
+        """What is named in a comprehension has its name around it, too."""
         value = self.value(node.value)
-        self.assign(node.target.id, value)
+        inner, self.scopes = self.scopes[: self.inner], self.scopes[self.inner :]
+        try:
+            self.assign(node.target.id, value)
+        finally:
+            self.scopes = (*inner, *self.scopes)
         return value
 
     def _call(self, node: ast.Call) -> Value:
@@ -340,6 +350,7 @@ class Expressions(ABC):
         """Go through the loops of a comprehension. ``add`` is told whether it is sure to be reached."""
         outer = self.scopes
         self.scopes = ({}, *outer)
+        self.inner += 1
 
         def loop(index: int, sure: bool) -> None:
             if index == len(generators):
@@ -360,6 +371,7 @@ class Expressions(ABC):
             loop(0, sure=True)
         finally:
             self.scopes = outer
+            self.inner -= 1
 
 
 _HANDLERS: dict[type[ast.expr], Callable[[Any, Any], Value]] = {
@@ -379,7 +391,7 @@ _HANDLERS: dict[type[ast.expr], Callable[[Any, Any], Value]] = {
     ast.Dict: Expressions._dict,
     ast.Subscript: Expressions._subscript,
     ast.Slice: Expressions._slice,
-    ast.Lambda: Expressions._lambda,
+    ast.Lambda: Expressions.function,
     ast.NamedExpr: Expressions._named,
     ast.Call: Expressions._call,
     ast.ListComp: Expressions._comprehension,

@@ -13,7 +13,7 @@ from ros_lint.environment import ROS_2
 from ros_lint.interpret import setup_py_methods, setup_py_sequences
 from ros_lint.interpret.setup_py_expressions import Expressions
 from ros_lint.interpret.setup_py_files import ROOT
-from ros_lint.interpret.setup_py_state import LeaveError
+from ros_lint.interpret.setup_py_state import LeaveError, at
 from ros_lint.interpret.setup_py_values import (
     REST,
     Module,
@@ -98,7 +98,10 @@ def call(program: Expressions, function: Native, arguments: list[Value], keyword
             unknown = unknown_in([*owner, *arguments, *keywords.values()])
             if unknown:
                 return unknown
-        return located(known(program, node, *owner, *arguments, **keywords), node)
+        try:
+            return located(known(program, node, *owner, *arguments, **keywords), node)
+        except (AttributeError, TypeError) as error:  # it may take more than what is known of it
+            return Unknown(f"{at(node)} fails with {type(error).__name__}", node)
     return setup_py_methods.call(program, function, arguments, keywords, node)
 
 
@@ -153,7 +156,7 @@ def _ignore(*_: Value, **__: Value) -> None:
 
 
 def _exit(*_: Value) -> None:
-    raise LeaveError("raise")
+    raise LeaveError("raise", raised="SystemExit")
 
 
 def _dict(_: Expressions, __: ast.Call, *values: Value, **more: Value) -> Value:

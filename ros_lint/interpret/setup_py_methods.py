@@ -6,7 +6,7 @@ import ast
 
 from ros_lint.collectors.python_methods import TEXT_METHODS
 from ros_lint.interpret.setup_py_expressions import Expressions
-from ros_lint.interpret.setup_py_operators import LONGEST, check_format, check_size
+from ros_lint.interpret.setup_py_operators import LONGEST, TooLargeError, check_format, check_size
 from ros_lint.interpret.setup_py_sequences import in_order
 from ros_lint.interpret.setup_py_values import REST, Native, Value, certain, located, unknown_in
 
@@ -40,7 +40,7 @@ def _text_method(name: str, owner: str, arguments: list[Value], keywords: dict[s
     if unknown:
         return unknown
     if name == "join" and sum(map(len, arguments[0])) + len(owner) * len(arguments[0]) > LONGEST:
-        raise ValueError
+        raise TooLargeError
     if name == "format":
         check_format(owner)
     if name in ("format", "replace"):

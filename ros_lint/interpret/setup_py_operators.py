@@ -9,10 +9,16 @@ from collections.abc import Callable, Iterable
 from typing import Any, Final
 
 from ros_lint.collectors.python_operators import COMPARISONS
+from ros_lint.interpret.setup_py_state import at
 from ros_lint.interpret.setup_py_values import REST, Unknown, Value, Word, certain, located, same, unknown_in
 
 LONGEST: Final = 100_000
 """Elements or characters of a value that is computed."""
+
+
+class TooLargeError(ValueError):
+    """A value is larger than what is computed."""
+
 
 _BINARY: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
     ast.Add: operator.add,
@@ -21,21 +27,27 @@ _BINARY: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
     ast.FloorDiv: operator.floordiv,
     ast.BitOr: operator.or_,
     ast.BitAnd: operator.and_,
+    ast.Mod: operator.mod,
 }
 _COMPARE: dict[type[ast.cmpop], Callable[[Any, Any], Any]] = {
     **COMPARISONS,
     ast.Is: operator.is_,
     ast.IsNot: operator.is_not,
 }
+UNARY: Final[dict[type[ast.unaryop], Callable[[Any], Any]]] = {
+    ast.UAdd: operator.pos,
+    ast.USub: operator.neg,
+    ast.Invert: operator.invert,
+}
 _CONVERSIONS: dict[str, Callable[[Any], str]] = {"r": repr, "s": str, "a": ascii}
 _WIDE = re.compile(r"\d{4,}|\*")
 
 
 def binary(operation: ast.operator, left: Value, right: Value, node: ast.AST) -> Value:
-    """Return what a binary operator gives. Raises what the operator raises, and ValueError for too large a value."""
+    """Return what a binary operator gives. Raises what the operator raises, and TooLargeError."""
     if isinstance(operation, ast.Add):
         if hasattr(left, "__len__") and hasattr(right, "__len__") and len(left) + len(right) > LONGEST:
-            raise ValueError
+            raise TooLargeError
         if isinstance(left, list) and isinstance(right, (list, Unknown)):
             return [*left, *(right if isinstance(right, list) else [right])]
         if isinstance(left, Unknown) and isinstance(right, list):
@@ -49,22 +61,25 @@ def binary(operation: ast.operator, left: Value, right: Value, node: ast.AST) ->
         return Word.at(left % right, node)
     if isinstance(operation, ast.Mult):
         if _size(left) * _size(right) > LONGEST:
-            raise ValueError
+            raise TooLargeError
         return located(left * right, node)
-    return located(_BINARY[type(operation)](left, right), node)
+    function = _BINARY.get(type(operation))
+    if function is None:
+        return Unknown(f"the operator of {at(node)} is not followed", node)
+    return located(function(left, right), node)
 
 
 def check_size(template: str, values: Iterable[Value]) -> None:
-    """Raise ValueError when values put into a template could make a text that is too long."""
+    """Raise TooLargeError when values put into a template could make a text that is too long."""
     longest = max((len(value) if isinstance(value, str) else 100 for value in values), default=0)
     if len(template) * longest > 100 * LONGEST:
-        raise ValueError
+        raise TooLargeError
 
 
 def check_format(template: str) -> None:
-    """Raise ValueError when a field of a format is too wide, or as wide as a value says."""
+    """Raise TooLargeError when a field of a format is too wide, or as wide as a value says."""
     if _WIDE.search(template):
-        raise ValueError
+        raise TooLargeError
 
 
 def _size(value: Value) -> float:
@@ -88,7 +103,7 @@ def compare(operation: ast.cmpop, left: Value, right: Value) -> Value:
 
 
 def formatted(value: Value, conversion: int, spec: str) -> str:
-    """Return what a replacement field of an f-string gives. Raises ValueError for a field that is too wide."""
+    """Return what a replacement field of an f-string gives. Raises TooLargeError for a field that is too wide."""
     check_format(spec)
     if conversion >= 0:
         value = _CONVERSIONS[chr(conversion)](value)

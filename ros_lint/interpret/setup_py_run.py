@@ -6,10 +6,11 @@ import ast
 from collections.abc import Callable, Sequence
 from typing import Final, NamedTuple
 
+from ros_lint.collectors.python_exceptions import catching, kind_raised
 from ros_lint.interpret import setup_py_library as library
 from ros_lint.interpret.setup_py_expressions import Expressions
 from ros_lint.interpret.setup_py_files import Files
-from ros_lint.interpret.setup_py_operators import binary
+from ros_lint.interpret.setup_py_operators import TooLargeError, binary
 from ros_lint.interpret.setup_py_state import ExhaustedError, LeaveError, at
 from ros_lint.interpret.setup_py_values import Class, Function, Maybe, Module, Native, Unknown, Value
 
@@ -40,7 +41,8 @@ class Program(Expressions):
         self.end: str = ""
         """Why the evaluation stopped before the end, a clause; "" when it did not."""
         self._depth = 0
-        self._globals: set[str] = set()
+        self._declared: dict[str, dict[str, Value]] = {}
+        """The scopes of names in a function that are declared global or nonlocal."""
 
     def run(self, tree: ast.Module) -> None:
         try:
@@ -87,7 +89,7 @@ class Program(Expressions):
             return library.call(self, function, arguments, keywords, node)
         if isinstance(function, Function):
             return self._invoke(function, arguments, keywords, node)
-        if isinstance(function, (Module, tuple, list, str)) and not self.journal.unsure:
+        if (isinstance(function, (Module, list, str)) or type(function) is tuple) and not self.journal.unsure:
             self.no_functions.append((node, function))
         return Unknown(f"{at(node.func)}() is not followed", node)
 
@@ -95,8 +97,8 @@ class Program(Expressions):
         if self._depth >= DEEPEST:
             raise ExhaustedError("its functions call each other too often")
         scope = self._parameters(function, arguments, keywords, node)
-        outer, outer_globals = self.scopes, self._globals
-        self.scopes, self._globals = (scope, *function.scopes), set()
+        outer, inner, declared = self.scopes, self.inner, self._declared
+        self.scopes, self.inner, self._declared = (scope, *function.scopes), 0, {}
         self._depth += 1
         try:
             if isinstance(function.node, ast.Lambda):
@@ -109,7 +111,7 @@ class Program(Expressions):
                 return leave.value
             raise
         finally:
-            self.scopes, self._globals = outer, outer_globals
+            self.scopes, self.inner, self._declared = outer, inner, declared
             self._depth -= 1
         return None
 
@@ -135,11 +137,12 @@ class Program(Expressions):
         return scope
 
     def assign(self, name: str, value: Value) -> None:
-        if name in self._globals:
-            self.journal.touch(self.scopes[-1])
-            self.scopes[-1][name] = value
-        else:
+        scope = self._declared.get(name)
+        if scope is None:
             super().assign(name, value)
+        else:
+            self.journal.touch(scope)
+            scope[name] = value
 
     # --- statements
 
@@ -149,6 +152,8 @@ class Program(Expressions):
             try:
                 self._statement(statement)
             except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
+                if self.caught:
+                    raise LeaveError("raise", raised=type(error).__name__) from None
                 raise ExhaustedError(f"line {statement.lineno} fails with {type(error).__name__}") from None
 
     def _statement(self, statement: ast.stmt) -> None:
@@ -188,11 +193,15 @@ class Program(Expressions):
             case ast.Return(value=value):
                 raise LeaveError("return", None if value is None else self.value(value))
             case ast.Raise():
-                raise LeaveError("raise")
+                raise LeaveError("raise", raised=kind_raised(statement))
             case ast.Break() | ast.Continue():
                 raise LeaveError(type(statement).__name__.lower())
-            case ast.Global(names=names) | ast.Nonlocal(names=names):
-                self._globals.update(names)
+            case ast.Global(names=names):
+                self._declared.update(dict.fromkeys(names, self.scopes[-1]))
+            case ast.Nonlocal(names=names):
+                for name in names:
+                    scope = next((scope for scope in self.scopes[1:] if name in scope), self.scopes[-1])
+                    self._declared[name] = scope
             case ast.Delete(targets=targets):
                 for target in targets:
                     if isinstance(target, ast.Name):
@@ -219,7 +228,9 @@ class Program(Expressions):
             return
         try:
             found = binary(operation, owner, value, statement)
-        except (ArithmeticError, KeyError, TypeError, ValueError):
+        except (ArithmeticError, TypeError, ValueError) as error:
+            if self.caught and not isinstance(error, TooLargeError):
+                raise
             found = Unknown(f"{at(statement)} fails", statement)
         self.bind(target, found)
 
@@ -265,17 +276,27 @@ class Program(Expressions):
 
     def _try(self, statement: ast.Try) -> None:
         try:
+            self._try_handlers(statement)
+        except LeaveError:
+            self._block(statement.finalbody)
+            raise
+        self._block(statement.finalbody)
+
+    def _try_handlers(self, statement: ast.Try) -> None:
+        self.caught += bool(statement.handlers)
+        try:
             self._block(statement.body)
         except LeaveError as leave:
-            if leave.kind != "raise" or not statement.handlers:
+            self.caught -= bool(statement.handlers)
+            handler = catching(statement, leave.raised) if leave.kind == "raise" else None
+            if handler is None:
                 raise
-            handler = statement.handlers[0]
             if handler.name:
                 self.assign(handler.name, Unknown("the exception is not followed", handler))
             self._block(handler.body)
         else:
+            self.caught -= bool(statement.handlers)
             self._block(statement.orelse)
-        self._block(statement.finalbody)
 
     def _import(self, statement: ast.Import | ast.ImportFrom) -> None:
         if isinstance(statement, ast.Import):

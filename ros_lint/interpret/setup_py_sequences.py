@@ -8,7 +8,7 @@ from itertools import product
 from math import prod
 
 from ros_lint.interpret.setup_py_expressions import Expressions
-from ros_lint.interpret.setup_py_operators import LONGEST, binary
+from ros_lint.interpret.setup_py_operators import LONGEST, TooLargeError, binary
 from ros_lint.interpret.setup_py_values import Globbed, Maybe, Unknown, Value, certain, globbed
 
 
@@ -51,7 +51,7 @@ def _chain_from(program: Expressions, node: ast.Call, lists: Value) -> Value:
 
 def _products(_: Expressions, __: ast.Call, *lists: Value) -> Value:
     if prod(map(len, lists)) > LONGEST:
-        raise ValueError
+        raise TooLargeError
     return list(product(*lists))
 
 

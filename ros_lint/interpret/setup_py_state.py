@@ -20,10 +20,12 @@ class ExhaustedError(Exception):
 class LeaveError(Exception):
     """A statement leaves its block: return, break, continue, or an exception that ends the program."""
 
-    def __init__(self, kind: str, value: Value = None) -> None:
+    def __init__(self, kind: str, value: Value = None, raised: str = "") -> None:
         super().__init__(kind)
         self.kind = kind
         self.value = value
+        self.raised = raised
+        """Of an exception: its class, if that is one of Python."""
 
 
 MOST_FORKS: Final = 200
