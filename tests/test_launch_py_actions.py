@@ -1,4 +1,4 @@
-"""What classes and functions of the launch libraries make in Python launch files.
+"""Actions and substitutions of the launch libraries in Python launch files.
 
 The expectations are what the sources of launch say: launch/actions, launch/substitutions and launch/utilities.
 """

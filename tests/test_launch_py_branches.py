@@ -245,7 +245,7 @@ while i < 3:
 
 @pytest.mark.parametrize("program", PROGRAMS.strip().split("\n\n"))
 def test_each_value_of_an_argument_starts_what_python_starts(program: str) -> None:
-    """What is certain is what Python makes; what Python makes is there, perhaps, or is covered by what is unknown."""
+    """Certain values are values that Python makes; each value that Python makes is there, or may be, or is unknown."""
     body = "".join(f"    {line}\n" for line in program.split("\n"))
     file = launch_py.collect(Text("a.launch.py", FRAME.format(body)))
     for flag in (True, False):

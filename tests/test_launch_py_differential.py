@@ -1,4 +1,4 @@
-"""What the interpreter of Python launch files makes of programs without anything unknown, against Python itself."""
+"""The interpreter of Python launch files, compared with Python on programs without anything unknown."""
 
 import re
 

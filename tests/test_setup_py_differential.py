@@ -1,4 +1,4 @@
-"""What the interpreter of setup.py files makes of programs without anything unknown, against Python itself."""
+"""The interpreter of setup.py files, compared with Python on programs without anything unknown."""
 
 import pytest
 

@@ -181,14 +181,14 @@ def _negated(condition: LaunchCondition) -> str | None:
 def gives_up(body: Sequence[ast.stmt], *, everywhere: bool) -> bool:
     """Return whether a block stops the whole launch file, so that what is beyond is what it does whenever it works.
 
-    Where not everyone comes by, an error that is made there tells those who do what they have to install.
+    An error that is raised within a branch says what those who take the branch have to install.
     """
     last = body[-1] if body else None
     return _stops(body) and (everywhere or not (isinstance(last, ast.Raise) and isinstance(last.exc, ast.Call)))
 
 
 def _stops(body: Sequence[ast.stmt]) -> bool:
-    """Whether a block ends the program, unless somebody catches what it raises."""
+    """Return whether a block ends the program, unless what it raises is caught."""
     last = body[-1] if body else None
     if isinstance(last, ast.Raise):
         return True
@@ -204,11 +204,11 @@ class _Loop:
         self._before = machine.conditions
         self._known = len(frame.exits)
         self._bars: list[LaunchCondition] = []
-        """What must be so for the loop to go on after the turns so far."""
+        """The conditions under which the loop goes on after the turns so far."""
         self.exits: list[Exit] = []
         """The ways out of the loop."""
         self.ended = False
-        """Whether a way out is taken for certain."""
+        """True if a way out is taken for certain."""
 
     def turn(self, body: Sequence[ast.stmt], guards: Conditions = ()) -> None:
         """Follow a turn, which happens under some conditions."""

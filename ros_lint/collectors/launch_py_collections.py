@@ -1,4 +1,4 @@
-"""What the functions of Python make of collections in Python launch files. An element may be there only under conditions."""
+"""Functions of Python on collections in Python launch files. An element may be there only under conditions."""
 
 from __future__ import annotations
 
@@ -134,4 +134,4 @@ FUNCTIONS: Mapping[str, Rule] = {
     "builtins.max": extreme(max),
     "builtins.sum": _sum,
 }
-"""What functions return, by their full names."""
+"""The rules of functions, by their full names."""

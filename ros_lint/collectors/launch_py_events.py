@@ -88,7 +88,7 @@ def _opaque_function(walker: Walker, made: Made, conditions: Conditions) -> list
 
 
 def _for_each(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
-    """What a function makes that is called with keywords for each of some values, all of which may be given."""
+    """Return what a function makes that launch calls with keywords, once for each set of values; any keyword may be given."""
     function = plain(made.get(1, "function"))
     spec = function.node.args if isinstance(function, Function) else None
     names = [argument.arg for argument in (*spec.args, *spec.kwonlyargs)] if spec else []

@@ -286,7 +286,7 @@ class Exit(NamedTuple):
     """A way out of a turn, a loop or a function that is taken only under conditions."""
 
     signal: int
-    """What it leaves, as :mod:`ros_lint.collectors.launch_py_branches` numbers it."""
+    """The block that is left: CONTINUE, BREAK or LEAVE of :mod:`ros_lint.collectors.launch_py_branches`."""
     conditions: Conditions
     """All conditions that hold where it is taken."""
     names: dict[str, Value]

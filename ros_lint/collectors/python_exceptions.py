@@ -1,4 +1,4 @@
-"""Which handler of a try statement in Python catches what is raised, as far as both are classes of Python."""
+"""The handler of a try statement in Python that catches an exception, as far as both are classes of Python."""
 
 from __future__ import annotations
 

@@ -291,7 +291,7 @@ class Expressions(ABC):
         return Function(node, self.scopes, defaults, keywords)
 
     def _named(self, node: ast.NamedExpr) -> Value:
-        """What is named in a comprehension has its name around it, too."""
+        """Return a value, and name it in the innermost function: a comprehension has no names of its own for it."""
         value = self.value(node.value)
         inner, self.scopes = self.scopes[: self.inner], self.scopes[self.inner :]
         try:
