@@ -1,27 +1,38 @@
 """
 ## What it finds
 
-A package whose build script does not call it as `package.xml` does: `project()` in `CMakeLists.txt`, `name=` in `setup.py`,
-the marker in `share/ament_index/resource_index/packages/`, the folder `share/<package>` for its manifest, or the folder
-`lib/<package>` for its programs, which `setup.cfg` names.
+A package whose build script uses another name than `package.xml` in one of these places:
+
+- `project()` in `CMakeLists.txt`;
+- `name=` in `setup.py`;
+- the marker in `share/ament_index/resource_index/packages/`;
+- the folder `share/<package>`, to which `package.xml` is installed;
+- the folder `lib/<package>`, to which programs are installed, as set in `setup.cfg`.
 
 ## Why it matters
 
-`ament_package()` stops CMake when `project()` differs. A marker or manifest under another name makes a package that
-`ros2 pkg` does not find, and `ros2 run` looks for programs in `lib/<package>` only.
+If `project()` differs, `ament_package()` stops CMake. If the marker or `package.xml` has another name, `ros2 pkg` does not find
+the package. `ros2 run` searches programs in `lib/<package>` only.
 
 ## How to fix it
 
-Use the name of `package.xml` everywhere. Where a name is written out, the fix does this; in `setup.py` it
-is an unsafe one, for folders and files may be named after the same variable. There is none where another package has the
-name, too (see `duplicate-package`): then it may be `package.xml` that was copied.
+Use the name of `package.xml` everywhere. The fix replaces a name that is written out. In `setup.py` the fix is unsafe, because
+folders and files may be named after the same variable.
+
+There is no fix if another package has the same name (see `duplicate-package`), because then `package.xml` may be the copied
+file.
 
 ## Limitations
 
-Where the name is not known for certain: it comes from a variable that cannot be evaluated, or what is installed depends on
-a condition. About another name in `colcon.pkg`, by which colcon orders and selects the package. Further markers and manifests
-beside those of the right name do no harm. Dashes, underscores and capitals in the name of a Python distribution make no
-difference to setuptools; only the installed paths do.
+Not reported:
+
+- Names from variables that cannot be evaluated.
+- Another name in `colcon.pkg`, which colcon uses to order and select packages.
+- Files that are installed under a condition.
+- Additional markers and manifests, if those with the right name are installed too.
+- Dashes, dots and capitals in `name=` of `setup.py`: setuptools treats `robot-arm` and `robot_arm` as the same name.
+
+If only `name=` of `setup.py` differs, the severity is warning.
 """
 
 from __future__ import annotations
@@ -61,14 +72,17 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 def _mismatches(package: Package, manifest: Manifest, script: BuildScript) -> Iterator[Finding]:
     if package.type == "ros.ament_cmake":
         if script.name_span and "ament_package" in script.calls and not _is_called(package, manifest.name):
-            message = f"project() is called {script.name}, but the package {manifest.name}; ament_package() wants one name"
+            message = (
+                f"project() uses the name '{script.name}', but package.xml names the package '{manifest.name}', "
+                "so ament_package() fails; use one name"
+            )
             yield _finding(message, manifest, script, script.name_span)
     elif package.type == "ros.ament_python":
         yield from _python(manifest, script)
 
 
 def _is_called(package: Package, name: str) -> bool:
-    """Whether CMake may take a package for one of a name: one that builds itself anew has more than one project()."""
+    """Return whether a project() of the package has this name: a superbuild has more than one project()."""
     return name == package.built.name or any(
         evaluated_name(package, call.texts[0]) == name for call in called(package, "project") if call.args
     )
@@ -78,37 +92,37 @@ def _python(manifest: Manifest, script: BuildScript) -> Iterator[Finding]:
     """Yield one finding for each wrong name, at the first place that has it."""
     wrong: dict[str, list[Related]] = {}
     if script.name and script.name_span and _distribution(script.name) != _distribution(manifest.name):
-        message = f"setup() calls the package {script.name}"
+        message = f"setup() uses the name '{script.name}'"
         wrong[script.name] = [Related(message, script.name_span)]
-    told = {_installed_for(provided) for provided in script.provides}
+    installed_as = {_installed_for(provided) for provided in script.provides}
     for provided in script.provides:
         name, what = _installed_for(provided)
-        if name in ("", manifest.name) or provided.conditional or (what != "program" and (manifest.name, what) in told):
+        if name in ("", manifest.name) or provided.conditional or (what != "program" and (manifest.name, what) in installed_as):
             continue
         places = wrong.setdefault(name, [])
         message = _PLACES[what].format(name)
         if all(place.message != message for place in places):
             places.append(Related(message, provided.span))
     entries = {entry.span for entry in script.entry_points}
-    # Programs are written in setup.py, and where they go in setup.cfg.
+    # setup.py lists the programs, and setup.cfg sets their folder.
     scripts = setup_edits.program_folders(script).get("install.install_scripts")
     for places in wrong.values():
         first, *others = [place._replace(span=scripts) if scripts and place.span in entries else place for place in places]
-        message = f"{first.message}, but package.xml calls it {manifest.name}; use one name"
-        found = _finding(message, manifest, script, first.span)._replace(related=tuple(others))
+        message = f"{first.message}, but package.xml names the package '{manifest.name}'; use one name"
+        finding = _finding(message, manifest, script, first.span)._replace(related=tuple(others))
         harmless = not others and first.span == script.name_span
-        yield found._replace(severity=Severity.WARNING) if harmless else found
+        yield finding._replace(severity=Severity.WARNING) if harmless else finding
 
 
 _PLACES = {
-    "marker": "the package is entered into the index as {}",
+    "marker": "the package is registered in the ament index as '{}'",
     "manifest": "package.xml is installed to share/{}",
-    "program": "the programs of the package are installed to lib/{}",
+    "program": "programs are installed to lib/{}",
 }
 
 
 def _installed_for(provided: Provided) -> tuple[str, str]:
-    """Return the package that an installed file belongs to, and what it is; two empty texts if that is not fixed."""
+    """Return the package that an installed file is installed for and its kind, a key of _PLACES; ("", "") for other files."""
     folder, _, rest = provided.path.partition("/")
     name, _, file = rest.partition("/")
     if provided.path.startswith(_MARKERS):
@@ -123,10 +137,10 @@ def _installed_for(provided: Provided) -> tuple[str, str]:
 def _finding(message: str, manifest: Manifest, script: BuildScript, span: Span) -> Finding:
     fix = None
     if span == script.name_span and (place := span.inner(script.name)):
-        # In setup.py the same variable may name folders and files that would have to be renamed, too.
-        fix = Fix(f"write {manifest.name}", (Edit(place, manifest.name),), safe=not script.path.endswith(".py"))
+        # In setup.py the same variable may name folders and files, which the fix does not rename.
+        fix = Fix(f"write '{manifest.name}'", (Edit(place, manifest.name),), safe=not script.path.endswith(".py"))
     if span in setup_edits.program_folders(script).values():
-        fix = Fix(f"write $base/lib/{manifest.name}", setup_edits.programs_to(script, manifest.name))
+        fix = Fix(f"write '$base/lib/{manifest.name}'", setup_edits.programs_to(script, manifest.name))
     return Finding(message, span, manifest.name, fix=fix)
 
 
@@ -137,7 +151,7 @@ def _distribution(name: str) -> str:
 RULE = Rule(
     name="name-mismatch",
     code="ROS109",
-    summary="a package must have one name",
+    summary="build scripts use the package name of package.xml",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,

@@ -1,17 +1,17 @@
 """
 ## What it finds
 
-A YAML file that a launch file gives to nodes as parameters, although it has none for any of them: it has no
-`ros__parameters` at all, or only those of other nodes.
+A YAML file that a launch file passes to nodes as parameters although it has none for any of them: it has no `ros__parameters`
+at all, or only those of other nodes.
 
 ## Why it matters
 
 Without `ros__parameters` the node stops: `Cannot have a value before ros__parameters`. With the name of another node, or
-without the namespace, the node starts and has its defaults, silently.
+without the namespace, the node starts with its default values and prints no warning.
 
 ## How to fix it
 
-A parameter file has the full name of the node, `ros__parameters`, and then the parameters; `/**` stands for any node:
+Write the full name of the node, `ros__parameters`, and then the parameters; `/**` matches any node:
 
     /robot/driver:
       ros__parameters:
@@ -19,13 +19,15 @@ A parameter file has the full name of the node, `ros__parameters`, and then the 
 
 ## Limitations
 
-- Which file is given, or what the node is called, is not known from the launch file, even with the defaults of its arguments.
-- The file is installed by no package of the workspace, or rewritten before it is given.
-- One of several nodes that the launch file gives it to is among those in the file; or the file has parameters of several
-  nodes, and another launch file gives it to one of them.
-- A file of the workspace cannot be read, and this one has parameters of other nodes: who gets it may stand there.
-- Containers, whose components take what is for them. A component also takes a file that has nothing but its parameters.
-- The name fits, and the namespace may come from a launch file that includes this one.
+Not reported:
+
+- File names and node names that the launch file does not determine, even with the defaults of its arguments.
+- Files that no package of the workspace installs, and files that are rewritten, as by `RewrittenYaml`.
+- A file with parameters for one of the nodes to which the launch file passes it.
+- A file with parameters of several nodes, if another launch file passes it to one of them.
+- A file with parameters of other nodes, if a file of the workspace cannot be read: that file may pass it to the right node.
+- Containers, because their components read the parameters. Components also accept a file without `ros__parameters`.
+- A name that matches without a namespace, if a launch file that includes this one may set the namespace.
 - Launch files of tests and examples.
 """
 
@@ -52,95 +54,96 @@ from ros_lint.api import (
 
 def check(workspace: Workspace) -> Iterator[Finding]:
     files = ParameterFiles(workspace)
-    places: list[tuple[Package, list[Given]]] = []
-    taken: set[str] = set()
+    unmatched: list[tuple[Package, list[Given]]] = []
+    used: set[str] = set()
     for package in workspace.packages:
         for launch in launchable(package):
             rewrites = any(_rewrites(name) for name, _ in launch.file.imports)
             by_file: dict[str, list[Given]] = {}
-            for given in files.given(launch.file):
-                by_file.setdefault(given.file.path, []).append(given)
-            for path, together in by_file.items():
-                if together[0].file.nodes and any(_may_be_of(given, rewrites) for given in together):
-                    taken.add(path)
+            for passed in files.given(launch.file):
+                by_file.setdefault(passed.file.path, []).append(passed)
+            for path, uses in by_file.items():
+                if uses[0].file.nodes and any(_may_be_of(passed, rewrites) for passed in uses):
+                    used.add(path)
                 else:
-                    places.append((package, together))
-    for package, together in places:
-        file = together[0].file
+                    unmatched.append((package, uses))
+    for package, uses in unmatched:
+        file = uses[0].file
         if not file.nodes:
-            yield from (one._replace(package=package.name) for one in _flat(together))
-        elif not workspace.unread() and (file.path not in taken or len({name for name, _ in file.nodes}) == 1):
-            yield _of_others(together)._replace(package=package.name)
+            yield from (finding._replace(package=package.name) for finding in _flat(uses))
+        elif not workspace.unread() and (file.path not in used or len({name for name, _ in file.nodes}) == 1):
+            yield _of_others(uses)._replace(package=package.name)
 
 
 def _rewrites(module: str) -> bool:
-    """Whether a module can put a file below the namespace of its nodes: that of nav2_common, or a copy of it."""
+    """Return whether a module has a RewrittenYaml, which adds a namespace to parameter files: nav2_common or a copy of it."""
     return module.startswith("nav2_common") or module.rpartition(".")[2] == "rewritten_yaml"
 
 
-def _flat(together: list[Given]) -> Iterator[Finding]:
-    nodes = [given for given in together if given.action.kind == "node"]
+def _flat(uses: list[Given]) -> Iterator[Finding]:
+    nodes = [passed for passed in uses if passed.action.kind == "node"]
     if nodes:
         yield Finding(
-            f"{_name(nodes[0])} is no parameter file, since it has no ros__parameters: the node stops; put them below that word",
+            f"'{_name(nodes[0])}' has no ros__parameters, so the node stops; write the parameters below the node name and "
+            "ros__parameters",
             nodes[0].value.span,
             nodes[0].file.path,
-            (Related("the file", nodes[0].file.first), *_more(nodes)),
+            (Related("the parameter file", nodes[0].file.first), *_more(nodes)),
             severity=Severity.ERROR,
         )
 
 
-def _of_others(together: list[Given]) -> Finding:
-    first = together[0]
+def _of_others(uses: list[Given]) -> Finding:
+    first = uses[0]
     names = few(dict.fromkeys(name for name, _ in first.file.nodes))
     return Finding(
-        f"{_name(first)} has parameters of {names}, and none of {_full_name(first)}, which gets it here; "
-        "correct the name, or write /**",
+        f"'{_name(first)}' has parameters for {names}, but none for '{_full_name(first)}', which receives it here; "
+        "correct the name or write /**",
         first.value.span,
         first.file.path,
-        (Related("the file", first.file.nodes[0][1]), *_more(together)),
+        (Related("the parameter file", first.file.nodes[0][1]), *_more(uses)),
     )
 
 
-def _more(together: list[Given]) -> tuple[Related, ...]:
-    return several(Related("given again here", given.value.span) for given in together[1:])
+def _more(uses: list[Given]) -> tuple[Related, ...]:
+    return several(Related("also passed here", passed.value.span) for passed in uses[1:])
 
 
-def _name(given: Given) -> str:
-    return given.file.path.rpartition("/")[2]
+def _name(passed: Given) -> str:
+    return passed.file.path.rpartition("/")[2]
 
 
-def _full_name(given: Given) -> str:
-    namespace = given.namespaces[0].strip("/")
-    return f"/{namespace}/{given.names[0]}" if namespace else f"/{given.names[0]}"
+def _full_name(passed: Given) -> str:
+    namespace = passed.namespaces[0].strip("/")
+    return f"/{namespace}/{passed.names[0]}" if namespace else f"/{passed.names[0]}"
 
 
-def _may_be_of(given: Given, rewrites: bool) -> bool:
-    """Whether a file may have parameters of the node that it is given to (``rclcpp::parameter_map_from``)."""
-    words = (text for _, value in given.action.arguments for text in value.texts)
-    if given.action.children or _is_container(given) or any(map(renames, words)):
+def _may_be_of(passed: Given, rewrites: bool) -> bool:
+    """Return whether a file may have parameters for the node that receives it (``rclcpp::parameter_map_from``)."""
+    words = (text for _, value in passed.action.arguments for text in value.texts)
+    if passed.action.children or _is_container(passed) or any(map(renames, words)):
         return True
-    if len(given.names) != 1 or not given.names[0] or not is_plain(given.names[0]):
+    if len(passed.names) != 1 or not passed.names[0] or not is_plain(passed.names[0]):
         return True
-    same = [name for name, _ in given.file.nodes if name.rpartition("/")[2] in (given.names[0], "*", "**")]
+    same = [name for name, _ in passed.file.nodes if name.rpartition("/")[2] in (passed.names[0], "*", "**")]
     if not same:
         return False
-    if rewrites or len(given.namespaces) != 1 or not is_plain(given.namespaces[0]) or not given.namespaces[0].strip("/"):
+    if rewrites or len(passed.namespaces) != 1 or not is_plain(passed.namespaces[0]) or not passed.namespaces[0].strip("/"):
         return True
-    # Only a name without any namespace is surely that of another node.
+    # A name without a namespace never matches a node in one; a name with a namespace or "*" may.
     return any("*" in name or name.count("/") > 1 for name in same)
 
 
-def _is_container(given: Given) -> bool:
-    """Whether a node is a container: what it is given on its command line holds for all components that it loads."""
-    package = given.action.package
+def _is_container(passed: Given) -> bool:
+    """Return whether a node is a component container: its command line applies to all components that it loads."""
+    package = passed.action.package
     return package is not None and "rclcpp_components" in package.texts
 
 
 RULE = Rule(
     name="parameter-file",
     code="ROS511",
-    summary="a parameter file must have parameters of the node that it is given to",
+    summary="parameter files have parameters for the nodes that receive them",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,
