@@ -157,7 +157,7 @@ def _content(document: Document, node: Node, form: int) -> Iterator[Fault]:
             yield _unknown_attribute(document.text, node, name, form)
     if node.tag not in ("description", "export"):
         for inside in node.children:
-            message = f"<{node.tag}> must hold text only; remove <{inside.tag}>"
+            message = f"<{node.tag}> may contain only text; remove <{inside.tag}>"
             yield Fault("nested-tag", message, inside.start, inside.end if inside.end >= 0 else document.read)
 
 
@@ -196,7 +196,7 @@ def _presence(document: Document, root: Node, elements: _Elements) -> Iterator[F
             first = tags.index(tag)
             for node, _ in elements[first + 1 :]:
                 if node.tag == tag:
-                    yield Fault("repeated-tag", f"there must be one <{tag}> only; remove the others", node.start, node.end)
+                    yield Fault("repeated-tag", f"only one <{tag}> is allowed; remove the others", node.start, node.end)
     if not document.faults:
         for tag in ("name", "version", "description", "maintainer", "license"):
             if tag not in tags:
@@ -229,7 +229,7 @@ def _version(text: str, node: Node, element: Element) -> Iterator[Fault]:
 
 def _description(_: str, node: Node, element: Element) -> Iterator[Fault]:
     if not element.text:
-        yield Fault("empty-tag", "<description> is empty; say what the package is for", node.start, node.end)
+        yield Fault("empty-tag", "<description> is empty; describe the package", node.start, node.end)
 
 
 def _person(text: str, node: Node, element: Element) -> Iterator[Fault]:
@@ -240,12 +240,12 @@ def _person(text: str, node: Node, element: Element) -> Iterator[Fault]:
             yield Fault("missing-attribute", message, node.start, node.inner)
     elif not _EMAIL.match(email):
         _, start, end = attribute(text, node, "email")
-        yield Fault("invalid-email", f'"{email}" is no e-mail address; write name@example.org', start, end)
+        yield Fault("invalid-email", f'"{email}" is not an e-mail address; write name@example.org', start, end)
 
 
 def _license(_: str, node: Node, element: Element) -> Iterator[Fault]:
     if not element.text.strip():
-        yield Fault("empty-tag", "<license> is empty; name the licence, such as Apache-2.0", node.start, node.end)
+        yield Fault("empty-tag", "<license> is empty; name the licence, e.g. Apache-2.0", node.start, node.end)
 
 
 _CHECKS: dict[str, Callable[[str, Node, Element], Iterator[Fault]]] = {
@@ -267,7 +267,7 @@ def _alone(depends: _Depends, own_name: str) -> Iterator[Fault]:
         elif node.tag == "group_depend" and any(
             other.tag == "member_of_group" and other.name == depend.name for _, other in depends
         ):
-            message = f"the package depends on group {depend.name}, of which it is a member itself; remove one of the two"
+            message = f"the package depends on group {depend.name}, of which it is itself a member; remove one of the two"
             yield Fault("own-group", message, node.start, node.end)
 
 
@@ -279,7 +279,7 @@ def _duplicates(depends: _Depends) -> Iterator[Fault]:
     for node, depend in depends:
         first = kept.get(_equality(node, depend)) if node.tag in _GENERIC else None
         if first is not None and first is not node:
-            message = f"<depend>{depend.name}</depend> says the same already; remove this <{node.tag}>"
+            message = f"<depend>{depend.name}</depend> is declared already; remove this <{node.tag}>"
             yield Fault("duplicate-dependency", message, node.start, node.end)
 
 
@@ -287,7 +287,7 @@ def _duplicate_tests(depends: _Depends) -> Iterator[Fault]:
     others = {_equality(node, depend): node.tag for node, depend in depends if node.tag in ("build_depend", "run_depend")}
     for node, depend in depends:
         if node.tag == "test_depend" and (tag := others.get(_equality(node, depend))):
-            message = f"<{tag}>{depend.name}</{tag}> says the same already, in format 1; remove this <test_depend>"
+            message = f"<{tag}>{depend.name}</{tag}> covers tests too in format 1; remove this <test_depend>"
             yield Fault("duplicate-dependency", message, node.start, node.end)
 
 

@@ -181,7 +181,7 @@ def _as_utf8(source: Text) -> tuple[str, tuple[Fault, ...]]:
         if "\0" not in read_as:  # else expat sees for itself that it is UTF-16
             text = read_as
     if not text.isascii() and (bad := re.search("[\ud800-\udfff]+", text)):
-        message = "not utf-8, as which manifests are read; save the file as utf-8"
+        message = "not utf-8, the encoding of manifests; save the file as utf-8"
         return re.sub("[\ud800-\udfff]", "?", text), (Fault("encoding", message, bad.start(), bad.end()),)
     return text, ()
 
@@ -195,7 +195,7 @@ def _parse(text: str) -> Document:
     if not events or isinstance(first := events[0], int):
         return Document(text, [], None, faults, stopped)
     if len(events) > MOST_DEPTH and (start := _too_deep(events)) >= 0:
-        message = f"nested more than {MOST_DEPTH} levels deep; no manifest needs that"
+        message = f"nested more than {MOST_DEPTH} levels deep; manifests do not need that"
         faults = (*faults, Fault("too-deep", message, start, start + 1))
     if fault is None and isinstance(last := events[-1], int):
         root = _closed(text, first, last, ())
@@ -334,7 +334,7 @@ def _conflicts(text: str, fault: int) -> tuple[Fault, ...]:
     starts = [marker for marker in _CONFLICT.finditer(text) if marker[0].startswith("<")]
     if not starts or starts[0].start() > fault:
         return ()
-    message = "a merge conflict was left here; keep one side and remove the marker lines"
+    message = "unresolved merge conflict; keep one side and remove the marker lines"
     return tuple(Fault("merge-conflict", message, marker.start(), marker.end()) for marker in starts)
 
 
@@ -353,7 +353,7 @@ def _explain(text: str, code: int, at: int) -> Fault:
     if code == errors[expat.errors.XML_ERROR_NO_ELEMENTS]:
         if not text.strip():
             return Fault("invalid-xml", "the file is empty", 0, 0)
-        message = f"the file breaks off inside {_still_open(text)}" if "<" in text else "no element found"
+        message = f"the file ends inside {_still_open(text)}" if "<" in text else "no element found"
     elif code in (errors[expat.errors.XML_ERROR_UNCLOSED_TOKEN], errors[expat.errors.XML_ERROR_UNCLOSED_CDATA_SECTION]):
         if not text.startswith("<", at):
             start = max(text.rfind("<![CDATA[", 0, at), 0)
@@ -368,13 +368,13 @@ def _explain(text: str, code: int, at: int) -> Fault:
         end = text.index(";", at) + 1
         message = f"{text[at:end]} is not defined in xml; write the character itself"
     elif code == errors[expat.errors.XML_ERROR_JUNK_AFTER_DOC_ELEMENT]:
-        message = "the file goes on after the end of its root element; remove what follows, one <package> is all there may be"
+        message = "the file continues after the end of its root element; remove the rest, because only one <package> is allowed"
         first = next(found for found in _MARKUP.finditer(text) if found[1])
         if first[1] != "package" and text.find("<package", at) >= 0:
-            message = f"<{first[1]}> stands before <package>; remove it, one <package> is all there may be"
+            message = f"<{first[1]}> comes before <package>; remove it, because only one root element is allowed"
             start, end = first.span()
     elif code == errors[expat.errors.XML_ERROR_DUPLICATE_ATTRIBUTE]:
-        message = f"the attribute {re.split('[ =]', text[at:], maxsplit=1)[0]} is there twice; remove one"
+        message = f"the attribute {re.split('[ =]', text[at:], maxsplit=1)[0]} is repeated; remove one"
     elif code == errors[expat.errors.XML_ERROR_UNBOUND_PREFIX]:
         message = "the prefix before ':' belongs to no namespace; remove it"
     elif code == errors[expat.errors.XML_ERROR_INVALID_TOKEN] and text[at - 1 : at] in ("&", "<"):

@@ -1,22 +1,27 @@
 """
 ## What it finds
 
-A dependency that says nothing new: the same tag with the same name twice, or a `<build_depend>`, `<build_export_depend>`
-or `<exec_depend>` beside a `<depend>` on the same name. Only tags with the same condition are compared.
+A dependency that is declared twice under the same condition:
+
+- the same tag with the same name twice;
+- a `<build_depend>`, `<build_export_depend>` or `<exec_depend>` in addition to a `<depend>` on the same name.
 
 ## Why it matters
 
-Nothing breaks. The list is longer than it need be, and who takes a dependency out forgets the other half. (Without
-versions `catkin_pkg` rejects the second case altogether, see rejected-manifest.)
+Nothing breaks, but the list is longer than necessary, and a later removal easily misses the second tag. Without versions,
+`catkin_pkg` rejects the second case: see `rejected-manifest`.
 
 ## How to fix it
 
-Keep the more general tag, or the one that asks for a version. The fix removes the other.
+Keep the more general tag, or the tag with a version. The fix removes the other one.
 
 ## Limitations
 
-For `<test_depend>` beside other tags, which REP 149 allows, for tags with different conditions, and when both ask for a
-version and the versions differ.
+Not reported:
+
+- A `<test_depend>` in addition to other tags: REP 149 allows it.
+- Tags with different conditions.
+- Tags with different versions.
 """
 
 from __future__ import annotations
@@ -37,37 +42,37 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         by_name.setdefault(depend.name, []).append(depend)
     if len(by_name) == len(manifest.depends):
         return
-    gone: set[Depend] = set()
+    redundant: set[Depend] = set()
     for depend in manifest.depends:
-        holder = next((other for other in by_name[depend.name] if other not in gone and _holds(other, depend)), None)
-        if holder is None:
+        kept = next((other for other in by_name[depend.name] if other not in redundant and _implies(other, depend)), None)
+        if kept is None:
             continue
-        gone.add(depend)
-        how = "twice" if holder.tag == depend.tag else f"already as <{holder.tag}>"
+        redundant.add(depend)
+        how = "twice" if kept.tag == depend.tag else f"already as <{kept.tag}>"
         yield Finding(
-            f"{depend.name} is declared {how}; remove this <{depend.tag}>",
+            f"'{depend.name}' is declared {how}; remove this <{depend.tag}>",
             depend.span,
             depend.name,
-            (Related("declared here", holder.span),),
+            (Related("also declared here", kept.span),),
             Fix(f"remove <{depend.tag}>{depend.name}</{depend.tag}>", (manifest_edits.remove(manifest, depend),)),
         )
 
 
-def _holds(one: Depend, other: Depend) -> bool:
-    """Whether the first of two tags with one name says all that the second does."""
-    if one is other or one.condition != other.condition:
+def _implies(general: Depend, special: Depend) -> bool:
+    """Return whether ``general`` declares everything that ``special``, another tag with the same name, declares."""
+    if general is special or general.condition != special.condition:
         return False
-    if one.tag == other.tag:
-        if one.versions == other.versions:
-            return one.span < other.span
-        return not other.versions
-    return one.tag == "depend" and other.tag in _IN_DEPEND and other.versions in ((), one.versions)
+    if general.tag == special.tag:
+        if general.versions == special.versions:
+            return general.span < special.span
+        return not special.versions
+    return general.tag == "depend" and special.tag in _IN_DEPEND and special.versions in ((), general.versions)
 
 
 RULE = Rule(
     name="redundant-dependency",
     code="ROS106",
-    summary="a dependency must be declared once",
+    summary="dependencies are declared only once",
     severity=Severity.INFO,
     since="0.1",
     doc=__doc__,

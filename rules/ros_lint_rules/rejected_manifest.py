@@ -1,28 +1,39 @@
 """
 ## What it finds
 
-Everything for which `catkin_pkg` rejects a `package.xml`: XML that is not well-formed, merge conflicts, tags or attributes
-that the format has not (`<run_depend>` in format 3, `<exec_depend>` in format 1, `condition` in format 2), a missing or
-repeated `<name>`, `<version>`, `<description>`, `<maintainer>` or `<license>`, a version that is not of the form `1.2.3`,
-an e-mail address that is none, a package that depends on itself, `<depend>` beside an equal `<exec_depend>`, bytes that
-are no UTF-8. Every case is named, with its place; `catkin_pkg` stops at the first.
+Everything for which `catkin_pkg` rejects a `package.xml`:
+
+- XML that is not well-formed, and unresolved merge conflicts;
+- bytes that are not UTF-8;
+- tags or attributes that do not exist in the format, such as `<run_depend>` in format 3, `<exec_depend>` in format 1, or
+  `condition` in format 2;
+- a missing or repeated `<name>`, `<version>`, `<description>`, `<maintainer>` or `<license>`;
+- a version that is not of the form `1.2.3`, and an invalid e-mail address;
+- a package that depends on itself;
+- a `<depend>` and an equal `<exec_depend>`.
+
+Every problem is reported with its place; `catkin_pkg` stops at the first one.
 
 ## Why it matters
 
-colcon does not fail on such a file. It says nothing, or prints a warning, and takes the folder for a plain CMake or Python
-package, or for none at all: the package is missing from the environment, its dependencies do not order the build any
-more, and `rosdep install` does not install them.
+colcon does not fail on such a file. It prints a warning or nothing, and treats the folder as a plain CMake or Python package,
+or as no package at all. Then the package is missing from the environment, its dependencies do not determine the build order,
+and `rosdep install` does not install them.
 
 ## How to fix it
 
-As the message says. The fix does it where there is only one way: it removes duplicates and dependencies on oneself, writes
-`<exec_depend>` for `<run_depend>` and the reverse, completes versions such as `1.0`, escapes `&`, and raises the format
-where a tag or attribute needs a newer one (an unsafe fix).
+Follow the message. There is a fix where only one correction is possible:
+
+- It removes duplicates and dependencies of a package on itself.
+- It replaces `<run_depend>` by `<exec_depend>` and the reverse.
+- It completes versions such as `1.0`, and escapes `&`.
+- It raises the format if a tag or attribute needs a newer one. This fix is unsafe.
 
 ## Limitations
 
-For manifests below another package and below markers such as `COLCON_IGNORE`, which colcon does not read. A manifest that
-declares XML entities, or that nests elements more than 200 levels deep, is reported although `catkin_pkg` may read it.
+- Manifests below another package and below markers such as `COLCON_IGNORE` are not checked, because colcon does not read them.
+- A manifest that declares XML entities or nests elements more than 200 levels deep is reported, although `catkin_pkg` may
+  accept it.
 """
 
 from __future__ import annotations
@@ -45,7 +56,7 @@ from ros_lint.api import (
 
 _SHORT_VERSION = re.compile(r"v?(\d+)(?:\.(\d+))?(?:\.(\d+))?")
 _OF_FORMAT_1 = frozenset(("build_depend", "buildtool_depend", "test_depend", "conflict", "replace", "run_depend", "exec_depend"))
-"""Tags that format 1 has, and the one for which it has another name."""
+"""Dependency tags of format 1, and <exec_depend>, which format 1 names <run_depend>."""
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
@@ -83,22 +94,22 @@ def _fix(manifest: Manifest, problem: Problem, depend: Depend | None) -> Fix | N
 
 
 def _other_tag(manifest: Manifest, problem: Problem, depend: Depend) -> Fix | None:
-    """Return the fix for a dependency tag that another format has."""
+    """Return the fix for a dependency tag of another format."""
     if depend.tag == "run_depend":
         if any(_equal(depend, other) for other in manifest.depends if other.tag in ("depend", "exec_depend")):
             return Fix(f"remove <run_depend>{depend.name}</run_depend>", (manifest_edits.remove(manifest, depend),))
-        return Fix("write <exec_depend>", manifest_edits.change_tag(depend, "exec_depend"))
+        return Fix("replace <run_depend> by <exec_depend>", manifest_edits.change_tag(depend, "exec_depend"))
     if depend.tag == "exec_depend" and all(other.tag in _OF_FORMAT_1 for other in manifest.depends):
-        return Fix("write <run_depend>", manifest_edits.change_tag(depend, "run_depend"))
+        return Fix("replace <exec_depend> by <run_depend>", manifest_edits.change_tag(depend, "run_depend"))
     return _raised(manifest, problem)
 
 
-def _equal(one: Depend, other: Depend) -> bool:
-    return (one.name, one.condition, one.versions) == (other.name, other.condition, other.versions)
+def _equal(first: Depend, second: Depend) -> bool:
+    return (first.name, first.condition, first.versions) == (second.name, second.condition, second.versions)
 
 
 def _raised(manifest: Manifest, problem: Problem) -> Fix | None:
-    """Return the fix that gives the manifest the format that it needs, unless it has a tag that only the oldest has."""
+    """Return the fix that raises the format to the needed one; None if a <run_depend> needs format 1."""
     form = problem.subject
     if not form or (manifest.format == 1 and any(depend.tag == "run_depend" for depend in manifest.depends)):
         return None
@@ -112,13 +123,13 @@ def _whole_version(manifest: Manifest, problem: Problem) -> Fix | None:
     if not numbers:
         return None
     version = ".".join(number or "0" for number in numbers.groups())
-    return Fix(f"write {version}", (Edit(problem.span, version),))
+    return Fix(f"write '{version}'", (Edit(problem.span, version),))
 
 
 RULE = Rule(
     name="rejected-manifest",
     code="ROS101",
-    summary="catkin_pkg must accept every package.xml",
+    summary="catkin_pkg accepts every package.xml",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,

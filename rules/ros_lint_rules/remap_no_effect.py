@@ -1,23 +1,23 @@
 """
 ## What it finds
 
-A remapping of a name to itself, and one that no node takes: without a name on one side, or with white space in a name.
-Where the launch file has an argument of that name, `$(var name)` was meant.
+- A remapping of a name to itself. If the launch file has an argument of that name, `$(var name)` was probably intended.
+- A remapping that cannot be parsed: an empty name, or a name with white space.
 
 ## Why it matters
 
-A remapping to itself does nothing: it is left over, or one of the two names was meant to be another one. One that cannot be
-read stops the node: `Couldn't parse remap rule`.
+A remapping to itself does nothing: it is unnecessary, or one of the two names is wrong. A remapping that cannot be parsed stops
+the node: `Couldn't parse remap rule`.
 
 ## How to fix it
 
-Remove it, or correct the name.
+Remove the remapping, or correct the name.
 
 ## Limitations
 
-- One side comes from an argument, or is computed in another way.
-- People write such remappings to list what a node has: the confidence is medium where no argument has the name.
-- Launch files of tests and examples.
+- Not reported: names that come from an argument or are computed in another way.
+- Not reported: launch files of tests and examples.
+- The confidence is medium if no argument has the name, because such remappings often list the topics of a node on purpose.
 """
 
 from __future__ import annotations
@@ -42,23 +42,24 @@ from ros_lint.api import (
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
     for launch in launchable(package):
         actions = list(everything(launch.file.actions))
-        arguments = {name for one in actions if one.kind == "argument" and one.target is not None for name in one.target.texts}
-        found: dict[Span, Finding] = {}  # a function that makes nodes may be called again and again
+        declarations = [action.target for action in actions if action.kind == "argument" and action.target is not None]
+        arguments = {name for target in declarations for name in target.texts}
+        findings: dict[Span, Finding] = {}  # a function that creates nodes may be called several times
         for action in actions:
             pairs = list(action.remappings)
             if action.kind == "remap" and action.target is not None and action.value is not None:
                 pairs.append((action.target, action.value))
             for before, after in pairs:
                 for finding in _of_pair(before, after, arguments):
-                    found.setdefault(finding.span, finding)
-        yield from found.values()
+                    findings.setdefault(finding.span, finding)
+        yield from findings.values()
 
 
 def _of_pair(before: LaunchValue, after: LaunchValue, arguments: set[str]) -> Iterator[Finding]:
     for side, value in (("from", before), ("to", after)):
-        if len(value.texts) == 1 and is_plain(value.texts[0]) and _is_none(value.texts[0]):
+        if len(value.texts) == 1 and is_plain(value.texts[0]) and _is_invalid(value.texts[0]):
             yield Finding(
-                f"a remapping {side} {value.texts[0]!r} is none: that is no name; write one, or remove the remapping",
+                f"a remapping {side} {value.texts[0]!r}, which is not a valid name, stops the node; correct or remove it",
                 value.span,
                 before.texts[0],
                 severity=Severity.ERROR,
@@ -66,25 +67,25 @@ def _of_pair(before: LaunchValue, after: LaunchValue, arguments: set[str]) -> It
             return
     if before.exact and after.exact and before.texts == after.texts:
         name = before.texts[0]
-        meant = name in arguments
-        way_out = "the argument of that name is meant" if meant else "remove it, or correct a name"
+        is_argument = name in arguments
+        remedy = f"did you mean the argument '{name}'?" if is_argument else "remove it or correct one of the names"
         yield Finding(
-            f"{name} is remapped to itself, which does nothing; {way_out}",
+            f"'{name}' is remapped to itself, which does nothing; {remedy}",
             after.span,
             name,
-            confidence=Confidence.HIGH if meant else Confidence.MEDIUM,
-            severity=Severity.WARNING if meant else None,
+            confidence=Confidence.HIGH if is_argument else Confidence.MEDIUM,
+            severity=Severity.WARNING if is_argument else None,
         )
 
 
-def _is_none(name: str) -> bool:
+def _is_invalid(name: str) -> bool:
     return not name.strip() or any(letter.isspace() for letter in name.strip())
 
 
 RULE = Rule(
     name="remap-no-effect",
     code="ROS512",
-    summary="a remapping must lead from one name to another",
+    summary="remappings lead from one name to another",
     severity=Severity.INFO,
     since="0.1",
     doc=__doc__,
