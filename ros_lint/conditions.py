@@ -157,7 +157,7 @@ def _unparsable(manifest: Manifest) -> Iterator[Problem]:
         except ConditionError as error:
             message = f"condition {text} of <{tag}> does not parse: at character {error.offset + 1}, {error.message}"
             if not text.strip():
-                message = f"condition of <{tag}> is empty: remove the attribute"
+                message = f"condition of <{tag}> is empty; remove the attribute"
             yield Problem("invalid-condition", message, span)
 
 

@@ -1,8 +1,10 @@
 """
 ## What it finds
 
-What the distribution has no more: the CMake command `ament_target_dependencies()` in Lyrical and Rolling, and the modules of
-`ament_python`, which `setup.py` imported before Bouncy.
+Uses of what the distribution has removed:
+
+- the CMake command `ament_target_dependencies()`, removed in Lyrical and Rolling;
+- the modules of `ament_python`, removed in Bouncy, that `setup.py` imports.
 
 ## Why it matters
 
@@ -10,16 +12,26 @@ The build stops: "Unknown CMake command "ament_target_dependencies"", or "No mod
 
 ## How to fix it
 
-For `ament_python`: write `data_files` out, and let `[install] install_scripts` of `setup.cfg` say where programs go. Otherwise
-link to targets: `target_link_libraries(t PUBLIC rclcpp::rclcpp ${std_msgs_TARGETS})`. For the time being, the package
-`ament_cmake_target_dependencies` brings the command back: find it and declare it as `<buildtool_depend>`.
+For `ament_target_dependencies()`, link to targets: `target_link_libraries(t PUBLIC rclcpp::rclcpp ${std_msgs_TARGETS})`. As an
+interim solution, the package `ament_cmake_target_dependencies` still provides the command: find it and declare it as
+`<buildtool_depend>`.
 
-The fix links to `${p_TARGETS}`, as the command did, where each package is named in all calls and is known to export targets.
+The fix links to `${p_TARGETS}`, as the command did, if all calls name every package literally and each package is known to
+export targets.
+
+For `ament_python`, list the files in `data_files`, and set the folder of programs with `[install] install_scripts` in
+`setup.cfg`.
 
 ## Limitations
 
-In other distributions; where that package is found, or the command is defined in the package itself; under conditions, and
-for imports that `try` guards. The confidence is medium where nobody said which distribution is meant.
+Not reported:
+
+- `ament_target_dependencies()` in other distributions.
+- Packages that find `ament_cmake_target_dependencies` or define the command themselves.
+- Calls under a condition, and imports guarded by `try`.
+- `ament_python`, if it is a package of the workspace.
+
+If the distribution is not set, the confidence of a removed CMake command is medium.
 """
 
 from __future__ import annotations
@@ -41,7 +53,7 @@ from ros_lint.api import (
     several,
 )
 
-_GONE = {"ament_target_dependencies": ("ament_cmake_target_dependencies", frozenset({"lyrical", "rolling"}))}
+_REMOVED = {"ament_target_dependencies": ("ament_cmake_target_dependencies", frozenset({"lyrical", "rolling"}))}
 _MODULE = "ament_python"
 
 
@@ -54,11 +66,11 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _modules(package: Package, workspace: Workspace) -> Iterator[Finding]:
     imports = [mention for mention in package.built.mentions if mention.via == "import"]
-    gone = [mention for mention in imports if mention.name.partition(".")[0] == _MODULE and not mention.optional]
-    if gone and not any(other.name == _MODULE for other in workspace.packages):
-        first, *others = gone
+    removed = [mention for mention in imports if mention.name.partition(".")[0] == _MODULE and not mention.optional]
+    if removed and not any(other.name == _MODULE for other in workspace.packages):
+        first, *others = removed
         yield Finding(
-            f"{_MODULE} is gone since Bouncy, so setup.py stops here; write data_files out, and install_scripts into setup.cfg",
+            f"'{_MODULE}' was removed in Bouncy, so setup.py stops here; list data_files and set install_scripts in setup.cfg",
             first.span,
             _MODULE,
             several(Related("also here", mention.span) for mention in others),
@@ -70,14 +82,14 @@ def _commands(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if script is None:
         return
     found = found_names(package, script)
-    for name, (provider, distros) in _GONE.items():
+    for name, (provider, distros) in _REMOVED.items():
         calls = [call for call in called(package, name, anywhere=True) if not call.blocks or call.test]
         if not calls or workspace.target.distro not in distros or provider in found:
             continue
         first, *others = calls
         related = several(Related("also here", call.place) for call in others)
         yield Finding(
-            f"{name}() is gone in {workspace.target.distro}; use target_link_libraries() with p::p, or ${{p_TARGETS}}",
+            f"{name}() was removed in {workspace.target.distro}; use target_link_libraries() with p::p or ${{p_TARGETS}}",
             first.place,
             name,
             related,
@@ -89,7 +101,7 @@ def _commands(package: Package, workspace: Workspace) -> Iterator[Finding]:
 RULE = Rule(
     name="removed-command",
     code="ROS308",
-    summary="what a build script calls must exist in the distribution",
+    summary="build scripts use commands and modules that exist in the distribution",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,

@@ -1,25 +1,26 @@
 """
 ## What it finds
 
-A package of the workspace that an underlay has, too. Whoever asks for the package gets the one on top, here the one of the
-workspace: the message says which versions there are, which packages of the underlay were built against the other one, and
-what only the other one has.
+A package of the workspace that an underlay has too. The package of the workspace hides the other one. The message names the
+versions, the packages of the underlay that were built against the hidden package, and the executables, launch files and
+interfaces that only the hidden package has.
 
 ## Why it matters
 
-The packages below go on using what they were built against, headers and libraries of one version with those of another:
-it may crash at run time where nothing else shows. And what only the lower package has can no longer be found, since all
-its files are looked for in the upper one.
+The packages of the underlay still use the version against which they were built. Then headers and libraries of two versions are
+mixed, which may crash at run time without any other sign. Files that only the hidden package has are no longer found, because
+ROS searches them in the package of the workspace.
 
 ## How to fix it
 
-Build the packages of the underlay that depend on it in the workspace, too; or take the package out of the workspace, or
-rename it if it only happens to be called so.
+Build the packages of the underlay that depend on the package in the workspace too. Alternatively, remove the package from the
+workspace, or rename it if it has the same name by accident.
 
 ## Limitations
 
-Without an underlay. Packages that are released, but not installed below, are none: building them from source is what a
-workspace is for. When no package below depends on it and nothing is lost, it is only a note.
+- Nothing is reported without an underlay. A released package that is not installed in an underlay does not count, because
+  building packages from source is normal.
+- If no package of the underlay depends on the hidden package and nothing is lost, the severity is info.
 """
 
 from __future__ import annotations
@@ -37,35 +38,36 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if below is None or package.manifest is None or package.manifest.problems:
         return
     version = below.released.version if below.released else ""
-    message = f"{package.name} {package.manifest.version} hides {version or 'the one'} of underlay {below.prefix.root}"
-    dependents = world.dependents_below(package.name)
+    hidden = f"version {version}" if version else "the package"
+    message = f"'{package.name}' {package.manifest.version} hides {hidden} of underlay '{below.prefix.root}'"
+    dependents = tuple(f"'{name}'" for name in world.dependents_below(package.name))
     if dependents:
         message += f", against which {_few(dependents)} {'was' if len(dependents) == 1 else 'were'} built"
     lost = tuple(_lost(package, workspace))
     if lost:
-        message += f", and {_few(lost)} {'is' if len(lost) == 1 else 'are'} in that one only"
+        message += f", and only the underlay has {_few(lost)}"
     if dependents:
-        message += ": build what depends on it in the workspace, too"
+        message += "; build the packages that depend on it in the workspace too"
     elif lost:
-        message += ": add what is missing, or take the package out of the workspace"
+        message += "; add what is missing or remove the package from the workspace"
     yield Finding(message, package.place, package.name, severity=None if dependents or lost else Severity.INFO)
 
 
 def _lost(package: Package, workspace: Workspace) -> Iterator[str]:
-    """Yield what the package of the underlay has and the one of the workspace has not."""
+    """Yield the executables, launch files and interfaces that only the package of the underlay has."""
     below, script = workspace.world.installed(package.name), package.script
     if below is None or script is None:
         return
     if not package.hidden(Facet.EXECUTABLES):
         folder = f"lib/{package.name}/"
-        have = {provided.path.removeprefix(folder) for provided in script.provides if provided.path.startswith(folder)}
-        yield from (f"executable {name}" for name in below.known("executables").names if name not in have)
+        installed = {provided.path.removeprefix(folder) for provided in script.provides if provided.path.startswith(folder)}
+        yield from (f"executable '{name}'" for name in below.known("executables").names if name not in installed)
     if not package.hidden(Facet.SHARE):
         folder = f"share/{package.name}/"
-        have = {provided.path.removeprefix(folder) for provided in script.provides if provided.path.startswith(folder)}
-        yield from (name for name in below.known("launch").names if name not in have)
+        installed = {provided.path.removeprefix(folder) for provided in script.provides if provided.path.startswith(folder)}
+        yield from (f"'{name}'" for name in below.known("launch").names if name not in installed)
     if not package.hidden(Facet.INTERFACES):
-        yield from (name for name in below.known("interfaces").names if name not in script.interfaces)
+        yield from (f"'{name}'" for name in below.known("interfaces").names if name not in script.interfaces)
 
 
 def _few(names: tuple[str, ...]) -> str:
@@ -76,7 +78,7 @@ def _few(names: tuple[str, ...]) -> str:
 RULE = Rule(
     name="shadowed-package",
     code="ROS117",
-    summary="a package should not hide one of an underlay by chance",
+    summary="packages do not hide a package of an underlay",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,

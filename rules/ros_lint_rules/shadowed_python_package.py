@@ -1,21 +1,25 @@
 """
 ## What it finds
 
-A package that generates interfaces and also installs a Python package of its own name.
+A package that generates interfaces and also installs a Python package with its own name.
 
 ## Why it matters
 
-`rosidl_generate_interfaces()` installs a Python package with the name of the package, for the generated messages. CMake
-stops: "a Python module file or package with the same name 'x' has been installed before"; or one hides the other, and
-`from x.msg import ...` or `from x import ...` fails.
+`rosidl_generate_interfaces()` installs a Python package with the name of the package, which contains the generated messages.
+CMake stops: "a Python module file or package with the same name 'x' has been installed before". Or one Python package hides the
+other, and `from x.msg import ...` or `from x import ...` fails.
 
 ## How to fix it
 
-Give the Python package another name, or put the interfaces into a package of their own, called `x_interfaces` or `x_msgs`.
+Rename the Python package, or move the interfaces into a separate package named `x_interfaces` or `x_msgs`.
 
 ## Limitations
 
-Where either command is in a condition, or the name cannot be evaluated.
+Not reported:
+
+- Either command under a condition.
+- Names that cannot be evaluated.
+- Interfaces with `SKIP_INSTALL`, because they are not installed.
 """
 
 from __future__ import annotations
@@ -35,7 +39,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         name = evaluated_name(package, call.texts[0]) if call.args else None
         if generating and not call.blocks and name == package.name:
             yield Finding(
-                f"a Python package {name} is installed beside the generated one of that name; give it another name",
+                f"the Python package '{name}' has the same name as the generated one, so one hides the other; rename it",
                 call.span(0),
                 name,
                 (Related("this generates the Python package for the interfaces", generating[0].place),),
@@ -45,7 +49,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
 RULE = Rule(
     name="shadowed-python-package",
     code="ROS311",
-    summary="generated interfaces and a Python package must not have one name",
+    summary="Python packages and generated interfaces do not share a name",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,

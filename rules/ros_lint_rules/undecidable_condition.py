@@ -1,15 +1,16 @@
 """
 ## What it finds
 
-A `condition` in `package.xml` that does not parse: `$ROS_VERSION` without a comparison, `&&` for `and`, a number with a
-dot that is not quoted. Less surely, one that depends on a variable which is not `ROS_VERSION`, `ROS_DISTRO` or
-`ROS_PYTHON_VERSION`.
+- A `condition` in `package.xml` that does not parse: `$ROS_VERSION` without a comparison, `&&` instead of `and`, or an unquoted
+  number with a dot.
+- With medium confidence: a condition that depends on a variable other than `ROS_VERSION`, `ROS_DISTRO` and
+  `ROS_PYTHON_VERSION`.
 
 ## Why it matters
 
-colcon fails on a condition that does not parse, says so in a traceback at most, and takes the folder for no ROS package.
-A variable that is not set is the empty string, so what is built depends on the environment of whoever calls colcon, and
-the build farm sets none but these three.
+If a condition does not parse, colcon treats the folder as if it were not a ROS package, and prints a traceback at most. A
+variable that is not set is the empty string, so the result depends on the environment in which colcon runs. The build farm sets
+only these three variables.
 
 ## How to fix it
 
@@ -18,9 +19,9 @@ strings: `"10" < "9"` is true.
 
 ## Limitations
 
-About unknown variables that cannot change the outcome: one side of an `and` is false anyway. Findings about unknown
-variables are of medium confidence and shown with `--pedantic` only; the other rules take such dependencies for declared
-and never for unused.
+- Unknown variables that cannot change the result are not reported, for example if the other side of an `and` is false.
+- Findings about unknown variables are shown only with `--pedantic`. The other rules treat these dependencies as declared and
+  never as unused.
 """
 
 from __future__ import annotations
@@ -53,8 +54,8 @@ def _unknown(manifest: Manifest, workspace: Workspace) -> Iterator[Finding]:
             continue
         unknown = sorted(conditions.variables(conditions.parse(text)) - context.keys())
         yield Finding(
-            f"whether {name} counts depends on {' and '.join(unknown)}, which only the caller's environment knows; "
-            "compare ROS_VERSION or ROS_DISTRO",
+            f"whether '{name}' applies depends on {' and '.join(unknown)}, which is not set on the build farm; "
+            "use ROS_VERSION or ROS_DISTRO",
             span,
             name,
             confidence=Confidence.MEDIUM,
@@ -65,7 +66,7 @@ def _unknown(manifest: Manifest, workspace: Workspace) -> Iterator[Finding]:
 RULE = Rule(
     name="undecidable-condition",
     code="ROS113",
-    summary="conditions in a manifest must parse, and be the same for everybody",
+    summary="conditions in manifests parse and do not depend on the environment",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,

@@ -1,22 +1,26 @@
 """
 ## What it finds
 
-Commands that make tests, and `find_package()` of packages that serve tests only, outside `if(BUILD_TESTING)`, where the
-package that brings them is declared as `<test_depend>` only, or not at all: then `undeclared-dependency` names that tag.
+Commands that create tests, and `find_package()` of packages that are only for tests, outside of `if(BUILD_TESTING)`, if the
+package that provides them is declared only as `<test_depend>`. Also if the package is not declared at all; then
+`undeclared-dependency` proposes `<test_depend>`.
 
 ## Why it matters
 
-Release builds go without tests: the build farm does not install what is declared for tests, sets `BUILD_TESTING` to off,
-and then CMake stops at `find_package()` or at an unknown command.
+Release builds do not build tests: the build farm does not install test dependencies and sets `BUILD_TESTING` to off. Then CMake
+stops at `find_package()` or at an unknown command.
 
 ## How to fix it
 
-Put it between `if(BUILD_TESTING)` and `endif()`.
+Move the command between `if(BUILD_TESTING)` and `endif()`.
 
 ## Limitations
 
-Where the package is declared for the build as well, or comes along with what is; under any condition that asks for tests; in
-functions; where `find_package()` is not `REQUIRED`.
+Not reported:
+
+- Packages that are also declared for the build, or that come with a dependency declared for the build.
+- Commands under a condition, and commands in functions.
+- `find_package()` without `REQUIRED`.
 """
 
 from __future__ import annotations
@@ -27,14 +31,14 @@ from ros_lint.api import Finding, Package, Rule, Severity, Workspace, undeclared
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    found = unguarded_tests(package)
-    lacking = {need.name for need, _ in undeclared(package, workspace)} if found else set()
-    for provider, call in found.items():
-        if not package.declares(provider) and provider not in lacking:
-            continue  # it comes along with what is declared for every build
-        what = f"find_package({provider})" if call.name == "find_package" else f"{call.name}()"
+    unguarded = unguarded_tests(package)
+    undeclared_names = {need.name for need, _ in undeclared(package, workspace)} if unguarded else set()
+    for provider, call in unguarded.items():
+        if not package.declares(provider) and provider not in undeclared_names:
+            continue  # a dependency that is declared for every build provides it
+        command = f"find_package({provider})" if call.name == "find_package" else f"{call.name}()"
         yield Finding(
-            f"{what} outside if(BUILD_TESTING), but {provider} is there for tests only; put it inside",
+            f"{command} is outside of if(BUILD_TESTING), but '{provider}' is installed for tests only; move it inside",
             call.place,
             provider,
         )
@@ -43,7 +47,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 RULE = Rule(
     name="unguarded-test",
     code="ROS306",
-    summary="tests must be built only when tests are wanted",
+    summary="tests are built only if BUILD_TESTING is on",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,
