@@ -288,7 +288,7 @@ def _undefined(run: Run) -> list[Problem]:
     if run.wild or any(opaque.hides & Facet.LIBRARIES and not opaque.undefined for opaque in run.opaques):
         return []
     return [
-        Problem("undefined-target", f"install() of {name}, which is no target", span)
+        Problem("undefined-target", f"install() fails because '{name}' is not a target", span)
         for name, span, conditional in run.undefined
         if not conditional and "__rosidl" not in name
     ]
@@ -299,4 +299,4 @@ def _refused(run: Run) -> Iterator[Problem]:
     if not run.wild and not any(opaque.hides & Facet.LIBRARIES and not opaque.undefined for opaque in run.opaques):
         for (name, command), span in run.given.items():
             if name not in run.targets and "__rosidl" not in name:
-                yield Problem("undefined-target", f"{command}() of {name}, which is no target", span, subject=name)
+                yield Problem("undefined-target", f"{command}() fails because '{name}' is not a target", span, subject=name)

@@ -1,30 +1,39 @@
 """
 ## What it finds
 
-Scripts that are installed to `lib/<package>` and cannot be run:
+Scripts that are installed to `lib/<package>` but cannot be run:
 
-- installed without the executable bit: by `install(DIRECTORY scripts/ ...)` without `USE_SOURCE_PERMISSIONS`, by
-  `install(FILES ...)`, or by `data_files` from a file that does not have it;
-- without an interpreter line such as `#!/usr/bin/env python3`;
-- with one that ends with a carriage return, so that no system finds the interpreter;
-- installed by `install(PROGRAMS ...)` from a file without the bit: with `colcon build --symlink-install` that file is what
-  is started. The confidence is medium where no other script of the package that is installed so has the bit either.
+- Scripts installed without the executable bit: by `install(DIRECTORY scripts/ ...)` without `USE_SOURCE_PERMISSIONS`, by
+  `install(FILES ...)`, or by `data_files` from a file without the bit.
+- Scripts without an interpreter line such as `#!/usr/bin/env python3`.
+- Scripts with an interpreter line that ends with a carriage return, so that the system does not find the interpreter.
+- Scripts installed by `install(PROGRAMS ...)` from a file without the bit, because `colcon build --symlink-install` runs that
+  file. The confidence is medium if none of the installed scripts of the package has the bit.
 
 ## Why it matters
 
-`ros2 run` and launch see executable files only: "No executable found". Many tutorials have the first of these mistakes, and
-it shows only in builds without `--symlink-install`.
+`ros2 run` and launch find only executable files: "No executable found". Many tutorials contain the first of these mistakes. It
+appears only in builds without `--symlink-install`.
 
 ## How to fix it
 
-`install(PROGRAMS scripts/a.py DESTINATION lib/${PROJECT_NAME})`, or `USE_SOURCE_PERMISSIONS` and `chmod +x`. The fix writes
-`PROGRAMS` for `FILES`, or adds `USE_SOURCE_PERMISSIONS` where the files have the bit.
+Write `install(PROGRAMS scripts/a.py DESTINATION lib/${PROJECT_NAME})`, or `USE_SOURCE_PERMISSIONS` and `chmod +x`. The fix
+replaces `FILES` by `PROGRAMS`, adds `USE_SOURCE_PERMISSIONS` if the files have the bit, or adds an interpreter line to Python
+scripts.
 
 ## Limitations
 
-For modules that scripts import from beside them: files without an interpreter line that run nothing when they are
-started, unless a launch file of the workspace starts them. If they run something, a test of their own say, the confidence
-is medium. Under conditions that may not hold.
+Not reported:
+
+- Modules that scripts import from the same folder: files without an interpreter line that run nothing when they are started,
+  unless a launch file of the workspace starts them.
+- Scripts that are installed under a condition.
+
+Reported with medium confidence:
+
+- Imported modules that run something when they are started, for example their own test.
+- Scripts installed with `install(FILES)` in a package that exports CMake code, because that code may run them with an
+  interpreter.
 """
 
 from __future__ import annotations
@@ -63,10 +72,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     files = {file.path: file for file in script.files}
     started = workspace.started.get(package.name, {})
     runs = {provided.path for provided in script.provides if provided.program}
-    kept = any(
+    any_executable = any(
         provided.program and provided.source in files and files[provided.source].executable for provided in script.provides
     )
-    told: dict[Span, list[Provided]] = {}
+    without_bit: dict[Span, list[Provided]] = {}
     for provided in script.provides:
         file = files.get(provided.source)
         folder, _, name = provided.path.rpartition("/")
@@ -75,71 +84,71 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         wanted = name in started or (file.main and bool(file.shebang))
         if provided.path not in runs:
             if wanted and (file.shebang or name.endswith(_ENDINGS)):
-                told.setdefault(provided.span, []).append(provided)
+                without_bit.setdefault(provided.span, []).append(provided)
         elif provided.program and (file.main or name in started):
-            yield from _line(package, file, name, name in started, kept)
-    for span, provided_here in told.items():
-        yield _no_bit(package, span, provided_here, files)
+            yield from _line(package, file, name, name in started, any_executable)
+    for span, scripts in without_bit.items():
+        yield _no_bit(package, span, scripts, files)
 
 
-def _line(package: Package, file: ScriptFile, name: str, started: bool, kept: bool) -> Iterator[Finding]:
-    """Yield what is wrong with the interpreter line, or else with the permissions of the source.
+def _line(package: Package, file: ScriptFile, name: str, started: bool, any_executable: bool) -> Iterator[Finding]:
+    """Yield the finding about the interpreter line, else about the permissions of the source.
 
-    ``kept``: others that are installed have the executable bit. Where none has, they may come from where there is no such bit.
+    ``any_executable``: an installed script of the package has the bit. If not, the file system may not support the bit.
     """
     place = place_of(package, file.path)
     if file.carriage_return:
-        message = f"the first line of {file.path} ends with a carriage return, so no interpreter is found; save it with LF"
+        message = f"the first line of '{file.path}' ends with a carriage return, so the interpreter is not found; save it with LF"
         yield Finding(message, place, file.path)
     elif not file.shebang:
         if name.endswith(_ENDINGS):
             interpreter = "#!/usr/bin/env python3" if name.endswith(".py") else "#!/bin/bash"
-            message = f"{file.path} has no interpreter line, so it cannot be started; begin it with {interpreter}"
+            message = f"'{file.path}' has no interpreter line, so it cannot be started; begin it with '{interpreter}'"
             sure = name.endswith(".py") and (started or (file.main and not file.helper))
-            fix = Fix(f"begin with {interpreter}", (Edit(place, f"{interpreter}\n"),)) if sure else None
+            fix = Fix(f"begin with '{interpreter}'", (Edit(place, f"{interpreter}\n"),)) if sure else None
             yield Finding(message, place, file.path, fix=fix, confidence=Confidence.HIGH if sure else Confidence.MEDIUM)
     elif not file.executable and package.builds_with == "ament_cmake":
-        message = f"{file.path} is not executable, so it does not start after colcon build --symlink-install; chmod +x"
-        confidence = Confidence.HIGH if kept else Confidence.MEDIUM
+        message = f"'{file.path}' is not executable, so it does not start after colcon build --symlink-install; run chmod +x"
+        confidence = Confidence.HIGH if any_executable else Confidence.MEDIUM
         yield Finding(message, place, file.path, confidence=confidence, severity=Severity.WARNING)
 
 
-def _no_bit(package: Package, span: Span, provided: list[Provided], files: dict[str, ScriptFile]) -> Finding:
-    names = sorted(dict.fromkeys(one.path.rpartition("/")[2] for one in provided))
+def _no_bit(package: Package, span: Span, scripts: list[Provided], files: dict[str, ScriptFile]) -> Finding:
+    names = sorted(dict.fromkeys(script.path.rpartition("/")[2] for script in scripts))
     named = few(names)
     installs = (call for call in called(package, "install", anywhere=True) if call.args)
     call = next((call for call in installs if call.whole.covers(span)), None)
-    way, fix = "install(PROGRAMS)", None
+    remedy, fix = "install(PROGRAMS)", None
     if call is not None and call.texts[0] == "DIRECTORY":
-        way = "USE_SOURCE_PERMISSIONS, or install(PROGRAMS)"
-        if all(files[one.source].executable for one in provided):
+        remedy = "USE_SOURCE_PERMISSIONS or install(PROGRAMS)"
+        if all(files[script.source].executable for script in scripts):
             fix = Fix("add USE_SOURCE_PERMISSIONS", (cmake_edits.keep_permissions(call),))
     elif call is not None and call.texts[0] == "FILES":
-        fix = Fix("install as PROGRAMS", (cmake_edits.write(call, 0, "PROGRAMS"),), safe=False)
+        fix = Fix("replace FILES by PROGRAMS", (cmake_edits.write(call, 0, "PROGRAMS"),), safe=False)
     elif not span.path.endswith((".txt", ".cmake")):
-        way = "chmod +x, or entry_points"
+        remedy = "chmod +x or entry_points"
     it = "them" if len(names) > 1 else "it"
     return Finding(
         f"{named} {'are' if len(names) > 1 else 'is'} installed without the executable bit, so ros2 run does not find {it}; "
-        f"use {way}",
+        f"use {remedy}",
         span,
-        relative(package, provided[0].source),
-        several(Related("this script", place_of(package, one.source)) for one in provided),
+        relative(package, scripts[0].source),
+        several(Related("this script", place_of(package, script.source)) for script in scripts),
         fix,
         _confidence(package, call),
     )
 
 
 def _confidence(package: Package, call: Call | None) -> Confidence:
-    """A script that CMake code of the package starts for others needs no permission to be run."""
-    generator = package.built.extras and call is not None and call.texts[0] == "FILES"
-    return Confidence.MEDIUM if generator else Confidence.HIGH
+    """Return medium for install(FILES) in a package that exports CMake code: that code may run the script with an interpreter."""
+    run_by_cmake = package.built.extras and call is not None and call.texts[0] == "FILES"
+    return Confidence.MEDIUM if run_by_cmake else Confidence.HIGH
 
 
 RULE = Rule(
     name="script-not-executable",
     code="ROS405",
-    summary="a script that is installed to be run must be executable",
+    summary="installed scripts are executable",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,

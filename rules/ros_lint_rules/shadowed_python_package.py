@@ -49,7 +49,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
 RULE = Rule(
     name="shadowed-python-package",
     code="ROS311",
-    summary="Python packages and generated interfaces do not share a name",
+    summary="generated interfaces and Python packages have different names",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,

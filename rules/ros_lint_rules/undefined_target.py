@@ -1,29 +1,41 @@
 """
 ## What it finds
 
-CMake targets that a CMakeLists.txt installs, links, or gives properties to, and that nothing defines. Sets of targets that
-`ament_export_targets()` exports, and that no `install(TARGETS ... EXPORT ...)` fills. Targets `other::name` of another package
-of the workspace that it does not export. Libraries that
-`ament_export_libraries()` names after the project or nearly like one that is built, and that are not built.
+- CMake targets that a `CMakeLists.txt` installs, links or gives properties to, but that are not defined.
+- Sets of targets in `ament_export_targets()` to which no `install(TARGETS ... EXPORT ...)` adds a target.
+- Targets `other::name` of another package of the workspace that does not export them.
+- Libraries in `ament_export_libraries()` that are not built, if they have the name of the project or nearly the name of a built
+  library.
 
 ## Why it matters
 
-CMake stops: "install TARGETS given target "x" which does not exist", "Cannot specify link libraries for target "x" which
-is not built by this project", "Target "x" links to: other::name but the target was not found", or "install(EXPORT) given
-unknown export "x"". With a library that is not there, it is the
-packages that depend on this one that are told "exports the library 'x' which couldn't be found" and then do not link.
+CMake stops with one of these messages:
+
+- "install TARGETS given target "x" which does not exist"
+- "Cannot specify link libraries for target "x" which is not built by this project"
+- "Target "x" links to: other::name but the target was not found"
+- "install(EXPORT) given unknown export "x""
+
+A missing exported library affects the packages that depend on this one: they print "exports the library 'x' which couldn't be
+found" and then do not link.
 
 ## How to fix it
 
-Correct the name, or define the target before. Where one defined target has nearly the same name, the fix takes that. In the
-other package: `install(TARGETS ... EXPORT export_other)` and `ament_export_targets(export_other)`.
+Correct the name, or define the target before its use. If a defined target has nearly the same name, the fix writes that name.
+To export a target of another package, write `install(TARGETS ... EXPORT export_other)` and `ament_export_targets(export_other)`
+there.
 
 ## Limitations
 
-Where a command, a name or an included file cannot be followed; under conditions; in functions and loops, but for what
-`target_link_libraries()` and `ament_target_dependencies()` are given there for sure; about libraries that may be the
-system's; where a package is found that nobody knows, which may define targets. About the targets of packages of interfaces, of
-those with `CONFIG_EXTRAS`, and where the other package may export it.
+Not reported:
+
+- Scripts with commands, names or included files that cannot be followed.
+- Uses under a condition.
+- Uses in functions and loops, except arguments that are certain, of `target_link_libraries()` and `ament_target_dependencies()`.
+- Exported libraries that may be libraries of the system.
+- Scripts that find an unknown package, because it may define targets; `install()` and misspelled names are still reported.
+- Targets of another package that generates interfaces, has `CONFIG_EXTRAS`, or may export the target in a way that cannot be
+  followed.
 """
 
 from __future__ import annotations
@@ -66,7 +78,7 @@ _USERS = (
     "target_link_libraries",
     "target_sources",
 )
-_MAKERS = ("add_custom_target", "rosidl_generate_interfaces", "ament_vendor", "add_executable", "add_library")
+_DEFINING = ("add_custom_target", "rosidl_generate_interfaces", "ament_vendor", "add_executable", "add_library")
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -77,33 +89,33 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if hidden(package, ANYTHING):
         return
     defined = set(names)
-    for call in called(package, *_MAKERS, anywhere=True):
+    for call in called(package, *_DEFINING, anywhere=True):
         defined.update(call.texts[:1])
         defined.add((evaluated_name(package, call.texts[0]) if call.args else None) or "")
     wrong: dict[str, list[tuple[Call, int]]] = {}
-    finds_strangers = _finds_strangers(package, workspace)
+    finds_unknown = _finds_unknown(package, workspace)
     for call in called(package, *_USERS, "install"):
         for index in installed_targets(call) if call.name == "install" else range(len(call.args[:1])):
             name = evaluated_name(package, call.texts[index])
             if name is None or call.blocks or name in defined or "::" in name:
                 continue
-            if call.name == "install" or not finds_strangers or similar(name, names, 1, 0.8):
+            if call.name == "install" or not finds_unknown or similar(name, names, 1, 0.8):
                 wrong.setdefault(name, []).append((call, index))
     for name, places in wrong.items():
-        yield _finding(f"{places[0][0].name}() of {name}, which is no target", name, names, places)
-    for problem in script.refused:  # also of names that are put together
+        yield _finding(f"{places[0][0].name}() fails because '{name}' is not a target", name, names, places)
+    for problem in script.refused:  # these include computed names
         name = problem.subject
         if problem.kind == "undefined-target" and name not in defined and name not in wrong:
             near = similar(name, names, 1, 0.8)
-            if near or not finds_strangers or workspace.world.is_package(name):  # no target has the bare name of a package
+            if near or not finds_unknown or workspace.world.is_package(name):  # targets do not have the plain name of a package
                 yield Finding(problem.message + is_meant(near), problem.span, name)
     yield from _unfilled(package)
     yield from _of_others(package, script, workspace)
     yield from _no_libraries(package, defined)
 
 
-def _finds_strangers(package: Package, workspace: Workspace) -> bool:
-    """Whether something is searched that nobody knows: it may define targets."""
+def _finds_unknown(package: Package, workspace: Workspace) -> bool:
+    """Return whether the script finds an unknown package, which may define targets."""
     written = {call.texts[0] for call in called(package, "find_package", anywhere=True) if call.args}
     names = {name for name in written if "$" not in name}
     names.update(mention.name for mention in package.built.mentions if mention.via == "cmake")
@@ -111,8 +123,8 @@ def _finds_strangers(package: Package, workspace: Workspace) -> bool:
 
 
 def _unfilled(package: Package) -> Iterator[Finding]:
-    """Yield what is to say of exported sets of targets (reference, section C3): that none is in them."""
-    filled = list(dict.fromkeys([one.into for one in package.built.exported]))
+    """Yield findings for exported sets without targets: CMake stops at the install(EXPORT) of such a set."""
+    filled = list(dict.fromkeys([exported.into for exported in package.built.exported]))
     for call in called(package, "ament_export_targets", "ament_export_interfaces"):
         for index, text in enumerate(call.texts):
             name = evaluated_name(package, text)
@@ -120,12 +132,12 @@ def _unfilled(package: Package) -> Iterator[Finding]:
                 break
             if text == "HAS_LIBRARY_TARGET" or name is None or call.blocks or "__rosidl" in name or name in filled:
                 continue
-            says = f"{call.name}() of {name}, and no install(TARGETS ... EXPORT {name}) puts a target there"
-            yield _finding(says, name, filled, [(call, index)])
+            message = f"{call.name}() exports '{name}', but no install(TARGETS ... EXPORT {name}) adds a target to it"
+            yield _finding(message, name, filled, [(call, index)])
 
 
 def _of_others(package: Package, script: BuildScript, workspace: Workspace) -> Iterator[Finding]:
-    """Yield what is to say of targets of other packages of the workspace, which are there only if these export them."""
+    """Yield findings for targets of other packages of the workspace that these packages do not export."""
     found = found_names(package, script)
     wrong: dict[str, list[Mention]] = {}
     for mention in script.mentions:
@@ -136,12 +148,14 @@ def _of_others(package: Package, script: BuildScript, workspace: Workspace) -> I
                 wrong.setdefault(owner, []).append(mention)
     for owner, mentions in wrong.items():
         names = list(dict.fromkeys(mention.name.partition("::")[2] for mention in mentions))
-        exported = sorted({one.target for other in workspace.by_name[owner] for one in other.built.exported})
+        exported = sorted({target.target for other in workspace.by_name[owner] for target in other.built.exported})
         near = similar(names[0], exported, 3, 0.6) if len(names) == 1 else []
-        hint = did_you_mean(near) if near else f"; it exports {few(exported)}" if exported else ", and no other either"
+        hint = did_you_mean(near) if near else f"; it exports {few(exported)}" if exported else "; it exports no targets"
         first, *more = [mention.span for mention in mentions]
-        related = [*several(Related("also linked here", span) for span in more), *_made_here(workspace.by_name[owner], names)]
-        yield Finding(f"{owner} exports no target {few(names)}{hint}", first, f"{owner}::{names[0]}", tuple(related))
+        related = [*several(Related("also linked here", span) for span in more), *_definitions(workspace.by_name[owner], names)]
+        targets = "a target" if len(names) == 1 else "targets"
+        message = f"'{owner}' does not export {targets} {few(names)}{hint}"
+        yield Finding(message, first, f"{owner}::{names[0]}", tuple(related))
 
 
 def _may_export(package: Package, target: str) -> bool:
@@ -150,11 +164,11 @@ def _may_export(package: Package, target: str) -> bool:
         return True
     if has_extras(package):
         return True
-    return any(one.target == target for one in package.built.exported) or _names_otherwise(package)
+    return any(exported.target == target for exported in package.built.exported) or _may_rename_targets(package)
 
 
-def _names_otherwise(package: Package) -> bool:
-    """Whether targets may have other names where they are found, or the package a configuration of its own."""
+def _may_rename_targets(package: Package) -> bool:
+    """Return whether exported targets may have other names, or the package installs its own CMake configuration file."""
     calls = called(package, "ament_export_targets", "install", "export", "set_target_properties", "set_property", anywhere=True)
     if any("NAMESPACE" in call.texts or "EXPORT_NAME" in call.texts for call in calls):
         return True
@@ -162,16 +176,16 @@ def _names_otherwise(package: Package) -> bool:
     return any(file.source and file.path.rpartition("/")[2] in names for file in package.built.provides)
 
 
-def _made_here(owners: Sequence[Package], names: Collection[str]) -> Iterator[Related]:
-    """Yield where the owner of targets makes them, for itself alone."""
+def _definitions(owners: Sequence[Package], names: Collection[str]) -> Iterator[Related]:
+    """Yield the places where the owners define targets without exporting them."""
     for owner in owners:
         for target in owner.built.targets:
             if target.name in names:
-                yield Related("made here, and not exported", target.span)
+                yield Related("defined here, but not exported", target.span)
 
 
 def _no_libraries(package: Package, defined: Collection[str]) -> Iterator[Finding]:
-    """Yield what is to say of exported libraries. Any name may be that of a library of the system, but for the own one."""
+    """Yield findings for exported libraries that are not built. Names unlike those of this package may be system libraries."""
     libraries = sorted(target.name for target in package.built.targets if target.kind == "library")
     for call in called(package, "ament_export_libraries"):
         for index, text in enumerate(call.texts):
@@ -179,8 +193,8 @@ def _no_libraries(package: Package, defined: Collection[str]) -> Iterator[Findin
             if name is None or call.blocks or name in defined:
                 continue
             if name == evaluated_name(package, "${PROJECT_NAME}") or similar(name, libraries, 1, 0.9):
-                says = f"ament_export_libraries() of {name}, which is no library of this package"
-                yield _finding(says, name, libraries, [(call, index)])._replace(severity=Severity.WARNING)
+                message = f"ament_export_libraries() exports '{name}', which is not a library of this package"
+                yield _finding(message, name, libraries, [(call, index)])._replace(severity=Severity.WARNING)
 
 
 def _finding(message: str, name: str, names: Sequence[str], places: list[tuple[Call, int]]) -> Finding:
@@ -189,7 +203,7 @@ def _finding(message: str, name: str, names: Sequence[str], places: list[tuple[C
     if near:
         message += is_meant(near)
         if all(call.texts[index] == name for call, index in places):
-            fix = Fix(f"write {near[0]}", tuple(cmake_edits.write(call, index, near[0]) for call, index in places), safe=False)
+            fix = Fix(f"write '{near[0]}'", tuple(cmake_edits.write(call, index, near[0]) for call, index in places), safe=False)
     first, *others = [call.span(index) for call, index in places]
     return Finding(message, first, name, several(Related("also here", span) for span in others), fix)
 
@@ -197,7 +211,7 @@ def _finding(message: str, name: str, names: Sequence[str], places: list[tuple[C
 RULE = Rule(
     name="undefined-target",
     code="ROS305",
-    summary="a target that is used must be defined",
+    summary="used CMake targets are defined",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,
