@@ -3,31 +3,46 @@
 
 Plugins of pluginlib that cannot be loaded:
 
-- a class made loadable with `PLUGINLIB_EXPORT_CLASS`, in a package that exports no plugin description;
-- a plugin description that is not exported, so not installed either, or exported for what is no package, while a loader of
-  the workspace asks for plugins of its classes for another name;
-- a class made loadable in a library none of whose classes any of the exported descriptions has; a description of plugins
-  for another package that is exported for its own one, for which nothing in the workspace loads plugins;
-- a class in the description that no source makes loadable under this very name, or as another class than it says;
-- a library that the package does not build or install, or a `<library>` without `path`.
+- A class that is registered with `PLUGINLIB_EXPORT_CLASS` in a package without an exported plugin description.
+- A plugin description that is not exported, and therefore not installed.
+- A plugin description that is exported for a name that is not a package, while a loader of the workspace searches plugins of
+  its base classes under another name.
+- A plugin description that is exported for its own package, although nothing in the workspace loads plugins of that package and
+  the base classes belong to another package.
+- A registered class in a library for which no exported description lists any class.
+- A described class that no source registers under exactly this name, or that is registered with another base class.
+- A described library that the package does not build or install, or a `<library>` without `path`.
 
 ## Why it matters
 
-The loader looks up names: "According to the loaded plugin descriptions the class x with base class type y does not exist", or
-"Could not find library". A `<library>` without `path` makes pluginlib loop for ever.
+The loader searches plugins by name and fails: "According to the loaded plugin descriptions the class x with base class type y
+does not exist", or "Could not find library". A `<library>` without `path` makes pluginlib loop forever.
 
 ## How to fix it
 
-`pluginlib_export_plugin_description_file(<package of the base class> plugins.xml)`; write type and path as they are in the
-sources and in `add_library()`. The fix exports a description whose base classes are all of one package. Where the workspace has
-the base class and loads no plugins as that, the macro may be a left-over, and can go: this is an info.
+Write `pluginlib_export_plugin_description_file(<package of the base class> plugins.xml)`. Write type and path in the
+description as they are in the sources and in `add_library()`. The fix exports a description if all its base classes belong to
+one package.
+
+If the package of the base class is in the workspace and nothing loads such plugins, the macro may be unnecessary and can be
+removed. The severity of this finding is info.
 
 ## Limitations
 
-Where the libraries cannot be seen whole, for tests, for nodelets, which ROS 2 does not have, for descriptions that are exported
-under a condition only, and for classes in packages that register some with macros of their own. Where a source has the name of
-a class that none makes loadable, or another package makes it loadable, the confidence is medium; so it is for a library without
-classes. For components that are registered in the way of Crystal, with `rclcpp::Node` as their base: they are no plugins.
+Not reported:
+
+- Packages whose libraries or installed files cannot be fully analysed.
+- Plugins of tests, and nodelets, which ROS 2 does not have.
+- Descriptions that are exported only under a condition.
+- Components registered as in Crystal, with the base class `rclcpp::Node`: they are not plugins.
+- Described classes in packages that register classes with their own macros.
+
+Reported with medium confidence:
+
+- A class that no source registers but whose name appears in a source, or that another package registers.
+- A registered class that is in no library of the package, if the package builds libraries.
+- A described library without classes, or one that is built but not certainly shared.
+- A library or class in an installed description that is not exported for any package.
 """
 
 from __future__ import annotations
@@ -54,6 +69,7 @@ from ros_lint.api import (
     Workspace,
     called,
     cmake_edits,
+    few,
     hidden,
     is_apart,
     is_meant,
@@ -72,38 +88,44 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_cmake" or hidden(package, _SEEN):
         return
-    everything = [made for made in package.registrations if made.kind == "plugin"]
-    registered = [made for made in everything if not (is_apart(relative(package, made.span.path)) or _is_no_plugin(made))]
-    names = {made.name for made in registered}
+    all_registrations = [registration for registration in package.registrations if registration.kind == "plugin"]
+    registered = [
+        registration
+        for registration in all_registrations
+        if not (is_apart(relative(package, registration.span.path)) or _is_no_plugin(registration))
+    ]
+    names = {registration.name for registration in registered}
     installed = script.installed
     exported = list(called(package, EXPORTING_PLUGINS, anywhere=True))
     if EXPORTING_PLUGINS not in script.calls and not exported:
         yield from _unexported(package, workspace, registered)
-        # What descriptions say that nobody is told of does no harm, and many are left over from ROS 1.
+        # A description that is not exported has no effect, and many remain from ROS 1.
         for plugin in script.plugins:
             if plugin.path in installed and not is_apart(plugin.path):
-                for finding in _libraries(package, workspace, plugin, everything):
+                for finding in _libraries(package, workspace, plugin, all_registrations):
                     yield finding._replace(confidence=Confidence.MEDIUM)
         return
-    yield from _for_nobody(package, workspace)
+    yield from _wrongly_exported(package, workspace)
     yield from _undescribed(package, registered)
-    found = {
-        one.type
+    described = {
+        plugin_class.type
         for plugin in script.plugins
         if plugin.path in installed
         for library in plugin.libraries
-        for one in library.classes
+        for plugin_class in library.classes
     }
     for plugin in script.plugins:
         if is_apart(plugin.path):
             continue
         if plugin.path in installed:
-            yield from _libraries(package, workspace, plugin, everything)
+            yield from _libraries(package, workspace, plugin, all_registrations)
         elif any(plugin.path in call.texts for call in exported):
             continue  # only under a condition
-        elif exported and any(one.type in names - found for library in plugin.libraries for one in library.classes):
+        elif exported and any(
+            plugin_class.type in names - described for library in plugin.libraries for plugin_class in library.classes
+        ):
             yield Finding(
-                f"{plugin.path} is not exported, so its plugins are not found; add {EXPORTING_PLUGINS}(... {plugin.path})",
+                f"'{plugin.path}' is not exported, so its plugins are not found; add {EXPORTING_PLUGINS}(... {plugin.path})",
                 plugin.span,
                 plugin.path,
                 fix=_export(package, plugin),
@@ -111,69 +133,73 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _undescribed(package: Package, registered: list[Registration]) -> Iterator[Finding]:
-    """Yield the classes that no description has, of those that all of them can be read, exported or not."""
+    """Yield findings for registered classes that no description lists, if all descriptions can be read."""
     descriptions = {plugin.path: plugin for plugin in package.built.plugins}
     calls = list(called(package, EXPORTING_PLUGINS, anywhere=True))
     if _reads_manifest(package) or not all(len(call.texts) > 1 and call.texts[1] in descriptions for call in calls):
         return
-    classes = [one for plugin in descriptions.values() for library in plugin.libraries for one in library.classes]
-    known = {name.rpartition("::")[2] for one in classes for name in (one.type, one.name.replace("/", "::"))}
-    # What is beside a class that is described, or in a library for others, may be the base of some, or a copy.
-    needed = {library_of(package, made) for made in registered if made.name.rpartition("::")[2] in known}
+    classes = [
+        plugin_class for plugin in descriptions.values() for library in plugin.libraries for plugin_class in library.classes
+    ]
+    known = {
+        name.rpartition("::")[2] for plugin_class in classes for name in (plugin_class.type, plugin_class.name.replace("/", "::"))
+    }
+    # A class next to a described one, or in a library that others link, may be a base class or a copy.
+    needed = {library_of(package, registration) for registration in registered if registration.name.rpartition("::")[2] in known}
     needed.update(name for target in package.built.targets for name, _ in target.links)
-    for made in registered:
-        library = library_of(package, made)
+    for registration in registered:
+        library = library_of(package, registration)
         if library and library not in needed:
             yield Finding(
-                f"{made.name} is made loadable, but no exported plugin description has it, so nobody finds it",
-                made.span,
-                made.name,
-                several(Related("this one is exported", call.span(1)) for call in calls),
+                f"'{registration.name}' is registered, but no exported plugin description lists it, so loaders do not find it",
+                registration.span,
+                registration.name,
+                several(Related("this description is exported", call.span(1)) for call in calls),
             )
 
 
-def _is_no_plugin(made: Registration) -> bool:
-    """Whether a class is loadable by what needs no description: nodelets, which ROS 2 does not have, components of Crystal.
+def _is_no_plugin(registration: Registration) -> bool:
+    """Return whether a registered class needs no description: nodelets of ROS 1, and components registered as in Crystal.
 
-    Sources for ROS 1 and 2 lie in one package, and those for ROS 1 are not built here.
+    A package may contain sources for ROS 1 and ROS 2; those for ROS 1 are not built here.
     """
-    return made.base.startswith("nodelet::") or made.base in ("rclcpp::Node", "rclcpp_lifecycle::LifecycleNode")
+    return registration.base.startswith("nodelet::") or registration.base in ("rclcpp::Node", "rclcpp_lifecycle::LifecycleNode")
 
 
 @per_workspace
-def _made(workspace: Workspace) -> frozenset[str]:
-    """Return the classes that some package makes loadable."""
-    return frozenset([made.name for package in workspace.packages for made in package.registrations])
+def _registered_classes(workspace: Workspace) -> frozenset[str]:
+    """Return the classes that the packages register."""
+    return frozenset([registration.name for package in workspace.packages for registration in package.registrations])
 
 
 @per_workspace
 def _loading(workspace: Workspace) -> dict[str, list[PluginLoader]]:
-    """Return the loaders of all packages by the class that they load plugins as."""
-    found: dict[str, list[PluginLoader]] = {}
+    """Return the loaders of all packages by the base class of the plugins that they load."""
+    loaders: dict[str, list[PluginLoader]] = {}
     for package in workspace.packages:
         for loader in package.loaders:
-            found.setdefault(loader.base, []).append(loader)
-    return found
+            loaders.setdefault(loader.base, []).append(loader)
+    return loaders
 
 
-def _for_nobody(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    """Compare what a description is exported for with what the loaders of the workspace ask for."""
+def _wrongly_exported(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    """Compare the packages for which descriptions are exported with those that the loaders of the workspace search."""
     script = package.script
     assert script is not None
     described = {plugin.path: plugin for plugin in script.plugins}
     for call in called(package, EXPORTING_PLUGINS, anywhere=True):
         if len(call.texts) < 2 or "$" in call.texts[0] or call.texts[1] not in described:
             continue
-        meant, path = call.texts[:2]
-        bases = {one.base for library in described[path].libraries for one in library.classes}
+        exported_for, path = call.texts[:2]
+        bases = {plugin_class.base for library in described[path].libraries for plugin_class in library.classes}
         loaders = [loader for base in sorted(bases) for loader in _loading(workspace).get(base, ())]
         asked = sorted({loader.package for loader in loaders})
-        if meant == package.name and meant not in asked:
+        if exported_for == package.name and exported_for not in asked:
             yield from _for_itself(package, call, bases, workspace)
-        if loaders and meant not in asked and not workspace.world.is_package(meant):
-            fix = Fix(f"export it for {asked[0]}", (cmake_edits.write(call, 0, asked[0]),), safe=False)
+        if loaders and exported_for not in asked and not workspace.world.is_package(exported_for):
+            fix = Fix(f"export it for '{asked[0]}'", (cmake_edits.write(call, 0, asked[0]),), safe=False)
             yield Finding(
-                f"{path} is exported for {meant}, which is no package; what loads its plugins asks for {', '.join(asked)}",
+                f"'{path}' is exported for '{exported_for}', which is not a package; the loader searches plugins of {few(asked)}",
                 call.span(0),
                 path,
                 several(Related("loaded here", loader.span) for loader in loaders),
@@ -182,9 +208,9 @@ def _for_nobody(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _for_itself(package: Package, call: Call, bases: Collection[str], workspace: Workspace) -> Iterator[Finding]:
-    """Yield what is to say of a description that is exported for its own package, for which nothing loads plugins.
+    """Yield the finding for a description that is exported for its own package, for which nothing loads plugins.
 
-    All of its base classes are of one other package.
+    All its base classes belong to one other package.
     """
     owners = {base.partition("::")[0] for base in bases}
     asked = {loader.package for loaders in _loading(workspace).values() for loader in loaders}
@@ -193,10 +219,11 @@ def _for_itself(package: Package, call: Call, bases: Collection[str], workspace:
     owner = owners.pop()
     if package.declares(owner) and workspace.world.is_package(owner):
         yield Finding(
-            f"{call.texts[1]} is exported for {package.name}, and nothing loads plugins for it; their base class is of {owner}",
+            f"'{call.texts[1]}' is exported for '{package.name}', but nothing loads its plugins; export it for "
+            f"'{owner}', which has the base class",
             call.span(0),
             call.texts[1],
-            fix=Fix(f"export it for {owner}", (cmake_edits.write(call, 0, owner),), safe=False),
+            fix=Fix(f"export it for '{owner}'", (cmake_edits.write(call, 0, owner),), safe=False),
         )
 
 
@@ -205,11 +232,11 @@ def _builds_libraries(package: Package) -> bool:
 
 
 _READ_BY_RQT = frozenset({"rqt_gui", "qt_gui"})
-"""Exports of the manifest whose plugins are found by them. Those of other names say nothing to anybody in ROS 2."""
+"""Tags in <export> of the manifest by which plugins are found. ROS 2 ignores other tags with a plugin attribute."""
 
 
 def _reads_manifest(package: Package) -> bool:
-    """Whether a description is exported by the manifest, for those who read it there."""
+    """Return whether the manifest exports a description for rqt, which reads it there."""
     exports = package.manifest.exports if package.manifest else ()
     return any(element.tag in _READ_BY_RQT and element.get("plugin") for element in exports)
 
@@ -220,35 +247,35 @@ def _unexported(package: Package, workspace: Workspace, registered: list[Registr
     if not registered:
         return
     first, *others = registered
-    names = {made.name for made in registered}
+    names = {registration.name for registration in registered}
     plugin = next((p for p in script.plugins if any(c.type in names for lib in p.libraries for c in lib.classes)), None)
     if _reads_manifest(package):
         return
-    if plugin is None and (base := _loaded_by_nobody(registered, workspace)):
+    if plugin is None and (base := _unloaded_base(registered, workspace)):
         yield Finding(
-            f"{first.name} is made loadable, and nothing loads plugins as {base}; take the macro out, or export a description",
+            f"'{first.name}' is registered, but nothing loads plugins of '{base}'; remove the macro or export a description",
             first.span,
             "pluginlib",
-            several(Related("also this class", made.span) for made in others),
+            several(Related("also registered here", registration.span) for registration in others),
             severity=Severity.INFO,
         )
         return
-    way = f"{EXPORTING_PLUGINS}(... {plugin.path})" if plugin else f"a plugin description and {EXPORTING_PLUGINS}()"
+    remedy = f"{EXPORTING_PLUGINS}(... {plugin.path})" if plugin else f"a plugin description and {EXPORTING_PLUGINS}()"
     yield Finding(
-        f"{first.name} is made loadable, but no plugin description is exported, so nobody finds it; add {way}",
+        f"'{first.name}' is registered, but no plugin description is exported, so loaders do not find it; add {remedy}",
         first.span,
         plugin.path if plugin else "pluginlib",
-        several(Related("also this class", made.span) for made in others)
-        + ((Related("it is described here", plugin.span),) if plugin else ()),
+        several(Related("also registered here", registration.span) for registration in others)
+        + ((Related("described here", plugin.span),) if plugin else ()),
         _export(package, plugin) if plugin else None,
-        # Sources that nothing compiles may be left over; where there is no library at all, it is yet to be added.
+        # A source that is not compiled may be unused; in a package without libraries, the library is yet to be added.
         confidence=Confidence.HIGH if library_of(package, first) or not _builds_libraries(package) else Confidence.MEDIUM,
     )
 
 
-def _loaded_by_nobody(registered: list[Registration], workspace: Workspace) -> str:
-    """Return the base of loadable classes, if it is of a package of the workspace where nothing is seen to load it, else ""."""
-    bases = {made.base for made in registered}
+def _unloaded_base(registered: list[Registration], workspace: Workspace) -> str:
+    """Return the base of the registered classes if it is in the workspace and nothing loads its plugins, else ""."""
+    bases = {registration.base for registration in registered}
     base = bases.pop()
     owner = base.partition("::")[0]
     return base if not bases and owner in workspace.by_name and base not in _loading(workspace) else ""
@@ -256,26 +283,28 @@ def _loaded_by_nobody(registered: list[Registration], workspace: Workspace) -> s
 
 def _export(package: Package, plugin: PluginFile) -> Fix | None:
     script = package.script
-    bases = {one.base.partition("::")[0] for library in plugin.libraries for one in library.classes}
+    bases = {plugin_class.base.partition("::")[0] for library in plugin.libraries for plugin_class in library.classes}
     if script is None or len(bases) != 1 or "" in bases:
         return None
     base = bases.pop()
     if not package.declares(base) and base != package.name:
         return None
-    return Fix.of(f"export {plugin.path}", cmake_edits.at_end(script, f"{EXPORTING_PLUGINS}({base} {plugin.path})"), safe=False)
+    return Fix.of(f"export '{plugin.path}'", cmake_edits.at_end(script, f"{EXPORTING_PLUGINS}({base} {plugin.path})"), safe=False)
 
 
 def _libraries(package: Package, workspace: Workspace, plugin: PluginFile, registered: list[Registration]) -> Iterator[Finding]:
     for library in plugin.libraries:
         if not library.path:
-            yield Finding("<library> without path makes pluginlib loop for ever; write one", library.span, plugin.path)
+            yield Finding("<library> without path makes pluginlib loop forever; add the path", library.span, plugin.path)
         else:
             yield from _library(package, plugin, library)
-        for one in library.classes:
-            for finding in _class(package, plugin, one, registered):
-                if one.type in _made(workspace) and not any(made.name == one.type for made in registered):
-                    # In a library that this one may be linked to: then it is loaded all the same.
-                    message = f"{one.type} is made loadable in another package; describe it there"
+        for plugin_class in library.classes:
+            for finding in _class(package, plugin, plugin_class, registered):
+                if plugin_class.type in _registered_classes(workspace) and not any(
+                    registration.name == plugin_class.type for registration in registered
+                ):
+                    # The library may link that of the other package: then the class is loaded.
+                    message = f"'{plugin_class.type}' is registered in another package; describe it there"
                     yield finding._replace(message=message, confidence=Confidence.MEDIUM)
                 else:
                     yield finding
@@ -290,79 +319,84 @@ def _library(package: Package, plugin: PluginFile, library: PluginLibrary) -> It
     if name in installed or "$" in library.path or not built:
         return
     if name in built:
-        message = f"the library {name} is built, but not installed to lib/"
-        # It may be static, or its file may have another name.
+        message = f"the library '{name}' is built, but not installed to lib/"
+        # The library may be static, or its file may have another name.
         sure = Confidence.HIGH if is_shared_by_words(package, name) and library.classes else Confidence.MEDIUM
     else:
         near = similar(name, sorted(installed | built), 1, 0.8)
-        message = f"the package builds no library {name}{is_meant(near)}"
-        sure = Confidence.HIGH if library.classes else Confidence.MEDIUM  # of one without classes nothing is loaded
+        message = f"the package does not build a library '{name}'{is_meant(near)}"
+        sure = Confidence.HIGH if library.classes else Confidence.MEDIUM  # without classes nothing is loaded
     yield Finding(message, library.span, f"{plugin.path}#{library.path.rpartition('/')[2]}", confidence=sure)
 
 
 def _plain(path: str) -> str:
-    """Return the name of a library by its path: lib/libfoo.so and libfoo are foo."""
+    """Return the name of a library from its path: lib/libfoo.so and libfoo are foo."""
     name = path.rpartition("/")[2]
     return name.removesuffix(".so").removesuffix(".a").removesuffix(".dll").removeprefix("lib")
 
 
-def _class(package: Package, plugin: PluginFile, one: PluginClass, registered: list[Registration]) -> Iterator[Finding]:
-    if not one.type or not registered:
+def _class(package: Package, plugin: PluginFile, plugin_class: PluginClass, registered: list[Registration]) -> Iterator[Finding]:
+    if not plugin_class.type or not registered:
         return
-    same = [made for made in registered if made.name == one.type]
+    same = [registration for registration in registered if registration.name == plugin_class.type]
     if same:
-        yield from _base(plugin, one, same)
+        yield from _base(plugin, plugin_class, same)
         return
-    last = one.type.rpartition("::")[2]
-    described = {each.type for file in package.built.plugins for library in file.libraries for each in library.classes}
-    alike = [made for made in registered if made.name.rpartition("::")[2] == last and made.name not in described]
+    last = plugin_class.type.rpartition("::")[2]
+    described = {entry.type for file in package.built.plugins for library in file.libraries for entry in library.classes}
+    alike = [
+        registration
+        for registration in registered
+        if registration.name.rpartition("::")[2] == last and registration.name not in described
+    ]
     if alike:
-        hint = f"; the sources say {alike[0].name}"
-    elif one.type in package.unwritten:
-        hint = ", and none has a class that is called so; take it out"
+        hint = f"; the sources register '{alike[0].name}'"
+    elif plugin_class.type in package.unwritten:
+        hint = ", and no source has such a class; remove the entry"
     else:
-        hint = f"; add PLUGINLIB_EXPORT_CLASS({one.type}, {one.base}) to one"
-    related = several(Related("made loadable here", made.span) for made in alike)
+        hint = f"; add PLUGINLIB_EXPORT_CLASS({plugin_class.type}, {plugin_class.base}) to a source"
+    related = several(Related("registered here", registration.span) for registration in alike)
     yield Finding(
-        f"no source makes {one.type} loadable{hint}",
-        one.span,
-        f"{plugin.path}#{one.type}",
+        f"no source registers '{plugin_class.type}'{hint}",
+        plugin_class.span,
+        f"{plugin.path}#{plugin_class.type}",
         related,
-        confidence=Confidence.HIGH if alike or one.type in package.unwritten else Confidence.MEDIUM,
+        confidence=Confidence.HIGH if alike or plugin_class.type in package.unwritten else Confidence.MEDIUM,
     )
 
 
-def _base(plugin: PluginFile, one: PluginClass, made: list[Registration]) -> Iterator[Finding]:
-    """Compare the class that a plugin is described as with those that it is made loadable as."""
-    if all(_differ(one.base, each.base) for each in made):
+def _base(plugin: PluginFile, plugin_class: PluginClass, registrations: list[Registration]) -> Iterator[Finding]:
+    """Compare the described base class of a plugin with those of its registrations."""
+    if all(_differ(plugin_class.base, registration.base) for registration in registrations):
         yield Finding(
-            f"{one.type} is described as a {one.base}, and made loadable as a {made[0].base}; write the same in both places",
-            one.span,
-            f"{plugin.path}#{one.type}",
-            several(Related("made loadable here", each.span) for each in made),
+            f"'{plugin_class.type}' is described as '{plugin_class.base}', but registered as '{registrations[0].base}'; "
+            "write the same base class in both places",
+            plugin_class.span,
+            f"{plugin.path}#{plugin_class.type}",
+            several(Related("registered here", registration.span) for registration in registrations),
         )
 
 
-def _differ(described: str, made: str) -> bool:
-    """Whether two names are those of two classes. One without a namespace may stand for any; so may each in ``< >``."""
-    if "::" not in described or "::" not in made:
+def _differ(described: str, registered: str) -> bool:
+    """Return whether two names denote different classes. A name without a namespace, also in ``< >``, matches any namespace."""
+    if "::" not in described or "::" not in registered:
         return False
-    there, here = (_NAME.findall(name) for name in (described, made))
-    return len(there) != len(here) or not all(map(_may_be_same, there, here))
+    first, second = (_NAME.findall(name) for name in (described, registered))
+    return len(first) != len(second) or not all(map(_may_be_same, first, second))
 
 
 _NAME = re.compile(r"[\w:]+")
 
 
-def _may_be_same(one: str, other: str) -> bool:
-    """Whether two names may be of one class, one of them with fewer of its namespaces."""
-    return f"::{one}".endswith(f"::{other}") or f"::{other}".endswith(f"::{one}")
+def _may_be_same(first: str, second: str) -> bool:
+    """Return whether two names may denote the same class, if one of them omits namespaces."""
+    return f"::{first}".endswith(f"::{second}") or f"::{second}".endswith(f"::{first}")
 
 
 RULE = Rule(
     name="plugin-mismatch",
     code="ROS412",
-    summary="a plugin must be described, exported and built under one name",
+    summary="plugins are described, exported and built under one name",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,
