@@ -1,51 +1,67 @@
 """
 ## What it finds
 
-A package that is used, but that nothing in `package.xml` brings along: a header that is included, a Python module that
-is imported, a `find_package`, a message type, a package whose files are looked up.
+A package that is used, although no dependency in `package.xml` provides it: an included header, an imported Python module, a
+`find_package()`, a message type, or a package whose files are looked up.
 
 ## Why it matters
 
-It works as long as somebody else happens to install or build the package first. On a clean machine, in a container or
-on the build farm it does not: colcon may build the packages in the wrong order, `rosdep install` leaves the package
-out, and the released binary lacks it.
+It works only if another package happens to be installed or built first. On a clean machine, in a container or on the build farm
+it fails: colcon may build the packages in the wrong order, `rosdep install` does not install the package, and the released
+binary lacks it.
 
 ## How to fix it
 
-Declare the package in `package.xml`, in the tag that the message names: `<depend>` for what is compiled against and
-needed at run time, `<exec_depend>` for what is needed at run time only, `<test_depend>` for tests. The fix does this.
-Where a tag is there, under a condition that does not hold, widen the condition.
+Declare the package in `package.xml`, with the tag that the message names. The fix adds it.
+
+- `<depend>`: needed to compile and at run time;
+- `<exec_depend>`: needed only at run time;
+- `<test_depend>`: needed only for tests.
+
+If the package is declared under a condition that is false, widen the condition.
 
 The fix is safe if the name resolves in the chosen distribution, or in every active one if none was chosen. Otherwise
 the message names the distributions that have or lack the name, and the fix needs `--unsafe-fixes`.
 
 ## Limitations
 
-- The package comes with a declared one: see `transitive-dependency` for uses that hang on such a chain.
-- It is declared by a wrong name: `unknown-dependency` says so. Then the confidence is medium, and nothing is fixed here.
-- The use is optional: `find_package(QUIET)` behind `if(X_FOUND)`, `try: import`, also `try: from .file import` of the file
-  that has it, `__has_include`, an import where a comparison of `ROS_VERSION` says ROS 1. Then the confidence is low, and
-  nothing is fixed. It is silent where the package needs this one itself.
-- It is named only in a template for other packages, by what makes the pages of the documentation, or in an editor's copy.
-- colcon rejects `package.xml`, which is to be mended first: then the confidence is medium.
-- The name belongs to no package or rosdep key that is known, or to the system. Whose messages are used is a package all the
-  same: the confidence is medium, unless another package of the workspace declares it, or CMake does not do without it. What
-  another one declares, and CMake finds here, or something looks up, is one, too. So is, with medium confidence, what nobody
-  declares, and something that is installed looks up for certain: `$(find x)` means a package, wherever it comes from.
-- Only other distributions have the package, or had it: then the message names them, and the confidence is medium, unless
-  nobody said which distribution is meant. What brings it along there counts.
-- A declared dependency is itself not known, so that the package might come with it, and nothing else needs it that could not:
-  then the confidence is medium.
-- All evidence is in files that are perhaps not built or installed: then, too, the confidence is medium. So it is with files
-  that need what is declared under a condition which does not hold, unless CMake asks for it: they may be for where it does.
-  And with files that are looked up in a released metapackage, which has none: another package of its name is meant.
-- The package needs this one itself, in whatever tag, so that declaring it would close a cycle that colcon refuses: then,
-  too, the confidence is medium, and nothing is fixed. Nor is it where no key resolves for the distribution, and for a project of
-  the workspace without `package.xml`, which colcon builds and rosdep does not know.
-- Of `launch`, the confidence is medium where `launch_ros` is missing as well, which brings it.
-- Modules of launch itself that only launch files import come with `ros2 launch`: then the severity is info.
-- Only launch files that are no tests name it, for what they start, include or look up: that is the business of
-  `launch-outside-closure`.
+Not reported:
+
+- Packages that a declared dependency provides: see `transitive-dependency`.
+- Names that only launch files start, include or look up, except in tests: see `launch-outside-closure`.
+- Templates for other packages, scripts that build the documentation, and copies made by editors.
+- Names of the system, and names that are neither a known package nor a rosdep key. Exceptions are listed below.
+- Optional uses of a package that depends on this one.
+
+Unknown names are reported if they can only be packages:
+
+- Packages whose messages are used. The confidence is medium, unless another package of the workspace declares the name or CMake
+  requires it.
+- Names that another package of the workspace declares, if CMake finds them here or something looks them up.
+- With medium confidence, names that no package declares, if an installed file certainly looks them up: `$(find x)` always means
+  a package.
+
+Reported with medium confidence:
+
+- The package is declared under a wrong name: see `unknown-dependency`. There is no fix here.
+- colcon rejects `package.xml`, which has to be fixed first.
+- Only other distributions have or had the package: the message names them. A dependency that provides it there counts as
+  providing it here. If the distribution is not set, these packages are reported like others.
+- A declared dependency is unknown and may provide the package, unless another use shows that it cannot.
+- All uses are in files that may not be built or installed.
+- The package is declared under a false condition and CMake does not ask for it: the files may be for other systems.
+- Files are looked up in a released metapackage, which has none: another package of that name may be intended.
+- The package depends on this one, with any tag, so declaring it would close a cycle that colcon rejects. There is no fix.
+- `launch`, if `launch_ros` is missing too, because `launch_ros` provides it.
+
+Reported with low confidence and without a fix: optional uses, such as `find_package(QUIET)` before `if(X_FOUND)`, `try:
+import`, `try: from .file import` of the file with the use, `__has_include`, and imports where a comparison of `ROS_VERSION`
+selects ROS 1.
+
+There is also no fix if no rosdep key resolves for the distribution, and for a project of the workspace without `package.xml`:
+colcon builds it, but rosdep does not know it.
+
+The severity is info for modules of launch that only launch files import, because `ros2 launch` provides them.
 """
 
 from __future__ import annotations
@@ -77,90 +93,98 @@ from ros_lint.api import (
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if not tells(package):
         return
-    found = undeclared(package, workspace)
-    with_launch = {need.name for need, _ in found if comes_with_launching(package, need.uses)}
-    for need, sure in found:
-        certain = sure and not (need.name == "launch" and "launch_ros" in with_launch)  # which brings it
-        says = "is used here, but package.xml does not declare it"
+    undeclared_needs = undeclared(package, workspace)
+    with_launch = {need.name for need, _ in undeclared_needs if comes_with_launching(package, need.uses)}
+    for need, sure in undeclared_needs:
+        certain = sure and not (need.name == "launch" and "launch_ros" in with_launch)  # launch_ros provides launch
+        problem = "is used here, but package.xml does not declare it"
         severity = Severity.INFO if need.name in with_launch else None
-        finding = _finding(package, workspace, need, says, Confidence.HIGH if certain else Confidence.MEDIUM)
-        if is_miswritten(package, workspace, need):  # the fix is to write its name
-            finding = finding._replace(message=f"{need.name} is used here, and package.xml has a wrong name for it", fix=None)
+        finding = _finding(package, workspace, need, problem, Confidence.HIGH if certain else Confidence.MEDIUM)
+        if is_miswritten(package, workspace, need):  # another rule fixes the name
+            message = f"'{need.name}' is used here, but package.xml declares it under a wrong name"
+            finding = finding._replace(message=message, fix=None)
         yield finding._replace(severity=severity)
     for wish in wishes(package, workspace):
         if not wish.brought:
-            says = "is used here if it is there, and package.xml does not declare it"
-            yield _finding(package, workspace, wish, says, Confidence.LOW)._replace(fix=None)
+            problem = "is used here if it is available, but package.xml does not declare it"
+            yield _finding(package, workspace, wish, problem, Confidence.LOW)._replace(fix=None)
 
 
-def _finding(package: Package, workspace: Workspace, need: Need, says: str, confidence: Confidence) -> Finding:
-    """Return what is to say of a need. A manifest that colcon rejects has to be mended first: then nothing is certain."""
+def _finding(package: Package, workspace: Workspace, need: Need, problem: str, confidence: Confidence) -> Finding:
+    """Return the finding for a need. The confidence is at most medium if colcon rejects the manifest, or for a cycle."""
     best, *others = need.uses
     name = need.name
-    role = Role.TEST if name in unguarded_tests(package) else need.role  # which is told to be put where tests are
-    way_out = advice(package, workspace, name, role)
-    where = _where(name, workspace)
-    condition, instead = _condition(package, name), _instead(name, workspace)
-    if way_out.circular:
-        message = f"{name} is used here, but cannot be declared: {way_out.obstacle}"
-    elif where:
-        message = f"{name} {says}, nor could it: {workspace.target.distro} has no such package, only {where}"
-    elif instead:
-        message = f"{name} is used here, and there is no such package: {instead} is meant"
-    elif way_out.obstacle:
-        message = f"{name} {says}, nor could it: {way_out.obstacle}"
+    role = Role.TEST if name in unguarded_tests(package) else need.role  # unguarded-test asks to move it to the tests
+    remedy = advice(package, workspace, name, role)
+    elsewhere = _elsewhere(name, workspace)
+    condition, suggestion = _condition(package, name), _suggestion(name, workspace)
+    if remedy.circular:
+        message = f"'{name}' is used here, but cannot be declared: {remedy.obstacle}"
+    elif elsewhere:
+        message = f"'{name}' {problem}; {workspace.target.distro} has no such package, only {elsewhere}"
+    elif suggestion:
+        message = f"'{name}' is used here, but there is no such package; did you mean '{suggestion}'?"
+    elif remedy.obstacle:
+        message = f"'{name}' {problem}, and it cannot be declared: {remedy.obstacle}"
     elif condition:
-        message = f"{name} is used here, but package.xml declares it only under the condition {condition}: widen that"
+        message = f"'{name}' is used here, but package.xml declares it only under the condition '{condition}'; widen it"
     else:
-        message = f"{name} {says}: add {way_out.written}"
+        message = f"'{name}' {problem}: add {remedy.written}"
         if _needs_back(name, package, workspace):
-            message += f"; {name} needs {package.name}, too, and they cannot both declare each other: move to one what both need"
+            message += (
+                f"; '{name}' also uses '{package.name}', but two packages cannot declare each other, "
+                "so move the shared part into one of them"
+            )
     return Finding(
         message,
         best.span,
         name,
         several(Related(f"also used here: {use.what}", use.span) for use in others),
-        None if where or condition or instead else way_out.fix,
-        confidence if way_out.certain else min(confidence, Confidence.MEDIUM),
+        None if elsewhere or condition or suggestion else remedy.fix,
+        confidence if remedy.certain else min(confidence, Confidence.MEDIUM),
     )
 
 
-def _instead(name: str, workspace: Workspace) -> str:
-    """Return the package that a name which nobody has must mean, "" if there is doubt: one near it, or with a word before it."""
+def _suggestion(name: str, workspace: Workspace) -> str:
+    """Return the package that an unresolved name most likely means: a near match or one with a prefix; "" if ambiguous."""
     if workspace.world.standing(name) != "unknown":
         return ""
     meant = workspace.world.meant(name)
     if meant is not None and workspace.world.is_package(meant.name):
         return meant.name
-    longer = [other for other in workspace.by_name if other.endswith(f"_{name}")]
-    return longer[0] if len(longer) == 1 else ""
+    prefixed = [candidate for candidate in workspace.by_name if candidate.endswith(f"_{name}")]
+    return prefixed[0] if len(prefixed) == 1 else ""
 
 
 def _condition(package: Package, name: str) -> str:
-    """Return the condition, which does not hold, under which a manifest declares a name, "" if it does not."""
+    """Return the false condition under which the manifest declares a name; "" if it does not declare it."""
     depends = package.manifest.depends if package.manifest else ()
-    return next((each.condition for each in depends if each.name == name), "")
+    return next((depend.condition for depend in depends if depend.name == name), "")
 
 
 def _needs_back(name: str, package: Package, workspace: Workspace) -> bool:
-    """Whether a package of the workspace surely needs the one that needs it, and does not declare that either."""
+    """Return whether ``name`` is a package of the workspace that certainly needs ``package`` without declaring it."""
     others = workspace.by_name.get(name, ())
     return any(need.name == package.name and sure for other in others for need, sure in undeclared(other, workspace))
 
 
-def _where(name: str, workspace: Workspace) -> str:
-    """Return the distributions that have a package which cannot be had here: if nobody said which is meant, any will do."""
+def _elsewhere(name: str, workspace: Workspace) -> str:
+    """Return the distributions that have an unavailable package; "" if it is available.
+
+    If no distribution is set, packages of all distributions are available.
+    """
     world = workspace.world
     if world.is_key(name) or is_somewhere(name, workspace):
         return ""
-    ended = () if world.is_declared(name) else world.knowledge.names.end_of_life(name)  # whoever declares it has its sources
+    # A package that another one declares may be available as source.
+    ended = () if world.is_declared(name) else world.knowledge.names.end_of_life(name)
     return ", ".join(world.where_else(name) or ended)
 
 
 RULE = Rule(
     name="undeclared-dependency",
     code="ROS201",
-    summary="a package that is used must be declared",
+    summary="packages declare the packages that they use",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,
