@@ -12,7 +12,7 @@ A package whose build script uses another name than `package.xml` in one of thes
 ## Why it matters
 
 If `project()` differs, `ament_package()` stops CMake. If the marker or `package.xml` has another name, `ros2 pkg` does not find
-the package. `ros2 run` searches programs in `lib/<package>` only.
+the package. `ros2 run` searches for programs in `lib/<package>` only.
 
 ## How to fix it
 

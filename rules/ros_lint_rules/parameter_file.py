@@ -97,7 +97,7 @@ def _of_others(uses: list[Given]) -> Finding:
     first = uses[0]
     names = few(dict.fromkeys(name for name, _ in first.file.nodes))
     return Finding(
-        f"'{_name(first)}' has parameters for {names}, but none for '{_full_name(first)}', which receives it here; "
+        f"'{_name(first)}' has parameters for {names}, but none for the node '{_full_name(first)}', which receives it here; "
         "correct the name or write /**",
         first.value.span,
         first.file.path,

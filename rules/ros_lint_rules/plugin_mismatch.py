@@ -5,27 +5,25 @@ Plugins of pluginlib that cannot be loaded:
 
 - A class that is registered with `PLUGINLIB_EXPORT_CLASS` in a package without an exported plugin description.
 - A plugin description that is not exported, and therefore not installed.
-- A plugin description that is exported for a name that is not a package, while a loader of the workspace searches plugins of
-  its base classes under another name.
+- A plugin description that is exported for a name that is not a package, while a loader of the workspace searches for plugins
+  of its base classes under another name.
 - A plugin description that is exported for its own package, although nothing in the workspace loads plugins of that package and
   the base classes belong to another package.
-- A registered class in a library for which no exported description lists any class.
+- A registered class in a library of which no exported description lists a class.
 - A described class that no source registers under exactly this name, or that is registered with another base class.
 - A described library that the package does not build or install, or a `<library>` without `path`.
 
 ## Why it matters
 
-The loader searches plugins by name and fails: "According to the loaded plugin descriptions the class x with base class type y
-does not exist", or "Could not find library". A `<library>` without `path` makes pluginlib loop forever.
+The loader searches for plugins by name and fails: "According to the loaded plugin descriptions the class x with base class type
+y does not exist", or "Could not find library". A `<library>` without `path` makes pluginlib loop forever.
 
 ## How to fix it
 
 Write `pluginlib_export_plugin_description_file(<package of the base class> plugins.xml)`. Write type and path in the
 description as they are in the sources and in `add_library()`. The fix exports a description if all its base classes belong to
-one package.
-
-If the package of the base class is in the workspace and nothing loads such plugins, the macro may be unnecessary and can be
-removed. The severity of this finding is info.
+one package. If the package of the base class is in the workspace and nothing loads such plugins, the macro may be unnecessary
+and can be removed. The severity of this finding is info.
 
 ## Limitations
 
@@ -88,13 +86,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_cmake" or hidden(package, _SEEN):
         return
-    all_registrations = [registration for registration in package.registrations if registration.kind == "plugin"]
-    registered = [
-        registration
-        for registration in all_registrations
-        if not (is_apart(relative(package, registration.span.path)) or _is_no_plugin(registration))
-    ]
-    names = {registration.name for registration in registered}
+    all_macros = [macro for macro in package.registrations if macro.kind == "plugin"]
+    registered = [macro for macro in all_macros if not (is_apart(relative(package, macro.span.path)) or _is_no_plugin(macro))]
+    names = {macro.name for macro in registered}
     installed = script.installed
     exported = list(called(package, EXPORTING_PLUGINS, anywhere=True))
     if EXPORTING_PLUGINS not in script.calls and not exported:
@@ -102,28 +96,26 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         # A description that is not exported has no effect, and many remain from ROS 1.
         for plugin in script.plugins:
             if plugin.path in installed and not is_apart(plugin.path):
-                for finding in _libraries(package, workspace, plugin, all_registrations):
+                for finding in _libraries(package, workspace, plugin, all_macros):
                     yield finding._replace(confidence=Confidence.MEDIUM)
         return
     yield from _wrongly_exported(package, workspace)
     yield from _undescribed(package, registered)
     described = {
-        plugin_class.type
+        entry.type
         for plugin in script.plugins
         if plugin.path in installed
         for library in plugin.libraries
-        for plugin_class in library.classes
+        for entry in library.classes
     }
     for plugin in script.plugins:
         if is_apart(plugin.path):
             continue
         if plugin.path in installed:
-            yield from _libraries(package, workspace, plugin, all_registrations)
+            yield from _libraries(package, workspace, plugin, all_macros)
         elif any(plugin.path in call.texts for call in exported):
             continue  # only under a condition
-        elif exported and any(
-            plugin_class.type in names - described for library in plugin.libraries for plugin_class in library.classes
-        ):
+        elif exported and any(entry.type in names - described for library in plugin.libraries for entry in library.classes):
             yield Finding(
                 f"'{plugin.path}' is not exported, so its plugins are not found; add {EXPORTING_PLUGINS}(... {plugin.path})",
                 plugin.span,
@@ -138,38 +130,34 @@ def _undescribed(package: Package, registered: list[Registration]) -> Iterator[F
     calls = list(called(package, EXPORTING_PLUGINS, anywhere=True))
     if _reads_manifest(package) or not all(len(call.texts) > 1 and call.texts[1] in descriptions for call in calls):
         return
-    classes = [
-        plugin_class for plugin in descriptions.values() for library in plugin.libraries for plugin_class in library.classes
-    ]
-    known = {
-        name.rpartition("::")[2] for plugin_class in classes for name in (plugin_class.type, plugin_class.name.replace("/", "::"))
-    }
+    classes = [entry for plugin in descriptions.values() for library in plugin.libraries for entry in library.classes]
+    known = {name.rpartition("::")[2] for entry in classes for name in (entry.type, entry.name.replace("/", "::"))}
     # A class next to a described one, or in a library that others link, may be a base class or a copy.
-    needed = {library_of(package, registration) for registration in registered if registration.name.rpartition("::")[2] in known}
+    needed = {library_of(package, macro) for macro in registered if macro.name.rpartition("::")[2] in known}
     needed.update(name for target in package.built.targets for name, _ in target.links)
-    for registration in registered:
-        library = library_of(package, registration)
+    for macro in registered:
+        library = library_of(package, macro)
         if library and library not in needed:
             yield Finding(
-                f"'{registration.name}' is registered, but no exported plugin description lists it, so loaders do not find it",
-                registration.span,
-                registration.name,
+                f"'{macro.name}' is registered, but no exported plugin description lists it, so loaders do not find it",
+                macro.span,
+                macro.name,
                 several(Related("this description is exported", call.span(1)) for call in calls),
             )
 
 
-def _is_no_plugin(registration: Registration) -> bool:
+def _is_no_plugin(macro: Registration) -> bool:
     """Return whether a registered class needs no description: nodelets of ROS 1, and components registered as in Crystal.
 
     A package may contain sources for ROS 1 and ROS 2; those for ROS 1 are not built here.
     """
-    return registration.base.startswith("nodelet::") or registration.base in ("rclcpp::Node", "rclcpp_lifecycle::LifecycleNode")
+    return macro.base.startswith("nodelet::") or macro.base in ("rclcpp::Node", "rclcpp_lifecycle::LifecycleNode")
 
 
 @per_workspace
 def _registered_classes(workspace: Workspace) -> frozenset[str]:
     """Return the classes that the packages register."""
-    return frozenset([registration.name for package in workspace.packages for registration in package.registrations])
+    return frozenset([macro.name for package in workspace.packages for macro in package.registrations])
 
 
 @per_workspace
@@ -191,7 +179,7 @@ def _wrongly_exported(package: Package, workspace: Workspace) -> Iterator[Findin
         if len(call.texts) < 2 or "$" in call.texts[0] or call.texts[1] not in described:
             continue
         exported_for, path = call.texts[:2]
-        bases = {plugin_class.base for library in described[path].libraries for plugin_class in library.classes}
+        bases = {entry.base for library in described[path].libraries for entry in library.classes}
         loaders = [loader for base in sorted(bases) for loader in _loading(workspace).get(base, ())]
         asked = sorted({loader.package for loader in loaders})
         if exported_for == package.name and exported_for not in asked:
@@ -199,7 +187,7 @@ def _wrongly_exported(package: Package, workspace: Workspace) -> Iterator[Findin
         if loaders and exported_for not in asked and not workspace.world.is_package(exported_for):
             fix = Fix(f"export it for '{asked[0]}'", (cmake_edits.write(call, 0, asked[0]),), safe=False)
             yield Finding(
-                f"'{path}' is exported for '{exported_for}', which is not a package; the loader searches plugins of {few(asked)}",
+                f"'{path}' is exported for '{exported_for}', which is not a package; the loader searches for {few(asked)}",
                 call.span(0),
                 path,
                 several(Related("loaded here", loader.span) for loader in loaders),
@@ -247,7 +235,7 @@ def _unexported(package: Package, workspace: Workspace, registered: list[Registr
     if not registered:
         return
     first, *others = registered
-    names = {registration.name for registration in registered}
+    names = {macro.name for macro in registered}
     plugin = next((p for p in script.plugins if any(c.type in names for lib in p.libraries for c in lib.classes)), None)
     if _reads_manifest(package):
         return
@@ -256,7 +244,7 @@ def _unexported(package: Package, workspace: Workspace, registered: list[Registr
             f"'{first.name}' is registered, but nothing loads plugins of '{base}'; remove the macro or export a description",
             first.span,
             "pluginlib",
-            several(Related("also registered here", registration.span) for registration in others),
+            several(Related("also registered here", macro.span) for macro in others),
             severity=Severity.INFO,
         )
         return
@@ -265,7 +253,7 @@ def _unexported(package: Package, workspace: Workspace, registered: list[Registr
         f"'{first.name}' is registered, but no plugin description is exported, so loaders do not find it; add {remedy}",
         first.span,
         plugin.path if plugin else "pluginlib",
-        several(Related("also registered here", registration.span) for registration in others)
+        several(Related("also registered here", macro.span) for macro in others)
         + ((Related("described here", plugin.span),) if plugin else ()),
         _export(package, plugin) if plugin else None,
         # A source that is not compiled may be unused; in a package without libraries, the library is yet to be added.
@@ -275,7 +263,7 @@ def _unexported(package: Package, workspace: Workspace, registered: list[Registr
 
 def _unloaded_base(registered: list[Registration], workspace: Workspace) -> str:
     """Return the base of the registered classes if it is in the workspace and nothing loads its plugins, else ""."""
-    bases = {registration.base for registration in registered}
+    bases = {macro.base for macro in registered}
     base = bases.pop()
     owner = base.partition("::")[0]
     return base if not bases and owner in workspace.by_name and base not in _loading(workspace) else ""
@@ -283,7 +271,7 @@ def _unloaded_base(registered: list[Registration], workspace: Workspace) -> str:
 
 def _export(package: Package, plugin: PluginFile) -> Fix | None:
     script = package.script
-    bases = {plugin_class.base.partition("::")[0] for library in plugin.libraries for plugin_class in library.classes}
+    bases = {entry.base.partition("::")[0] for library in plugin.libraries for entry in library.classes}
     if script is None or len(bases) != 1 or "" in bases:
         return None
     base = bases.pop()
@@ -298,13 +286,11 @@ def _libraries(package: Package, workspace: Workspace, plugin: PluginFile, regis
             yield Finding("<library> without path makes pluginlib loop forever; add the path", library.span, plugin.path)
         else:
             yield from _library(package, plugin, library)
-        for plugin_class in library.classes:
-            for finding in _class(package, plugin, plugin_class, registered):
-                if plugin_class.type in _registered_classes(workspace) and not any(
-                    registration.name == plugin_class.type for registration in registered
-                ):
+        for entry in library.classes:
+            for finding in _class(package, plugin, entry, registered):
+                if entry.type in _registered_classes(workspace) and not any(macro.name == entry.type for macro in registered):
                     # The library may link that of the other package: then the class is loaded.
-                    message = f"'{plugin_class.type}' is registered in another package; describe it there"
+                    message = f"'{entry.type}' is registered in another package; describe it there"
                     yield finding._replace(message=message, confidence=Confidence.MEDIUM)
                 else:
                     yield finding
@@ -335,45 +321,47 @@ def _plain(path: str) -> str:
     return name.removesuffix(".so").removesuffix(".a").removesuffix(".dll").removeprefix("lib")
 
 
-def _class(package: Package, plugin: PluginFile, plugin_class: PluginClass, registered: list[Registration]) -> Iterator[Finding]:
-    if not plugin_class.type or not registered:
+def _class(package: Package, plugin: PluginFile, entry: PluginClass, registered: list[Registration]) -> Iterator[Finding]:
+    if not entry.type or not registered:
         return
-    same = [registration for registration in registered if registration.name == plugin_class.type]
+    same = [macro for macro in registered if macro.name == entry.type]
     if same:
-        yield from _base(plugin, plugin_class, same)
+        yield from _base(plugin, entry, same)
         return
-    last = plugin_class.type.rpartition("::")[2]
-    described = {entry.type for file in package.built.plugins for library in file.libraries for entry in library.classes}
-    alike = [
-        registration
-        for registration in registered
-        if registration.name.rpartition("::")[2] == last and registration.name not in described
-    ]
+    last = entry.type.rpartition("::")[2]
+    described = {
+        described_class.type
+        for file in package.built.plugins
+        for library in file.libraries
+        for described_class in library.classes
+    }
+    alike = [macro for macro in registered if macro.name.rpartition("::")[2] == last and macro.name not in described]
+    verb = "registers"
     if alike:
         hint = f"; the sources register '{alike[0].name}'"
-    elif plugin_class.type in package.unwritten:
-        hint = ", and no source has such a class; remove the entry"
+    elif entry.type in package.unwritten:
+        verb, hint = "registers or defines", "; remove the entry"
     else:
-        hint = f"; add PLUGINLIB_EXPORT_CLASS({plugin_class.type}, {plugin_class.base}) to a source"
-    related = several(Related("registered here", registration.span) for registration in alike)
+        hint = f"; add PLUGINLIB_EXPORT_CLASS({entry.type}, {entry.base}) to a source"
+    related = several(Related("registered here", macro.span) for macro in alike)
     yield Finding(
-        f"no source registers '{plugin_class.type}'{hint}",
-        plugin_class.span,
-        f"{plugin.path}#{plugin_class.type}",
+        f"no source {verb} '{entry.type}'{hint}",
+        entry.span,
+        f"{plugin.path}#{entry.type}",
         related,
-        confidence=Confidence.HIGH if alike or plugin_class.type in package.unwritten else Confidence.MEDIUM,
+        confidence=Confidence.HIGH if alike or entry.type in package.unwritten else Confidence.MEDIUM,
     )
 
 
-def _base(plugin: PluginFile, plugin_class: PluginClass, registrations: list[Registration]) -> Iterator[Finding]:
+def _base(plugin: PluginFile, entry: PluginClass, macros: list[Registration]) -> Iterator[Finding]:
     """Compare the described base class of a plugin with those of its registrations."""
-    if all(_differ(plugin_class.base, registration.base) for registration in registrations):
+    if all(_differ(entry.base, macro.base) for macro in macros):
         yield Finding(
-            f"'{plugin_class.type}' is described as '{plugin_class.base}', but registered as '{registrations[0].base}'; "
+            f"'{entry.type}' is described as '{entry.base}', but registered as '{macros[0].base}'; "
             "write the same base class in both places",
-            plugin_class.span,
-            f"{plugin.path}#{plugin_class.type}",
-            several(Related("registered here", registration.span) for registration in registrations),
+            entry.span,
+            f"{plugin.path}#{entry.type}",
+            several(Related("registered here", macro.span) for macro in macros),
         )
 
 

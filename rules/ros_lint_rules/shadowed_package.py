@@ -9,7 +9,7 @@ interfaces that only the hidden package has.
 
 The packages of the underlay still use the version against which they were built. Then headers and libraries of two versions are
 mixed, which may crash at run time without any other sign. Files that only the hidden package has are no longer found, because
-ROS searches them in the package of the workspace.
+ROS searches for them in the package of the workspace.
 
 ## How to fix it
 

@@ -54,9 +54,11 @@ Reported with medium confidence:
 - The package depends on this one, with any tag, so declaring it would close a cycle that colcon rejects. There is no fix.
 - `launch`, if `launch_ros` is missing too, because `launch_ros` provides it.
 
-Reported with low confidence and without a fix: optional uses, such as `find_package(QUIET)` before `if(X_FOUND)`, `try:
-import`, `try: from .file import` of the file with the use, `__has_include`, and imports where a comparison of `ROS_VERSION`
-selects ROS 1.
+Optional uses are reported with low confidence and without a fix:
+
+- `find_package(QUIET)` before `if(X_FOUND)`, and `__has_include`;
+- `try: import`, and `try: from .file import` of the file that contains the use;
+- imports where a comparison of `ROS_VERSION` selects ROS 1.
 
 There is also no fix if no rosdep key resolves for the distribution, and for a project of the workspace without `package.xml`:
 colcon builds it, but rosdep does not know it.

@@ -31,7 +31,8 @@ Not reported:
 
 - Scripts with commands, names or included files that cannot be followed.
 - Uses under a condition.
-- Uses in functions and loops, except arguments that are certain, of `target_link_libraries()` and `ament_target_dependencies()`.
+- Uses in functions and loops, except names in `target_link_libraries()` and `ament_target_dependencies()` that can be
+  evaluated.
 - Exported libraries that may be libraries of the system.
 - Scripts that find an unknown package, because it may define targets; `install()` and misspelled names are still reported.
 - Targets of another package that generates interfaces, has `CONFIG_EXTRAS`, or may export the target in a way that cannot be

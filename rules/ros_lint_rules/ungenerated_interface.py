@@ -39,13 +39,12 @@ call is under a condition.
 
 Uses are not reported:
 
-- In files that may be unused, and optional imports and includes.
-- If a folder of the package provides the header or module in another way.
-- If two packages of the workspace have the same name.
-- In packages with a file that cannot be read.
+- In files that may be unused, and in packages with a file that cannot be read.
+- Optional imports and includes.
+- If a folder of the package provides the header or module in another way, or two packages of the workspace have the same name.
 - Of released packages whose interfaces are not all known.
-- Of a name that a newer version of a released package may have: reported are only names of another kind, such as a service used
-  as a message, and near matches.
+- Of released packages, if a newer version may have the interface. Near matches and names of another kind, such as a service
+  used as a message, are reported.
 
 If the distribution is not set, a use of a released package is reported only if the interface exists in no distribution. If the
 workspace lists further repositories, which may contain the package, the confidence is medium.
@@ -153,7 +152,7 @@ class _Used(NamedTuple):
     header: str
     """The suffix of a header; "" if it is not a header."""
     bare: bool
-    """Whether the type has no package name, so it belongs to the same package."""
+    """True if the type has no package name, so it belongs to the same package."""
     place: Span
 
 
@@ -180,16 +179,13 @@ def _missing(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if used.bare:
             wrong = _qualified(used, package, workspace) or wrong
         generating = next(called(maker, _GENERATE, anywhere=True), None) if maker else None
+        related = [Related("the interfaces are generated here", generating.place)] if generating else []
+        related += [Related("also used here", place) for place in places[1:]]
         yield Finding(
             wrong,
             places[0],
             f"{used.maker}/{used.kind or 'msg'}/{used.name}",
-            several(
-                [
-                    *([Related("the interfaces are generated here", generating.place)] if generating else ()),
-                    *(Related("also used here", place) for place in places[1:]),
-                ]
-            ),
+            several(related),
             confidence=Confidence.MEDIUM if not makers and workspace.source_lists else Confidence.HIGH,
             severity=Severity.ERROR,
         )
@@ -288,10 +284,8 @@ def _qualified(used: _Used, package: Package, workspace: Workspace) -> str:
     ]
     if not owners:
         return ""
-    return (
-        f"'{used.maker}' does not generate '{used.name}', and a type without a package name belongs to the same package"
-        f"{did_you_mean(owners[:2])}"
-    )
+    message = f"'{used.maker}' does not generate '{used.name}', and a type without a package name belongs to the same package"
+    return message + did_you_mean(owners[:2])
 
 
 def _generated(name: str, workspace: Workspace) -> tuple[str, ...]:
@@ -344,10 +338,9 @@ def _rejections(package: Package, file: str) -> list[str]:
 def _finding(
     package: Package, calls: list[Call], file: str, required: str = "", rejection: str = "", *, commented_out: bool = False
 ) -> Finding:
-    """Return the finding about a file that is not listed.
+    """Return the finding about an unlisted file, which needs the name ``required`` first unless that is "".
 
-    ``required``: the name that rosidl requires, "" if the file has it. ``rejection``: why rosidl rejects the file, "" if it
-    does not. ``commented_out``: a comment contains the file in place of a list element, which is mostly intended.
+    ``rejection``: why rosidl rejects the file, "" if it does not. ``commented_out``: a comment has it in place of a list element.
     """
     remedy = f"rename it to '{required}', as rosidl requires, and add it" if required else "add it or remove the file"
     if required and f"{_interface(file).partition('/')[0]}/{required}" in package.built.interfaces:
