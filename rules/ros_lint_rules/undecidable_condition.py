@@ -54,7 +54,7 @@ def _unknown(manifest: Manifest, workspace: Workspace) -> Iterator[Finding]:
             continue
         unknown = sorted(conditions.variables(conditions.parse(text)) - context.keys())
         yield Finding(
-            f"whether '{name}' applies depends on {' and '.join(unknown)}, which is not set on the build farm; "
+            f"the condition of '{name}' uses {' and '.join(unknown)}, which the build farm does not set; "
             "use ROS_VERSION or ROS_DISTRO",
             span,
             name,
