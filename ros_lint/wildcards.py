@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 
 LONGEST = 4096
-"""Characters of a pattern. A longer one fits no path: PATH_MAX of Linux."""
+"""Characters of a pattern or a path. A longer one is that of no file: PATH_MAX of Linux."""
 
 
 def spaced(pieces: Sequence[str], gap: str, numbers: Iterator[int]) -> str:

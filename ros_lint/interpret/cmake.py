@@ -34,7 +34,7 @@ from ros_lint.interpret.cmake_flow import HANDLERS
 from ros_lint.interpret.cmake_released import released
 from ros_lint.interpret.cmake_run import Run, folded
 from ros_lint.interpret.cmake_sources import Helper, Sources
-from ros_lint.interpret.cmake_state import STOP, BudgetError, Frame
+from ros_lint.interpret.cmake_state import MOST_CHARACTERS, STOP, BudgetError, Frame
 from ros_lint.interpret.cmake_values import is_known
 from ros_lint.knowledge.cmake_commands import macros
 from ros_lint.text import Span, beginning
@@ -85,6 +85,7 @@ def evaluate(sources: Sources, distro: str = "", helpers: Mapping[str, Helper] =
         ended = cmake_flow.run_file(run, parsed.commands, frame)
     except (BudgetError, RecursionError):
         run.frames[:] = [frame]
+        run.characters = MOST_CHARACTERS  # for what is asked below
         run.hide(ANYTHING, "the script runs longer than can be followed", frame.command and frame.command.place(path))
     else:
         run.frames[:] = [frame]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import posixpath
 import re
-from functools import lru_cache
 from typing import Final
 
 from ros_lint.collectors.cmake_syntax import parse
@@ -15,7 +14,20 @@ from ros_lint.interpret.cmake_run import MOST_STEPS, Handler, Run
 from ros_lint.interpret.cmake_state import BREAK, CONTINUE, RETURN, STOP, Frame
 from ros_lint.interpret.cmake_tools import started
 from ros_lint.interpret.cmake_truth import TRUE_WORDS, is_off
-from ros_lint.interpret.cmake_values import HOLE, MAYBE, certainly_set, elements, is_fixed, is_known, join, merge, natural, split
+from ros_lint.interpret.cmake_values import (
+    HOLE,
+    MAYBE,
+    SLOW,
+    certainly_set,
+    elements,
+    is_fixed,
+    is_known,
+    join,
+    kept,
+    merge,
+    natural,
+    split,
+)
 from ros_lint.text import Text
 
 
@@ -156,7 +168,7 @@ def _policies(run: Run, wanted: str) -> None:
     run.versions = _version(wanted) or run.versions
 
 
-@lru_cache(maxsize=256)
+@kept(256)
 def _version(wanted: str) -> tuple[int, int] | None:
     """Return the version up to which policies are new, given ``3.5`` or ``3.5...3.20``."""
     match = re.match(r"([0-9]+)(?:\.([0-9]+))?", wanted.rpartition("...")[2])
@@ -217,6 +229,7 @@ def _parse_arguments(run: Run, args: list[str]) -> None:
             given = [arg for arg in given if arg]
     if not is_known(f"{prefix}{options}{ones}{multis}"):
         return
+    run.charge(len(prefix) * sum(names.count(";") for names in (options, ones, multis)))
     run.set_all(parse_keywords(prefix, options, ones, multis, given))
 
 
@@ -246,6 +259,7 @@ def _language(run: Run, args: list[str]) -> int | None:
         return run_named(run, args[1].lower(), args[2:])
     if mode == "EVAL" and args[1:2] == ["CODE"] and is_fixed(" ".join(args)):
         frame = run.frames[-1]
+        run.charge(SLOW * sum(map(len, args)))
         commands = parse(Text(frame.path, " ".join(args[2:]))).commands
         return run_file(run, commands, Frame(False, frame.path, frame.file, provider=frame.provider))
     if mode in ("CALL", "EVAL", "DEFER"):
@@ -265,7 +279,9 @@ def _folder_sources(run: Run, args: list[str]) -> None:
         run.set(args[1], HOLE)
         return
     skip = len(folder) + 1 if folder else 0
-    names = [file[skip:] for file in run.below(folder) if "/" not in file[skip:]]
+    files = run.below(folder)
+    run.charge(SLOW * len(files))
+    names = [file[skip:] for file in files if "/" not in file[skip:]]
     sources = [
         f"{args[0]}/{name}" for name in names if name.endswith((".c", ".cc", ".cpp", ".cxx", ".C", ".c++", ".cu", ".m", ".mm"))
     ]

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from functools import lru_cache
 from typing import TYPE_CHECKING, Final
 
 from ros_lint.collectors.cmake_syntax import BRACKET, LITERAL, PLAIN, QUOTED, UNQUOTED, Command
@@ -28,7 +27,7 @@ from ros_lint.interpret.cmake_truth import (
     softened,
     softened_by,
 )
-from ros_lint.interpret.cmake_values import is_fixed, split
+from ros_lint.interpret.cmake_values import effort, is_fixed, kept, split
 
 if TYPE_CHECKING:
     from ros_lint.interpret.cmake_run import Run
@@ -56,7 +55,9 @@ def condition(run: Run, command: Command) -> Truth:
     for text, kind, _, _ in command.args:
         if kind == UNQUOTED:
             soft = _is_soft(run, text)
-            tokens += [Token(value, False, soft) for value in split(run.evaluated(text))]
+            value = run.evaluated(text)
+            run.charge(effort(value))
+            tokens += [Token(part, False, soft) for part in split(value)]
         elif kind == QUOTED:
             tokens.append(Token(run.evaluated(text), True, _is_soft(run, text)))
         else:
@@ -211,7 +212,7 @@ def _word(run: Run, token: Token) -> Truth:
     return Truth(softened(answer) if token.soft or run.is_soft(text) else answer, for_tests)
 
 
-@lru_cache(maxsize=1024)
+@kept(1024)
 def _asks_for_tests(name: str) -> bool:
     return _TEST_VARIABLE.search(name) is not None
 

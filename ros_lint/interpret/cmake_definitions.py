@@ -9,8 +9,9 @@ from typing import Any, Final
 from ros_lint.collectors.cmake_syntax import QUOTED, UNQUOTED, Argument, Command
 from ros_lint.facts.sight import Facet
 from ros_lint.interpret.cmake_blocks import Body, Definition, If, Scope, rewritten
+from ros_lint.interpret.cmake_expand import substituted
 from ros_lint.interpret.cmake_flow import run_body
-from ros_lint.interpret.cmake_run import Run, substituted
+from ros_lint.interpret.cmake_run import Run
 from ros_lint.interpret.cmake_state import NEXT, BlockVariables, Exit, Procedure
 from ros_lint.interpret.cmake_values import HOLE
 

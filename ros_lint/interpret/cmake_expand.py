@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Final
 
 from ros_lint.interpret.cmake_values import HOLE, LONGEST, MAYBE, certainly_set, flat
@@ -21,6 +21,7 @@ _LETTERS: Final = {"t": "\t", "n": "\n", "r": "\r"}
 _NAME = re.compile(r"[A-Za-z0-9/_.+\-\0-\3]*\Z")
 _MARKS = re.compile(f"[{HOLE}{MAYBE}]")
 _MOST_TEMPLATES: Final = 20_000
+_LONGEST_KEPT: Final = 4096
 
 
 class ExpansionError(Exception):
@@ -42,7 +43,8 @@ def template(text: str) -> Compiled:
             where, name = parts[0]
             if not where and len(name) == 1 and isinstance(name[0], str) and not _MARKS.search(name[0]):
                 found = name[0]
-        templates[text] = found
+        if len(text) <= _LONGEST_KEPT:
+            templates[text] = found
     return found
 
 
@@ -91,6 +93,30 @@ def _joined(parts: list[Part]) -> Template:
     return tuple(joined)
 
 
+_SIMPLE = re.compile(r"\$\{(\w+)\}")
+
+
+def substituted(text: str, given: Mapping[str, str]) -> str:
+    """Return the text of an argument as a macro reads it, given what its parameters hold; a HOLE for one that is too long."""
+    alone = _SIMPLE.fullmatch(text)
+    if alone is not None:
+        return given.get(alone[1], text)
+    size = len(text)
+
+    def value(reference: re.Match[str]) -> str:
+        nonlocal size
+        found = flat(given.get(reference[1], reference[0]))
+        size += len(found)
+        if size > LONGEST:
+            raise OverflowError
+        return found
+
+    try:
+        return _SIMPLE.sub(value, text)
+    except OverflowError:
+        return HOLE
+
+
 def expand(parts: Template, lookup: Lookup) -> str:
     """Return the value of an argument. A reference that stands alone keeps the marks of its list elements."""
     if len(parts) == 1:
@@ -112,19 +138,18 @@ def expand(parts: Template, lookup: Lookup) -> str:
     if sum(map(len, pieces)) > LONGEST:
         return HOLE
     text = "".join(pieces)
-    if MAYBE in text:
-        text = "".join(_stands_alone(pieces, index) for index in range(len(pieces)))
-    return text
+    return _marked(pieces) if MAYBE in text else text
 
 
-def _stands_alone(pieces: list[str], index: int) -> str:
-    """Return a piece with its marks if only list separators are around it, else as it is within a longer text."""
-    before = "".join(pieces[:index])
-    after = "".join(pieces[index + 1 :])
-    alone = (not before or before.endswith(";")) and (not after or after.startswith(";"))
-    # A list that may be empty leaves an empty element behind, which no mark stands for.
-    alone = alone and certainly_set(pieces[index])
-    return pieces[index] if alone else flat(pieces[index])
+def _marked(pieces: list[str]) -> str:
+    """Return pieces as one text. Marks stay in those that have only list separators around them."""
+    pieces = [piece for piece in pieces if piece]
+    found = []
+    for before, piece, after in zip([";", *pieces], pieces, [*pieces[1:], ";"], strict=False):
+        # A list that may be empty leaves an empty element behind, which no mark stands for.
+        alone = before.endswith(";") and after.startswith(";") and certainly_set(piece)
+        found.append(piece if alone else flat(piece))
+    return "".join(found)
 
 
 def _reference(part: tuple[str, Template], lookup: Lookup) -> str:

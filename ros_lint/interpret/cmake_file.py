@@ -12,7 +12,7 @@ from ros_lint.interpret.cmake_glob import of_paths
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_targets import generate
 from ros_lint.interpret.cmake_truth import TRUE_WORDS
-from ros_lint.interpret.cmake_values import ATOM, HOLE, TREE, is_fixed, is_known, join
+from ros_lint.interpret.cmake_values import ATOM, HOLE, SLOW, TREE, is_fixed, is_known, join
 from ros_lint.text import octets, raw
 from ros_lint.tree import is_outside, within
 
@@ -104,6 +104,7 @@ def _matches(run: Run, pattern: str, recurse: bool, folders: bool) -> list[str]:
         return [HOLE]
     whole = of_paths(parts[fixed:], recurse=recurse)
     files = [within(folder, file) for file in run.below(folder)]
+    run.charge(SLOW * len(files))
     found = [file for file in files if whole.fullmatch(octets(file))]
     if folders:
         above = {file[:end] for file in files for end in range(len(file)) if file[end] == "/"}

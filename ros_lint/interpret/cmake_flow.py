@@ -24,7 +24,7 @@ from ros_lint.interpret.cmake_state import (
     Procedure,
     Variables,
 )
-from ros_lint.interpret.cmake_values import HOLE, MAYBE, certainly_set, elements, join, maybe
+from ros_lint.interpret.cmake_values import ELEMENT, HOLE, MAYBE, certainly_set, elements, join, maybe
 
 HANDLERS: Final[dict[str, Handler]] = {}
 """What carries out each command of CMake. Filled by :mod:`ros_lint.interpret.cmake`, as is BLOCKS."""
@@ -113,6 +113,7 @@ def call(run: Run, procedure: Procedure | Choice, args: list[str]) -> Exit:
     frames = run.frames
     if len(frames) > DEEPEST:
         raise BudgetError
+    run.charge(2 * ELEMENT * len(args))
     firm = len(args)
     gaps: Container[str] = ()
     command = frames[-1].command

@@ -12,7 +12,7 @@ from ros_lint.interpret.cmake_arguments import sections
 from ros_lint.interpret.cmake_glob import of_ends
 from ros_lint.interpret.cmake_install_places import facet_of, hide, place_of
 from ros_lint.interpret.cmake_run import Run
-from ros_lint.interpret.cmake_values import ATOM, HOLE, is_known, sure
+from ros_lint.interpret.cmake_values import ATOM, FILE, HOLE, is_known, sure
 from ros_lint.text import Span, octets
 from ros_lint.tree import is_outside
 from ros_lint.tree import join as join_path
@@ -92,7 +92,9 @@ def _install_directory(run: Run, value: str, source: str, target: str, rule: _Ru
     skip = len(source) + 1 if source else 0
     start = f"{target}/" if target else ""
     chosen = bool(rule.patterns or rule.only)
-    for file in (*own, *more, *made) if more or made else own:
+    files = (*own, *more, *made) if more or made else own
+    run.charge(FILE * len(files))
+    for file in files:
         program = file in run.sources.executables if rule.executable is None else rule.executable
         if chosen:
             wanted, given = _chosen(file[skip:], top, rule)

@@ -8,7 +8,7 @@ from typing import Final
 from ros_lint.interpret.cmake_regex import RegexError, anywhere, forget, is_in, translated
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_string import ascii_lower, ascii_upper, genex_strip, replace_all, strip
-from ros_lint.interpret.cmake_values import HOLE, MAYBE, elements, flat, glued, is_fixed, is_known, join, sure
+from ros_lint.interpret.cmake_values import HOLE, LONGEST, MAYBE, effort, elements, flat, glued, is_fixed, is_known, join, sure
 from ros_lint.text import raw
 
 
@@ -19,7 +19,7 @@ def _list(run: Run, args: list[str]) -> None:
     for text in rest:
         run.notice(text)
     value = run.get(name) or ""
-    run.steps += len(value) >> 10  # one that is very long takes as much time as many commands
+    run.charge(effort(value))
     change = _CHANGES.get(mode)
     if change is not None:
         change(run, name, rest)
@@ -204,8 +204,13 @@ def _transform(run: Run, name: str, args: list[str]) -> None:
     if args[0] == "REPLACE" or "REGEX" in args[1 + count :]:
         forget(run)
     try:
+        size = len(value or "")
         for index in _selected(items, args[1 + count :]):
+            size -= len(items[index])
             items[index] = _transformed(items[index], action)
+            size += len(items[index])
+            if size > LONGEST:
+                raise ValueError(name)
         run.set(output, join(items))
     except (ValueError, RegexError):
         run.set(output, HOLE)

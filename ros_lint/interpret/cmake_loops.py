@@ -13,7 +13,7 @@ from ros_lint.interpret.cmake_flow import count_step, perhaps, run_body
 from ros_lint.interpret.cmake_run import MOST_STEPS, Run
 from ros_lint.interpret.cmake_state import BREAK, CONTINUE, NEXT, RETURN, STOP, Exit
 from ros_lint.interpret.cmake_truth import FALSE, LIKELY, UNKNOWN, UNLIKELY
-from ros_lint.interpret.cmake_values import HOLE, MAYBE, WILD, elements, split, sure
+from ros_lint.interpret.cmake_values import ELEMENT, HOLE, MAYBE, WILD, effort, elements, split, sure
 
 
 def _run_loop(run: Run, node: Loop) -> Exit:
@@ -28,6 +28,7 @@ def _run_foreach(run: Run, node: Loop) -> Exit:
     rounds = _rounds(run, node.command, args)
     if not rounds:
         return NEXT
+    run.charge(ELEMENT * len(rounds))
     names = _loop_names(args)
     kept = [(name, run.scopes[-1].get(name, _ABSENT)) for name in names]
     seen = {name: run.get(name) or "" for name in names}
@@ -60,7 +61,7 @@ def _rounds(run: Run, command: Command, args: list[str]) -> list[tuple[str, ...]
         args = [HOLE if HOLE in arg and not quoted else arg for arg, quoted in zip(args, _quoted(run, command), strict=True)]
     rest = args[1:]
     if "IN" in args and "ZIP_LISTS" in args:
-        lists = [elements(run.get(name) or "") for name in args[args.index("ZIP_LISTS") + 1 :]]
+        lists = [_elements(run, name) for name in args[args.index("ZIP_LISTS") + 1 :]]
         if any(HOLE in item or item.startswith(MAYBE) for items in lists for item in items):
             return [(HOLE,)]
         longest = max(map(len, lists), default=0)
@@ -72,13 +73,19 @@ def _rounds(run: Run, command: Command, args: list[str]) -> list[tuple[str, ...]
             if word in ("LISTS", "ITEMS") and mode != "ITEMS":
                 mode = word
             elif mode == "LISTS":
-                values += _unknown_whole(elements(run.get(word) or "")) if HOLE not in word else [HOLE]
+                values += _unknown_whole(_elements(run, word)) if HOLE not in word else [HOLE]
             else:
                 values.append(word)
         return [(value,) for value in values]
     if rest[:1] == ["RANGE"]:
         return [(value,) for value in _range(rest[1:])]
     return [(value,) for value in rest]
+
+
+def _elements(run: Run, name: str) -> list[str]:
+    value = run.get(name) or ""
+    run.charge(effort(value))
+    return elements(value)
 
 
 def _unknown_whole(items: list[str]) -> list[str]:

@@ -6,7 +6,7 @@ import re
 from typing import Final
 
 from ros_lint.interpret.cmake_run import Handler, Run
-from ros_lint.interpret.cmake_values import HOLE, is_known
+from ros_lint.interpret.cmake_values import ELEMENT, HOLE, is_known
 
 _TOKEN = re.compile(r"\s*(?:(0[xX][0-9a-fA-F]+|[0-9]+)|(<<|>>|[-+*/%|&^~()]))")
 _BINARY: Final = {"|": 1, "^": 2, "&": 3, "<<": 4, ">>": 4, "+": 5, "-": 5, "*": 6, "/": 6, "%": 6}
@@ -23,6 +23,7 @@ def _math(run: Run, args: list[str]) -> None:
     if len(args) < 3 or args[0] != "EXPR" or HOLE in args[1]:
         return
     text = args[2]
+    run.charge(4 * ELEMENT * len(text))
     value = HOLE
     if is_known(text):
         try:

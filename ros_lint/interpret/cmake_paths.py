@@ -15,6 +15,7 @@ from ros_lint.interpret.cmake_values import ATOM, BINARY, HOLE, MAYBE, PREFIX, T
 from ros_lint.knowledge.cmake_commands import VARIABLES
 from ros_lint.tree import is_outside, seen_from, towards, within
 from ros_lint.tree import join as join_path
+from ros_lint.wildcards import LONGEST
 
 _OF_BUILD = "$<BUILD_INTERFACE:"
 
@@ -55,7 +56,7 @@ class Paths(State):
 
     def relative(self, value: str) -> str | None:
         """Return a path relative to the package, wherever it leads, None for one on the machine or one that is not known."""
-        return _seen(self.sources.path, self.directories[-1][0], value)
+        return _seen(self.sources.path, self.directories[-1][0], value) if len(value) <= LONGEST else None
 
     def source(self, value: str) -> str | None:
         """Return a path relative to the package, or None for one that lies elsewhere or is not known."""
@@ -86,11 +87,11 @@ class Paths(State):
 
     def destination(self, value: str) -> str | None:
         """Return an install destination relative to the prefix, or None when it is not known or lies elsewhere."""
-        return _destination(value)
+        return _destination(value) if len(value) <= LONGEST else None
 
     def build(self, value: str) -> str | None:
         """Return a path relative to the build folder of the package, None for one that lies elsewhere or is not known."""
-        if HOLE in value or not (value.startswith(f"{BINARY}/") or value == BINARY):
+        if HOLE in value or len(value) > LONGEST or not (value.startswith(f"{BINARY}/") or value == BINARY):
             return None
         path = posixpath.normpath(value[len(BINARY) :].lstrip("/"))
         return None if path.startswith("..") or ATOM in path else path.removeprefix(".")

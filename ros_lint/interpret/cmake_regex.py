@@ -26,9 +26,13 @@ def _compiled(text: str) -> re.Pattern[str]:
 def translated(text: str) -> re.Pattern[str] | None:
     """Return an expression for Python's re, to be used on the bytes of a text (:func:`is_in`); None when CMake refuses it."""
     try:
-        return _compiled(text)
+        return _compiled(text) if len(text) <= _LONGEST else None
     except RegexError:
         return None
+
+
+_LONGEST: Final = 4096
+"""Characters of an expression. A longer one is taken for unknown, because it takes long to compile."""
 
 
 def is_in(pattern: re.Pattern[str], text: str) -> bool:

@@ -19,7 +19,7 @@ from ros_lint.interpret.cmake_expand import Template, expand, template
 from ros_lint.interpret.cmake_flow import HANDLERS, call, perhaps, run_named
 from ros_lint.interpret.cmake_run import MOST_STEPS, Run
 from ros_lint.interpret.cmake_state import NEXT, STOP, TESTS, USUAL, BudgetError, Exit, Frame, Procedure
-from ros_lint.interpret.cmake_values import split
+from ros_lint.interpret.cmake_values import join, split
 from ros_lint.knowledge.cmake_commands import macros
 from ros_lint.text import Text
 
@@ -126,7 +126,7 @@ def run_released(run: Run, macro: Released, args: list[str]) -> Exit:
     values.update(zip(parameters, args, strict=False))
     for name in parameters[len(args) :]:
         values[name] = ""
-    values["ARGN"] = ";".join(given)
+    values["ARGN"] = join(given)
     run.frames.append(macro.frame)
     try:
         return _run_steps(run, macro.steps, values, 0)

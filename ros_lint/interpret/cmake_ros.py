@@ -17,7 +17,7 @@ from ros_lint.interpret.cmake_released import released, run_released
 from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_state import Properties
 from ros_lint.interpret.cmake_targets import SOURCES
-from ros_lint.interpret.cmake_values import HOLE, MAYBE, elements, is_known, sure
+from ros_lint.interpret.cmake_values import FILE, HOLE, MAYBE, elements, is_known, sure
 from ros_lint.tree import is_outside
 from ros_lint.tree import join as join_path
 
@@ -138,7 +138,9 @@ def _python(run: Run, args: list[str]) -> None:
     skip = len(folder) + 1 if folder else 0
     conditional = run.conditional or run.testing
     more = unlisted(run, folder, Facet.PYTHON, span) if run.sources.unseen else []
-    for file in (*run.below(folder), *more):
+    files = (*run.below(folder), *more)
+    run.charge(FILE * len(files))
+    for file in files:
         if file.endswith(".py"):
             inner = posixpath.dirname(file[skip:])
             if inner:

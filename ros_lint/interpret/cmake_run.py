@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterable, Mapping
-from functools import lru_cache
 from typing import Final
 
 from ros_lint.collectors.cmake_syntax import LITERAL, OPEN, PLAIN, QUOTED, UNQUOTED, Argument, Command, Parsed
@@ -12,11 +10,11 @@ from ros_lint.environment import ROS_2
 from ros_lint.facts.build import REPOSITORIES, Component, Provided
 from ros_lint.facts.sight import Facet, Opaque, Problem
 from ros_lint.facts.sources import Mention, Purpose, Via
-from ros_lint.interpret.cmake_expand import ExpansionError, expand, template, templates
+from ros_lint.interpret.cmake_expand import ExpansionError, expand, substituted, template, templates
 from ros_lint.interpret.cmake_paths import Paths
 from ros_lint.interpret.cmake_sources import AROUND, Helper, Sources
 from ros_lint.interpret.cmake_state import MISSING, Frame, InstalledTarget, Properties, Variables
-from ros_lint.interpret.cmake_values import ATOM, HOLE, MAYBE, flat, split, wild
+from ros_lint.interpret.cmake_values import ATOM, HOLE, MAYBE, SLOW, effort, kept, split, wild
 from ros_lint.knowledge.cmake_commands import SOFT_VARIABLES, UNKNOWN_VARIABLES
 from ros_lint.text import Span
 
@@ -24,16 +22,15 @@ MOST_STEPS: Final = 100_000
 """Commands that one package may run. Most real ones run less than 3,000, the largest with all its tests some 93,000."""
 DEEPEST: Final = 60
 """Calls within calls. CMake allows 1,000; real packages need less than 20."""
+_SHORT: Final = 1024
+"""Characters of a value that is read for nothing."""
 _OF_ROS: Final = frozenset({"ROS_DISTRO", *ROS_2})
 
 
-@lru_cache(maxsize=4096)
+@kept(4096)
 def folded(name: str) -> str:
     """Return a name as it is compared with others that are spelt a little differently."""
     return name.replace("_", "").replace("-", "").lower()
-
-
-_SIMPLE = re.compile(r"\$\{(\w+)\}")
 
 
 def _inside(path: str, command: Command, argument: Argument) -> Span:
@@ -41,14 +38,6 @@ def _inside(path: str, command: Command, argument: Argument) -> Span:
     _, kind, start, end = argument
     quotes = kind in (QUOTED, LITERAL)
     return command.span(path, start + quotes, end - quotes)
-
-
-def substituted(text: str, given: Mapping[str, str]) -> str:
-    """Return the text of an argument as a macro reads it, given what its parameters hold."""
-    alone = _SIMPLE.fullmatch(text)
-    if alone is not None:
-        return given.get(alone[1], text)
-    return _SIMPLE.sub(lambda reference: flat(given.get(reference[1], reference[0])), text)
 
 
 class Run(Paths):
@@ -166,13 +155,21 @@ class Run(Paths):
             if name in scope:
                 value = scope[name]
                 if value is not None and name not in self.cache:
-                    return wild(value) if self.unpaired else value
+                    return self._read(value) if len(value) > _SHORT or self.unpaired else value
                 break
         else:
             if name not in self.cache:
                 return self.default(name)
         found: str | None = self.found(name)
-        return wild(found) if self.unpaired else found
+        return self._read(found) if found else found
+
+    def _read(self, value: str) -> str | None:
+        """Count what reading a value takes, and return it as it is in a script where unknown texts may hold brackets."""
+        self.charge(len(value))
+        if not self.unpaired:
+            return value
+        self.charge(SLOW * len(value))
+        return wild(value)
 
     def default(self, name: str) -> str | None:
         """Return what a variable holds that no script has set."""
@@ -236,11 +233,13 @@ class Run(Paths):
             if kind == UNQUOTED:
                 value = self.evaluated(text)
                 if ";" in value:
+                    self.charge(effort(value))
                     values += split(value)
                 elif value:
                     values.append(value)
             else:
                 values.append(self.evaluated(text) if kind == QUOTED else text)
+        self.charge(sum(map(len, values)))
         return values
 
     def firm_arguments(self, command: Command) -> int | None:
@@ -272,8 +271,14 @@ class Run(Paths):
                     return text
                 parts = template(text)
             elif given is not None and "${" in text:
-                parts = template(substituted(text, given))
-            return (self.get(parts) or "") if isinstance(parts, str) else expand(parts, self.lookup)
+                text = substituted(text, given)
+                self.charge(len(text))
+                parts = template(text)
+            if isinstance(parts, str):
+                return self.get(parts) or ""
+            value = expand(parts, self.lookup)
+            self.charge(len(value))
+            return value
         except ExpansionError:
             return HOLE
 

@@ -7,7 +7,7 @@ from typing import Any, Final, NamedTuple
 
 from ros_lint.collectors.cmake_syntax import Command
 from ros_lint.interpret.cmake_blocks import Body
-from ros_lint.interpret.cmake_values import HOLE, certainly_set, merge, unpaired
+from ros_lint.interpret.cmake_values import HOLE, LONGEST, SLOW, certainly_set, merge, unpaired
 from ros_lint.knowledge.cmake_commands import VARIABLES
 from ros_lint.text import Span
 
@@ -86,8 +86,13 @@ _DEEPEST: Final = 100
 """Branches within branches; all that follows what may leave a body or a loop is one. Real packages need less than 20."""
 
 
+MOST_CHARACTERS: Final = 1 << 28
+"""Characters of values that one package may make and read, what else takes memory or time counted in. Real ones need less
+than a million for 1,000 commands."""
+
+
 class BudgetError(Exception):
-    """The script runs longer than any real one."""
+    """The script runs longer than any real one, or makes longer texts."""
 
 
 class State:
@@ -111,22 +116,34 @@ class State:
         """Elements that lists have only where tests are wanted, by the variable that holds the list."""
         self.log: list[tuple[dict[str, Any], str, Any]] | None = None
         self._nested = 0
+        self.characters = MOST_CHARACTERS
+        """How many more may be made and read."""
         self.unpaired = False
         """Whether some value holds a square bracket without its partner, so that unknown texts may hold one too."""
 
     # --- writing
 
+    def charge(self, size: int) -> None:
+        """Count characters that a command makes or reads. Raises BudgetError when there are too many."""
+        self.characters -= size
+        if self.characters < 0:
+            raise BudgetError
+
     def put(self, mapping: dict[str, Any], key: str, value: Any) -> None:
-        """Write an entry; everything that a branch may write goes through here."""
+        """Write an entry; everything that a branch may write goes through here. A text that is too long is unknown."""
         if self.log is not None:
             self.log.append((mapping, key, mapping.get(key, MISSING)))
-        mapping[key] = value
         if type(value) is str:
+            if len(value) > LONGEST:
+                value = HOLE
+            self.charge(len(value))
             self.notice(value)
+        mapping[key] = value
 
     def notice(self, value: str) -> None:
         """Look for brackets without partners in a value that can be read from now on."""
         if ("[" in value or "]" in value or "\3" in value) and not self.unpaired:
+            self.charge(SLOW * len(value))
             self.unpaired = unpaired(value)
 
     def remove(self, mapping: dict[str, Any], key: str) -> None:
@@ -147,6 +164,7 @@ class State:
         scope.update(values)
         for value in values.values():
             if value:
+                self.charge(len(value))
                 self.notice(value)
 
     def set_outer(self, name: str, value: str | None) -> None:

@@ -8,7 +8,7 @@ from typing import Final
 
 from ros_lint.interpret.cmake_regex import RegexError, anywhere, clear, every, find, forget, store
 from ros_lint.interpret.cmake_run import Handler, Run
-from ros_lint.interpret.cmake_values import ATOM, BINARY, HOLE, LONGEST, PREFIX, TREE, glued, is_fixed, is_known, join
+from ros_lint.interpret.cmake_values import ATOM, BINARY, HOLE, LONGEST, PREFIX, SLOW, TREE, glued, is_fixed, is_known, join
 from ros_lint.interpret.cmake_values import flat as flat_value
 from ros_lint.text import raw
 
@@ -20,6 +20,7 @@ def _string(run: Run, args: list[str]) -> None:
     if len(args) < 2:
         return
     mode, rest = args[0], args[1:]
+    run.charge(SLOW * sum(map(len, rest)))
     if mode in ("APPEND", "PREPEND"):
         if len(rest) > 1:
             _extend(run, rest[0], _concat(*rest[1:]), mode == "APPEND")
@@ -93,7 +94,7 @@ def _find(text: str, wanted: str, reverse: str = "") -> str:
 
 
 def _replace(old: str, new: str, *inputs: str) -> str:
-    text = "".join(inputs)
+    text = _concat(*inputs)
     if not old or not is_fixed(old) or not is_fixed(text) or text.count(old) * len(new) > LONGEST:
         return HOLE
     if ATOM not in text or old in (TREE, BINARY, PREFIX) or old.startswith((f"{TREE}/", f"{BINARY}/", f"{PREFIX}/")):
@@ -158,7 +159,9 @@ def _join(glue: str, *inputs: str) -> str:
 
 
 def _concat(*inputs: str) -> str:
-    return "".join(map(flat_value, inputs)) if len(inputs) > 1 else "".join(inputs)
+    if len(inputs) < 2:
+        return "".join(inputs)
+    return "".join(map(flat_value, inputs)) if sum(map(len, inputs)) <= LONGEST else HOLE
 
 
 def _compare(how: str, left: str, right: str) -> str:
@@ -233,10 +236,10 @@ _FUNCTIONS: Final[dict[str, tuple[int, Callable[..., str]]]] = {
 def _regex(run: Run, args: list[str]) -> None:
     mode = args[0]
     if mode == "REPLACE" and len(args) > 4:
-        regex, new, name, text = args[1], args[2], args[3], "".join(args[4:])
+        regex, new, name, text = args[1], args[2], args[3], _concat(*args[4:])
         _assign(run, name, _regex_replace(run, regex, new, text), new, text)
     elif mode in ("MATCH", "MATCHALL") and len(args) > 3:
-        regex, name, text = args[1], args[2], "".join(args[3:])
+        regex, name, text = args[1], args[2], _concat(*args[3:])
         _assign(run, name, _regex_match(run, regex, text) if mode == "MATCH" else _regex_all(run, regex, text), text)
 
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Final
 
 from ros_lint.interpret.cmake_truth import FALSE, LIKELY, NUMBER, TRUE, UNKNOWN, UNLIKELY, Token, Truth, number_of
-from ros_lint.interpret.cmake_values import HOLE, TREE, certainly_set, elements, is_fixed, is_known
+from ros_lint.interpret.cmake_values import HOLE, TREE, certainly_set, effort, elements, is_fixed, is_known
 from ros_lint.text import raw
 
 if TYPE_CHECKING:
@@ -208,6 +208,7 @@ def _in_list(run: Run, left: Token, right: Token) -> int:
     value = run.get(right.text)
     if value is None:
         return UNLIKELY if run.may_be_set(right.text) else FALSE
+    run.charge(effort(value))
     return _agreed(_is_element(element, value) for element in _operands(run, left))
 
 

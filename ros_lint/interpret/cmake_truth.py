@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 import re
-from functools import lru_cache
 from typing import TYPE_CHECKING, Final, NamedTuple
+
+from ros_lint.interpret.cmake_values import kept
 
 if TYPE_CHECKING:
     from ros_lint.interpret.cmake_run import Run
@@ -80,7 +81,7 @@ def is_off(text: str) -> bool:
     return text.upper() in _FALSE_WORDS or text == "NOTFOUND" or text.endswith("-NOTFOUND")
 
 
-@lru_cache(maxsize=1024)
+@kept(1024)
 def constant(text: str) -> bool | None:
     """Return what a word means as a condition, or None when it is neither a true nor a false constant nor a number."""
     if text.upper() in TRUE_WORDS:

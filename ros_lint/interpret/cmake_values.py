@@ -12,8 +12,11 @@ A value is a ``str``. Four characters that no CMake file can hold (the parser se
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
-from typing import Final
+from collections.abc import Callable, Iterable, Sequence
+from functools import lru_cache
+from typing import Final, TypeVar
+
+T = TypeVar("T")
 
 HOLE: Final = "\0"
 ATOM: Final = "\1"
@@ -31,6 +34,12 @@ FOREIGN: Final = f"/{ATOM}foreign-"
 
 LONGEST: Final = 1 << 20
 """A longer value is taken for unknown, so that no script can make a run take all memory."""
+ELEMENT: Final = 64
+"""Characters that an element of a list counts for, because of the memory that Python takes for it."""
+FILE: Final = 256
+"""Characters that an installed file counts for."""
+SLOW: Final = 16
+"""Characters that one counts for where a text is read letter by letter."""
 
 
 def is_known(value: str) -> bool:
@@ -49,6 +58,19 @@ def natural(text: str) -> int | None:
 
 
 _NATURAL: Final = re.compile("[0-9]{1,9}")
+
+
+def kept(most: int) -> Callable[[Callable[[str], T]], Callable[[str], T]]:
+    """Return a decorator that keeps the results of a function for as many texts, but for long ones, which fill the memory."""
+
+    def decorate(function: Callable[[str], T]) -> Callable[[str], T]:
+        remembered = lru_cache(maxsize=most)(function)
+        return lambda text: remembered(text) if len(text) <= _LONGEST_KEPT else function(text)
+
+    return decorate
+
+
+_LONGEST_KEPT: Final = 1024
 
 
 def flat(value: str) -> str:
@@ -106,6 +128,11 @@ def _split(value: str) -> list[str]:
     if depth and (MAYBE in value or HOLE in value):
         return [WILD]  # a bracket without its partner holds together what follows, if it is there
     return found
+
+
+def effort(value: str) -> int:
+    """Return how many characters it counts for to take a list apart."""
+    return SLOW * len(value) if "[" in value or "\\" in value else ELEMENT * value.count(";")
 
 
 def unpaired(value: str) -> bool:
