@@ -1,8 +1,8 @@
 """
 ## What it finds
 
-A launch file that starts an executable which its package does not install into `lib/<package>`: it has another name,
-is not built, or is a script that is there and is not installed.
+A launch file that starts an executable which is not installed into `lib/<package>`: the installed executable has another name,
+it is not built, or it is a script that exists but is not installed.
 
 ## Why it matters
 
@@ -10,22 +10,31 @@ The launch file stops there: `executable 'x' not found on the libexec directory`
 
 ## How to fix it
 
-Correct the name. The usual slips are the suffix (a console script is called `talker`, a script installed by CMake
-`talker.py`), the name of a module instead of the entry point that runs it, and a target that was renamed. Install a script
-that only lies there, and what is built; if it lands in `bin/`, install it to
-`lib/${PROJECT_NAME}`, or say `install_scripts=$base/lib/<package>` in `setup.cfg`. The fix corrects the name where one
-executable must be meant.
+Correct the name. Frequent mistakes are:
+
+- the suffix: a console script is called `talker`, a script installed by CMake is called `talker.py`;
+- the name of a module instead of the entry point that runs it;
+- the old name of a target that was renamed.
+
+Install a script or target that is not installed. If it is installed to `bin/`, install it to `lib/${PROJECT_NAME}`, or write
+`install_scripts=$base/lib/<package>` in `setup.cfg`. The fix corrects the name if only one executable is possible.
 
 ## Limitations
 
-- A part of the package's build script that cannot be followed may make the executable, or it installs a file of that name
-  which is not in the sources: `missing-file` tells of it.
-- For a released package: neither the sources of its release are known whole, nor those for an earlier and a later
-  distribution; or one of these has it. Where nobody said which one is meant, the confidence is medium as long as one of
-  them may have it.
-- Only other distributions come there: `'spawner' if os.environ['ROS_DISTRO'] > 'foxy' else 'spawner.py'`.
-- In launch files of examples, and of tests that the build script is not seen to run, the confidence is medium; one that is
-  merely called a test and always installed counts like any other.
+Not reported:
+
+- A part of the package's build script that cannot be evaluated may install the executable.
+- The build script installs a file of that name that is not in the sources: see `missing-file`.
+- The package is released, and the sources of its release are not fully known. The sources for an earlier and a later
+  distribution are used instead, if both are known and neither contains the executable.
+- Names that are only reached on other distributions: `'spawner' if os.environ['ROS_DISTRO'] > 'foxy' else 'spawner.py'`.
+
+Reported with medium confidence:
+
+- The distribution was not chosen, and the package may install the executable in another distribution.
+- Launch files of examples, and of tests that the build script does not run. A launch file that only has a test-like name but is
+  always installed is not affected.
+- The name is the default of an argument.
 """
 
 from __future__ import annotations
@@ -44,6 +53,7 @@ from ros_lint.api import (
     Workspace,
     corrected,
     did_you_mean,
+    is_meant,
     launchable,
     near_names,
     place_of,
@@ -63,24 +73,35 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         missing = _missing(owner, name, workspace)
         if missing is None:
             continue
-        best, *others = sorted(references, key=lambda one: (one.span.path in idle, one.by_default, one.span))
-        same = [one for one in started.get((owner, missing.meant), ()) if one.conditional and one.span.path == best.span.path]
-        if same and best.conditional:  # one or the other, so that this is another program
-            instead = (Related("started otherwise", same[0].span), *missing.related)
-            missing = missing._replace(hint=f"; it installs {missing.meant}", meant="", related=instead)
+        best, *others = sorted(
+            references, key=lambda reference: (reference.span.path in idle, reference.by_default, reference.span)
+        )
+        meant = started.get((owner, missing.meant), ())
+        alternatives = [other for other in meant if other.conditional and other.span.path == best.span.path]
+        if alternatives and best.conditional:  # two conditional nodes: the names are alternatives, so neither is a typo
+            instead = (Related("the alternative is started here", alternatives[0].span), *missing.related)
+            missing = missing._replace(hint=f"; it installs '{missing.meant}'", meant="", related=instead)
         yield Finding(
-            f"{owner} installs no executable {name}{missing.hint}",
+            f"'{owner}' does not install an executable '{name}'{missing.hint}",
             best.span,
             name,
             (*missing.related, *several(Related("also started here", reference.span) for reference in others)),
-            corrected(f"start {missing.meant}", missing.meant, [(one.span, one.exact) for one in references]),
+            corrected(
+                f"start '{missing.meant}'",
+                missing.meant,
+                [(reference.span, reference.exact) for reference in references],
+            ),
             Confidence.MEDIUM if best.by_default or best.span.path in idle else missing.confidence,
         )
 
 
 class _Missing(NamedTuple):
+    """A missing executable."""
+
     hint: str
+    """The end of the message."""
     meant: str = ""
+    """The only executable that is possible instead, or ""."""
     related: tuple[Related, ...] = ()
     confidence: Confidence = Confidence.HIGH
 
@@ -100,91 +121,96 @@ def _missing(owner: str, name: str, workspace: Workspace) -> _Missing | None:
             Confidence.HIGH if sure else Confidence.MEDIUM,
         )
     names: set[str] = set()
-    for one in owners:
-        found = programs(one)
-        if found is None or name in found.names or stranded(one, name) or _is_lost(one, name):
+    for package in owners:
+        installed = programs(package)
+        if installed is None or name in installed.names or stranded(package, name) or _is_lost(package, name):
             return None
-        if name in found.elsewhere:
-            path = found.elsewhere[name]
-            where = tuple(Related("installed here", p.span) for p in one.built.provides if p.path == path)
-            return _Missing(f" in lib/{owner}, but {path}, where launch does not look; install it there", "", where)
-        names |= found.names
-        if lying := _lying(one, name) or _built(one, name):
-            return lying
+        if name in installed.elsewhere:
+            path = installed.elsewhere[name]
+            where = tuple(Related("installed here", p.span) for p in package.built.provides if p.path == path)
+            hint = f" in lib/{owner}; it is installed as {path}, where launch does not look; install it to lib/{owner}"
+            return _Missing(hint, "", where)
+        names |= installed.names
+        if left_out := _uninstalled_script(package, name) or _uninstalled_target(package, name):
+            return left_out
     meant = _meant(name, tuple(sorted(names)))
-    if not meant and (running := next(filter(None, (_running(one, name, names) for one in owners)), None)):
-        return running
-    related = tuple(Related("its build script", one.script.end) for one in owners if one.script and one.script.end)
+    if not meant and (by_module := next(filter(None, (_named_by_module(package, name, names) for package in owners)), None)):
+        return by_module
+    scripts = [package.script for package in owners]
+    related = tuple(Related(f"build script of '{owner}'", script.end) for script in scripts if script and script.end)
     return _Missing(_hint(name, meant, tuple(sorted(names))), meant, related[:1])
 
 
 def _is_lost(package: Package, name: str) -> bool:
-    """Whether the build script installs a program that is not in the sources: missing-file tells, unless git leaves it out."""
+    """Return whether the build script installs a file that is not in the sources (see missing-file), or that git ignores."""
     lost = [problem.subject.rpartition("/")[2] for problem in package.built.problems if problem.kind == "missing-file"]
     return name in lost
 
 
-def _built(package: Package, name: str) -> _Missing | None:
-    """Return what to say of an executable of the name that a package builds, and that no other rule tells to be left behind."""
-    target = next((each for each in package.built.targets if each.kind == "executable" and each.name == name), None)
+def _uninstalled_target(package: Package, name: str) -> _Missing | None:
+    """Return the hint for an executable that the package builds but does not install, unless another rule reports it."""
+    executables = [target for target in package.built.targets if target.kind == "executable"]
+    target = next((target for target in executables if target.name == name), None)
     if target is None:
         return None
-    return _Missing(f": it is built, but not installed; install it to lib/{package.name}", "", (Related("here", target.span),))
+    hint = f"; it is built, but not installed; install it to lib/{package.name}"
+    return _Missing(hint, "", (Related("built here", target.span),))
 
 
-def _running(package: Package, name: str, names: Collection[str]) -> _Missing | None:
-    """Return what to say of a name that is not one of a program, but of the Python file that is to run."""
+def _named_by_module(package: Package, name: str, names: Collection[str]) -> _Missing | None:
+    """Return the hint for the name of a Python file where that of its executable is required."""
     script, stem = package.built, name.removesuffix(".py")
     entries = [entry for entry in script.entry_points if entry.name in names and entry.module.rpartition(".")[2] == stem]
     if entries:
-        one = entries[0] if len(entries) == 1 else None
+        quoted = " or ".join(f"'{entry.name}'" for entry in entries[:3])
         return _Missing(
-            f": {' or '.join(entry.name for entry in entries[:3])} runs the module {entries[0].module}",
-            one.name if one else "",
+            f"; the module '{entries[0].module}' is run by {quoted}",
+            entries[0].name if len(entries) == 1 else "",
             tuple(Related("by this entry point", entry.span) for entry in entries[:1]),
         )
     module = next((module for module in script.python_packages if module.rpartition(".")[2] == stem and "." in module), "")
     if module and script.entry_points:
-        return _Missing(f": the module {module} has no entry point; add one to console_scripts")
-    lying = _lying(package, f"{stem}.py")
-    return lying._replace(hint=f"{lying.hint}, and start {stem}.py") if lying and stem == name else None
+        return _Missing(f"; the module '{module}' has no entry point; add one to console_scripts")
+    uninstalled = _uninstalled_script(package, f"{stem}.py")
+    return uninstalled._replace(hint=f"{uninstalled.hint}, and start '{stem}.py'") if uninstalled and stem == name else None
 
 
-def _lying(package: Package, name: str) -> _Missing | None:
-    """Return what to say of a script of the name that is not among the programs of a package, under another name either."""
+def _uninstalled_script(package: Package, name: str) -> _Missing | None:
+    """Return the hint for a script of that name which is not installed to lib/<package> under any name."""
     script = package.built
     own = f"lib/{package.name}/"
     programs_of = {provided.source for provided in script.provides if provided.path.startswith(own)}
     files = (file.path for file in script.files if file.path.rpartition("/")[2] == name)
-    lying = next((path for path in files if path not in programs_of), "")
-    if not lying:
+    uninstalled = next((path for path in files if path not in programs_of), "")
+    if not uninstalled:
         return None
-    elsewhere = any(provided.source == lying for provided in script.provides)
-    there = Related("this file", place_of(package, lying))
-    return _Missing(f": {lying} is not installed{f' to {own[:-1]}' if elsewhere else ''}; install it", "", (there,))
+    elsewhere = any(provided.source == uninstalled for provided in script.provides)
+    file = Related("this file", place_of(package, uninstalled))
+    return _Missing(f"; '{uninstalled}' is not installed{f' to {own[:-1]}' if elsewhere else ''}; install it", "", (file,))
 
 
 def _hint(name: str, meant: str, names: tuple[str, ...]) -> str:
     if meant:
-        return f": {meant} is meant"
+        return is_meant([meant])
     near = near_names(name, names, 3, 0.6)
     if near:
         return did_you_mean(near)
-    started = [other for other in names if not other.endswith(_LIBRARY)]
-    if not started:
-        return ", and no other either"
-    return f"; it installs {', '.join(started[:5])}{' ...' if len(started) > 5 else ''}"
+    executables = [other for other in names if not other.endswith(_LIBRARY)]
+    if not executables:
+        return "; it installs no executables"
+    listed = ", ".join(f"'{executable}'" for executable in executables[:5])
+    return f"; it installs {listed}{' ...' if len(executables) > 5 else ''}"
 
 
 _LIBRARY = (".a", ".so")
-"""Such files are put beside the programs by a build script that says the one folder for all of its targets."""
+"""Suffixes of libraries: a build script that installs all targets into one folder puts them next to the executables."""
 
 
 _SUFFIX = re.compile(r"(?:\.py|\.sh|_?node|_?exe|_?main)+$")
 
 
 def _meant(name: str, names: tuple[str, ...]) -> str:
-    """Return the one executable that differs only in its suffix, in dashes and underscores, or in capitals."""
+    """Return the only executable that differs in nothing but its suffix, dashes and underscores, or capitals, or ""."""
 
     def plain(text: str) -> str:
         text = text.lower().replace("-", "_")
@@ -197,7 +223,7 @@ def _meant(name: str, names: tuple[str, ...]) -> str:
 RULE = Rule(
     name="launch-unknown-executable",
     code="ROS502",
-    summary="an executable that a launch file starts must be installed by its package",
+    summary="executables that launch files start are installed by their packages",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,

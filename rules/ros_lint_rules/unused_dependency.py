@@ -1,35 +1,44 @@
 """
 ## What it finds
 
-A `<depend>` or `<build_depend>` on a ROS package that nothing in the package uses: no include, no import, no
-`find_package`, no interface, no launch file, and its name stands in no other file. And a `<test_depend>` in a package
-without any test that could use it, if nothing else does, such as `find_package` or a launch file. And a
-`<member_of_group>rosidl_interface_packages</member_of_group>` in a package that has and generates no interfaces.
+- A `<depend>` or `<build_depend>` on a ROS package that the package does not use: no include, import, `find_package`, interface
+  or launch file refers to it, and no other file contains its name.
+- A `<test_depend>` in a package without a test that could use it, unless something else uses it, such as `find_package` or a
+  launch file.
+- `<member_of_group>rosidl_interface_packages</member_of_group>` in a package that contains and generates no interfaces.
 
 ## Why it matters
 
-Every dependency is installed and built before this package, and rebuilds it when it changes. A leftover costs time on
-every machine, and tells readers something wrong. What depends on the group of all packages with interfaces, such as
-`ros1_bridge`, waits for each member.
+Every dependency is installed and built before this package, and a change of it causes a rebuild. An unused dependency costs
+time on every machine and misleads readers. Packages that depend on the group of all interface packages, such as `ros1_bridge`,
+wait for each member of the group.
 
 ## How to fix it
 
-Remove the tag, and with a `<build_depend>` those for exporting it and for running what has no programs. The fix does this,
-and needs `--unsafe-fixes` where the confidence is less than high.
+Remove the tag. Together with a `<build_depend>`, also remove the `<build_export_depend>`, and the `<exec_depend>` if the
+dependency provides nothing to run. The fix does this. It needs `--unsafe-fixes` unless the confidence is high.
 
 ## Limitations
 
-Where a type of it stands in C++ code by its bare name, which a header of a third package makes possible, and where a page
-of the package says to start something of it (`ros2 run`, `ros2 launch`). And
-whenever the dependency might be needed in a way that leaves no trace: linters, run-time and tool dependencies, tags
-under a condition that not every environment of ROS 2 meets, packages whose build scripts cannot be followed everywhere,
-metapackages, vendor packages and packages without code, and dependencies that give CMake macros or plugins. For rosdep keys of
-libraries, which others' headers may need, unless they come along with a package that is used, for packages that nobody knows,
-for Python packages that are mostly declared to be run, and such as have messages and programs, where a file of the workspace
-cannot be read, and where no module is there that an entry point names, or none that imports anything, the confidence is medium.
+Not reported:
 
-So it is where nothing uses the dependency, but something else that is used and not declared comes along with it alone, in
-this package or in another one of the workspace. That is to be declared instead, and nothing is removed.
+- C++ code uses a type of the dependency by its bare name, because a header of a third package may make it known.
+- A page of the package says to start something of the dependency (`ros2 run`, `ros2 launch`).
+- Dependencies that may be needed without a trace: linters, run-time and tool dependencies, metapackages, vendor packages,
+  packages without code, and packages that provide CMake macros or plugins.
+- Packages that contain no code themselves, and packages whose build scripts cannot be fully evaluated.
+- Tags with a condition that is false in some ROS 2 environment.
+
+Reported with medium confidence:
+
+- rosdep keys of libraries, because headers of other packages may need them. The confidence is high if a package that is used
+  depends on the library.
+- Packages that are not known.
+- Packages that others mostly declare for run time only: Python packages, and packages with both messages and programs.
+- Any dependency, if a file of the workspace cannot be read.
+- Any dependency, if the modules that entry points name do not exist yet, or if no Python code imports anything.
+- Unused dependencies through which this package, or another one of the workspace, gets a package that it uses but does not
+  declare. Declare that package instead. There is no fix in this case.
 """
 
 from __future__ import annotations
@@ -80,29 +89,29 @@ _NO_TEST = FINDS_TESTS | {"enable_testing"}
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     yield from _no_member(package)
-    found = list(_unused(package, workspace))
-    carried = carriers(package, workspace, [declared for declared, _, _ in found]) if found else {}
-    for declared, says, confidence in found:
+    unused = list(_unused(package, workspace))
+    carried = carriers(package, workspace, [declared for declared, _, _ in unused]) if unused else {}
+    for declared, reason, confidence in unused:
         depend = declared.depend
         name, sure = depend.name, confidence is Confidence.HIGH
         if name in carried:
-            told = _told(package, name, carried[name])
-            yield Finding(told, depend.span, name, confidence=min(confidence, Confidence.MEDIUM))
+            message = _message_if_carrying(package, name, carried[name])
+            yield Finding(message, depend.span, name, confidence=min(confidence, Confidence.MEDIUM))
             continue
-        idle = [depend, *(_left(package, workspace, depend) if sure else ())]
-        its = " and ".join(f"<{each.tag}>" for each in idle[1:])
-        written = f"<{depend.tag}>{name}</{depend.tag}>" + (f" and its {its}" if its else "")
+        tags = [depend, *(_needless_tags(package, workspace, depend) if sure else ())]
+        more_tags = " and ".join(f"<{tag.tag}>" for tag in tags[1:])
+        written = f"<{depend.tag}>{name}</{depend.tag}>" + (f" and its {more_tags}" if more_tags else "")
         yield Finding(
-            f"{name} is declared, but {says}: remove {written}",
+            f"'{name}' is declared, but {reason}; remove {written}",
             depend.span,
             name,
-            fix=Fix(f"remove {written}", tuple(edit for each in idle for edit in remove_dependency(package, each)), safe=sure),
+            fix=Fix(f"remove {written}", tuple(edit for tag in tags for edit in remove_dependency(package, tag)), safe=sure),
             confidence=confidence,
         )
 
 
 def _no_member(package: Package) -> Iterator[Finding]:
-    """Speak of the group of packages with interfaces, in one that has none."""
+    """Yield the membership in the group of interface packages, if the package has no interfaces."""
     manifest, script = package.manifest, package.script
     if manifest is None or script is None or script.problems or interface_names.GROUP not in package.groups:
         return
@@ -116,20 +125,24 @@ def _no_member(package: Package) -> Iterator[Finding]:
             written = f"<{depend.tag}>{interface_names.GROUP}</{depend.tag}>"
             fix = Fix(f"remove {written}", tuple(remove_dependency(package, depend)))
             yield Finding(
-                f"{package.name} generates no interfaces: remove {written}", depend.span, interface_names.GROUP, fix=fix
+                f"'{package.name}' generates no interfaces; remove {written}", depend.span, interface_names.GROUP, fix=fix
             )
 
 
-def _told(package: Package, name: str, carried: Carried) -> str:
+def _message_if_carrying(package: Package, name: str, carried: Carried) -> str:
+    """Return the message for an unused dependency that is the only source of a package that is used without a declaration."""
     if carried.package == package.name:
-        return f"{name} is declared in place of {carried.name}: declare that instead"
+        return f"'{name}' is unused itself; the package uses '{carried.name}' through it; declare '{carried.name}' instead"
     if carried.name == name:
-        return f"{name} is declared, but only {carried.package} uses it: declare it there instead"
-    return f"{name} is declared, but only brings {carried.name} to {carried.package}: declare that there instead"
+        return f"'{name}' is declared here, but only '{carried.package}' uses it; declare it in '{carried.package}' instead"
+    return (
+        f"'{name}' is unused itself; only '{carried.package}' uses '{carried.name}' through it; "
+        f"declare '{carried.name}' in '{carried.package}' instead"
+    )
 
 
-def _left(package: Package, workspace: Workspace, depend: Depend) -> Iterator[Depend]:
-    """Yield the other tags of what nothing is built with: for those that build against the package, and to run no programs."""
+def _needless_tags(package: Package, workspace: Workspace, depend: Depend) -> Iterator[Depend]:
+    """Yield the <build_export_depend> and <exec_depend> tags that an unused <build_depend> leaves without purpose."""
     for other in package.tags(depend.name) if depend.tag == "build_depend" else ():
         tag = other.depend.tag
         to_run = tag == "exec_depend" and not runs(workspace.world, depend.name)
@@ -138,14 +151,14 @@ def _left(package: Package, workspace: Workspace, depend: Depend) -> Iterator[De
 
 
 def _unused(package: Package, workspace: Workspace) -> Iterator[tuple[Declared, str, Confidence]]:
-    """Yield the tags of dependencies that nothing in the package uses, with what to say and how sure it is."""
+    """Yield the tags of dependencies that nothing in the package uses, with the reason and the confidence."""
     script = package.script
     if script is None or not is_built_in_sight(package):
         return
     whole = is_seen_whole(package)
     unsure = workspace.unread() or _lacks_programs(package, script)
     world = workspace.world
-    built = [each.name for each in package.declared if each.depend.tag in _TAGS and each.always]
+    built = [declared.name for declared in package.declared if declared.depend.tag in _TAGS and declared.always]
     used = used_names(built, package.uses)
     libraries = satisfying(package.uses)
     wrong = misspelt(package, workspace)
@@ -163,40 +176,40 @@ def _unused(package: Package, workspace: Workspace) -> Iterator[tuple[Declared, 
                 continue
             if mostly_run and not leaves_trace(package, workspace, name):
                 continue
-            says = "nothing in the package uses it"
+            reason = "nothing in the package uses it"
         elif depend.tag == "test_depend" and not (
             _is_used(package, name)
             or _brings_linters(script, workspace, name)
             or _can_test_with(package, script, workspace, name)
         ):
-            says = "there is no test that could use it"
+            reason = "the package has no test that could use it"
         else:
             continue
-        # What headers of others need of a library is there without the tag, if it comes along with what they are from.
+        # Headers of other packages may need a library, but it is available without the tag if a used package depends on it.
         doubted = unknown and not (depend.tag in _TAGS and is_library(world, name) and name in world.closure(sorted(used)))
-        yield declared, says, Confidence.MEDIUM if doubted or mostly_run or unsure else Confidence.HIGH
+        yield declared, reason, Confidence.MEDIUM if doubted or mostly_run or unsure else Confidence.HIGH
 
 
 def _lacks_programs(package: Package, script: BuildScript) -> bool:
-    """Whether the code that uses what is declared is elsewhere yet: no module is there that an entry point names, or none."""
+    """Return whether the package is still a skeleton: no module of its entry points exists, or no code imports anything."""
     if script.entry_points:
         return not script.modules
     return package.builds_with == "ament_python" and not any(use.role & ~Role.TEST for use in package.uses)
 
 
 def _is_used(package: Package, name: str) -> bool:
-    """Whether a package is used, test or no test: CMake stops without it, and to a launch file it is declared wrongly."""
+    """Return whether the package uses a name at all, in tests or elsewhere: removing a tag would break it."""
     return any(use.package == name for use in package.uses)
 
 
 def _brings_linters(script: BuildScript, workspace: Workspace, name: str) -> bool:
-    """Whether a package of the workspace is found for the linters that it brings, whatever it is called."""
-    brought = (each for package in workspace.by_name.get(name, ()) for each in package.declared if each.role & _HANDED_ON)
-    return not FINDS_TESTS.isdisjoint(script.calls) and any(each.name in LINTERS for each in brought)
+    """Return whether the test dependency is a package of the workspace that depends on linters which the build script runs."""
+    handed_on = (depend for package in workspace.by_name.get(name, ()) for depend in package.declared if depend.role & _HANDED_ON)
+    return not FINDS_TESTS.isdisjoint(script.calls) and any(depend.name in LINTERS for depend in handed_on)
 
 
 def _can_test_with(package: Package, script: BuildScript, workspace: Workspace, name: str) -> bool:
-    """Whether a package has tests, and such as can use another one: modules are used by Python, and by nothing else."""
+    """Return whether the package has tests that can use a name: only Python code can use a package of Python modules."""
     if not any("test" in file.lower() for file in package.files) and not any(
         "test" in call and call not in _NO_TEST for call in script.calls
     ):
@@ -209,7 +222,7 @@ def _can_test_with(package: Package, script: BuildScript, workspace: Workspace, 
 RULE = Rule(
     name="unused-dependency",
     code="ROS204",
-    summary="a package that is declared must be used",
+    summary="declared dependencies are used",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,
