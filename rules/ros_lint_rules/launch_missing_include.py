@@ -1,42 +1,47 @@
 """
 ## What it finds
 
-A launch file that includes a launch file, or names a parameter, model, map or display file, which its package does not
-have: neither installed there nor in its sources. Likewise an installed model, display or parameter file, URDF and xacro among
-them, that looks up a mesh or another file in a package of the workspace.
-
-So are files that MoveIt's builders read from the package that they are made for:
-`MoveItConfigsBuilder("arm").joint_limits(file_path="config/joint_limits.yaml")`.
-
-A file that an included launch file names with what it is passed, `$(var folder)/robot.yaml`, is looked for as it is when
-one is launched that includes it, itself or by way of others.
+- A launch file that includes a launch file, or names a parameter, model, map or display file, that does not exist in its
+  package: it is neither installed there nor in the sources.
+- An installed model, display or parameter file (URDF and xacro among them) that looks up a missing mesh or other file in a
+  package of the workspace.
+- A missing file that MoveIt's builders read from their package:
+  `MoveItConfigsBuilder("arm").joint_limits(file_path="config/joint_limits.yaml")`.
+- A missing file that an included launch file names with an argument that it is passed, such as `$(var folder)/robot.yaml`. It
+  is resolved as when the including launch file is launched, directly or through further includes.
 
 ## Why it matters
 
-The launch file stops, or the node comes up without its parameters. xacro stops at a file to include that is not there; of a
-mesh that is not there, RViz and Gazebo show nothing.
+The launch file stops, or the node starts without its parameters. xacro stops at a missing include. RViz and Gazebo show nothing
+for a missing mesh.
 
 ## How to fix it
 
-Correct the path; the message names files of the same name that the package does install, or the package that has the file.
+Correct the path. The message names a file of the same name that the package does install, or the package that has the file.
 
 ## Limitations
 
-- The file is in the sources and not installed: that is `uninstalled-resource`.
-- A part of the package's build script that cannot be followed may install it.
-- Files that look as if something writes or downloads them: networks, records, images; folders. Not so what a node reads
-  for certain: parameters, the displays of rviz2. Maps, which people make with the robot, what lies in a
-  folder for what is made (`temp`, `tmp`, `generated`), and what git ignores have medium confidence, and so have records beside
-  which one of nearly the same name is installed; unless that one is the only one that nothing names.
-- For a released package: neither are its launch files known whole, nor those for an earlier and a later distribution, or
-  one of these has the file; other files of it are not known at all. Where nobody said which distribution is meant, the
-  confidence is medium as long as one of them may have it.
-- The launch file asks first if the package is there, or the file (`os.path.exists`), unless it stops where it is not; or it
-  writes the file itself (`open(path, 'w')`, `xacro.open_output(path)`), or by a command (`xacro ... > path`).
-- Models, displays and parameters that are not installed, or not in every build, and what xacro includes as `optional`. Where
-  no launch file and no model is seen to look them up themselves, nobody may read them, and the confidence is medium.
+Not reported:
 
-Where the name hangs on the default of an argument, which others can replace, the confidence is medium.
+- The file is in the sources but not installed: see `uninstalled-resource`.
+- A part of the package's build script that cannot be evaluated may install the file.
+- Folders, and files that programs usually write or download: networks, recordings, images. Files that a node certainly reads
+  are always reported: parameters, and the displays of rviz2.
+- The package is released, and its launch files are not fully known. The launch files of an earlier and a later distribution are
+  used instead, if both are known and neither has the file. Other files of released packages are not known.
+- The launch file checks first whether the package or the file exists (`os.path.exists`), unless it stops if the file is
+  missing.
+- The launch file writes the file itself (`open(path, 'w')`, `xacro.open_output(path)`), or by a command (`xacro ... > path`).
+- Models, displays and parameters that are not installed in every build, and what xacro includes as `optional`.
+
+Reported with medium confidence:
+
+- Maps, files in a folder for generated files (`temp`, `tmp`, `generated`), and files that git ignores.
+- Recordings, if one of nearly the same name is installed in the same folder. The confidence is high if that file is the only
+  one that is not looked up.
+- The distribution was not chosen, and the released package may have the file in another distribution.
+- Files named by a model, display or parameter file that no launch file or model looks up itself.
+- The name depends on the default of an argument.
 """
 
 from __future__ import annotations
@@ -67,9 +72,9 @@ from ros_lint.api import (
 )
 
 _WRITTEN = (".yaml", ".yml", ".rviz", ".urdf", ".xacro", ".srdf", ".sdf", ".world", ".wbt", ".lua", ".launch", ".py", ".xml")
-"""Kinds of files that people write and keep with the package."""
+"""Suffixes of files that developers write and keep with the package."""
 _MODELS = (".urdf", ".xacro", ".srdf", ".sdf", ".world", ".rviz", ".yaml", ".yml", ".xml")
-"""Kinds of files that look up others in packages and are no programs."""
+"""Suffixes of files that look up files of packages and are not programs."""
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
@@ -82,38 +87,38 @@ def check(workspace: Workspace) -> Iterator[Finding]:
 
 
 def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    """Yield what is missing of the files that installed models, displays and parameters look up in packages of the workspace."""
+    """Yield the missing files that installed models, displays and parameters look up in packages of the workspace."""
     if not package.look_ups:
         return
     share = f"share/{package.name}/"
     installed = {p.source: p.path.removeprefix(share) for p in package.built.provides if p.source and not p.conditional}
-    taken = {look_up.path for look_up in workspace.looked_up.get(package.name, ())}
-    found: dict[tuple[str, str], list[tuple[bool, Span]]] = {}
+    used = {look_up.path for look_up in workspace.looked_up.get(package.name, ())}
+    look_ups: dict[tuple[str, str], list[tuple[bool, Span]]] = {}
     for look_up in package.look_ups:
         file, path = relative(package, look_up.span.path), look_up.path.lstrip("/")
         if file.endswith(_MODELS) and file in installed and look_up.package in workspace.by_name and not is_apart(file):
-            found.setdefault((look_up.package, path), []).append((installed[file] not in taken, look_up.span))
-    alike: dict[tuple[str, str, bool], list[tuple[str, str, Span, list[Span]]]] = {}
-    for (owner, path), named in found.items():
-        others_there = _files_without(owner, path, "file", workspace) if ".." not in path else None
-        if others_there is not None:
+            look_ups.setdefault((look_up.package, path), []).append((installed[file] not in used, look_up.span))
+    groups: dict[tuple[str, str, bool], list[tuple[str, str, Span, list[Span]]]] = {}
+    for (owner, path), named in look_ups.items():
+        existing = _files_without(owner, path, "file", workspace) if ".." not in path else None
+        if existing is not None:
             (idle, best), *others = sorted(named)
             sure = not (idle or _is_made(owner, path, workspace))
-            hint = _hint(path, others_there)
-            # A folder of meshes that is not there is one mistake.
+            hint = _hint(path, existing)
+            # A missing folder of meshes is a single mistake.
             folder, _, name = path.rpartition("/")
             key = (owner, f"{folder} {best.path}" if not hint or hint.endswith(f"/{name}'?") else path, sure)
-            alike.setdefault(key, []).append((path, hint, best, [place for _, place in others]))
-    for (owner, _, sure), lacking in alike.items():
-        (path, hint, first, beside), *more = lacking
+            groups.setdefault(key, []).append((path, hint, best, [place for _, place in others]))
+    for (owner, _, sure), missing in groups.items():
+        (path, hint, first, repeated), *more = missing
         yield Finding(
-            f"{owner} has no {path}{f', nor {len(more)} more of the folder that are named here' if more else ''}{hint}",
+            f"{_message(owner, path, len(more))}{hint}",
             first,
             path,
             several(
                 [
-                    *(Related("also named here", place) for place in beside),
-                    *(Related(f"{name} is not there either", place) for name, _, place, _ in more),
+                    *(Related("also named here", place) for place in repeated),
+                    *(Related(f"'{name}' does not exist either", place) for name, _, place, _ in more),
                 ]
             ),
             confidence=Confidence.HIGH if sure else Confidence.MEDIUM,
@@ -122,24 +127,26 @@ def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    """Yield what is missing of the files that launch files name by themselves."""
+    """Yield the missing files that launch files name themselves."""
     for (owner, path), named in referred(package, ("include", "file")).items():
         references = [reference for reference in named if not (reference.optional or reference.asked)]
         if not references:
             continue
-        best, *others = sorted(references, key=lambda one: (one.by_default, one.kind != "include", not one.read, one.span))
-        others_there = _files_without(owner, path, best.kind, workspace)
-        if others_there is None:
+        best, *others = sorted(
+            references, key=lambda place: (place.by_default, place.kind != "include", not place.read, place.span)
+        )
+        existing = _files_without(owner, path, best.kind, workspace)
+        if existing is None:
             continue
-        written = best.kind == "include" or path.endswith(_WRITTEN) or any(one.read for one in references)
-        written = written or _is_misspelt(path, others_there)
-        twin = "" if written else _twin(path, others_there)
+        written = best.kind == "include" or path.endswith(_WRITTEN) or any(reference.read for reference in references)
+        written = written or _is_misspelt(path, existing)
+        twin = "" if written else _twin(path, existing)
         if not written and not twin:
             continue
-        meant = written or _is_left_over(twin, owner, others_there, workspace)
+        meant = written or _is_left_over(twin, owner, existing, workspace)
         sure = meant and workspace.surely_lacks(owner, "launch", path)
         yield Finding(
-            f"{owner} has no {path}{_hint(path, others_there) or _owner(package, path, workspace)}",
+            f"{_message(owner, path)}{_hint(path, existing) or _owner(package, path, workspace)}",
             best.span,
             path,
             several(Related("also named here", other.span) for other in others),
@@ -150,35 +157,34 @@ def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _passed(workspace: Workspace) -> Iterator[Finding]:
-    """Yield what is missing of the files that launch files name with what those pass on that include them."""
+    """Yield the missing files that included launch files name with the arguments that they are passed."""
     links = workspace.links
     files = [(package, launch.file) for package in workspace.packages for launch in launchable(package)]
     including = [(package, file) for package, file in files if links.includes(file)]
-    inner = {each.path for _, file in including for each in links.includes(file)}
+    inner = {included.path for _, file in including for included in links.includes(file)}
     missing = _Missing(workspace)
     if not any(missing.passed_by(file) for _, file in including if file.path not in inner):
-        return  # most workspaces are right, and to follow what others include costs as much again
-    found: dict[_Key, tuple[PassedFile, Package, LaunchFile]] = {}
+        return  # most workspaces have no such mistake, and following the included files as well would double the time
+    nearest: dict[_Key, tuple[PassedFile, Package, LaunchFile]] = {}
     for package, file in including:
-        for key, one in missing.passed_by(file).items():
-            if key not in found or one.depth < found[key][0].depth:
-                found[key] = one, package, file
-    for key, (one, package, file) in found.items():
-        sure = one.sure and key in missing.passed_by(file, settled=True)
-        others_there = _files_without(one.package, one.path, one.kind, workspace) or ()
-        hint = _hint(one.path, others_there)
+        for key, passed in missing.passed_by(file).items():
+            if key not in nearest or passed.depth < nearest[key][0].depth:
+                nearest[key] = passed, package, file
+    for key, (passed, package, file) in nearest.items():
+        sure = passed.sure and key in missing.passed_by(file, settled=True)
+        hint = _hint(passed.path, _files_without(passed.package, passed.path, passed.kind, workspace) or ())
         yield Finding(
-            f"{one.package} has no {one.path}, which an included file names with what it is passed here{hint}",
-            one.via,
-            one.path,
-            (Related("named here", one.span),),
-            confidence=Confidence.HIGH if sure and not _is_made(one.package, one.path, workspace) else Confidence.MEDIUM,
+            f"{_message(passed.package, passed.path)}; the included file forms this path from an argument passed here{hint}",
+            passed.via,
+            passed.path,
+            (Related("named here", passed.span),),
+            confidence=Confidence.HIGH if sure and not _is_made(passed.package, passed.path, workspace) else Confidence.MEDIUM,
             package=package.name,
         )
 
 
 class _Missing:
-    """Which of the files that are passed on are missing; each is looked for once, and each launch file followed once."""
+    """Cache of the missing files that included launch files name, by path and by launch file."""
 
     def __init__(self, workspace: Workspace) -> None:
         self._workspace = workspace
@@ -186,9 +192,9 @@ class _Missing:
         self._passed: dict[tuple[str, bool], dict[_Key, PassedFile]] = {}
 
     def passed_by(self, file: LaunchFile, *, settled: bool = False) -> dict[_Key, PassedFile]:
-        """Return what is missing when a file is launched, see :func:`passed_files`, by what it is and who names it.
+        """Return the files that are missing when ``file`` is launched, see :func:`passed_files`.
 
-        What a launch file names by itself is left out.
+        Files that a launch file names without the help of arguments are left out.
         """
         key = file.path, settled
         if key not in self._passed:
@@ -196,36 +202,43 @@ class _Missing:
         return self._passed[key]
 
     def _among(self, files: Iterable[PassedFile]) -> dict[_Key, PassedFile]:
-        found: dict[_Key, PassedFile] = {}
-        for one in files:
-            place = (one.package, one.path, one.kind)
+        missing: dict[_Key, PassedFile] = {}
+        for file in files:
+            place = (file.package, file.path, file.kind)
             if place not in self._known:
-                self._known[place] = self._is_missing(one)
+                self._known[place] = self._is_missing(file)
             if self._known[place]:
-                found.setdefault((one.span, one.package, one.path), one)
-        return found
+                missing.setdefault((file.span, file.package, file.path), file)
+        return missing
 
-    def _is_missing(self, one: PassedFile) -> bool:
-        if one.kind != "include" and not one.path.endswith(_WRITTEN):
+    def _is_missing(self, file: PassedFile) -> bool:
+        if file.kind != "include" and not file.path.endswith(_WRITTEN):
             return False
-        if any(look_up.path == one.path for look_up in self._workspace.looked_up.get(one.package, ())):
+        if any(look_up.path == file.path for look_up in self._workspace.looked_up.get(file.package, ())):
             return False
-        return _files_without(one.package, one.path, one.kind, self._workspace) is not None
+        return _files_without(file.package, file.path, file.kind, self._workspace) is not None
 
 
 _Key = tuple[Span, str, str]
 
 
+def _message(owner: str, path: str, more: int = 0) -> str:
+    """Return the beginning of a message about a missing file, and the number of further ones in its folder."""
+    if not more:
+        return f"'{path}' does not exist in '{owner}'"
+    return f"'{path}' and {more} other file{'s' if more > 1 else ''} of this folder that are named here do not exist in '{owner}'"
+
+
 def _twin(path: str, names: tuple[str, ...]) -> str:
-    """Return a file of nearly the same name, and of the same kind, that is installed beside one, "" if there is none."""
+    """Return an installed file of the same folder and suffix with a nearly equal name, or ""."""
     folder, _, base = path.rpartition("/")
-    beside = [name.rpartition("/")[2] for name in names if _kind(name) == _kind(path)]
-    near = similar(base, beside, 1, 0.8)
+    siblings = [name.rpartition("/")[2] for name in names if _kind(name) == _kind(path)]
+    near = similar(base, siblings, 1, 0.8)
     return f"{folder}/{near[0]}".lstrip("/") if near else ""
 
 
 def _is_misspelt(path: str, names: tuple[str, ...]) -> bool:
-    """Whether the letters of the suffix are those of a file that is there in another order: x.yalm."""
+    """Return whether the suffix is that of an existing file with its letters in another order: x.yalm."""
     stem, _, suffix = path.rpartition(".")
     return any(name.startswith(f"{stem}.") and sorted(name[len(stem) + 1 :]) == sorted(suffix) for name in names)
 
@@ -237,40 +250,40 @@ def _kind(path: str) -> tuple[str, str]:
 
 
 def _is_left_over(file: str, owner: str, names: tuple[str, ...], workspace: Workspace) -> bool:
-    """Whether nothing looks up a file, while others of its kind beside it are looked up: then it is the one that is meant."""
+    """Return whether a file is not looked up, but others of its folder and suffix are: then the file is the one to suggest."""
     wanted = {look_up.path for look_up in workspace.looked_up.get(owner, ())}
     return file not in wanted and any(_kind(other) == _kind(file) for other in wanted.intersection(names))
 
 
 def _is_made(owner: str, path: str, workspace: Workspace) -> bool:
-    """Whether people make such a file with the robot, as they do maps and what git ignores, or programs do when they run."""
+    """Return whether such a file is usually created on the robot: maps, files that git ignores, and output of programs."""
     if not _FILLED_LATER.isdisjoint(path.split("/")[:-1]):
         return True
-    return any(workspace.is_made(one, path) for one in workspace.by_name.get(owner, ()))
+    return any(workspace.is_made(package, path) for package in workspace.by_name.get(owner, ()))
 
 
 _FILLED_LATER = frozenset({"generated", "map", "maps", "temp", "tmp"})
 
 
 def _files_without(owner: str, path: str, kind: str, workspace: Workspace) -> tuple[str, ...] | None:
-    """Return the files below share/<package> when this one is certainly not among them."""
+    """Return the files below share/<package> if ``path`` is certainly not among them, else None."""
     owners = workspace.by_name.get(owner, ())
     if not owners:
         known = workspace.world.launch_files(owner)
         return known.possible if kind == "include" and known.ask(path) == "missing" else None
     share = f"share/{owner}/"
     names: set[str] = set()
-    for one in owners:
-        if one.script is None or one.builds_with not in ("ament_cmake", "ament_python"):
+    for package in owners:
+        if package.script is None or package.builds_with not in ("ament_cmake", "ament_python"):
             return None
-        if one.hidden(Facet.SHARE, f"{share}{path}"):
+        if package.hidden(Facet.SHARE, f"{share}{path}"):
             return None
-        names.update(p.path[len(share) :] for p in one.script.provides if p.path.startswith(share))
-        # What is in the sources and installed nowhere is told by another rule, also when the folders differ.
-        installed = one.script.installed
-        if any((file == path or file.endswith(f"/{path}")) and file not in installed for file in one.files):
+        names.update(p.path[len(share) :] for p in package.script.provides if p.path.startswith(share))
+        # Another rule reports a file of the sources that is not installed, also if the folders differ.
+        installed = package.script.installed
+        if any((file == path or file.endswith(f"/{path}")) and file not in installed for file in package.files):
             return None
-        if any(path.startswith(f"{folder}/") for folder in (*one.unseen, *one.nested)):
+        if any(path.startswith(f"{folder}/") for folder in (*package.unseen, *package.nested)):
             return None
     if path in names or any(name.startswith(f"{path}/") for name in names):
         return None
@@ -278,12 +291,15 @@ def _files_without(owner: str, path: str, kind: str, workspace: Workspace) -> tu
 
 
 def _owner(package: Package, path: str, workspace: Workspace) -> str:
-    """Return that another package has a file: the one that names it, or else the only one of the workspace."""
-    packages = [one for one in workspace.packages if any(p.path == f"share/{one.name}/{path}" for p in one.built.provides)]
-    owners = {one.name for one in packages}
+    """Return the hint that another package has the file: the package that names it, or else the only one of the workspace."""
+    owners = {
+        other.name
+        for other in workspace.packages
+        if any(provided.path == f"share/{other.name}/{path}" for provided in other.built.provides)
+    }
     if package.name in owners:
-        return f"; {package.name} has it"
-    return f"; {owners.pop()} has it" if len(owners) == 1 else ""
+        return f"; '{package.name}' has it"
+    return f"; '{owners.pop()}' has it" if len(owners) == 1 else ""
 
 
 def _hint(path: str, names: tuple[str, ...]) -> str:
@@ -296,7 +312,7 @@ def _hint(path: str, names: tuple[str, ...]) -> str:
 RULE = Rule(
     name="launch-missing-include",
     code="ROS505",
-    summary="a file that a launch file includes or names must exist in its package",
+    summary="files that launch files include or name exist in their packages",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,

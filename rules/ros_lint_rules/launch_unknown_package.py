@@ -1,42 +1,49 @@
 """
 ## What it finds
 
-A launch file that starts something from a package, includes a file of it or looks it up, while no package has that
-name: none of the workspace, none of an underlay, none that is released for the distribution.
+A launch file that starts something from a package, includes one of its files or looks the package up, although no package has
+that name: not in the workspace, not in an underlay, and not in the release of the distribution.
 
-Where the package of the launch file installs what is started from the unknown one, it is taken for that package: it was
-renamed, or the launch file was copied.
+The message suggests another package in these cases:
 
-A name without the first word that the packages of a project share, `planner_utils` for `acme_planner_utils` in a package
-`acme_bringup`, is taken for that package where it exists, unless nothing of what is named is in there.
+- A package with a similar name exists.
+- The package of the launch file installs the executables that are started. It was renamed, or the launch file was copied.
+- The name lacks the first word that the packages of a project share: `planner_utils` for `acme_planner_utils` in a package
+  `acme_bringup`. Nothing is suggested if that package has none of the executables and files that the launch file names.
 
 ## Why it matters
 
-The launch file stops there: `package 'x' not found`. The usual reasons are a slip of the pen, a package that was
-renamed, and one that was never ported from ROS 1.
+The launch file stops there: `package 'x' not found`. The usual reasons are a typo, a package that was renamed, and a package
+that was never ported from ROS 1.
 
 ## How to fix it
 
-Correct the name; the fix does this where the name that was meant is beyond doubt. If the package is built from source
-elsewhere, check with the workspace that holds it as `--underlay`.
+Correct the name. The fix does this if only one name is possible. If the package is built from source in another workspace, name
+that workspace with `--underlay`.
 
 ## Limitations
 
-- There are no data about the distribution.
-- Nobody said which distribution is meant, and another one has the package.
-- The launch file asks first if the package is there.
-- The name has a dollar in it: it stands in a template.
-- A git submodule that is not cloned has a folder of the name. Where a `*.repos` or `*.rosinstall` has a repository of the name
-  fetched, the confidence is medium.
-- The name is that of a default which an argument can replace: then the confidence is medium.
-- The name is merely unknown: that may be a driver that its vendor does not release. Then the confidence is medium, unless
-  the package is started under no condition and `package.xml` does not declare it either: wherever it comes from, whoever
-  installs this package does not get it. That is a warning.
-- `package.xml` declares the name as well, and it resembles no other: then `unknown-dependency` or
-  `end-of-life-dependency` tells of it, once. If it resembles one, the confidence is medium for what a package may be called
-  (REP 144: no dashes, no capitals).
-- In launch files of examples, and of tests that the build script is not seen to run, the confidence is medium; one that is
-  merely called a test and always installed counts like any other.
+Not reported:
+
+- There is no package index for the distribution.
+- The distribution was not chosen, and another one has the package.
+- The launch file checks first whether the package exists.
+- The name contains a `$`, because the file is a template.
+- A git submodule that is not cloned has a folder of that name.
+- `package.xml` declares the name as well, and no package has a similar name: `unknown-dependency` or `end-of-life-dependency`
+  reports it.
+
+Reported with medium confidence:
+
+- The name is unknown and similar to no other, because vendors may not release their drivers. If the package is started
+  unconditionally and `package.xml` does not declare it, it is a warning with high confidence instead: users who install this
+  package do not get it.
+- A `*.repos` or `*.rosinstall` file fetches a repository of that name.
+- The name is the default of an argument.
+- `package.xml` declares the name as well, a package has a similar name, and the name is valid for a package (REP 144: no
+  dashes, no capitals).
+- Launch files of examples, and of tests that the build script does not run. A launch file that only has a test-like name but is
+  always installed is not affected.
 """
 
 from __future__ import annotations
@@ -60,6 +67,7 @@ from ros_lint.api import (
     declared_closure,
     did_you_mean,
     few,
+    is_meant,
     launchable,
     may_be_package,
     may_bring,
@@ -72,13 +80,13 @@ from ros_lint.api import (
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if not workspace.world.knowledge.covered:
         return
-    declared = frozenset(one.name for one in package.declared)
+    declared = frozenset(depend.name for depend in package.declared)
     for name, places in _unknown(package, workspace):
         verdict = _verdict(name, places, package, workspace)
         if verdict is None or (name in declared and not verdict.resembles):
             continue
         best, *_ = ordered = sorted(places)
-        spans = list(dict.fromkeys([place.reference.package_span for place in ordered]))  # what is made of a path names it again
+        spans = list(dict.fromkeys([place.reference.package_span for place in ordered]))  # a path can name its package twice
         wanted = not (best.apart or best.by_default)
         left_out = (
             wanted
@@ -86,14 +94,14 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             and not (best.idle or best.conditional or name in workspace.world.awaited.listed)
             and _never_comes(name, package, workspace)
         )
-        told = _undeclared(name, package, workspace) if left_out and not verdict.known else ""
+        hint = _hint_to_declare(name, package, workspace) if left_out and not verdict.known else ""
         yield Finding(
-            f"there is no package {name}{verdict.hint}{told}",
+            f"there is no package '{name}'{verdict.hint}{hint}",
             best.reference.package_span,
             name,
             several(Related("also named here", span) for span in spans[1:]),
             corrected(
-                f"say {verdict.meant} instead of {name}",
+                f"write '{verdict.meant}' instead of '{name}'",
                 verdict.meant,
                 [(place.reference.package_span, place.reference.package_exact) for place in places],
             ),
@@ -103,10 +111,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 class _Place(NamedTuple):
-    """Where a package is named; the most telling place is the least."""
+    """A place that names a package; the place that best explains the finding sorts first."""
 
     apart: bool
-    """Whether the launch file is an example, or a test that nothing is seen to run."""
+    """Whether the launch file is an example, or a test that the build script does not run."""
     by_default: bool
     idle: bool
     """Whether the launch file is not installed."""
@@ -115,16 +123,16 @@ class _Place(NamedTuple):
     reference: LaunchReference
 
 
-def _undeclared(name: str, package: Package, workspace: Workspace) -> str:
-    """Return how a message goes on about a package that may be had elsewhere, and that is not declared either."""
+def _hint_to_declare(name: str, package: Package, workspace: Workspace) -> str:
+    """Return the end of the message about an undeclared package that may be available elsewhere."""
     tag = tag_for(package, workspace, name, Role.EXEC)
-    return f"; if it comes from elsewhere, declare it: add <{tag}>{name}</{tag}>"
+    return f"; if it is available elsewhere, add <{tag}>{name}</{tag}>"
 
 
 def _never_comes(name: str, package: Package, workspace: Workspace) -> bool:
-    """Whether nothing that is declared is a package of some name, or may bring it along.
+    """Return whether no declared dependency is the package or may depend on it, directly or indirectly.
 
-    What took another name in ROS 2 is not brought by what nobody knows.
+    An unknown dependency is assumed not to depend on a package that ROS 2 replaced by another one.
     """
     manifest = package.manifest
     if manifest is None or manifest.problems or package.tags(name):
@@ -139,14 +147,14 @@ class _Verdict(NamedTuple):
     confidence: Confidence
     meant: str = ""
     resembles: bool = True
-    """Whether it is a slip, or was renamed, rather than a package that is nowhere to be had."""
+    """Whether it is probably a typo or an old name, not a package that is unavailable."""
     known: bool = False
-    """Whether the hint names what does the same in ROS 2, or is of these words: then it is not to be had elsewhere."""
+    """Whether the hint names the replacement in ROS 2, or a package of the same words: then it is not available elsewhere."""
 
 
 def _unknown(package: Package, workspace: Workspace) -> Iterator[tuple[str, list[_Place]]]:
-    """Yield the names that are no package, where they stand; those apart that are to start what this package installs."""
-    found: dict[tuple[str, bool], list[_Place]] = {}
+    """Yield unknown package names with their places; those that start executables of this package are grouped separately."""
+    unknown: dict[tuple[str, bool], list[_Place]] = {}
     own = programs(package)
     hidden = bool(package.hidden(Facet.SHARE))
     for launch in launchable(package, apart=True):
@@ -155,56 +163,58 @@ def _unknown(package: Package, workspace: Workspace) -> Iterator[tuple[str, list
             name = reference.package
             unknowable = workspace.world.standing(name) == "unknowable" or name in workspace.world.awaited.uncloned
             if "$" in name or reference.kind == "program" or unknowable:
-                continue  # a template, for whoever fills it in; no package at all; a submodule that is not cloned
+                continue  # a template, a program without a package, or a submodule that is not cloned
             if not workspace.world.is_package(name) and name != package.name and not reference.optional:
                 place = _Place(not launch.run, reference.by_default, idle, reference.conditional, reference.span, reference)
                 is_own = own is not None and reference.kind == "node" and reference.name in own.names
-                found.setdefault((name, is_own), []).append(place)
-    yield from ((name, places) for (name, _), places in found.items())
+                unknown.setdefault((name, is_own), []).append(place)
+    yield from ((name, places) for (name, _), places in unknown.items())
 
 
 def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: Workspace) -> _Verdict | None:
     world = workspace.world
     meant = world.meant(name)
     if meant is not None and world.is_package(meant.name):
-        return _Verdict(f": {meant.name} is meant", Confidence.HIGH, meant.name)
+        return _Verdict(is_meant([meant.name]), Confidence.HIGH, meant.name)
     renamed = [other for other in workspace.by_name if other.endswith(f"_{name}")]
     if len(renamed) == 1 and _may_have(renamed[0], places, workspace, all):
-        return _Verdict(f": the workspace has {renamed[0]}", Confidence.HIGH, renamed[0])
+        return _Verdict(f"; the workspace has '{renamed[0]}'", Confidence.HIGH, renamed[0])
     distro, date = workspace.target.distro, world.knowledge.date
     elsewhere = world.where_else(name)
     if elsewhere:
         if not workspace.target.told:
             return None
-        return _Verdict(f" in {distro}, only in {', '.join(elsewhere)} (data of {date})", Confidence.MEDIUM, resembles=False)
+        return _Verdict(
+            f" in {distro}, only in {', '.join(elsewhere)} (package index of {date})", Confidence.MEDIUM, resembles=False
+        )
     own = programs(package)
     wanted = dict.fromkeys(place.reference.name for place in places)
     if own and own.names.issuperset(wanted) and places[0].reference.kind == "node":
-        return _Verdict(f": {package.name} itself installs {few(list(wanted))}", Confidence.HIGH, package.name)
+        return _Verdict(f"; '{package.name}' itself installs {few(list(wanted))}", Confidence.HIGH, package.name)
     family = f"{package.name.partition('_')[0]}_{name}"
     if "_" in name and world.is_package(family) and _may_have(family, places, workspace, all):
-        return _Verdict(f": {family} is meant", Confidence.HIGH, family)
+        return _Verdict(is_meant([family]), Confidence.HIGH, family)
     ended = world.knowledge.names.end_of_life(name)
     if ended:
         successor = world.successor(name)
-        use = f": use {successor}" if successor else ""
-        hint = f" in {distro}, it was last released for {ended[0]} (data of {date}){use}"
+        use = f"; use '{successor}'" if successor else ""
+        hint = f" in {distro}; it was last released for {ended[0]} (package index of {date}){use}"
         return _Verdict(hint, Confidence.MEDIUM, resembles=False, known=bool(use))
     known = [other for other in world.suggest(name) if world.is_package(other)]
     near = [other for other in known if other not in workspace.by_name or _may_have(other, places, workspace)]
     reordered = [] if near else [other for other in _reordered(name, workspace) if _may_have(other, places, workspace)]
-    nowhere = f" in the workspace, the underlays or {distro} (data of {date})"
-    # As sure as unknown-dependency is of what package.xml declares.
-    strange = package.declares(name) and not may_be_package(name)
+    nowhere = f" in the workspace, the underlays or {distro} (package index of {date})"
+    # The same confidence as unknown-dependency has for a name in package.xml.
+    invalid = package.declares(name) and not may_be_package(name)
     hint = f"{nowhere}{did_you_mean(near or reordered)}"
-    confidence = Confidence.HIGH if strange else Confidence.MEDIUM
+    confidence = Confidence.HIGH if invalid else Confidence.MEDIUM
     return _Verdict(hint, confidence, resembles=bool(known or reordered), known=bool(reordered))
 
 
 def _may_have(
     other: str, places: Sequence[_Place], workspace: Workspace, how_many: Callable[[Iterable[bool]], bool] = any
 ) -> bool:
-    """Whether a package may have what is named of one that does not exist, any or all of it, if there is something."""
+    """Return whether a package may have any or all of the executables and files that are named of a missing package."""
     named = [place.reference for place in places if place.reference.name]
     return not named or how_many(_may_offer(other, reference, workspace) for reference in named)
 
@@ -216,22 +226,29 @@ def _may_offer(other: str, reference: LaunchReference, workspace: Workspace) -> 
         known = {"node": workspace.world.executables, "include": workspace.world.launch_files}.get(reference.kind)
         return known is None or known(other).ask(name) != "missing"
     if reference.kind == "node":
-        return any((found := programs(one)) is None or _has_like(name, (*found.names, *found.elsewhere)) for one in packages)
+        return any(_may_start(package, name) for package in packages)
     if reference.kind not in ("include", "file"):
         return True
     return any(
-        one.hidden(Facet.SHARE) or name in one.files or any(each.path == f"share/{other}/{name}" for each in one.built.provides)
-        for one in packages
+        package.hidden(Facet.SHARE)
+        or name in package.files
+        or any(provided.path == f"share/{other}/{name}" for provided in package.built.provides)
+        for package in packages
     )
 
 
+def _may_start(package: Package, name: str) -> bool:
+    installed = programs(package)
+    return installed is None or _has_like(name, (*installed.names, *installed.elsewhere))
+
+
 def _has_like(name: str, programs: Iterable[str]) -> bool:
-    """Whether one of some programs has a name, alone or with more words: what renames a package renames its programs, too."""
+    """Return whether a program has the name, alone or with more words: renamed packages often rename their programs as well."""
     return any(f"_{name}_" in f"_{program}_" for program in programs)
 
 
 def _reordered(name: str, workspace: Workspace) -> list[str]:
-    """Return the one package of the workspace that has all the words of a name, in another order."""
+    """Return the only package of the workspace that contains all words of a name in another order, or []."""
     words = set(name.split("_"))
     alike = [other for other in workspace.by_name if name not in other and words.issubset(other.split("_"))]
     return alike if len(words) > 1 and len(alike) == 1 else []
@@ -240,7 +257,7 @@ def _reordered(name: str, workspace: Workspace) -> list[str]:
 RULE = Rule(
     name="launch-unknown-package",
     code="ROS501",
-    summary="a package that a launch file names must exist",
+    summary="packages that launch files name exist",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,
