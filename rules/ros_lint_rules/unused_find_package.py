@@ -1,27 +1,28 @@
 """
 ## What it finds
 
-A `find_package()` of a ROS package that the code does not use: no include, no macro, no interface, no import. That its
-targets are linked, that it is exported, or that `rosidl_generate_interfaces()` is given it among `DEPENDENCIES`, does not count.
+A `find_package()` of a ROS package that the code does not use: no include, macro, interface or import refers to it. Linking its
+targets, exporting it, or naming it in the `DEPENDENCIES` of `rosidl_generate_interfaces()` does not count as use.
 
 ## Why it matters
 
-Configuring takes longer, and the package can only be built where the other one is.
+Configuring takes longer, and this package can only be built where the other one is available.
 
 ## How to fix it
 
-Remove the `find_package()`, the target that is linked, and the dependency from `package.xml` if nothing else needs it.
+Remove the `find_package()` and the linked target, and the dependency from `package.xml` if nothing else needs it.
 
 ## Limitations
 
-- It is off unless asked for.
-- The package found gives CMake macros, plugins or components, or is a build tool.
-- Its name stands in the code, as a namespace that some other header makes known, or in another file of the package, or one
-  of its types is used by its bare name.
-- The code includes a header that nobody is known to have, in a folder that begins like the name.
-- The script uses more of its variables than those that are linked.
-- It is found for tests, or it is optional.
-- The script cannot be followed everywhere, or code is generated from interfaces that cannot be read, or are written in IDL.
+This rule is off by default. Not reported:
+
+- The package provides CMake macros, plugins or components, or is a build tool.
+- The code contains the name, as a namespace that a header of another package may declare, or another file of the package does;
+  or the code uses one of its types by the bare name.
+- The code includes a header of an unknown package, in a folder whose name begins like that of the package.
+- The script uses more of the package's variables than those for linking.
+- The package is found for tests, or it is optional.
+- The script cannot be fully evaluated, or code is generated from interfaces that cannot be read or are written in IDL.
 """
 
 from __future__ import annotations
@@ -35,17 +36,17 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for mention in found_for_nothing(package, workspace):
         name = mention.name
         others = _also_named(package, mention)
-        what = f"find_package({name})" + (f", and {name} where else it is named" if others else "")
-        related = several(Related(f"named here, too: {each.what or each.name}", each.span) for each in others)
-        yield Finding(f"{name} is found, but no code uses it: remove {what}", mention.span, name, related)
+        what = f"find_package({name})" + (f" and the other uses of '{name}' in the build script" if others else "")
+        related = several(Related(f"also named here: {other.what or other.name}", other.span) for other in others)
+        yield Finding(f"no code uses '{name}'; remove {what}", mention.span, name, related)
 
 
-def _also_named(package: Package, found: Mention) -> list[Mention]:
-    """Return where else the build script names what is found: what is linked or exported fails when it is found no more."""
+def _also_named(package: Package, find: Mention) -> list[Mention]:
+    """Return the other places where the build script names the package: links and exports fail without find_package()."""
     places = {
-        each.span: each
-        for each in package.built.mentions
-        if each.name.partition("::")[0] == found.name and each.span != found.span
+        mention.span: mention
+        for mention in package.built.mentions
+        if mention.name.partition("::")[0] == find.name and mention.span != find.span
     }
     return [places[span] for span in sorted(places)]
 
@@ -53,7 +54,7 @@ def _also_named(package: Package, found: Mention) -> list[Mention]:
 RULE = Rule(
     name="unused-find-package",
     code="ROS205",
-    summary="a package that is found must be used by code",
+    summary="packages found with find_package() are used by code",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,

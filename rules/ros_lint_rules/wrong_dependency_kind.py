@@ -1,38 +1,51 @@
 """
 ## What it finds
 
-A dependency that is declared, but in a tag that does not reach where it is used: `<test_depend>` for what is built or
-runs outside tests, `<exec_depend>` for what is compiled against, `<build_depend>` for what is imported, launched or
-looked up at run time, or for what public headers include and `ament_export_dependencies` names.
+A dependency that is declared in a tag that does not cover its use:
+
+- `<test_depend>` for what is built or run outside tests;
+- `<exec_depend>` for what the package is compiled against;
+- `<build_depend>` for what is imported, launched or looked up at run time;
+- `<build_depend>` for what public headers include or `ament_export_dependencies` names.
 
 ## Why it matters
 
-In a workspace it mostly works, for colcon puts every dependency on the path, whatever its tag. It fails elsewhere:
-`exec_depend` is not installed where binary packages are built, `build_depend` is not installed with them, and
-`test_depend` is neither when tests are off (REP 149).
+In a workspace it mostly works, because colcon makes every dependency available, whatever its tag. It fails elsewhere (REP 149):
+where binary packages are built, `exec_depend` is not installed; where they are installed, `build_depend` is not; and without
+tests, `test_depend` is not.
 
 ## How to fix it
 
-Use the tag that the message names. The fix does this, and puts it among its like where the file keeps kinds together.
+Use the tag that the message names. The fix does this, and moves the tag to others of its kind if the file groups them.
 
 ## Limitations
 
-- The package comes along in the right way with another declared dependency. Where it is declared for tests only, the confidence
-  is then low: it works until the other one drops it.
-- The use is optional, or in files that are perhaps not built or installed.
-- Only launch files name it, for what they start, include or look up: see `launch-outside-closure`.
-- Launch files import what comes with `ros2 launch`, and what packages of tests declare serves tests anyhow.
-- A tag has a condition that not every environment of ROS 2 meets, or a declared dependency is itself not known, so that the
-  package might come with it.
-- Headers are not installed, or only under a condition: then nobody else includes them. If there is a library to link with, they
-  may have been forgotten, and the confidence is low.
-- What tests are made of, such as `ament_cmake_gtest`, is named by installed headers: they help tests elsewhere.
-- With both `<build_depend>` and `<exec_depend>` the confidence is low, for rosdep keys medium: what is installed is then there
-  to build against, too, but REP 149 wants `<build_export_depend>`.
-- The confidence is medium for rosdep keys that only headers ask for, and where only installed headers include what
-  `<build_export_depend>` names.
-- Only ROS packages count for run time: a rosdep key for building may have another one for running, and build tools and
-  vendor packages have nothing to run.
+Not reported:
+
+- The package is available through another declared dependency with the right tag.
+- The use is optional, or is in files that may not be built or installed.
+- Only launch files name the package, because they start, include or look up something of it: see `launch-outside-closure`.
+- Imports of launch files that are satisfied by what is installed with `ros2 launch`.
+- Packages for tests, because their dependencies serve tests anyway.
+- A tag has a condition that is false in some ROS 2 environment.
+- A declared dependency is unknown, so that it may provide the package.
+- Headers that are not installed, or only under a condition, because other packages do not include them.
+- Test libraries such as `ament_cmake_gtest` that installed headers include, because these headers help tests elsewhere.
+- rosdep keys at run time, because a key for building may have another one for running. Build tools and vendor packages, because
+  they have nothing to run.
+
+Reported with medium confidence:
+
+- rosdep keys that only headers need.
+- `<build_export_depend>` on what only installed headers include.
+- `<build_depend>` together with `<exec_depend>` for a rosdep key that is exported.
+
+Reported with low confidence:
+
+- `<test_depend>` on a package that another dependency provides: it works until that dependency drops it.
+- Headers of a library that are not installed: their installation may have been forgotten.
+- `<build_depend>` together with `<exec_depend>` for a package that is exported. Both are installed where other packages are
+  built, but REP 149 requires `<build_export_depend>`.
 """
 
 from __future__ import annotations
@@ -71,23 +84,23 @@ _OF_TESTS = frozenset({
     "ament_cmake_gmock", "ament_cmake_google_benchmark", "ament_cmake_gtest", "benchmark", "gmock_vendor", "google-mock",
     "google_benchmark_vendor", "gtest", "gtest_vendor", "libgmock-dev", "libgtest-dev",
 })  # fmt: skip
-"""Who gives the libraries that tests in C++ are made of."""
+"""Packages and keys that provide test libraries for C++."""
 _BUILT = ("include", "cmake", "interface", "symbol", "macro", "target")
 _RUN = ("import", "package")
 _EXPORTED = ("include", "interface", "target")
-_ASKED = (Role.BUILD, Role.EXEC, Role.EXPORT)
+_ROLES = (Role.BUILD, Role.EXEC, Role.EXPORT)
 _TEST = Role.TEST
 _TO_BUILD = Role.BUILD | Role.TOOL
 _AFTERWARDS = Role.EXEC | Role.EXPORT
 
 
 class _Wrong(NamedTuple):
-    """A name that is declared in tags which do not reach far enough."""
+    """A name that is declared in tags that do not cover its use."""
 
     name: str
     depends: list[Depend]
     tag: str
-    """What to write instead."""
+    """The tag to write instead."""
     why: str
     uses: list[Use]
     confidence: Confidence
@@ -98,13 +111,13 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for wrong in every:
         name, tag = wrong.name, wrong.tag
         written = " and ".join(dict.fromkeys(f"<{depend.tag}>" for depend in wrong.depends))
-        alike = [depend for other in every if other.tag == tag for depend in other.depends]
+        same_tag = [depend for other in every if other.tag == tag for depend in other.depends]
         yield Finding(
-            f"{name} is declared as {written} only, {wrong.why}: make it <{tag}>{name}</{tag}>",
+            f"'{name}' is declared as {written} only, {wrong.why}; write <{tag}>{name}</{tag}>",
             wrong.depends[0].span,
             name,
             several(Related(f"used here: {use.what}", use.span) for use in wrong.uses),
-            Fix(f"declare {name} as <{tag}>", change_dependency(package, wrong.depends, tag, alike)),
+            Fix(f"declare '{name}' as <{tag}>", change_dependency(package, wrong.depends, tag, same_tag)),
             wrong.confidence,
         )
 
@@ -116,44 +129,44 @@ def _wrong(package: Package, workspace: Workspace) -> Iterator[_Wrong]:
     if is_for_tests(package.name):
         return
     unguarded = unguarded_tests(package)
-    said: set[str] = set()
+    reported: set[str] = set()
     by_name: dict[str, list[Declared]] = {}
     for declared in package.declared:
         by_name.setdefault(declared.name, []).append(declared)
     for need in needs(package, workspace):
         if not need.declared or any(_is_for_all(declared) for name in need.declared for declared in by_name[name]):
             continue
-        # A key to build with and another one to run with are complete together.
+        # A key for building and another one for running complement each other.
         names = dict.fromkeys((*need.declared, *(name for use in need.uses for name in use.providers if name in by_name)))
         tags = [declared for name in names for declared in by_name[name]]
         if any(map(_is_for_all, tags)) or comes_with_launching(package, need.uses):
             continue
-        seen = need._replace(uses=tuple(_outside(package, need, hopeful=False)))
-        lacking = _lacks(package, workspace, seen, tags)
+        exported = need._replace(uses=tuple(_exported_uses(package, need, assume_installed=False)))
+        lacking = _lacks(package, workspace, exported, tags)
         if lacking is None and any(target.kind == "library" and not target.test for target in package.built.targets):
-            seen = need._replace(uses=tuple(_outside(package, need, hopeful=True)))
-            lacking = _once_installed(_lacks(package, workspace, seen, tags))
+            exported = need._replace(uses=tuple(_exported_uses(package, need, assume_installed=True)))
+            lacking = _once_installed(_lacks(package, workspace, exported, tags))
         if lacking is None:
             continue
-        uses = [use for use in seen.uses if use.sure and _is_about(use, lacking.role)]
+        uses = [use for use in exported.uses if use.sure and _is_about(use, lacking.role)]
         name = next((name for name in uses[0].providers if name in need.declared), need.declared[0])
-        if name in said or name in unguarded:
-            continue  # unguarded-test tells where to put it
-        said.add(name)
-        mine = [declared.depend for declared in tags if declared.name == name]
-        tag = tag_for(package, workspace, name, seen.role | (_given(tags, name) & ~_TEST))
-        yield _Wrong(name, mine, tag, lacking.why, uses, lacking.confidence)
+        if name in reported or name in unguarded:
+            continue  # unguarded-test reports the tests
+        reported.add(name)
+        depends = [declared.depend for declared in tags if declared.name == name]
+        tag = tag_for(package, workspace, name, exported.role | (_given(tags, name) & ~_TEST))
+        yield _Wrong(name, depends, tag, lacking.why, uses, lacking.confidence)
 
 
 def _is_for_all(declared: Declared) -> bool:
-    """Whether an element is enough for whatever it is needed for, or may be."""
+    """Return whether a tag covers every use, or may do so."""
     return declared.depend.tag == "depend" or not declared.always
 
 
-def _outside(package: Package, need: Need, *, hopeful: bool) -> Iterator[Use]:
-    """Yield the uses of a need as they look to others: nobody includes headers that are not installed, or may not be.
+def _exported_uses(package: Package, need: Need, *, assume_installed: bool) -> Iterator[Use]:
+    """Yield the uses of a need; only headers that are installed in every build count as exported.
 
-    ``hopeful``: headers that are not installed in any build will be one day.
+    ``assume_installed``: also count headers that no build installs.
     """
     script = package.script
     installed: dict[str, bool] | None = {} if script is None or package.hidden(Facet.LIBRARIES) else None
@@ -165,22 +178,22 @@ def _outside(package: Package, need: Need, *, hopeful: bool) -> Iterator[Use]:
             installed = _installed_headers(package)
         always = installed.get(relative(package, use.span.path))
         if always is None:
-            yield use if hopeful else use._replace(role=use.role & ~Role.EXPORT)
+            yield use if assume_installed else use._replace(role=use.role & ~Role.EXPORT)
         elif always and not _OF_TESTS.issuperset(need.declared):
             yield use
 
 
 def _installed_headers(package: Package) -> dict[str, bool]:
     """Return the sources of installed headers, and whether they are installed in every build."""
-    found: dict[str, bool] = {}
+    headers: dict[str, bool] = {}
     for provided in package.built.provides:
         if provided.path.startswith("include/"):
-            found[provided.source] = found.get(provided.source, False) or not provided.conditional
-    return found
+            headers[provided.source] = headers.get(provided.source, False) or not provided.conditional
+    return headers
 
 
 class _Lack(NamedTuple):
-    """What tags do not give."""
+    """A use that the tags do not cover."""
 
     role: Role
     why: str
@@ -188,15 +201,15 @@ class _Lack(NamedTuple):
 
 
 def _once_installed(lacking: _Lack | None) -> _Lack | None:
-    """Return what is lacking once headers are installed that are not, if it is that."""
+    """Return the missing export tag if uninstalled headers need it, with low confidence."""
     if lacking is None or lacking.role is not Role.EXPORT:
         return None
-    why = "but its headers in include/ have it, and whoever builds against them needs it once they are installed"
+    why = "but headers in include/ use it, so packages that build against them need it once they are installed"
     return lacking._replace(why=why, confidence=Confidence.LOW)
 
 
 def _given(tags: Sequence[Declared], name: str = "") -> Role:
-    """Return what tags give together: all, or those of one name."""
+    """Return the roles that tags cover together: all tags, or those of one name."""
     role = Role(0)
     for declared in tags:
         if name in ("", declared.name):
@@ -205,30 +218,30 @@ def _given(tags: Sequence[Declared], name: str = "") -> Role:
 
 
 def _lacks(package: Package, workspace: Workspace, need: Need, tags: Sequence[Declared]) -> _Lack | None:
-    """Return the first thing that the tags of a need do not give, and no other dependency either."""
+    """Return the first use that neither the tags of a need nor another dependency cover."""
     given = _given(tags)
 
-    def asked(role: Role) -> bool:
+    def is_used(role: Role) -> bool:
         return any(use.sure and _is_about(use, role) for use in need.uses)
 
-    def comes_along(enough: Role, *, surely: bool = False) -> bool:
+    def is_provided(enough: Role, *, surely: bool = False) -> bool:
         return covered(package, workspace, {name for use in need.uses for name in use.providers}, enough, surely=surely)
 
     def missing(role: Role, enough: Role) -> bool:
-        return not given & enough and asked(role) and not comes_along(enough)
+        return not given & enough and is_used(role) and not is_provided(enough)
 
     if given is _TEST:
-        role = next((role for role in _ASKED if asked(role)), None)
+        role = next((role for role in _ROLES if is_used(role)), None)
         if role is None:
             return None
         why = "but it is used outside tests"
-        if not comes_along(~_TEST):
+        if not is_provided(~_TEST):
             return _Lack(role, why)
         named = any(use.sure and use.via != "macro" and _is_about(use, role) for use in need.uses)
-        merely = f"{why}, where it merely comes along with what else is declared"
-        return _Lack(role, merely, Confidence.LOW) if named and comes_along(~_TEST, surely=True) else None
+        indirect = f"{why}, where it is only available through other dependencies"
+        return _Lack(role, indirect, Confidence.LOW) if named and is_provided(~_TEST, surely=True) else None
     if not given & _TEST and missing(Role.BUILD, _TO_BUILD):
-        # Its own sources may do without those of its headers that include it.
+        # The sources of the package may not need the headers that include it.
         handed_on = given & Role.EXPORT and all(use.role & Role.EXPORT for use in need.uses if _is_about(use, Role.BUILD))
         why = "but it is needed to build this package"
         return _Lack(Role.BUILD, why, Confidence.MEDIUM if handed_on else Confidence.HIGH)
@@ -239,15 +252,15 @@ def _lacks(package: Package, workspace: Workspace, need: Need, tags: Sequence[De
     if packages and missing(Role.EXEC, _AFTERWARDS):
         return _Lack(Role.EXEC, "but it is needed at run time")
     if missing(Role.EXPORT, _AFTERWARDS):
-        # A library that many have declared elsewhere is missed by few.
+        # A common library is often declared by the packages that build against this one.
         sure = bool(packages) or any(use.via == "target" for use in need.uses if _is_about(use, Role.EXPORT))
-        why = "but it is part of what this package exports, and whoever builds against that needs it"
+        why = "but it is part of the public interface, so packages that build against this one need it"
         return _Lack(Role.EXPORT, why, Confidence.HIGH if sure else Confidence.MEDIUM)
     if missing(Role.EXPORT, Role.EXPORT):
         if packages:
-            why = "which is enough to install it, but by REP 149 whoever builds against this package needs it, too"
+            why = "which installs it, but REP 149 requires an export for packages that build against this one"
             return _Lack(Role.EXPORT, why, Confidence.LOW)
-        return _Lack(Role.EXPORT, "but whoever builds against this package needs it, too", Confidence.MEDIUM)
+        return _Lack(Role.EXPORT, "but packages that build against this one need it as well", Confidence.MEDIUM)
     return None
 
 
@@ -262,7 +275,7 @@ def _is_about(use: Use, role: Role) -> bool:
 RULE = Rule(
     name="wrong-dependency-kind",
     code="ROS203",
-    summary="a dependency must be declared in a tag that reaches where it is used",
+    summary="dependencies are declared with tags that cover their use",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,
