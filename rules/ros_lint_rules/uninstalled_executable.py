@@ -1,19 +1,18 @@
 """
 ## What it finds
 
-Programs that are built and land where nobody looks for them:
+Executables that are built but not installed, or installed where `ros2 run` and launch do not find them:
 
 - an executable that a launch file of the workspace starts and that is not installed at all;
-- a node, if nothing at all of what the package builds is installed, or if others of its nodes are;
-- an executable that is installed to `bin/` or `lib/` instead of `lib/<package>`, if it is a node (its sources or their own
-  headers include rclcpp) or a launch file starts it, and any other in `lib/` or `bin/<package>/`, where not even a shell looks.
-  Where only another header of the package includes rclcpp, and for other programs that go to `lib/` together with a library,
-  the confidence is medium.
+- a node that is not installed, if nothing that the package builds is installed, or if other nodes of the package are installed;
+- a node, or an executable that a launch file starts, that is installed to `bin/` or `lib/` instead of `lib/<package>`. A node
+  is an executable whose sources, or the headers that belong to it, include rclcpp;
+- any other executable that is installed to `lib/` or `bin/<package>/`, where the shell does not find it either.
 
 ## Why it matters
 
-`ros2 run` and launch look into `lib/<package>` only: "No executable found". In `install(TARGETS ... RUNTIME DESTINATION bin)`
-the destination is right for other programs, and wrong for nodes.
+`ros2 run` and launch only look in `lib/<package>`: "No executable found". In `install(TARGETS ... RUNTIME DESTINATION bin)` the
+destination is right for other programs, but wrong for nodes.
 
 ## How to fix it
 
@@ -21,10 +20,20 @@ the destination is right for other programs, and wrong for nodes.
 
 ## Limitations
 
-For tests, examples and what measures; for targets that are also installed to `lib/<package>`; with
-`ament_auto_package(INSTALL_TO_PATH)`. Where something that cannot be followed may install the target, the confidence is
-medium, or nothing is said. So it is where only a launch file starts it that is kept back itself, by a rule that installs its
-like and leaves it out (`PATTERN x EXCLUDE`), or such a one and a copy in another package that is not installed either.
+Not reported:
+
+- Tests, examples and benchmarks.
+- Targets that are also installed to `lib/<package>`.
+- Packages that call `ament_auto_package(INSTALL_TO_PATH)`.
+- Targets that are not installed, if a part of the build script that cannot be evaluated may install them.
+
+Reported with medium confidence:
+
+- Targets installed elsewhere, if a part of the build script that cannot be evaluated may also install to `lib/<package>`.
+- Executables in `bin/` that include rclcpp only through other headers of the package.
+- Executables that are not nodes and are installed to `lib/` together with a library.
+- Executables that only launch files start that are not installed, if a rule excludes one of them on purpose (`PATTERN x
+  EXCLUDE`).
 """
 
 from __future__ import annotations
@@ -80,45 +89,47 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     left_out = left_out_nodes(package)
     by_launch_files = workspace.started.get(package.name, {})
     for target in programs_built(script):
-        found = places.get(target.name, [])
-        if not all(_is_for_others(folder) for folder, _, _ in found):
+        installed = places.get(target.name, [])
+        if not all(_is_outside_packages(folder) for folder, _, _ in installed):
             continue
-        launched = by_launch_files.get(found[0][1] if found else target.name, ())
-        related = several(Related("a launch file starts it here", reference.span) for reference in launched)
+        launched = by_launch_files.get(installed[0][1] if installed else target.name, ())
+        related = several(Related("started by a launch file here", reference.span) for reference in launched)
         sure = bool(launched or target.name in nodes)
-        nowhere = all(folder in ("lib", f"bin/{package.name}") for folder, _, _ in found)
-        if found and nowhere:
-            sure = sure or all(folder != "lib" or _is_of_programs(package, span, script.targets) for folder, _, span in found)
-        if found and (sure or nowhere or any(file.startswith("include/") for file in with_client(package))):
-            span = found[0][2]
-            where = f"{found[0][0]}/, where {'nobody looks' if nowhere else 'ros2 run and launch do not look'}"
+        nowhere = all(folder in ("lib", f"bin/{package.name}") for folder, _, _ in installed)
+        if installed and nowhere:
+            sure = sure or all(
+                folder != "lib" or _installs_executables_only(package, span, script.targets) for folder, _, span in installed
+            )
+        if installed and (sure or nowhere or any(file.startswith("include/") for file in with_client(package))):
+            folder, _, span = installed[0]
+            finders = "ros2 run, launch and the shell" if nowhere else "ros2 run and launch"
             yield Finding(
-                f"{target.name} is installed to {where}; install it to {own}",
+                f"'{target.name}' is installed to {folder}/, where {finders} do not find it; install it to {own}",
                 span,
                 target.name,
-                (*related, Related("it is built here", target.span)),
+                (*related, Related("built here", target.span)),
                 _move(package, span, script.targets),
                 Confidence.MEDIUM if not sure or any(opaque.reaches(own) for opaque in unseen) else Confidence.HIGH,
             )
-        elif not found and launched and not unseen:
-            says = ", but not installed, so launch does not find it"
+        elif not installed and launched and not unseen:
+            state = ", but not installed, so launch does not find it"
             confidence = Confidence.MEDIUM if _kept_back(package, target.name, launched, workspace) else Confidence.HIGH
-            yield _left(package, script, target, says)._replace(related=related, confidence=confidence)
+            yield _uninstalled(package, script, target, state)._replace(related=related, confidence=confidence)
         elif target.name in forgotten:
-            yield _left(package, script, target, ", but nothing that the package builds is installed")
+            yield _uninstalled(package, script, target, ", but nothing that the package builds is installed")
         elif target.name in left_out:
-            says = " and, unlike other nodes of the package, not installed"
+            state = ", but not installed, unlike other nodes of the package"
             confidence = Confidence.MEDIUM if _kept_back(package, target.name, (), workspace) else Confidence.HIGH
-            yield _left(package, script, target, says)._replace(severity=Severity.WARNING, confidence=confidence)
+            yield _uninstalled(package, script, target, state)._replace(severity=Severity.WARNING, confidence=confidence)
 
 
-def _is_for_others(folder: str) -> bool:
-    """Whether programs of a folder are found by their names alone, if at all: bin, and lib, where libraries are."""
+def _is_outside_packages(folder: str) -> bool:
+    """Return whether a folder is bin or lib, not a folder of a package in lib."""
     return folder.partition("/")[0] == "bin" or folder == "lib"
 
 
 def _kept_back(package: Package, name: str, launched: Sequence[LaunchReference], workspace: Workspace) -> bool:
-    """Whether the package leaves out a launch file that starts the program, and all others are installed no more than that."""
+    """Return whether only launch files that are not installed start the program, one of them excluded on purpose."""
     if name not in started([package], kept_back=True).get(package.name, {}):
         return False
     paths = {reference.span.path for reference in launched}
@@ -126,13 +137,13 @@ def _kept_back(package: Package, name: str, launched: Sequence[LaunchReference],
     return not any(launch.file.path in paths for launch in files)
 
 
-def _left(package: Package, script: BuildScript, target: BuildTarget, says: str) -> Finding:
-    fix = Fix.of(f"install {target.name}", cmake_edits.install_program(script, "TARGETS", target.name))
-    return Finding(f"{target.name} is built{says}; install it to lib/{package.name}", target.span, target.name, fix=fix)
+def _uninstalled(package: Package, script: BuildScript, target: BuildTarget, state: str) -> Finding:
+    fix = Fix.of(f"install '{target.name}'", cmake_edits.install_program(script, "TARGETS", target.name))
+    return Finding(f"'{target.name}' is built{state}; install it to lib/{package.name}", target.span, target.name, fix=fix)
 
 
-def _is_of_programs(package: Package, span: Span, targets: tuple[BuildTarget, ...]) -> bool:
-    """Whether the rule at a place installs nothing but programs."""
+def _installs_executables_only(package: Package, span: Span, targets: tuple[BuildTarget, ...]) -> bool:
+    """Return whether the install() at a place installs nothing but executables."""
     kinds = {target.name: target.kind for target in targets}
     for call in called(package, "install"):
         if call.whole.covers(span):
@@ -141,15 +152,15 @@ def _is_of_programs(package: Package, span: Span, targets: tuple[BuildTarget, ..
 
 
 def _move(package: Package, span: Span, targets: tuple[BuildTarget, ...]) -> Fix | None:
-    """Correct the destination of the executables, where the rule says it by itself and installs no other program."""
+    """Return the fix of the destination, if the install() has one for executables only."""
     kinds = {target.name: target.kind for target in targets}
     for call in called(package, "install"):
         if call.texts[:1] != ("TARGETS",) or not call.whole.covers(span):
             continue
         texts = call.texts
         at = texts.index("RUNTIME") + 2 if "RUNTIME" in texts[:-2] else 0
-        of_programs = all(kinds.get(texts[index]) == "executable" for index in installed_targets(call))
-        if not at and of_programs and "DESTINATION" in texts[:-1]:
+        executables_only = all(kinds.get(texts[index]) == "executable" for index in installed_targets(call))
+        if not at and executables_only and "DESTINATION" in texts[:-1]:
             at = texts.index("DESTINATION") + 1
         if at and texts[at - 1] == "DESTINATION" and texts[at] in _BIN:
             return Fix("install it to lib/${PROJECT_NAME}", (cmake_edits.write(call, at, "lib/${PROJECT_NAME}"),), safe=False)
@@ -159,7 +170,7 @@ def _move(package: Package, span: Span, targets: tuple[BuildTarget, ...]) -> Fix
 RULE = Rule(
     name="uninstalled-executable",
     code="ROS403",
-    summary="a node must be installed to lib/<package>",
+    summary="nodes are installed to lib/<package>",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,

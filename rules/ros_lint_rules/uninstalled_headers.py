@@ -1,37 +1,46 @@
 """
 ## What it finds
 
-A package that exports its include folder (`ament_export_include_directories()`, or targets with
-`ament_export_targets()`) or a library (`ament_export_libraries()`), and does not install the headers in `include/`; also one
-of which another package of the workspace includes a header. Packages that install a library and no headers are told with
-medium confidence, so are those that export plugins or components, or build plugins of Gazebo, which nobody links; those with
-programs only with low confidence, unless they export a folder that is not there once they are installed.
-
-Also a package that installs its headers and tells nobody where they are, while another package of the workspace finds it with
-`find_package()` and includes them: libraries and dependencies that it exports, and a set of targets that it does not, do not
-say so.
-
-And headers that another package of the workspace includes by a folder which they lose when they are installed, as by
-`install(DIRECTORY include/robot/ DESTINATION include)`, and those that get one too many: without a slash at its end the folder
-itself is installed, so that `install(DIRECTORY include DESTINATION include)` puts `robot/robot.hpp` into `include/include`.
+- A package that does not install the headers in `include/`, although it exports its include folder
+  (`ament_export_include_directories()`, or targets with `ament_export_targets()`) or a library (`ament_export_libraries()`), or
+  although another package of the workspace includes one of the headers.
+- A package that installs headers but does not export their folder, while another package of the workspace finds it with
+  `find_package()` and includes them. Exporting libraries and dependencies is not enough, and neither is a set of targets that
+  is not exported.
+- Headers that are installed without the folder by which another package of the workspace includes them, as by
+  `install(DIRECTORY include/robot/ DESTINATION include)`.
+- Headers that are installed with an additional folder: without a slash at the end, `install(DIRECTORY include DESTINATION
+  include)` puts `robot/robot.hpp` into `include/include`.
 
 ## Why it matters
 
-Packages that depend on it find the library and not its headers: "fatal error: robot/robot.hpp: No such file or directory".
+Packages that depend on this one find the library but not its headers: "fatal error: robot/robot.hpp: No such file or
+directory".
 
 ## How to fix it
 
-`install(DIRECTORY include/ DESTINATION include/${PROJECT_NAME})`, with the same folder in
-`target_include_directories(... $<INSTALL_INTERFACE:include/${PROJECT_NAME}>)`. The fix installs to the folder that is
-exported. Where there are only programs, take the export away: headers without a library serve nobody; so it may be where the
-library is not installed, or is loaded, as plugins and components are, and nobody links it. To export them:
-`ament_export_targets()` with an `install(TARGETS ... EXPORT ...)`, or `ament_export_include_directories()` and
-`ament_export_libraries()`.
+`install(DIRECTORY include/ DESTINATION include/${PROJECT_NAME})`, with the same folder in `target_include_directories(...
+$<INSTALL_INTERFACE:include/${PROJECT_NAME}>)`. The fix installs to the folder that is exported.
+
+Remove the export instead if the package only has programs, because headers without a library are useless to others. The same
+may apply if the library is not installed, or is only loaded, as plugins and components are.
+
+To export installed headers, use `ament_export_targets()` with an `install(TARGETS ... EXPORT ...)`, or
+`ament_export_include_directories()` and `ament_export_libraries()`.
 
 ## Limitations
 
-For packages without `include/`, and where something that cannot be followed may install the headers. About who includes them,
-if that package adds a folder outside of its own to its include directories by hand, and for its tests.
+Not reported:
+
+- Packages without `include/`.
+- A part of the build script that cannot be evaluated may install the headers.
+- Includes in a package that adds a folder outside of itself to its include directories by hand, and includes in tests.
+
+Reported with medium confidence: packages that install a library without headers but export nothing, that export plugins or
+components, or that build plugins of Gazebo, because other packages do not link these.
+
+Reported with low confidence: packages that only install programs, unless they export a folder that does not exist after
+installation.
 """
 
 from __future__ import annotations
@@ -74,7 +83,7 @@ _EXPORTS = (
     "ament_auto_package", "ament_export_include_directories", "ament_export_interfaces", "ament_export_targets",
     "configure_package_config_file", "export", "install_basic_package_files", "rosidl_", "write_basic_package_version_file",
 )  # fmt: skip
-"""How the names begin of commands that may tell others of a package where its headers are."""
+"""Prefixes of commands that may export the folder of the headers."""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -89,12 +98,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     installed = any(
         provided.path.endswith(HEADERS) and (provided.source or _name(provided.path) in names) for provided in script.provides
     )
-    takers = _wanted(workspace).get(package.name, ())
-    wanted = [(other, use) for other, use in takers if any(file.endswith(f"/{use.name}") for file in headers)]
+    includes = _includes(workspace).get(package.name, ())
+    wanted = [(other, use) for other, use in includes if any(file.endswith(f"/{use.name}") for file in headers)]
     if installed:
         yield from _misplaced(package, wanted)
         yield from _doubled(package, script, wanted)
-    if installed and _tells(package):
+    if installed and _may_export(package):
         return
     if installed:
         yield from _unexported(package, wanted)
@@ -104,29 +113,29 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     loaded = _is_loaded(package, script)
     linked = library and not loaded and any(not call.blocks for call in called(package, *_LINKED))
     if exports and not wanted and script.targets and all(target.kind == "executable" for target in script.targets):
-        yield from _for_nobody(headers, exports)
+        yield from _export_without_library(headers, exports)
         return
     sure = Confidence.HIGH if exports or linked or wanted else Confidence.MEDIUM if library else Confidence.LOW
-    perhaps_for_nobody = bool(exports) and (loaded or not library) and not wanted
-    why = ", but exported" if exports else f", and {wanted[0][0].name} includes them" if wanted else ""
+    may_be_needless = bool(exports) and (loaded or not library) and not wanted
+    why = ", although they are exported" if exports else f", although '{wanted[0][0].name}' includes them" if wanted else ""
     yield Finding(
         f"the headers in include/ ({_name(headers[0])} ...) are not installed{why}; "
-        f"install them to {_place(exports)}{', or take the export away' if perhaps_for_nobody else ''}",
+        f"install them to {_place(exports)}{', or remove the export' if may_be_needless else ''}",
         script.end,
         "include/",
         (*(Related("exported here", call.place) for call in exports), *_included_here(wanted)),
         _fix(package, exports),
         sure,
-        None if (exports and library and not perhaps_for_nobody) or wanted else Severity.WARNING,
+        None if (exports and library and not may_be_needless) or wanted else Severity.WARNING,
     )
 
 
 _GAZEBO = re.compile(r"(?:gazebo|gz|ignition)(?!.*_msgs$)", re.IGNORECASE)
-"""What a package finds to build plugins of Gazebo."""
+"""Names of packages that a package finds to build plugins of Gazebo."""
 
 
 def _is_loaded(package: Package, script: BuildScript) -> bool:
-    """Whether a library of a package may be one that is loaded, and that nobody links."""
+    """Return whether a library of the package may be loaded at run time instead of linked."""
     if any(True for _ in called(package, EXPORTING_PLUGINS, *REGISTERING, anywhere=True)):
         return True
     return any(_GAZEBO.match(name) for name in found_names(package, script))
@@ -137,9 +146,10 @@ def _name(path: str) -> str:
 
 
 def _misplaced(package: Package, wanted: list[tuple[Package, Use]]) -> Iterator[Finding]:
-    """Speak of headers that other packages include by a folder which is not there where they are installed."""
-    provided = {each.source: each for each in package.built.provides if each.source.endswith(HEADERS) and not each.conditional}
-    paths = [each.path for each in package.built.provides]
+    """Yield the headers that other packages include by a folder which is missing where they are installed."""
+    installed = [file for file in package.built.provides if file.source.endswith(HEADERS) and not file.conditional]
+    provided = {file.source: file for file in installed}
+    paths = [file.path for file in package.built.provides]
     lost = [
         (file, other, use)
         for other, use in wanted
@@ -150,7 +160,7 @@ def _misplaced(package: Package, wanted: list[tuple[Package, Use]]) -> Iterator[
         (file, other, use), *_ = lost
         folder = provided[file].path.rpartition("/")[0]
         yield Finding(
-            f"{file} is installed to {folder}, and {other.name} includes it as {use.name}, which nobody finds there; "
+            f"'{file}' is installed to {folder}, so '{other.name}' cannot include it as '{use.name}'; "
             f"install it to {folder}/{use.name.rpartition('/')[0]}",
             provided[file].span,
             file,
@@ -159,23 +169,23 @@ def _misplaced(package: Package, wanted: list[tuple[Package, Use]]) -> Iterator[
 
 
 def _doubled(package: Package, script: BuildScript, wanted: list[tuple[Package, Use]]) -> Iterator[Finding]:
-    """Speak of headers that are installed with the folder include/ around them, below the one that is looked into."""
-    own = [each for each in script.provides if each.source.startswith("include/") and each.source.endswith(HEADERS)]
-    first = next((each for each in own if each.path.startswith("include/")), None)
-    if first is None or has_extras(package) or not all(_is_doubled(each) for each in own):
+    """Yield the headers that are installed with their folder include/, below the folder that compilers search."""
+    own = [file for file in script.provides if file.source.startswith("include/") and file.source.endswith(HEADERS)]
+    first = next((file for file in own if file.path.startswith("include/")), None)
+    if first is None or has_extras(package) or not all(_is_doubled(file) for file in own):
         return
     folder = first.path.removesuffix(first.source.removeprefix("include")).removeprefix("/")
     words = (re.sub(r"\$\{\w*PROJECT_NAME\}", script.name, text) for call in script.written for text in call.texts)
     if any(folder in word for word in words):
-        return  # it is named as the folder to look into
-    library = any(each.path.startswith("lib/lib") for each in script.provides)
+        return  # the script names it, probably as an include directory
+    library = any(file.path.startswith("lib/lib") for file in script.provides)
     exported = library and bool(_exports(package) or any(True for _ in called(package, *_LINKED)))
     needed = bool(wanted) or (exported and not _is_loaded(package, script))
     places = ((call, at) for call in called(package, "install", anywhere=True) for at in range(len(call.args)))
     call, at = next(((call, at) for call, at in places if call.span(at) == first.span), (None, 0))
-    fix = Fix.of("install what is in the folder", cmake_edits.write(call, at, f"{call.texts[at]}/")) if call else None
+    fix = Fix.of("install the contents of the folder", cmake_edits.write(call, at, f"{call.texts[at]}/")) if call else None
     yield Finding(
-        f"the headers in include/ ({_name(first.source)} ...) are installed to {folder}, where nobody looks for them; "
+        f"the headers in include/ ({_name(first.source)} ...) are installed to {folder}, where compilers do not find them; "
         "write include/ with a slash at the end",
         first.span,
         "include/",
@@ -187,40 +197,40 @@ def _doubled(package: Package, script: BuildScript, wanted: list[tuple[Package, 
 
 
 def _is_doubled(provided: Provided) -> bool:
-    """Whether a file of include/ is installed below another folder with all of its path, in every build."""
+    """Return whether a file of include/ is installed with its whole path below another folder, in every build."""
     return provided.path.startswith("include/") and provided.path.endswith(f"/{provided.source}") and not provided.conditional
 
 
-def _for_nobody(headers: Sequence[str], exports: Sequence[Call]) -> Iterator[Finding]:
-    """Speak of a package of programs that exports a folder: who finds it is told of a folder that is not there."""
+def _export_without_library(headers: Sequence[str], exports: Sequence[Call]) -> Iterator[Finding]:
+    """Yield the export of a missing folder by a package that has programs only."""
     first, *others = exports
     yield Finding(
-        f"the headers in include/ ({_name(headers[0])} ...) are exported and not installed, and there is no library "
-        "to use them with; take the export away",
+        f"the headers in include/ ({_name(headers[0])} ...) are exported but not installed, and there is no library "
+        "to use them with; remove the export",
         first.place,
         "include/",
-        several(Related("exported here, too", call.place) for call in others),
+        several(Related("also exported here", call.place) for call in others),
         severity=Severity.WARNING,
     )
 
 
 def _unexported(package: Package, wanted: list[tuple[Package, Use]]) -> Iterator[Finding]:
-    """Speak of a package that tells nobody of its headers, if another one looks for them in what it exports."""
-    takers = [(other, use) for other, use in wanted if other.script and package.name in found_names(other, other.script)]
-    if takers and package.script and package.script.end:
+    """Yield the missing export of headers that a package includes which finds this one."""
+    includes = [(other, use) for other, use in wanted if other.script and package.name in found_names(other, other.script)]
+    if includes and package.script and package.script.end:
         libraries = "" if any(True for _ in called(package, "ament_export_libraries")) else " and ament_export_libraries()"
         what = "no include directories" if any(name.startswith("ament_export_") for name in package.script.calls) else "nothing"
         yield Finding(
-            f"{package.name} exports {what}, and {takers[0][0].name} includes its headers; add "
+            f"'{package.name}' exports {what}, although '{includes[0][0].name}' includes its headers; add "
             f"ament_export_include_directories(){libraries}, or ament_export_targets()",
             package.script.end,
             package.name,
-            _included_here(takers),
+            _included_here(includes),
         )
 
 
-def _tells(package: Package) -> bool:
-    """Whether a package may tell others where its headers are."""
+def _may_export(package: Package) -> bool:
+    """Return whether the package may export the folder of its headers."""
     script = package.script
     if script is None or has_extras(package) or package.opaque or any(name.startswith(_EXPORTS) for name in script.calls):
         return True
@@ -228,31 +238,31 @@ def _tells(package: Package) -> bool:
 
 
 def _is_read(package: Package, call: Call) -> bool:
-    """Whether a command can be part of the build: not if it is in the CMakeLists.txt of a folder that nobody enters."""
+    """Return whether a command can be part of the build: not in a CMakeLists.txt that no add_subdirectory() reads."""
     folder, _, name = relative(package, call.path).rpartition("/")
     return not folder or name != "CMakeLists.txt" or folder in package.built.entered
 
 
 def _included_here(wanted: list[tuple[Package, Use]]) -> tuple[Related, ...]:
-    return several(Related(f"included in {other.name}", use.span) for other, use in wanted)
+    return several(Related(f"included in '{other.name}'", use.span) for other, use in wanted)
 
 
 @per_workspace
-def _wanted(workspace: Workspace) -> Mapping[str, list[tuple[Package, Use]]]:
-    """Return who includes headers of other packages, and where, by package."""
-    found: dict[str, list[tuple[Package, Use]]] = {}
+def _includes(workspace: Workspace) -> Mapping[str, list[tuple[Package, Use]]]:
+    """Return the includes of headers of other packages, by the name of the package that is included."""
+    includes: dict[str, list[tuple[Package, Use]]] = {}
     for package in workspace.packages:
-        if package.script is None or _reaches_out(package):
+        if package.script is None or _searches_outside(package):
             continue
         for use in package.uses:
             others = workspace.by_name.get(use.package, ()) if use.via == "include" and use.sure and not use.optional else ()
             if others and use.package != package.name and not is_apart(relative(package, use.span.path)):
-                found.setdefault(use.package, []).append((package, use))
-    return found
+                includes.setdefault(use.package, []).append((package, use))
+    return includes
 
 
-def _reaches_out(package: Package) -> bool:
-    """Whether a package looks for headers in folders outside of it: a path that it writes out leads there."""
+def _searches_outside(package: Package) -> bool:
+    """Return whether an include directory of the package is a path that leads outside of it."""
     calls = called(package, *_FOLDERS, anywhere=True)
     return any("../" in text or text.startswith("/") or "ENV{" in text for call in calls for text in call.texts)
 
@@ -266,7 +276,7 @@ def _exports(package: Package) -> list[Call]:
 
 
 def _place(exports: list[Call]) -> str:
-    """Return where headers are looked for: in the folder that is exported, if one is."""
+    """Return the folder to install headers to: the exported folder, if there is one."""
     return exports[0].texts[0].strip("/") if exports else "include"
 
 
@@ -280,7 +290,7 @@ def _fix(package: Package, exports: list[Call]) -> Fix | None:
 RULE = Rule(
     name="uninstalled-headers",
     code="ROS416",
-    summary="headers for other packages must be installed and exported",
+    summary="headers for other packages are installed and exported",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,

@@ -6,25 +6,27 @@ Launch files that the package does not install: no `install(DIRECTORY launch ...
 
 ## Why it matters
 
-`ros2 launch` and includes look into `share/<package>` of the install space, so they do not find these files. With a
-sourced workspace of yesterday they may still find an old copy, and the change of today does nothing.
+`ros2 launch` and includes look in `share/<package>` of the install space, so they do not find these files. An old copy from an
+earlier build may still be found there, and changes of the file have no effect.
 
 ## How to fix it
 
-In `CMakeLists.txt` add `install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})` before `ament_package()`, or the folder
-to a rule that installs others so; the fix does this. In `setup.py` add to `data_files`:
-`(os.path.join('share', package_name, 'launch'), glob('launch/*.launch.py'))`; the fix does this, too, where `data_files` is
-written out.
+In `CMakeLists.txt`, add `install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})` before `ament_package()`, or add the
+folder to an existing rule. The fix does this. In `setup.py`, add to `data_files`: `(os.path.join('share', package_name,
+'launch'), glob('launch/*.launch.py'))`. The fix does this if `data_files` is a literal list.
 
 ## Limitations
 
-- A part of the build script that cannot be followed may install the files, or a file of the package cannot be read.
-- A `CMakeLists.txt` has no command at all: that is a matter of `missing-ament-package`.
-- Launch files of tests, examples and templates, those of ROS 1, and modules that only build actions for launch files;
-  packages for tests, going by their names.
-- Files that are installed under a condition, and those that a rule leaves out which installs others of their kind
-  (`PATTERN x EXCLUDE`).
-- A file of the same name is installed from another folder: these are variants, of which one is chosen.
+Not reported:
+
+- A part of the build script that cannot be evaluated may install the files, or a file of the package cannot be read.
+- The `CMakeLists.txt` contains no command: see `missing-ament-package`.
+- Launch files of tests, examples and templates, and those of ROS 1.
+- Modules that only create actions for launch files.
+- Packages whose names show that they are for tests.
+- Files that are installed under a condition.
+- Files that a rule excludes while it installs others of their kind (`PATTERN x EXCLUDE`).
+- A file of the same name is installed from another folder: the files are variants, and one of them is chosen.
 """
 
 from __future__ import annotations
@@ -68,20 +70,20 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             kept.update(folders_of(launch.path))
         elif name not in names:
             missing.setdefault(folder, []).append(launch.path)
-    for folder, paths in _together(missing, kept).items():
+    for folder, paths in _grouped(missing, kept).items():
         whole = folder not in kept and folder != ""
-        forgotten = paths if whole else [path for path in paths if launch_suffix(path) and not is_kept_back(package, path)]
-        if forgotten:
-            yield _finding(package, folder, forgotten, whole=whole)
+        uninstalled = paths if whole else [path for path in paths if launch_suffix(path) and not is_kept_back(package, path)]
+        if uninstalled:
+            yield _finding(package, folder, uninstalled, whole=whole)
 
 
-def _together(missing: Mapping[str, list[str]], kept: set[str]) -> dict[str, list[str]]:
-    """Count the files of a folder to an outer one that lacks files too, if nothing of that one is installed."""
-    found: dict[str, list[str]] = {}
+def _grouped(missing: Mapping[str, list[str]], kept: set[str]) -> dict[str, list[str]]:
+    """Return the files by folder; those of a subfolder join an outer folder of which nothing is installed."""
+    groups: dict[str, list[str]] = {}
     for folder in sorted(missing):
-        outer = next((above for above in folders_of(f"{folder}/") if above in found and above not in kept), folder)
-        found.setdefault(outer, []).extend(missing[folder])
-    return found
+        outer = next((above for above in folders_of(f"{folder}/") if above in groups and above not in kept), folder)
+        groups.setdefault(outer, []).extend(missing[folder])
+    return groups
 
 
 def _finding(package: Package, folder: str, paths: Iterable[str], whole: bool) -> Finding:
@@ -91,11 +93,11 @@ def _finding(package: Package, folder: str, paths: Iterable[str], whole: bool) -
     named = few(path.rpartition("/")[2] for path in paths)
     it = "it" if len(paths) == 1 else "them"
     if whole:
-        what = f"{folder}/ has launch files ({named}), but is not installed"
+        what = f"'{folder}/' contains launch files ({named}), but is not installed"
     else:
         what = f"{named} {'is' if len(paths) == 1 else 'are'} not installed"
     return Finding(
-        f"{what}: ros2 launch will not find {it}; install {'it' if whole else it} to share/{package.name}",
+        f"{what}, so ros2 launch will not find {it}; install {'it' if whole else it} to share/{package.name}",
         setup_edits.place(script),
         folder or paths[0],
         several(Related("this launch file", place_of(package, path)) for path in paths),
@@ -110,24 +112,28 @@ def _fix(package: Package, folder: str, paths: Sequence[str], whole: bool) -> Fi
     if script is None:
         return None
     if whole:
-        return Fix.of(f"install {folder}/", cmake_edits.install_folder(package, folder))
-    # Beside the files of that folder which are installed, if it has some.
+        return Fix.of(f"install '{folder}/'", cmake_edits.install_folder(package, folder))
+    # In the same place as installed files of the folder, if there are any.
     inner = folder.rpartition("/")[2] or "launch"
-    return Fix.of(f"install {' '.join(paths)}", cmake_edits.install_files(script, paths, inner))
+    return Fix.of(f"install {_list(paths)}", cmake_edits.install_files(script, paths, inner))
 
 
 def _fix_of_setup(package: Package, folder: str, paths: Iterable[str], whole: bool) -> Fix | None:
     slot = setup_edits.slot(package.built, "data_files")
-    if slot is None or not all("/" in path for path in paths):  # one beside setup.py itself
+    if slot is None or not all("/" in path for path in paths):  # a launch file next to setup.py
         return None
     edit = setup_edits.add_files(slot, package.name, paths, package.files)
-    return Fix(f"install {f'{folder}/' if whole else ' '.join(sorted(paths))}", (edit,))
+    return Fix(f"install {_list([f'{folder}/'] if whole else sorted(paths))}", (edit,))
+
+
+def _list(paths: Sequence[str]) -> str:
+    return " and ".join(f"'{path}'" for path in paths)
 
 
 RULE = Rule(
     name="uninstalled-launch",
     code="ROS401",
-    summary="launch files must be installed",
+    summary="launch files are installed",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,

@@ -1,28 +1,39 @@
 """
 ## What it finds
 
-A library that is built and not installed, although an installed program or library links it, it is exported with
-`ament_export_libraries()`, or it is `SHARED` or a `MODULE` and nothing but programs at run time, plugin loaders or other
-packages can use it. Other libraries that are not installed are told with low confidence.
+A library that is built but not installed, although
+
+- an installed program or library links it,
+- it is exported with `ament_export_libraries()`, or
+- it is `SHARED` or a `MODULE` that only installed programs, plugin loaders or other packages can use.
 
 Also a library that is exported with `ament_export_libraries()` and installed to `lib/<package>` instead of `lib`.
 
 ## Why it matters
 
-After the build in its own folder everything runs; from the install space nothing starts: "error while loading shared
-libraries: libx.so: cannot open shared object file". Packages that find one which exports a library that is not in its `lib`
-stop: "exports the library 'x' which couldn't be found".
+Programs run in the build folder, but not from the install space: "error while loading shared libraries: libx.so: cannot open
+shared object file". Packages that find a package whose exported library is not in `lib` stop: "exports the library 'x' which
+couldn't be found".
 
 ## How to fix it
 
-`install(TARGETS x ARCHIVE DESTINATION lib LIBRARY DESTINATION lib RUNTIME DESTINATION bin)`. The fix adds this rule. Of a
-library with plugins, which nobody links, the export can be taken away instead.
+`install(TARGETS x ARCHIVE DESTINATION lib LIBRARY DESTINATION lib RUNTIME DESTINATION bin)`. The fix adds this rule. For a
+library of plugins, which is not linked, the export can be removed instead.
 
 ## Limitations
 
-For libraries of tests, for static libraries that are not exported (they become part of what links them), and where something
-that cannot be followed may install the library. Of a library that is made of nothing but headers, what links it takes nothing:
-on Ubuntu the linker leaves it out (`--as-needed`), so that it is told with medium confidence unless it is exported.
+Not reported:
+
+- Libraries of tests.
+- A part of the build script that cannot be evaluated may install the library.
+
+Reported with medium confidence:
+
+- Shared libraries with headers as their only sources, unless exported: on Ubuntu the linker drops them (`--as-needed`).
+- Shared libraries that programs or tests in the build folder use.
+
+Reported with low confidence: other libraries that are not installed, such as static libraries that are not exported, because
+they become part of the targets that link them.
 """
 
 from __future__ import annotations
@@ -69,7 +80,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     installed = {provided.target for provided in script.provides}
     listed = listed_to_install(package)
     components = {name for call in called(package, *REGISTERING, anywhere=True) for name in _names(package, call.texts[:1])}
-    yield from _astray(package)
+    yield from _in_package_folder(package)
     for target in script.targets:
         if target.kind != "library" or target.test or not target.sources or target.name in installed | listed | components:
             continue
@@ -77,37 +88,37 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             continue
         shared = _is_shared(package, target.name)
         loaded = any(relative(package, made.span.path) in target.sources for made in package.registrations)
-        hollow = all(source.endswith(HEADERS) for source in target.sources)
-        lone = not hollow and _is_lone(package, target, loaded=loaded)
+        headers_only = all(source.endswith(HEADERS) for source in target.sources)
+        for_others = not headers_only and _is_for_others(package, target, loaded=loaded)
         users = [(name, span) for name, span in _linked_by(script, target.name) if name in installed]
-        users = users if shared and not hollow else []
+        users = users if shared and not headers_only else []
         exported = _exported(package, target.name)
-        related = several(Related(f"{name} links it here", span) for name, span in users)
+        related = several(Related(f"linked by '{name}' here", span) for name, span in users)
         if exported is not None:
-            related += (Related("it is exported here", exported),)
-        reason = f", and {users[0][0]} needs it at run time" if users else ", and is exported" if exported else ""
+            related += (Related("exported here", exported),)
+        reason = f", and '{users[0][0]}' needs it at run time" if users else ", although it is exported" if exported else ""
         yield Finding(
-            f"the library {target.name} is built, but not installed{reason}; install it to lib",
+            f"the library '{target.name}' is built, but not installed{reason}; install it to lib",
             target.span,
             target.name,
             related,
-            Fix.of(f"install {target.name}", cmake_edits.install_library(script, target.name)),
-            Confidence.HIGH if reason or lone else Confidence.MEDIUM if shared else Confidence.LOW,
+            Fix.of(f"install '{target.name}'", cmake_edits.install_library(script, target.name)),
+            Confidence.HIGH if reason or for_others else Confidence.MEDIUM if shared else Confidence.LOW,
             None if reason else Severity.WARNING,
         )
 
 
-def _astray(package: Package) -> Iterator[Finding]:
-    """Speak of exported libraries that are installed where ament_cmake_export_libraries does not look for them."""
+def _in_package_folder(package: Package) -> Iterator[Finding]:
+    """Yield the exported libraries that are installed where ament_cmake_export_libraries does not look for them."""
     loaded = EXPORTING_PLUGINS in package.built.calls
     for name, place in astray(package, (".so", ".a")).items():
         if exported := _exported(package, name):
             yield Finding(
-                f"the library {name} is exported, but installed to lib/{package.name}, where find_package() does not look; "
-                f"install it to lib{', or take the export away, as plugins are loaded and not linked' if loaded else ''}",
+                f"the library '{name}' is exported, but installed to lib/{package.name}, where find_package() does not look; "
+                f"install it to lib{', or remove the export, because plugins are loaded, not linked' if loaded else ''}",
                 place.span,
                 name,
-                (Related("it is exported here", exported),),
+                (Related("exported here", exported),),
                 severity=Severity.WARNING,
             )
 
@@ -117,32 +128,33 @@ def _names(package: Package, texts: tuple[str, ...]) -> Iterator[str]:
 
 
 def _is_shared(package: Package, name: str) -> bool:
-    """Whether the library is a shared one for sure."""
-    found = found_names(package, package.built)
+    """Return whether the library is certainly shared."""
+    packages = found_names(package, package.built)
     for call in library_calls(package, name):
         kinds = {"STATIC", "OBJECT", "INTERFACE"}.intersection(call.texts)
-        return "SHARED" in call.texts or (not kinds and "ament_cmake_ros" in found)
+        return "SHARED" in call.texts or (not kinds and "ament_cmake_ros" in packages)
     return False
 
 
-def _is_lone(package: Package, library: BuildTarget, *, loaded: bool) -> bool:
-    """Whether a library of every build is shared by its own words, and nothing links it that stays in the build folder as well.
+def _is_for_others(package: Package, library: BuildTarget, *, loaded: bool) -> bool:
+    """Return whether only installed programs or other packages can use an explicitly shared library of every build.
 
-    With plugins or components in it, it is ``loaded`` at run time, whoever links it. If a header of its own is installed, it
-    is for others, and a test that links it tests it. If nothing of what is built is installed, that says nothing of programs.
+    No target of the build folder links it. Exceptions: a library with plugins or components is ``loaded`` at run time, so links
+    do not matter; tests may link a library whose header is installed; and programs may link it if nothing built is installed.
     """
     script = package.script
     assert script is not None
     if is_on_request(package, library) or not is_shared_by_words(package, library.name):
         return False
     installed = {provided.target for provided in script.provides if provided.target}
-    left = {target.name for target in script.targets if target.kind == "executable" and target.name not in installed}
+    uninstalled = {target.name for target in script.targets if target.kind == "executable" and target.name not in installed}
     if not installs_built(script):
-        left.clear()
+        uninstalled.clear()
     tests = {target.name for target in script.targets if target.test}
-    left = left - tests if has_header(library, [each.path for each in script.provides]) else left | tests
+    public = has_header(library, [provided.path for provided in script.provides])
+    uninstalled = uninstalled - tests if public else uninstalled | tests
     return loaded or not any(
-        linked == library.name for target in script.targets if target.name in left for linked, _ in target.links
+        linked == library.name for target in script.targets if target.name in uninstalled for linked, _ in target.links
     )
 
 
@@ -161,7 +173,7 @@ def _exported(package: Package, library: str) -> Span | None:
 RULE = Rule(
     name="uninstalled-library",
     code="ROS415",
-    summary="a library that is needed after the installation must be installed",
+    summary="libraries that are needed after installation are installed",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,
