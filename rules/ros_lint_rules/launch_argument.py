@@ -1,57 +1,66 @@
 """
 ## What it finds
 
-- An include that does not give an argument which the included launch file requires, or that gives one which neither this
-  file nor any that it includes declares or uses.
-- A launch configuration that is asked for, while nothing declares or sets it, or before it is declared: what stands in a
-  launch file is done in order.
-- An argument whose default is none of its choices, or one that makes an expression fail: with `false` or `fast` for
-  `$(var x)`, `$(eval 'not $(var x)')` and `$(eval '$(var x) == 0')` are no Python that can be evaluated.
-- An argument that is declared and never used.
-- A configuration that is asked for with a default, while an argument of nearly the same name is declared.
+- An include that does not pass an argument which the included launch file requires.
+- An include that passes an argument which neither the included file nor any file included from there declares or uses.
+- A launch configuration that is read although nothing declares or sets it, or before it is declared. A launch file is processed
+  in order.
+- An argument whose default is not one of its choices.
+- An argument whose default makes an expression fail: with `false` or `fast` for `$(var x)`, `$(eval 'not $(var x)')` and
+  `$(eval '$(var x) == 0')` are not valid Python expressions.
+- An argument that is declared but never used.
+- A configuration that is read with a default, while an argument of nearly the same name is declared.
 
 ## Why it matters
 
-Without a required argument, and with a default that is no choice, the launch file stops: `Included launch description
-missing required argument`. So it does when a configuration is asked for that nobody set: `launch configuration 'x' does
-not exist`; only `LaunchConfigurationEquals` goes on, and never holds. An argument that nobody takes does nothing, silently:
-it was renamed or removed, and what it used to change has its default again. So it is with one that is asked for by another
-name than it is declared by: the default there counts.
+The launch file stops without a required argument, and with a default that is not a choice: `Included launch description missing
+required argument`. It also stops if a configuration is read that is not set: `launch configuration 'x' does not exist`. Only
+`LaunchConfigurationEquals` continues, and is never true.
+
+An argument that is not used has no effect, without a message. It was renamed or removed, so the default applies again. The
+default also applies if a configuration is read under another name than that of its declaration.
 
 ## How to fix it
 
-Give the argument, or give it a default where it is declared; correct the name, or take the argument out.
+Pass the argument, or declare a default for it. Correct the name, or remove the argument.
 
 ## Limitations
 
-- Which file is included, or which arguments it gets, is not known from the launch files alone; so it is with one that is
-  passed only if something holds of which nothing is known, such as what a function finds out about the included file.
-- A file that is included further down is not in the workspace: it may take the argument, or declare it.
-- Arguments that are declared under a condition or in a group are not required.
-- A file asks for arguments by names that it computes.
-- A file asks for several configurations that nobody declares: it is a part of others. With one or two the confidence is
-  medium, unless a declared one is nearly the same.
-- A Python launch file imports modules that may ask for its arguments, or parameters are filled in from launch
-  configurations (`allow_substs`): whoever gives another file of parameters may use any argument there. Of an argument that
-  an include gives the confidence is medium then.
-- An expression fails only under a condition, or files of the workspace that include this one give the argument: then the
-  confidence is medium.
-- A file of the workspace cannot be read: it may include this one and give it anything. What is asked for and declared
-  nowhere, and what is declared and never used, is not told of then, and of an expression that fails the confidence is medium.
-- A file has nothing but arguments: it sets them for whoever includes it.
-- What is asked for with a default, and looks like an argument, is set or passed on by any launch file of the workspace, or the
-  two differ in a number. If the argument is used, too, the confidence is medium.
-- What is asked for before it is declared is declared or set by a file that includes this one, or perhaps by one that it
-  includes before. Where it is asked for under a condition, or the file requires other arguments, so that it is a part of
-  others, the confidence is medium.
-- An argument that an include gives is left set, up to the end of a group with a scope around it: what stands further down
-  there may ask for it, or include what takes it, such as a launch file that is not in the workspace. So may what stands
-  further down in a file of the workspace that includes this one: then the confidence is medium, unless it resembles an
-  argument that is not given.
-- An argument that does nothing is empty by default, and another launch file of the folder requires it: this one may be put
-  in the place of the other, and takes what that one takes.
+Not reported:
 
-What does nothing is an info; it is a warning if it resembles an argument that is not given.
+- Includes whose file or arguments cannot be determined from the launch files alone, and arguments that are passed under an
+  unknown condition, such as what a function finds out about the included file.
+- Arguments passed to a file that includes a launch file from outside the workspace, because that file may use or declare them.
+- Required arguments that are declared under a condition or in a group.
+- Undeclared or unused arguments of a file that computes the names of the configurations it reads.
+- Undeclared configurations of a file with more than two of them, because it is a part of other launch files.
+- Unused arguments of a Python launch file that imports modules which may read them.
+- Unused arguments of a file that fills in parameters from launch configurations (`allow_substs`), because users may choose
+  another parameter file, which may use any argument.
+- Undeclared and unused arguments, if a file of the workspace cannot be read, because it may include this file.
+- Unused arguments of a file that only contains arguments, because it sets them for files that include it.
+- Configurations read with a default, if any launch file of the workspace sets or passes them, or if the name differs from the
+  declared one in a number.
+- Configurations read before their declaration, if a file that includes this one, or perhaps one that is included earlier,
+  declares or sets them.
+- Arguments passed to an include, if something later in the same scope may read them, such as a launch file from outside the
+  workspace. A passed argument stays set until the end of the enclosing scoped group.
+- Unused arguments with an empty default that another launch file of the same folder requires, because this file may replace the
+  other one.
+
+Reported with medium confidence:
+
+- One or two undeclared configurations, unless the name is nearly that of a declared argument.
+- Passed arguments, if the included file fills in parameters from launch configurations, or if something later in a file that
+  includes this one may read them. The confidence stays high in the second case if the name resembles an argument that is not
+  passed.
+- Failing expressions under a condition, expressions with an argument that files of the workspace pass, and all of them if a
+  file of the workspace cannot be read.
+- Configurations read with a default, if the declared argument is used as well.
+- Configurations read before their declaration, if they are read under a condition, or if the file requires other arguments, so
+  that it is a part of other launch files.
+
+Arguments without effect have severity info, or warning if the name resembles an argument that is not passed.
 """
 
 from __future__ import annotations
@@ -91,11 +100,10 @@ from ros_lint.api import (
 )
 
 _MOST_MISSING = 2
-"""A file that asks for more than these is a part of one that sets them."""
+"""A file that reads more undeclared configurations is assumed to be a part of a file that sets them."""
 
 _QUIET = frozenset({"launch", "launch_ros", "launch_xml", "launch_yaml", "ament_index_python", "nav2_common", "xacro", "yaml"})
-"""Modules of launch files besides those of Python."""
-
+"""Modules that read no launch configurations, in addition to the Python standard library."""
 
 _DIGITS = re.compile(r"\d+")
 
@@ -111,8 +119,8 @@ def check(workspace: Workspace) -> Iterator[Finding]:
         for file in package.launch:
             required.setdefault(_folder(file), set()).update(links.takes(file).required)
         for launch in launchable(package):
-            beside = required[_folder(launch.file)]
-            for finding in _of_file(launch.file, links, families, left, filled, beside, whole=whole):
+            siblings = required[_folder(launch.file)]
+            for finding in _of_file(launch.file, links, families, left, filled, siblings, whole=whole):
                 yield finding._replace(package=package.name)
 
 
@@ -126,35 +134,38 @@ def _of_file(
     families: Families,
     left: Left,
     filled: frozenset[str],
-    beside: Collection[str],
+    siblings: Collection[str],
     *,
     whole: bool,
 ) -> Iterator[Finding]:
-    """``whole``: all files can be read, and with them whoever includes this one; ``beside``: what those of its folder require."""
+    """Yield the findings of a file.
+
+    ``whole``: all files that may include this one were read. ``siblings``: required arguments of the files of its folder.
+    """
     for include in includes(file):
         yield from _of_include(include, file, links, families, left, filled)
     for action in everything(file.actions):
         if action.kind == "argument":
             yield from _of_choices(action)
     names, takes, above = families.names(file), links.takes(file), families.above(file)
-    given = {name for one in above for name in one.made}
+    passed = {name for configuration in above for name in configuration.made}
     if whole:
-        yield from _too_early(file, links, given.union(*(one.declared for one in above)))
-    yield from (_failing(broken, sure=whole and broken.argument not in given) for broken in broken_expressions(file))
+        yield from _too_early(file, links, passed.union(*(configuration.declared for configuration in above)))
+    yield from (_failing(broken, sure=whole and broken.argument not in passed) for broken in broken_expressions(file))
     if not (whole and names.whole and takes.complete):
         return
-    there = {*names.declared, *names.made}.union(*([*one.declared, *one.made] for one in above))
+    known = {*names.declared, *names.made}.union(*([*configuration.declared, *configuration.made] for configuration in above))
     inside = _known_inside(file, links)
-    strange = names.asked - there - inside
-    missing = needed(file, strange) if strange else {}
+    unknown = names.asked - known - inside
+    missing = needed(file, unknown) if unknown else {}
     for name, span in missing.items() if len(missing) <= _MOST_MISSING else ():
         yield _undeclared(name, span, sorted(names.declared), sure=not above)
-    unused = names.declared.keys() - names.asked.union(inside, *(one.asked for one in above))
-    slips = dict(_slips(file, strange - missing.keys() - families.made, names.declared))
+    unused = names.declared.keys() - names.asked.union(inside, *(configuration.asked for configuration in above))
+    slips = dict(_slips(file, unknown - missing.keys() - families.made, names.declared))
     for name, (meant, span) in slips.items():
         yield Finding(
-            f"{name} is asked for, and nothing declares it; {meant} is declared{', and not used' if meant in unused else ''}: "
-            f"write {meant}, or else the default here counts whatever is given",
+            f"launch configuration '{name}' is read but never declared, so the default here always applies; "
+            f"did you mean '{meant}', which is declared{' but not used' if meant in unused else ''}?",
             span,
             name,
             (Related("declared here", names.declared[meant]),),
@@ -164,11 +175,11 @@ def _of_file(
         return
     if families.fill(file) or all(action.kind in ("argument", "set") for action in file.actions):
         return
-    taken = {name for name in _empty(file) if name in beside}.union(meant for meant, _ in slips.values())
+    excused = {name for name in _empty(file) if name in siblings}.union(meant for meant, _ in slips.values())
     for name, span in names.declared.items():
-        if name in unused and name not in taken:
+        if name in unused and name not in excused:
             yield Finding(
-                f"the argument {name} is declared and never used: it does nothing; use it, or take it out",
+                f"launch argument '{name}' is declared but never used; use it or remove it",
                 span,
                 name,
                 severity=Severity.INFO,
@@ -176,18 +187,18 @@ def _of_file(
 
 
 def _slips(file: LaunchFile, names: frozenset[str], declared: Mapping[str, Span]) -> Iterator[tuple[str, tuple[str, Span]]]:
-    """Yield those of some names that are asked for with a default, each with what is declared and looks like it."""
+    """Yield the names that are read with a default, each with the declared argument of a similar name and its place."""
     for (name, has_default), span in asked_at(file, names).items() if names else ():
         digits = _DIGITS.findall(name)
-        near = similar(name, [each for each in declared if _DIGITS.findall(each) == digits], 1, 0.85)
+        near = similar(name, [argument for argument in declared if _DIGITS.findall(argument) == digits], 1, 0.85)
         if has_default and near:
             yield name, (near[0], span)
 
 
 def _too_early(file: LaunchFile, links: Links, above: Collection[str]) -> Iterator[Finding]:
-    """Yield the arguments that are asked for before they are declared: what a launch file does, it does in order.
+    """Yield the arguments that are read before they are declared, because a launch file is processed in order.
 
-    ``above`` are those that files which include this one declare or set.
+    ``above``: names that files which include this one declare or set.
     """
     declared: dict[str, tuple[int, Span]] = {}
     for index, action in enumerate(file.actions):
@@ -197,43 +208,44 @@ def _too_early(file: LaunchFile, links: Links, above: Collection[str]) -> Iterat
     places: dict[tuple[str, bool | None], list[tuple[Span, bool]]] = {}
     for early in _asked_early(file, links, {name: at for name, (at, _) in declared.items()}, above):
         places.setdefault((early.name, early.holds), []).append((early.span, early.sure))
-    for (name, holds), found in places.items():
-        (first, _), *others = found
+    for (name, holds), reads in places.items():
+        (first, _), *others = reads
         yield Finding(
-            f"{name} is asked for before it is declared, so {_OUTCOMES[holds]} where nobody gives it; declare it further up",
+            f"launch argument '{name}' is read before it is declared, so {_OUTCOMES[holds]} unless it is passed; "
+            "declare it earlier",
             first,
             name,
             several(
                 [
-                    Related("declared only here", declared[name][1]),
-                    *(Related("asked for here, too", span) for span, _ in others),
+                    Related("declared here", declared[name][1]),
+                    *(Related("also read here", span) for span, _ in others),
                 ]
             ),
-            confidence=Confidence.HIGH if any(sure for _, sure in found) else Confidence.MEDIUM,
+            confidence=Confidence.HIGH if any(sure for _, sure in reads) else Confidence.MEDIUM,
             severity=Severity.ERROR,
         )
 
 
 class _Early(NamedTuple):
-    """A launch configuration that is asked for before it is declared."""
+    """A launch configuration that is read before it is declared."""
 
     name: str
     span: Span
     sure: bool
-    """Whether it is surely asked for there."""
+    """Whether it is certainly read there."""
     holds: bool | None
-    """What a condition comes to that compares a configuration which is not there; None where launch stops instead."""
+    """The result of a condition that compares the missing configuration; None if launch stops instead."""
 
 
-_OUTCOMES = {None: "the launch file stops", False: "the condition never holds", True: "the condition always holds"}
+_OUTCOMES = {None: "the launch file stops", False: "the condition is never true", True: "the condition is always true"}
 
 
 def _asked_early(file: LaunchFile, links: Links, declared: Mapping[str, int], above: Collection[str]) -> Iterator[_Early]:
-    """Yield what is asked for before its number in ``declared`` comes."""
-    there = set(above)
+    """Yield the configurations that are read before their declaration; ``declared``: the index of the declaring action."""
+    known = set(above)
     part = bool(links.takes(file).required)
     for index, action in enumerate(file.actions):
-        late = [name for name, at in declared.items() if at > index and name not in there]
+        late = [name for name, at in declared.items() if at > index and name not in known]
         if not late:
             return
         for text, span, conditional, holds in _questions(action) if action.kind != "later" else ():
@@ -243,18 +255,18 @@ def _asked_early(file: LaunchFile, links: Links, declared: Mapping[str, int], ab
                     yield _Early(name, span, not part and not conditional, holds)
         for inner in everything((action,)):
             if inner.kind == "include" and (target := links.target(inner.target, file)) is not None:
-                there |= links.takes(target.file).known
+                known |= links.takes(target.file).known
             elif inner.kind == "include":
-                return  # what is included may declare anything
-            there.update(name for name, _ in inner.arguments)
+                return  # the included file may declare anything
+            known.update(name for name, _ in inner.arguments)
             if inner.kind in ("argument", "set") and inner.target is not None:
-                there.update(inner.target.texts)
+                known.update(inner.target.texts)
 
 
 def _questions(action: LaunchAction) -> Iterator[tuple[str, Span, bool, bool | None]]:
-    """Yield what launch evaluates of an action, where, whether under a condition, and what a comparison with nothing comes to.
+    """Yield the texts of an action that launch evaluates, with place, whether under a condition, and outcome (see ``_Early``).
 
-    A condition is asked for whatever comes of it, and one that compares a configuration goes on where there is none.
+    Conditions are always evaluated. Those that compare a configuration continue if it is missing.
     """
     asking = {text for condition in action.conditions if condition.equals is None for text in condition.texts}
     comparing = [condition for condition in action.conditions if condition.equals is not None]
@@ -267,27 +279,27 @@ def _questions(action: LaunchAction) -> Iterator[tuple[str, Span, bool, bool | N
 
 
 def _empty(file: LaunchFile) -> Iterator[str]:
-    """Yield the arguments that have the empty text for their default."""
+    """Yield the arguments with an empty default."""
     for action in everything(file.actions):
         if action.kind == "argument" and action.target is not None and action.value is not None and action.value.texts == ("",):
             yield from action.target.texts
 
 
 def _is_of_launch(module: str) -> bool:
-    """Whether a module surely asks for no launch configurations of its own."""
+    """Return whether a module certainly reads no launch configurations."""
     top = module.partition(".")[0]
     return top in _QUIET or top in STANDARD_LIBRARY
 
 
 def _known_inside(file: LaunchFile, links: Links) -> frozenset[str]:
-    """Return every name that the included files know."""
+    """Return the names that the included files declare, set or read."""
     return frozenset().union(*(links.takes(inner).known for inner in links.includes(file)))
 
 
 def _undeclared(name: str, span: Span, declared: list[str], *, sure: bool) -> Finding:
     near = similar(name, declared, 1, 0.85)
     return Finding(
-        f"no launch argument {name} is declared, and nothing sets it{did_you_mean(near)}",
+        f"launch configuration '{name}' is read, but nothing declares or sets it{did_you_mean(near)}",
         span,
         name,
         confidence=Confidence.HIGH if near and sure else Confidence.MEDIUM,
@@ -301,9 +313,9 @@ def _of_choices(action: LaunchAction) -> Iterator[Finding]:
         return
     if len(value.texts) == 1 and value.texts[0] not in action.choices:
         name = action.target.texts[0] if action.target is not None else ""
-        choices = ", ".join(action.choices)
+        choices = ", ".join(f"'{choice}'" for choice in action.choices)
         yield Finding(
-            f"the default of {name} is {value.texts[0] or 'the empty text'}, which is none of its choices: {choices}",
+            f"the default '{value.texts[0]}' of launch argument '{name}' is not one of its choices {choices}",
             value.span,
             name,
             severity=Severity.ERROR,
@@ -311,11 +323,12 @@ def _of_choices(action: LaunchAction) -> Iterator[Finding]:
 
 
 def _failing(broken: Broken, *, sure: bool) -> Finding:
-    why = f"Python knows no {broken.name}" if broken.name else "that is no Python"
+    reason = "not a valid Python expression"
     if broken.name:
-        why += f", say {broken.name.capitalize()}" if broken.name in ("true", "false") else ", put it into quotes"
+        remedy = f"write {broken.name.capitalize()}" if broken.name in ("true", "false") else "put it in quotes"
+        reason = f"but Python has no name '{broken.name}'; {remedy}"
     return Finding(
-        f"with the default of {broken.argument} this expression becomes {broken.expression}; {why}",
+        f"with the default of '{broken.argument}' this expression becomes `{broken.expression}`, {reason}",
         broken.span,
         broken.argument,
         confidence=Confidence.HIGH if sure and not broken.conditional else Confidence.MEDIUM,
@@ -334,39 +347,39 @@ def _of_include(
     action = include.action
     target = links.target(action.target, source)
     places = action.argument_spans or [value.span for _, value in action.arguments]
-    given = {name: place for (name, _), place in zip(action.arguments, places, strict=True) if name}
-    if target is None or not all(is_plain(name) for name in given):
+    passed = {name: place for (name, _), place in zip(action.arguments, places, strict=True) if name}
+    if target is None or not all(is_plain(name) for name in passed):
         return
     takes = links.takes(target.file)
     file = f"{target.package.name}/{target.path}"
     span = action.target.span if action.target is not None else action.span
     for name, declared in takes.required.items():
-        if name not in given:
+        if name not in passed:
             yield Finding(
-                f"{file} requires the argument {name}, which is not given here",
+                f"'{file}' requires the argument '{name}', which is not passed here",
                 span,
                 f"{file}:{name}",
-                (Related("declared here, without default", declared),),
+                (Related("declared here without a default", declared),),
                 severity=Severity.ERROR,
             )
-    open_to = takes.known - given.keys()
+    not_passed = takes.known - passed.keys()
     sure = not families.fill(target.file)
-    for name, place in given.items() if takes.complete else ():
+    for name, place in passed.items() if takes.complete else ():
         if name in takes.known or name in action.perhaps or (name in filled and not sure):
             continue
         if not left.is_taken_later(name, include, source):
             alone = not left.is_taken_above(name, include, source)
-            yield _useless(file, name, place, open_to, sure=sure, alone=alone)
+            yield _useless(file, name, place, not_passed, sure=sure, alone=alone)
 
 
-def _useless(file: str, name: str, place: Span, open_to: frozenset[str], *, sure: bool, alone: bool) -> Finding:
-    """Return the finding for an argument that nobody takes. One that resembles an argument not given was renamed.
+def _useless(file: str, name: str, place: Span, not_passed: frozenset[str], *, sure: bool, alone: bool) -> Finding:
+    """Return the finding for an argument without effect. If it resembles an argument that is not passed, it was renamed.
 
-    ``alone``: no file includes the one that gives it, and goes on with what may take it.
+    ``alone``: no file includes the passing file and later contains something that may read the argument.
     """
-    near = similar(name, open_to, 1, 0.85)
+    near = similar(name, not_passed, 1, 0.85)
     return Finding(
-        f"{file} takes no argument {name}: it does nothing there{did_you_mean(near) or '; take it out'}",
+        f"'{file}' does not use the argument '{name}', so it has no effect{did_you_mean(near) or '; remove it'}",
         place,
         f"{file}:{name}",
         confidence=Confidence.HIGH if sure and (near or alone) else Confidence.MEDIUM,
@@ -377,7 +390,7 @@ def _useless(file: str, name: str, place: Span, open_to: frozenset[str], *, sure
 RULE = Rule(
     name="launch-argument",
     code="ROS507",
-    summary="an include must give the arguments that the included file takes",
+    summary="launch arguments are declared, passed and used consistently",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,
