@@ -70,13 +70,13 @@ def _in_comment(text: Text, start: int, end: int, lines: tuple[int, int], leadin
 def _problem(mark: re.Match[str], leading: bool) -> str | None:
     """Return what is wrong with a suppression, "" when nothing is, or None if it may be no suppression at all."""
     if mark["word"] not in ("ignore", "ignore-file"):
-        return f"{mark[0].strip()} means nothing, {_HOW}" if mark["word"] else None
+        return f"'{mark[0].strip()}' has no effect; {_HOW}" if mark["word"] else None
     if mark["names"] is not None and not mark["close"]:
-        return f"the bracket of this suppression is not closed on its line, {_HOW}"
+        return f"the bracket of this suppression is not closed on its line; {_HOW}"
     if not (mark["names"] or "").replace(",", "").strip():
-        return f"this suppression names no rule, {_HOW}"
+        return f"this suppression names no rule; {_HOW}"
     if mark["word"] == "ignore-file" and not leading:
-        return "ignore-file works in the first comments of a file only, move it there or use ignore"
+        return "ignore-file only works in the first comments of a file; move it there, or use ignore"
     return ""
 
 

@@ -245,8 +245,8 @@ def test_ignore_file_in_the_wrong_place(path: str, source: str) -> None:
         ("ros-lint: ignore[ , ] because", "names no rule"),
         ("ros-lint: ignore-file", "names no rule"),
         ("ros-lint: ignore[ROS204", "not closed"),
-        ("ros-lint: disable=ROS204", "ros-lint: disable means nothing"),
-        ("ros-lint: ingore[ROS204] so", "ros-lint: ingore[ROS204] means nothing"),
+        ("ros-lint: disable=ROS204", "'ros-lint: disable' has no effect"),
+        ("ros-lint: ingore[ROS204] so", "'ros-lint: ingore[ROS204]' has no effect"),
         ("type: ignore # ros-lint: ignore", "names no rule"),
     ],
 )

@@ -5,21 +5,27 @@ A launch file that loads a component class which its package does not register.
 
 ## Why it matters
 
-The container answers `Failed to find class with the requested plugin name`, and the component is not there, while
-everything else runs.
+The container reports `Failed to find class with the requested plugin name`. The component is missing, while everything else
+runs.
 
 ## How to fix it
 
-Correct the name of the class, or register it: `rclcpp_components_register_node(library PLUGIN "ns::Class" EXECUTABLE x)`
-or `rclcpp_components_register_nodes(library "ns::Class")`. The fix corrects the name where one class must be meant.
+Correct the name of the class, or register it: `rclcpp_components_register_node(library PLUGIN "ns::Class" EXECUTABLE x)` or
+`rclcpp_components_register_nodes(library "ns::Class")`. The fix corrects the name if only one class is possible.
 
 ## Limitations
 
-- A part of the package's build script that cannot be followed may register the class.
-- For a released package: neither the sources of its release are known whole, nor those for an earlier and a later
-  distribution; or one of these has it. Where nobody said which one is meant, the confidence is medium as long as one of
-  them may have the class.
+Not reported:
+
+- A part of the package's build script that cannot be evaluated may register the class.
+- The package is released, and the sources of its release are not fully known. The sources for an earlier and a later
+  distribution are used instead, if both are known and neither contains the class.
 - Launch files of tests and examples.
+
+Reported with medium confidence:
+
+- The distribution was not chosen, and the package may have the class in another distribution.
+- The class is the default of an argument.
 """
 
 from __future__ import annotations
@@ -52,15 +58,15 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         best, *others = sorted(references, key=lambda reference: (reference.by_default, reference.span))
         meant = [other for other in names if other.lower() == name.lower()]
         near = meant or [other for other in similar(name, names, 4, 0.75) if similar(_class(name), [_class(other)], 1, 0.75)][:2]
-        hint = did_you_mean(near) or (f"; it registers {few(names)}" if names else ", and no other either")
+        hint = did_you_mean(near) or (f"; it registers {few(names)}" if names else "; it registers no components")
         only = meant[0] if len(meant) == 1 else ""
         sure = workspace.surely_lacks(owner, "components", name)
         yield Finding(
-            f"{owner} registers no component {name}{hint}",
+            f"'{owner}' does not register a component '{name}'{hint}",
             best.span,
             f"{owner}/{name}",
             several(Related("also loaded here", other.span) for other in others),
-            corrected(f"load {only}", only, [(reference.span, reference.exact) for reference in references]),
+            corrected(f"load '{only}'", only, [(reference.span, reference.exact) for reference in references]),
             Confidence.HIGH if sure and not best.by_default else Confidence.MEDIUM,
         )
 
@@ -71,25 +77,25 @@ def _class(name: str) -> str:
 
 
 def _names_without(owner: str, name: str, workspace: Workspace) -> tuple[str, ...] | None:
-    """Return the components that a package registers when this one is certainly not among them."""
+    """Return the components that a package registers if ``name`` is certainly not among them, else None."""
     owners = workspace.by_name.get(owner, ())
     if not owners:
         known = workspace.world.components(owner)
         return known.possible if known.ask(name) == "missing" else None
     names: set[str] = set()
-    for one in owners:
-        if one.script is None or one.hidden(Facet.COMPONENTS):
+    for package in owners:
+        if package.script is None or package.hidden(Facet.COMPONENTS):
             return None
-        names.update(component.name for component in one.script.components)
-        # Of a class that the sources make loadable and CMake does not register, component-mismatch speaks.
-        names.update(made.name for made in one.registrations if made.kind == "component")
+        names.update(component.name for component in package.script.components)
+        # component-mismatch reports classes that the sources export but CMake does not register.
+        names.update(registration.name for registration in package.registrations if registration.kind == "component")
     return None if name in names else tuple(sorted(names))
 
 
 RULE = Rule(
     name="launch-unknown-component",
     code="ROS504",
-    summary="a component that a launch file loads must be registered by its package",
+    summary="components that launch files load are registered by their packages",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,

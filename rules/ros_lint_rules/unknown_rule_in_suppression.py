@@ -1,22 +1,24 @@
 """
 ## What it finds
 
-A comment that is meant to suppress findings and does not: it names a rule that does not exist, names no rule at all,
-says something other than `ignore` and `ignore-file`, or is an `ignore-file` below the first comments of its file.
+A comment that looks like a suppression but has no effect, because it
+
+- names a rule that does not exist, or no rule at all;
+- uses a word other than `ignore` and `ignore-file`;
+- is an `ignore-file` below the first comments of its file.
 
 ## Why it matters
 
-The comment looks as if it did something. The finding that it was written for is still reported, or the comment has
-outlived a rule.
+The comment seems to work, but the finding is still reported, or the rule no longer exists.
 
 ## How to fix it
 
-Write `ros-lint: ignore[rule-name] reason`, with names or codes from `ros-lint rules`, several of them separated by
-commas. Move `ros-lint: ignore-file[rule-name] reason` above the first line that is no comment.
+Write `ros-lint: ignore[rule-name] reason`, with names or codes from `ros-lint rules`, separated by commas. Move `ros-lint:
+ignore-file[rule-name] reason` above the first line that is not a comment.
 
 ## Limitations
 
-About comments that only mention ros-lint, and about whatever looks like a comment and stands in a string.
+Not reported: comments that only mention ros-lint, and text in a string that looks like a comment.
 """
 
 from __future__ import annotations
@@ -35,14 +37,14 @@ def check(outcome: Outcome) -> Iterator[Finding]:
     for suppression in outcome.broken:
         yield Finding(suppression.problem, suppression.span, ", ".join(name.text for name in suppression.names))
     for _, name, suggestion in outcome.unknown:
-        hint = did_you_mean([suggestion] if suggestion else [], ", ") or ", ros-lint rules lists what there is"
-        yield Finding(f"there is no rule {name.text}{hint}", name.span, name.text)
+        hint = did_you_mean([suggestion] if suggestion else []) or "; `ros-lint rules` lists all rules"
+        yield Finding(f"there is no rule '{name.text}'{hint}", name.span, name.text)
 
 
 RULE = Rule(
     name="unknown-rule-in-suppression",
     code="ROS902",
-    summary="a comment that suppresses findings must name rules that exist",
+    summary="suppression comments name existing rules",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,

@@ -1,24 +1,26 @@
 """
 ## What it finds
 
-A dependency that is known, but not to the distribution that the workspace is checked for: a rosdep key without a rule for
-the distribution's platform, or a package that only other distributions have released.
+A dependency that is known, but not for the target distribution: a rosdep key without a rule for the distribution's platform, or
+a package that is only released for other distributions.
 
 ## Why it matters
 
-`rosdep install` stops there, and the build farm rejects the release. On the machine where the package was written the
-library may have been there by chance, or under an older Ubuntu.
+`rosdep install` stops there, and the build farm rejects the release. On the author's machine the library may be installed by
+chance, or from an older Ubuntu.
 
 ## How to fix it
 
-Use the key that took its place, often `python3-…` for `python-…`; put a condition on the tag if it is needed for one
-distribution only; or add a rule to rosdistro. What is not released has to come as sources, named in a `.repos` file.
+- Use the key that replaced it, often `python3-…` for `python-…`.
+- Put a condition on the tag if only one distribution needs it.
+- Add a rule to rosdistro.
+- Add the sources of unreleased packages to the workspace, and name them in a `.repos` file.
 
 ## Limitations
 
-When nobody said which distribution is meant: then only keys that resolve on no platform of any supported distribution are
-reported. The platforms are those of the distribution (REP 2000), whatever machine ros-lint runs on. A package that a
-`.repos` file or `.gitmodules` may bring has medium confidence.
+- If no distribution was chosen, only keys that resolve on no platform of any supported distribution are reported.
+- The platforms are those of the distribution (REP 2000), not the machine on which ros-lint runs.
+- The confidence is medium for packages that a `.repos` file or `.gitmodules` may provide.
 """
 
 from __future__ import annotations
@@ -44,10 +46,10 @@ def _key(stranger: Stranger, workspace: Workspace) -> Finding:
     name, knowledge, distro = stranger.name, workspace.world.knowledge, workspace.target.distro
     anywhere = knowledge.resolving(name)
     meant = workspace.world.meant(name, python=stranger.runs_python)
-    place = f"{knowledge.platform}, where {distro} runs" if anywhere else "any Ubuntu that ROS 2 runs on"
-    better = f"use {meant.name}" if meant else "use another key, or add a rule to rosdistro"
+    place = f"{knowledge.platform}, the platform of {distro}" if anywhere else "any Ubuntu that ROS 2 supports"
+    remedy = f"use '{meant.name}'" if meant else "use another key, or add a rule to rosdistro"
     return Finding(
-        f"rosdep key {name} has no rule for {place}: {better}",
+        f"rosdep key '{name}' has no rule for {place}; {remedy}",
         stranger.declared.depend.name_span,
         name,
         package=stranger.package.name,
@@ -58,8 +60,8 @@ def _package(stranger: Stranger, workspace: Workspace) -> Finding:
     name, world, distro = stranger.name, workspace.world, workspace.target.distro
     others = ", ".join(world.where_else(name))
     return Finding(
-        f"{name} is not released for {distro}, only for {others} (as of {world.knowledge.date}): "
-        "add its sources to the workspace, or do without it",
+        f"'{name}' is not released for {distro}, only for {others} (as of {world.knowledge.date}); "
+        "add its sources to the workspace, or remove the dependency",
         stranger.declared.depend.name_span,
         name,
         confidence=Confidence.MEDIUM if workspace.source_lists else Confidence.HIGH,
@@ -70,7 +72,7 @@ def _package(stranger: Stranger, workspace: Workspace) -> Finding:
 RULE = Rule(
     name="unresolvable-key",
     code="ROS105",
-    summary="a declared name must resolve for the distribution",
+    summary="declared dependencies resolve for the distribution",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,

@@ -1,21 +1,25 @@
 """
 ## What it finds
 
-An executable that is built and neither installed nor a test.
+An executable that is built, but neither installed nor a test.
 
 ## Why it matters
 
-It costs time in every build, and nobody can run it after the installation. Often its install rule was forgotten.
+It costs time in every build, and cannot be run after installation. Often its install rule was forgotten.
 
 ## How to fix it
 
-Install it to `lib/${PROJECT_NAME}`, or build it only when tests or examples are wanted. The fix installs it.
+Install it to `lib/${PROJECT_NAME}`, or build it only together with tests or examples. The fix installs it.
 
 ## Limitations
 
-Where something that cannot be followed may install it; where it is not part of every build, or an example; where a custom
-command runs it during the build; where `uninstalled-executable` speaks: a launch file starts it, or it is a node of a package
-that installs nothing, or other nodes. It is off unless it is asked for.
+This rule is off by default. Not reported:
+
+- A part of the build script that cannot be evaluated may install the executable.
+- The executable is an example, or not part of every build.
+- A custom command runs the executable during the build.
+- `uninstalled-executable` reports it: a launch file starts it, or it is a node, and the package installs nothing or other
+  nodes.
 """
 
 from __future__ import annotations
@@ -44,23 +48,23 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_cmake" or hidden(package, Facet.EXECUTABLES) or may_run_built(script):
         return
-    left = {provided.target for provided in script.provides} | listed_to_install(package)
-    left |= forgotten_nodes(package) | left_out_nodes(package)  # another rule says so
-    left.update(workspace.started.get(package.name, {}))
+    excluded = {provided.target for provided in script.provides} | listed_to_install(package)
+    excluded |= forgotten_nodes(package) | left_out_nodes(package)  # uninstalled-executable reports them
+    excluded.update(workspace.started.get(package.name, {}))
     for target in script.targets:
-        if target.kind != "executable" or target.test or target.name in left:
+        if target.kind != "executable" or target.test or target.name in excluded:
             continue
         if is_on_request(package, target):
             continue
-        fix = Fix.of(f"install {target.name}", cmake_edits.install_program(script, "TARGETS", target.name), safe=False)
-        message = f"{target.name} is built, but neither installed nor a test; install it, or build it only if it is wanted"
+        fix = Fix.of(f"install '{target.name}'", cmake_edits.install_program(script, "TARGETS", target.name), safe=False)
+        message = f"'{target.name}' is built, but neither installed nor a test; install it, or build it only on request"
         yield Finding(message, target.span, target.name, fix=fix)
 
 
 RULE = Rule(
     name="unused-executable-target",
     code="ROS404",
-    summary="an executable should be installed or be a test",
+    summary="executables are installed or are tests",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,

@@ -1,21 +1,20 @@
 """
 ## What it finds
 
-A comment such as `# ros-lint: ignore[unused-dependency] loaded by name` where the rule that it names finds nothing to
-suppress.
+A comment such as `# ros-lint: ignore[unused-dependency] loaded by name` that suppresses no finding of the rule it names.
 
 ## Why it matters
 
-What it excused is mended, has moved, or was never there. The comment misleads whoever reads it, and hides the next
-finding of that rule on its line.
+The finding was fixed, has moved, or never existed. The comment misleads readers, and hides the next finding of that rule on its
+line.
 
 ## How to fix it
 
-Remove it, or the one name in it that is not needed. The fix does this.
+Remove the comment, or the rule name that is not needed. The fix does this.
 
 ## Limitations
 
-About rules that did not run, because they are off, not selected, or failed: what they would have found is not known.
+Not reported: rules that did not run, because they are off, not selected or failed, so that their findings are unknown.
 """
 
 from __future__ import annotations
@@ -32,20 +31,20 @@ if TYPE_CHECKING:
 
 def check(outcome: Outcome) -> Iterator[Finding]:
     for suppression, names in outcome.unused:
-        words = " and ".join(name.text for name in names)
+        rules = " and ".join(f"'{name.text}'" for name in names)
         whole = len(names) == len(suppression.names)
         yield Finding(
-            f"nothing here needs the suppression of {words}, remove it",
+            f"this comment suppresses no finding of {rules}; remove it",
             suppression.span if whole else names[0].span,
-            words,
-            fix=Fix(f"remove the suppression of {words}", (suppression.without(names),)),
+            " and ".join(name.text for name in names),
+            fix=Fix(f"remove the suppression of {rules}", (suppression.without(names),)),
         )
 
 
 RULE = Rule(
     name="unused-suppression",
     code="ROS901",
-    summary="a comment that suppresses findings must have something to suppress",
+    summary="suppression comments suppress a finding",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,

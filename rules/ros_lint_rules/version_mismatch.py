@@ -1,21 +1,21 @@
 """
 ## What it finds
 
-An `ament_python` package whose version in `setup.py` or `setup.cfg` is not that of `package.xml`.
+An `ament_python` package with different versions in `package.xml` and in `setup.py` or `setup.cfg`.
 
 ## Why it matters
 
-Debian packages and `ros2 pkg xml` have the one, `pip list` and `importlib.metadata` the other. Releases are made from the
-one that nobody looked at.
+Debian packages and `ros2 pkg xml` show the version of `package.xml`; `pip list` and `importlib.metadata` show the other one. A
+release may be made with an outdated version.
 
 ## How to fix it
 
-Write the same version into both. The fix, an unsafe one, takes that of `package.xml`, unless that is still the `0.0.0` of
-the template.
+Write the same version into both files. The unsafe fix writes that of `package.xml`, unless it is still the `0.0.0` of the
+template; then it writes that of `setup.py` into `package.xml`.
 
 ## Limitations
 
-When the version in `setup.py` is not written out, and when the two differ by zeros at the end only.
+Not reported: a version in `setup.py` that is not a literal, and versions that only differ in zeros at the end.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     place = next(element.text_span for element in manifest.elements if element.tag == "version")
     file = span.path.rpartition("/")[2]
     yield Finding(
-        f"{file} has version {version}, package.xml {manifest.version}; write the same into both",
+        f"{file} has version {version}, but package.xml has {manifest.version}; write the same version into both",
         span,
         "version",
         (Related(f"version {manifest.version}", place),),
@@ -62,7 +62,7 @@ def _fix(manifest: Manifest, version: str, span: Span, place: Span) -> Fix | Non
 RULE = Rule(
     name="version-mismatch",
     code="ROS110",
-    summary="a package must have one version",
+    summary="setup.py and package.xml have the same version",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,

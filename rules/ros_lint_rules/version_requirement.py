@@ -1,22 +1,26 @@
 """
 ## What it finds
 
-A dependency that asks for a version (`version_gte`, `version_lt` and so on) which the package of that name in the
-workspace or in an underlay does not have.
+A dependency with a version limit (`version_gte`, `version_lt` and so on) that the package in the workspace or in an underlay
+does not satisfy.
 
 ## Why it matters
 
-colcon builds all the same. The attribute says that the package does not work with this version, and a Debian package made
-from it cannot be installed.
+colcon ignores the limit and builds. The attribute states that the package does not work with this version, and a Debian package
+of it cannot be installed.
 
 ## How to fix it
 
-Check out or install a version that fits, or correct the attribute.
+Check out or install a suitable version, or correct the attribute.
 
 ## Limitations
 
-For packages that are only known from the index of the distribution, for names that the workspace has twice, for versions
-that are not numbers with dots, and for tags under a condition that is false or cannot be evaluated.
+Not reported:
+
+- Packages that are only known from the index of the distribution.
+- Names of more than one package of the workspace.
+- Versions that are not numbers with dots.
+- Tags under a condition that is false or cannot be evaluated.
 """
 
 from __future__ import annotations
@@ -46,25 +50,25 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if workspace.world.layer(depend.name) not in ("workspace", "underlay"):
             continue
         version = workspace.world.version(depend.name) or ""
-        there = workspace.by_name.get(depend.name, ())
+        packages = workspace.by_name.get(depend.name, ())
         failed = [
             f"{word} {limit}"
             for attribute, limit in depend.versions
             for word, test in (_TESTS[attribute],)
             if _numbers(version) and _numbers(limit) and not test(_numbers(version), _numbers(limit))
         ]
-        if failed and len(there) < 2:
+        if failed and len(packages) < 2:
             yield Finding(
-                f"{depend.name} {' and '.join(failed)} is asked for, but {version} is there; "
-                "get another version, or correct the attribute",
+                f"'{depend.name}' has version {version}, but must be {' and '.join(failed)}; "
+                "use another version, or correct the attribute",
                 depend.span,
                 depend.name,
-                tuple(Related(f"{depend.name} {version}", found.place) for found in there),
+                tuple(Related(f"'{depend.name}' {version}", package.place) for package in packages),
             )
 
 
 def _numbers(version: str) -> _Version:
-    """Return a version as numbers, missing ones 0; empty when it has anything else."""
+    """Return a version as four numbers, missing ones 0; () if it contains anything else."""
     if not re.fullmatch(r"[0-9]+(\.[0-9]+){0,3}", version):
         return ()
     digits = [part.lstrip("0") for part in version.split(".")]
@@ -74,7 +78,7 @@ def _numbers(version: str) -> _Version:
 RULE = Rule(
     name="version-requirement",
     code="ROS114",
-    summary="a package must have the version that others ask for",
+    summary="packages have the versions that other packages require",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,

@@ -1,24 +1,27 @@
 """
 ## What it finds
 
-A `<build_type>` that colcon cannot use: one that no part of colcon builds, such as `ament_cmake_auto` or `python`; one
-that is empty; two that count at the same time; or one whose script is not there, such as `ament_cmake` without a
-`CMakeLists.txt` and `ament_python` without a `setup.py`.
+A `<build_type>` that colcon cannot use:
+
+- an unknown type, such as `ament_cmake_auto` or `python`;
+- an empty type;
+- two types that apply at the same time;
+- a type whose script does not exist, such as `ament_cmake` without a `CMakeLists.txt` and `ament_python` without a `setup.py`.
 
 ## Why it matters
 
-For an unknown type `colcon build` prints "No task extension to 'build' a package", builds nothing and returns 0. With two
-types it takes the folder for no ROS package. Without the script the build fails.
+For an unknown type `colcon build` prints "No task extension to 'build' a package", builds nothing and returns 0. With two types
+it does not recognize the folder as a ROS package. Without the script the build fails.
 
 ## How to fix it
 
-Write one of `ament_cmake`, `ament_python`, `cmake`, `ament_cargo` or `ament_gradle`. Where it is clear which one is meant,
-the fix does this. Keep one of two types, or give each a condition.
+Write one of `ament_cmake`, `ament_python`, `cmake`, `ament_cargo` or `ament_gradle`. The fix does this if only one of them is
+possible. Keep one of two types, or give each a condition.
 
 ## Limitations
 
-For types under a condition that is false or has an unknown variable. Extensions of colcon can bring more types: the
-confidence is medium unless the name is a known mistake or close to a known type.
+- Types under a condition that is false or has an unknown variable are not reported.
+- Extensions of colcon can add types. The confidence is medium unless the name is a known mistake or similar to a known type.
 """
 
 from __future__ import annotations
@@ -43,6 +46,7 @@ from ros_lint.api import (
 )
 
 _TYPES = ("ament_cmake", "ament_python", "cmake", "catkin", "ament_cargo", "ament_gradle")
+_KNOWN = ", ".join(f"'{name}'" for name in _TYPES[:3])
 _MISTAKES = {
     "ament_cmake_auto": "ament_cmake",
     "ament_cmake_python": "ament_cmake",
@@ -73,9 +77,9 @@ def _of_package(package: Package, manifest: Manifest, workspace: Workspace) -> I
         export for export in manifest.exports if export.tag == "build_type" and conditions.truth(conditions.of(export), context)
     ]
     if len(active) > 1:
-        names = " and ".join(export.text or "an empty one" for export in active)
-        message = f"{len(active)} build types count for {workspace.target.distro}: {names}; keep one, or give each a condition"
-        related = tuple(Related("this one counts, too", export.span) for export in active[:-1])
+        names = " and ".join(f"'{export.text}'" if export.text else "an empty one" for export in active)
+        message = f"{len(active)} build types apply to {workspace.target.distro}: {names}; keep one, or give each a condition"
+        related = tuple(Related("this build type also applies", export.span) for export in active[:-1])
         yield Finding(message, active[-1].span, "build_type", related)
     for export in active:
         if not export.text:
@@ -90,10 +94,10 @@ def _unknown(export: Element) -> Finding:
     name = export.text
     close = [_MISTAKES[name]] if name in _MISTAKES else similar(name, _TYPES, 1, 0.8)
     if not close:
-        message = f"colcon has no build type {name} of its own; write {', '.join(_TYPES[:3])} or another that it has"
+        message = f"colcon itself has no build type '{name}'; write {_KNOWN}, or another type that it supports"
         return Finding(message, export.text_span, name, confidence=Confidence.MEDIUM)
-    fix = Fix(f"write {close[0]}", (Edit(export.text_span, close[0]),))
-    return Finding(f"there is no build type {name}; write {close[0]}", export.text_span, name, fix=fix)
+    fix = Fix(f"write '{close[0]}'", (Edit(export.text_span, close[0]),))
+    return Finding(f"there is no build type '{name}'; write '{close[0]}'", export.text_span, name, fix=fix)
 
 
 def _without_script(package: Package, export: Element) -> Iterator[Finding]:
@@ -102,21 +106,21 @@ def _without_script(package: Package, export: Element) -> Iterator[Finding]:
         return
     other = "ament_python" if script == "CMakeLists.txt" else "ament_cmake"
     if _SCRIPTS[other] in package.files:
-        message = f"{export.text} needs a {script}, and here is a {_SCRIPTS[other]}; write {other}"
-        fix = Fix(f"write {other}", (Edit(export.text_span, other),), safe=False)
+        message = f"'{export.text}' needs a {script}, but the package has a {_SCRIPTS[other]}; write '{other}'"
+        fix = Fix(f"write '{other}'", (Edit(export.text_span, other),), safe=False)
         yield Finding(message, export.text_span, export.text, fix=fix)
     else:
         near = similar(script.lower(), [file.lower() for file in package.files if "/" not in file], 1, 0.85)
         meant = next((file for file in package.files if near and file.lower() == near[0]), "")
-        way_out = f"and here is {meant}: call it {script}" if meant else "which is not there; add it"
+        remedy = f"but the package has a '{meant}'; rename it to {script}" if meant else "which does not exist; add it"
         related = (Related("this file", place_of(package, meant)),) if meant else ()
-        yield Finding(f"{export.text} needs a {script}, {way_out}", export.text_span, export.text, related)
+        yield Finding(f"'{export.text}' needs a {script}, {remedy}", export.text_span, export.text, related)
 
 
 RULE = Rule(
     name="wrong-build-type",
     code="ROS108",
-    summary="the build type must be one that colcon can build from what the folder holds",
+    summary="build types are known to colcon and match the build script",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,
