@@ -149,7 +149,7 @@ def test_select_and_ignore(demo: Path) -> None:
     )
     lines = findings(demo)
     assert len(lines) == 2
-    assert "error: diagnostic_updater" in lines[1]
+    assert "error: 'diagnostic_updater'" in lines[1]
     assert "ignored by per-path-ignores" in run(demo).stdout
 
 

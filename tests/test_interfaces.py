@@ -67,16 +67,16 @@ def test_idl() -> None:
 def problems(data: bytes, path: str = "a/msg/X.msg") -> list[tuple[str, str]]:
     interface = interfaces.collect(read(path, data)).interface
     assert interface is not None
-    return [(f"{problem.span.line}:{problem.span.column}", problem.message.partition(":")[0]) for problem in interface.problems]
+    return [(f"{problem.span.line}:{problem.span.column}", problem.message.partition(";")[0]) for problem in interface.problems]
 
 
 @pytest.mark.parametrize(
     ("data", "place", "message"),
     [
-        (b"\xef\xbb\xbfint32 a\n", "1:1", "rosidl stops at a file that begins with a byte order mark"),
-        (b"int32 a\nint32 b # caf\xe9\n", "2:14", "rosidl stops at a file that is not in UTF-8"),
-        ("int32 a\n".encode("utf-16"), "1:1", "rosidl stops at a file that is not in UTF-8"),
-        (b"# coding: latin-1\nint32 a # caf\xe9\n", "1:1", "rosidl stops at a file that is not in UTF-8"),
+        (b"\xef\xbb\xbfint32 a\n", "1:1", "rosidl cannot read a file that begins with a byte order mark"),
+        (b"int32 a\nint32 b # caf\xe9\n", "2:14", "rosidl cannot read a file that is not in UTF-8"),
+        ("int32 a\n".encode("utf-16"), "1:1", "rosidl cannot read a file that is not in UTF-8"),
+        (b"# coding: latin-1\nint32 a # caf\xe9\n", "1:1", "rosidl cannot read a file that is not in UTF-8"),
     ],
 )
 def test_a_file_that_rosidl_cannot_decode(data: bytes, place: str, message: str) -> None:
@@ -90,7 +90,7 @@ def test_a_file_that_rosidl_decodes(data: bytes) -> None:
 
 def test_line_ends_of_windows_divide() -> None:
     assert problems(b"int32 a\r\n---\r\nint32 a\r\n", "a/srv/X.srv") == []
-    assert problems(b"int32 a\r\n--- \r\nint32 a\r\n", "a/srv/X.srv") == [("2:1", "only a line that is nothing but --- divides")]
+    assert problems(b"int32 a\r\n--- \r\nint32 a\r\n", "a/srv/X.srv") == [("2:1", "a separator line must contain nothing but '---'")]
 
 
 def test_the_messages_that_a_definition_is_made_of() -> None:
@@ -108,5 +108,5 @@ def test_a_name_that_rosidl_does_not_take(name: str, better: str) -> None:
     interface = interfaces.collect(Text(f"a/msg/{name}.msg", "")).interface
     assert interface is not None
     assert [problem.message for problem in interface.problems] == [
-        f"rosidl takes no interface called {name}: call the file {better}.msg"
+        f"'{name}' is not a valid interface name; rename the file to '{better}.msg'"
     ]

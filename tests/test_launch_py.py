@@ -245,8 +245,8 @@ def test_keywords_of_old_are_understood_and_told() -> None:
     source, found = collect("a.launch.py", text)
     assert said(source, found) == ["node a b"]
     assert [problem.message for problem in found.problems] == [
-        "node_executable= of Node is gone since Galactic: say executable=",
-        "node_name= of Node is gone since Galactic: say name=",
+        "Node(node_executable=) was removed in Galactic; use executable=",
+        "Node(node_name=) was removed in Galactic; use name=",
     ]
     assert source.slice(found.problems[0].span) == "node_executable"
 

@@ -204,22 +204,22 @@ class _Reader:
                 if not _NAME.match(name):
                     if template and _PLACEHOLDER.match(name):
                         continue
-                    raise _SyntaxError(f'"{name}" is no name of a command', begin, end)
+                    raise _SyntaxError(f"'{name}' is not a valid command name", begin, end)
                 line += passed
                 column = begin - text.rfind("\n", 0, begin)
                 counted = begin
                 following = text[end : end + 1]
                 if following != "(" and not self._opens(end):
-                    raise _SyntaxError(f'"(" is missing after "{name}"', begin, end)
+                    raise _SyntaxError(f"'(' is missing after '{name}'", begin, end)
             elif group == 2 and text[position - 1] == "(" and name:
                 depth = 1
                 args = []
             elif group == 8:
                 raise self._wrong(position - 1)
             elif group is not None and group != 6:
-                raise _SyntaxError("only a command can stand here", match.start(group) - (group in (3, 5)), position)
+                raise _SyntaxError("a command is expected here", match.start(group) - (group in (3, 5)), position)
         if depth:
-            raise _SyntaxError(f'")" is missing at the end of {name}()', begin, end)
+            raise _SyntaxError(f"')' is missing at the end of {name}()", begin, end)
         if "\r" in text:
             self._count_lines()
 

@@ -96,7 +96,9 @@ def collect(source: Text) -> InterfaceFile:
     problems: list[InterfaceProblem] = []
     if not interface_names.is_message(name):
         better = f"{interface_names.camel(name)}.{suffix}"
-        problems.append(InterfaceProblem(f"rosidl takes no interface called {name}: call the file {better}", beginning(path)))
+        problems.append(
+            InterfaceProblem(f"'{name}' is not a valid interface name; rename the file to '{better}'", beginning(path))
+        )
     marks = [match.start() for match in _SEPARATES.finditer(text)]
     divided = len(marks) == _SEPARATORS[suffix]
     problems += () if divided else _separation(source, text, suffix, marks)
@@ -119,7 +121,7 @@ def collect(source: Text) -> InterfaceFile:
         first = seen.setdefault((element.name, bisect_right(marks, at)), start)
         if first != start and divided:
             line = source.position(first)[0]
-            message = f"{element.name} is there already, on line {line}: choose another name"
+            message = f"'{element.name}' is already defined on line {line}; choose another name"
             problems.append(InterfaceProblem(message, source.span(start, start + len(element.name))))
     return InterfaceFile(path, tuple(types), tuple(problems))
 
@@ -137,24 +139,26 @@ def _is_utf_8(source: Text) -> bool:
 
 def _encoding(source: Text, start: int, end: int) -> InterfaceProblem:
     what = "that begins with a byte order mark" if source.codec == "utf-8-sig" else "that is not in UTF-8"
-    return InterfaceProblem(f"rosidl stops at a file {what}: save it as UTF-8 without one", source.span(start, end))
+    return InterfaceProblem(
+        f"rosidl cannot read a file {what}; save it as UTF-8 without a byte order mark", source.span(start, end)
+    )
 
 
 def _separation(source: Text, text: str, suffix: str, marks: list[int]) -> Iterator[InterfaceProblem]:
-    """Speak of lines ``---``, of which there are too few or too many."""
+    """Yield the problem of too few or too many lines ``---``."""
     wanted = _SEPARATORS[suffix]
     parts = {"msg": "a message has no parts", "srv": "a service has two parts", "action": "an action has three parts"}[suffix]
     near = [match for match in _NEARLY_SEPARATES.finditer(text) if match.start() not in marks]
     if len(marks) > wanted:
-        yield InterfaceProblem(f"there is a line --- too many: {parts}", source.span(marks[wanted], marks[wanted] + 3))
+        yield InterfaceProblem(f"there are too many lines '---'; {parts}", source.span(marks[wanted], marks[wanted] + 3))
     elif near and len(marks) + len(near) == wanted:
         for match in near:
             instead = None if text[match.end() : match.end() + 1] == "#" else "---"
-            message = f"only a line that is nothing but --- divides: {parts}"
+            message = f"a separator line must contain nothing but '---'; {parts}"
             yield InterfaceProblem(message, source.span(*match.span()), instead)
     else:
-        lacks = "a line --- is" if wanted - len(marks) == 1 else "two lines --- are"
-        yield InterfaceProblem(f"{lacks} missing: {parts}", beginning(source.path))
+        lacks = "a line '---' is" if wanted - len(marks) == 1 else "two lines '---' are"
+        yield InterfaceProblem(f"{lacks} missing; {parts}", beginning(source.path))
 
 
 def _element(line: str) -> _Element | None:
@@ -164,11 +168,11 @@ def _element(line: str) -> _Element | None:
     if not kind:
         if not rest:
             return None
-        raise _WrongError("rosidl stops at a line that begins with blanks: take them away", 0, line[: -len(rest)], "")
+        raise _WrongError("rosidl does not accept spaces at the beginning of a line; remove them", 0, line[: -len(rest)], "")
     if kind.startswith("//"):
-        raise _WrongError("a comment begins with #", 0, "//", "#")
+        raise _WrongError("a comment begins with '#'", 0, "//", "#")
     if not rest:
-        raise _WrongError(f"a type and a name make a field, and here is only {kind}", 0, kind)
+        raise _WrongError(f"a field consists of a type and a name, but this line only contains '{kind}'", 0, kind)
     start = len(line) - len(rest)
     name, equals, value = rest.partition("=")
     if equals:
@@ -180,13 +184,13 @@ def _element(line: str) -> _Element | None:
 def _constant(kind: str, name: str, value: str, start: int, value_start: int) -> _Element:
     if kind not in _PLAIN:
         message = _type(kind)
-        raise _WrongError(f"a constant is a number, a string or a bool, and no {message or kind}", 0, kind)
+        raise _WrongError(f"a constant must be a number, a string or a bool, not '{message or kind}'", 0, kind)
     if not interface_names.is_constant(name):
         if interface_names.is_field(name):
-            ways = f"write {name.upper()}={value}, or {name} {value} for a field with a default value"
-            raise _WrongError(f"{name}={value} is a constant, which wants a name in upper case: {ways}", start, name)
+            remedy = f"write '{name.upper()}={value}', or '{name} {value}' for a field with a default value"
+            raise _WrongError(f"'{name}={value}' is a constant, but its name is not in upper case; {remedy}", start, name)
         raise _WrongError(
-            f"{name} is no name of a constant: it has upper-case letters, digits and single underscores", start, name
+            f"'{name}' is not a valid name of a constant; use upper-case letters, digits and single underscores", start, name
         )
     _check_value(kind, value, value_start)
     return _Element(name, start, "")
@@ -196,19 +200,21 @@ def _field(kind: str, name: str, value: str, start: int, value_start: int) -> _E
     message = _type(kind)
     if not interface_names.is_field(name):
         if name[-1] in ";," and interface_names.is_field(name[:-1]):
-            raise _WrongError(f"a line does not end with {name[-1]}", start + len(name) - 1, name[-1], "")
+            raise _WrongError(f"a line must not end with '{name[-1]}'", start + len(name) - 1, name[-1], "")
         if name[0] == "[":
-            raise _WrongError(f"there is no blank before the brackets: write {kind}{name}", start, name)
+            raise _WrongError(f"there must be no space before the brackets; write '{kind}{name}'", start, name)
         better = re.sub("__+", "_", interface_names.snake(name)).strip("_")
         hint = (
-            f"write {better}" if interface_names.is_field(better) else "it has lower-case letters, digits and single underscores"
+            f"write '{better}'" if interface_names.is_field(better) else "use lower-case letters, digits and single underscores"
         )
-        raise _WrongError(f"{name} is no name of a field: {hint}", start, name)
+        raise _WrongError(f"'{name}' is not a valid field name; {hint}", start, name)
     if name in _KEYWORDS:
-        raise _WrongError(f"{name} is a word of C++, so what is generated does not compile: choose another name", start, name)
+        raise _WrongError(f"'{name}' is a C++ keyword, so the generated code does not compile; choose another name", start, name)
     if value:
         if message:
-            raise _WrongError(f"a field that is a message has no default value: {value}", value_start, value)
+            raise _WrongError(
+                f"a field of a message type cannot have a default value, but this one has '{value}'", value_start, value
+            )
         _check_value(kind, value, value_start)
     return _Element(name, start, message)
 
@@ -219,29 +225,29 @@ def _type(kind: str) -> str:
     if kind[-1] != "]":
         base = kind
     elif not bracket or (kind[len(base) :] != "[]" and not _is_size(kind[len(base) + 1 : -1].removeprefix("<="))):
-        raise _WrongError(f"{kind} is no array: write [], [3], or [<=3] for three at most", 0, kind)
+        raise _WrongError(f"'{kind}' is not a valid array type; write [], [3], or [<=3] for at most three elements", 0, kind)
     if base in _PLAIN:
         return ""
     plain, bound, size = base.partition("<=")
     if bound and plain in _STRINGS:
         if not _is_size(size):
-            raise _WrongError(f"{base} is no string with a limit: write {plain}<=10", 0, base)
+            raise _WrongError(f"'{base}' is not a valid bounded string; write '{plain}<=10'", 0, base)
         return ""
     if base in _OF_ROS_1:
-        raise _WrongError(f"ROS 2 has no {base}: write {_OF_ROS_1[base]}, and depend on builtin_interfaces", 0, base)
+        raise _WrongError(f"ROS 2 has no type '{base}'; write '{_OF_ROS_1[base]}' and depend on 'builtin_interfaces'", 0, base)
     if meant := _MEANT.get(base.lower()):
-        raise _WrongError(f"there is no type {base}: write {meant}", 0, base)
+        raise _WrongError(f"there is no type '{base}'; write {meant}", 0, base)
     if (scoped := _SCOPED.fullmatch(base)) and interface_names.is_message(scoped[2]):
         written = f"{scoped[1]}/{scoped[2]}"
-        raise _WrongError(f"in a definition {base} is written {written}", 0, base, written)
+        raise _WrongError(f"in an interface file '{base}' is written '{written}'", 0, base, written)
     package, slash, name = base.rpartition("/")
     if slash and not interface_names.is_field(package):
-        raise _WrongError(f"{base} is no type: a message of another package is written package/Name", 0, base)
+        raise _WrongError(f"'{base}' is not a valid type; write a message of another package as package/Name", 0, base)
     if not interface_names.is_message(name):
         near = [] if slash else similar(base, sorted(_PLAIN), 1, 0.7)
         better = f"{package}{slash}{interface_names.camel(name)}"
-        hint = did_you_mean(near) or (f": a message is called like {better}" if name.isidentifier() else "")
-        raise _WrongError(f"there is no type {base}{hint}", 0, base)
+        hint = did_you_mean(near) or (f"; names of messages look like '{better}'" if name.isidentifier() else "")
+        raise _WrongError(f"there is no type '{base}'{hint}", 0, base)
     return base
 
 
@@ -275,8 +281,8 @@ def _check_value(kind: str, value: str, start: int) -> None:
     elif _is_value(base, value):
         return
     if comment >= 0 and not base.startswith(_STRINGS):
-        raise _WrongError("a comment begins with #", start + comment, "//", "#")
-    raise _WrongError(f"{value or 'nothing'} is no value of {kind}", start, value)
+        raise _WrongError("a comment begins with '#'", start + comment, "//", "#")
+    raise _WrongError(f"'{value}' is not a valid value of type '{kind}'", start, value)
 
 
 def _is_value(kind: str, value: str) -> bool:

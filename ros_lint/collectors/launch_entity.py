@@ -161,7 +161,7 @@ class Entity:
             return None
         self.read.add(name)
         if not _is_instance(attributes[name], kind):
-            raise Rejected("wrong-type", f"{name} of <{self.tag}> is no {_NAMES[kind]}", self.place(name))
+            raise Rejected("wrong-type", f"'{name}' of <{self.tag}> is not {_NAMES[kind]}", self.place(name))
         return attributes[name]
 
     def _converted(self, name: str, kind: Type) -> Any:
@@ -171,18 +171,18 @@ class Entity:
         if separator is not None:
             self.read.add(f"{name}-sep")
             if not separator:
-                raise Rejected("wrong-type", f"{name}-sep of <{self.tag}> is empty", self.place(name))
+                raise Rejected("wrong-type", f"'{name}-sep' of <{self.tag}> is empty", self.place(name))
             value = self.attributes[name].split(separator)
         try:
             return _coerced(value, kind)
         except ValueError:
-            raise Rejected("wrong-type", f"{name} of <{self.tag}> is no {_NAMES[kind]}", self.place(name)) from None
+            raise Rejected("wrong-type", f"'{name}' of <{self.tag}> is not {_NAMES[kind]}", self.place(name)) from None
 
     def need(self, name: str, kind: Type = "str") -> Any:
         """Return the value of an attribute. Raises Rejected when it is not there, or of another type."""
         value = self.get(name, kind)
         if value is None:
-            raise Rejected("missing-attribute", f"<{self.tag}> needs the attribute {name}", self.span)
+            raise Rejected("missing-attribute", f"<{self.tag}> requires the attribute '{name}'", self.span)
         return value
 
     def entities(self, tag: str) -> list[Entity]:
@@ -192,7 +192,7 @@ class Entity:
         if self.form == "list":
             return []
         if self.form == "mapping" and tag in self.attributes:
-            raise Rejected("wrong-type", f"{tag} of <{self.tag}> is no list of mappings", self.place(tag))
+            raise Rejected("wrong-type", f"'{tag}' of <{self.tag}> is not a list of mappings", self.place(tag))
         if not self.children:
             return []
         if self._read_children is not None:
@@ -209,12 +209,12 @@ class Entity:
                 self.read.add("children")
                 return []  # a text without letters is gone through as well
             if "children" in self.attributes:
-                raise Rejected("wrong-type", f"children of <{self.tag}> is no list of mappings", self.place("children"))
+                raise Rejected("wrong-type", f"'children' of <{self.tag}> is not a list of mappings", self.place("children"))
             self._read_children = (self._read_children or set()) | {CHILDREN}
             for child in self.children:
                 if child.tag == CHILDREN:
                     return [_only(inner) for inner in child.children]
-            raise Rejected("missing-attribute", f"<{self.tag}> needs children", self.span)
+            raise Rejected("missing-attribute", f"<{self.tag}> requires 'children'", self.span)
         if self.form == "list":
             self._read_children = None
             return [_only(inner) for inner in self.children]
@@ -225,17 +225,17 @@ class Entity:
         known = self._read_children
         if self.form == "list":
             if known is not None:
-                raise Rejected("unexpected-child", f"<{self.tag}> takes no list", self.span)
+                raise Rejected("unexpected-child", f"<{self.tag}> cannot contain a list", self.span)
             return
         for child in self.children:
             if known is not None and child.tag not in known:
                 name = "children" if child.tag == CHILDREN else child.tag
-                raise Rejected("unexpected-child", f"<{self.tag}> takes no <{name}>", child.span)
+                raise Rejected("unexpected-child", f"<{self.tag}> cannot contain <{name}>", child.span)
         if len(self.read) != len(self.attributes):
             for name in self.attributes:
                 if name not in self.read:
                     instead = ROS_1.get(f"{name} of <{self.tag}>", "")
-                    raise Rejected("unexpected-attribute", f"<{self.tag}> has no attribute {name}", self.place(name), instead)
+                    raise Rejected("unexpected-attribute", f"<{self.tag}> has no attribute '{name}'", self.place(name), instead)
 
 
 CHILDREN: Final = "\0children"
@@ -250,15 +250,15 @@ def _only(item: Entity) -> Entity:
 
 
 _NAMES: Mapping[Type, str] = {
-    "str": "text",
-    "int": "integer",
-    "float": "number with a decimal point",
-    "bool": "truth",
-    "any": "text, number, truth or list of these",
-    "strs": "list of texts",
-    "ints": "list of integers",
-    "floats": "list of numbers",
-    "bools": "list of truths",
+    "str": "a string",
+    "int": "an integer",
+    "float": "a number with a decimal point",
+    "bool": "a boolean",
+    "any": "a string, number, boolean or list of these",
+    "strs": "a list of strings",
+    "ints": "a list of integers",
+    "floats": "a list of numbers",
+    "bools": "a list of booleans",
 }
 
 

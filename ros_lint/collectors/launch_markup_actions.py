@@ -115,7 +115,7 @@ def _timer(reader: Reader, entity: Entity) -> LaunchAction:
         try:
             float(period)
         except ValueError:
-            raise Rejected("wrong-type", f"period of <{entity.tag}> is no number", entity.place("period")) from None
+            raise Rejected("wrong-type", f"'period' of <{entity.tag}> is not a number", entity.place("period")) from None
     children = reader.actions(entity.actions())
     if entity.tag == "timer":
         reader.need_truth(entity, "cancel_on_shutdown")

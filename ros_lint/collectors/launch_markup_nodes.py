@@ -22,7 +22,7 @@ def _process(reader: Reader, entity: Entity, kind: str) -> LaunchAction:
             given.append((attribute.removeprefix("launch-"), value))
     name = reader.optional(entity, "name")
     if entity.get("on_exit") not in (None, "shutdown"):
-        raise Rejected("on-exit", f"on_exit of <{entity.tag}> can only be shutdown", entity.place("on_exit"))
+        raise Rejected("on-exit", f"'on_exit' of <{entity.tag}> can only be 'shutdown'", entity.place("on_exit"))
     if not entity.lacks(_LIMITS):
         _limits(reader, entity)
     entity.get("shell", "bool")
@@ -52,7 +52,7 @@ def _limits(reader: Reader, entity: Entity) -> None:
     for limit in _SECONDS:
         seconds = entity.get(limit, "float")
         if seconds is not None and (isinstance(seconds, str) or seconds < 0):
-            raise Rejected("wrong-type", f"{limit} of <{entity.tag}> is no number from 0 on", entity.place(limit))
+            raise Rejected("wrong-type", f"'{limit}' of <{entity.tag}> is not a number of at least 0", entity.place(limit))
 
 
 def _executable(reader: Reader, entity: Entity) -> LaunchAction:
@@ -67,7 +67,7 @@ def _node(reader: Reader, entity: Entity) -> LaunchAction:
         if value is not None:
             given += reader.words(entity, name, value)
     if entity.get("node-name") is not None:
-        raise Rejected("unexpected-attribute", "node-name is no longer known: say name", entity.place("node-name"))
+        raise Rejected("unexpected-attribute", "the attribute 'node-name' was removed; use 'name'", entity.place("node-name"))
     reader.optional(entity, "exec_name")
     return action._replace(
         package=reader.optional(entity, "pkg"),
@@ -100,7 +100,7 @@ def _load(reader: Reader, entity: Entity) -> LaunchAction:
     target = reader.text(entity, "target")
     components = tuple(_components(reader, entity))
     if not components:
-        raise Rejected("missing-child", f"<{entity.tag}> needs a <composable_node>", entity.span)
+        raise Rejected("missing-child", f"<{entity.tag}> requires a <composable_node>", entity.span)
     return LaunchAction("group", entity.span, name=target, conditions=conditions, children=components)
 
 
@@ -159,16 +159,16 @@ def _parameters(reader: Reader, entity: Entity) -> tuple[tuple[str, LaunchValue]
         file, name = param.get("from"), param.get("name")
         substituted = param.get("allow_substs", "bool")
         if file is not None and name is not None:
-            raise Rejected("parameter", "a <param> has either from or name", param.place("name"))
+            raise Rejected("parameter", "<param> cannot have both 'from' and 'name'", param.place("name"))
         if file is not None:
             if isinstance(substituted, str):
-                raise Rejected("wrong-type", "allow_substs of <param> is neither true nor false", param.place("allow_substs"))
+                raise Rejected("wrong-type", "'allow_substs' of <param> is neither true nor false", param.place("allow_substs"))
             param.finish()
             found.append(("", reader.text(param, "from")))
         elif name is None:
-            raise Rejected("parameter", "a <param> needs name or from", param.span)
+            raise Rejected("parameter", "<param> requires 'name' or 'from'", param.span)
         elif substituted is not None:
-            raise Rejected("parameter", "allow_substs goes with from only", param.place("allow_substs"))
+            raise Rejected("parameter", "'allow_substs' is only valid together with 'from'", param.place("allow_substs"))
         else:
             found += _nested(reader, param, "")
     return tuple(found)
@@ -178,17 +178,17 @@ def _nested(reader: Reader, param: Entity, above: str) -> list[tuple[str, Launch
     names = [f"{above}{one}" for one in reader.text(param, "name").texts]
     wanted = param.get("type", "any")
     if wanted is not None and wanted not in _TYPES:
-        raise Rejected("wrong-type", f"there is no parameter type {wanted}; there are {', '.join(_TYPES)}", param.place("type"))
+        raise Rejected("wrong-type", f"there is no parameter type '{wanted}'; expected {', '.join(_TYPES)}", param.place("type"))
     kind: Type = _TYPES[wanted] if wanted is not None else "any"
     value = param.get("value", kind)
     inner = param.entities("param")
     param.finish()
     if value is not None and inner:
-        raise Rejected("parameter", "a <param> has either a value or parameters in it", param.place("value"))
+        raise Rejected("parameter", "<param> cannot have both a value and nested parameters", param.place("value"))
     if kind != "any" and inner:
-        raise Rejected("parameter", "a <param> with parameters in it has no type", param.place("type"))
+        raise Rejected("parameter", "<param> with nested parameters cannot have a type", param.place("type"))
     if value is None and not inner:
-        raise Rejected("parameter", "a <param> needs a value or parameters in it", param.span)
+        raise Rejected("parameter", "<param> requires a value or nested parameters", param.span)
     if inner:
         return [one for child in inner for name in names for one in _nested(reader, child, f"{name}.")]
     typed = reader.typed(param, "value", kind)
@@ -197,7 +197,7 @@ def _nested(reader: Reader, param: Entity, above: str) -> list[tuple[str, Launch
     if isinstance(typed, LaunchValue):
         return [(name, typed) for name in names]
     if kind in _SCALARS and not isinstance(typed, _SCALARS[kind]):
-        raise Rejected("wrong-type", f"the value of <param> is no {wanted}", param.place("value"))
+        raise Rejected("wrong-type", f"the value of <param> is not of type '{wanted}'", param.place("value"))
     return [(name, LaunchValue((str(typed),), param.place("value"))) for name in names]
 
 

@@ -125,7 +125,7 @@ class Reader:
         if isinstance(value, list):
             kinds = {self._kind(entity, name, one) for one in value} - {None}
             if len(kinds) > 1:
-                raise Rejected("wrong-type", f"{name} of <{entity.tag}> mixes types in a list", entity.place(name))
+                raise Rejected("wrong-type", f"'{name}' of <{entity.tag}> mixes types in a list", entity.place(name))
             return value
         if isinstance(value, str) and self._kind(entity, name, value) is None:
             return self._value(entity, name, value)
@@ -167,7 +167,7 @@ class Reader:
 
                 tokens = shlex.split(piece.text)
             except ValueError:
-                raise Rejected("quotes", f"{name} of <{entity.tag}> has an open quote", entity.place(name)) from None
+                raise Rejected("quotes", f"'{name}' of <{entity.tag}> has an unclosed quote", entity.place(name)) from None
             if piece.text[:1].isspace() and row[-1]:
                 row.append([])
             for number, token in enumerate(tokens):
@@ -183,7 +183,7 @@ class Reader:
         """Refuse an attribute that is there and neither true nor false."""
         value = self.typed(entity, name, "bool")
         if isinstance(value, str):
-            raise Rejected("wrong-type", f"{name} of <{entity.tag}> is neither true nor false", entity.place(name))
+            raise Rejected("wrong-type", f"'{name}' of <{entity.tag}> is neither true nor false", entity.place(name))
 
     def named(self, entity: Entity, tag: str) -> tuple[tuple[str, LaunchValue], ...]:
         """Return children that give a value to a name."""
@@ -204,7 +204,7 @@ class Reader:
             return ()
         wanted, unwanted = entity.get("if"), entity.get("unless")
         if wanted is not None and unwanted is not None:
-            raise Rejected("conditions", f"<{entity.tag}> has both if and unless", entity.place("unless"))
+            raise Rejected("conditions", f"<{entity.tag}> has both 'if' and 'unless'", entity.place("unless"))
         if wanted is not None:
             return (LaunchCondition(self._texts(entity, "if", wanted), None),)
         if unwanted is not None:

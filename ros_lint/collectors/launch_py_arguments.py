@@ -92,13 +92,13 @@ def _refused(made: Made) -> Iterator[tuple[ast.Call, Problem]]:
             if keyword.arg is not None and keyword.arg not in known:
                 yield node, _keyword(keyword, keyword.arg, known, made)
     if len(node.args) > most and not any(isinstance(argument, ast.Starred) for argument in node.args):
-        taken = "only keywords" if not most else f"{most} argument{'s' if most > 1 else ''} without a keyword"
-        yield node, Problem("too-many-arguments", f"{made.name} takes {taken}", span_of(node.args[most], made.source))
+        accepted = "keyword arguments only" if not most else f"at most {most} positional argument{'s' if most > 1 else ''}"
+        yield node, Problem("too-many-arguments", f"{made.name} accepts {accepted}", span_of(node.args[most], made.source))
     if made.name in _READS:
         paths = [text for text in texts(made.get(0, "launch_file_path")) if text]
         if paths and all(path.endswith(_READS[made.name]) and not path.endswith(UNKNOWN) for path in paths):
             end = "." + paths[0].rpartition(".")[2]
-            message = f"{made.name} does not read {end} files: say AnyLaunchDescriptionSource(...)"
+            message = f"{made.name} does not read {end} files; use AnyLaunchDescriptionSource(...)"
             yield node, Problem("other-format", message, span_of(made.written(0, "launch_file_path"), made.source))
 
 
@@ -107,11 +107,11 @@ def _keyword(keyword: ast.keyword, name: str, known: frozenset[str], made: Made)
     near = begun[:1] or similar(name, sorted(known), 1, 0.75)
     kind = "misspelt-keyword" if near else "unexpected-keyword"
     meant = is_meant([f"{one}=" for one in near])
-    return Problem(kind, f"{made.name} takes no {name}={meant}", span_of(keyword, made.source))
+    return Problem(kind, f"{made.name} has no keyword argument '{name}='{meant}", span_of(keyword, made.source))
 
 
 def dropped(tree: ast.Module, source: Source) -> Iterator[Problem]:
-    """Yield the texts with a slash in front that a path is joined with: all that stands before them is forgotten."""
+    """Yield the absolute paths that are joined to a path: the path before them is dropped."""
     if not _SLASH.search(source.text.text):
         return  # to walk the whole tree takes longer
     for node in ast.walk(tree):
@@ -121,8 +121,8 @@ def dropped(tree: ast.Module, source: Source) -> Iterator[Problem]:
         place = next((part for part in parts[1:] if _is_absolute(part)), None)
         if isinstance(place, ast.Constant) and not _is_absolute(parts[0]):
             said = str(place.value)
-            way_out = f"say {said.lstrip('/')!r}" if said.strip("/") else "leave it out"
-            message = f"what stands before {said!r} is forgotten, for it begins with a slash: {way_out}"
+            remedy = f"write {said.lstrip('/')!r}" if said.strip("/") else "remove it"
+            message = f"the path before {said!r} is dropped, because {said!r} begins with a slash; {remedy}"
             yield Problem("forgotten-path", message, span_of(place, source))
 
 

@@ -69,7 +69,9 @@ def strays(tree: ast.Module, source: Source) -> Iterator[Problem]:
 
 def _stray(module: str, name: str, node: Node, source: Source) -> Iterator[Problem]:
     if _is_stray(module, name):
-        yield Problem("stray-name", f"{module} has no {name}: {' and '.join(_HOMES[name])} has it", span_of(node, source))
+        yield Problem(
+            "stray-name", f"'{module}' has no {name}; import it from {' or '.join(_HOMES[name])}", span_of(node, source)
+        )
 
 
 def _is_stray(module: str, name: str) -> bool:

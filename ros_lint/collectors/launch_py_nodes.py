@@ -63,14 +63,14 @@ def _note_refused(walker: Walker, made: Made, conditions: Conditions, known: Col
             continue
         place = span_of(keyword, made.source)
         if name in _REMOVED:
-            message = f"{name}= of {made.name} is gone since Galactic: say {_REMOVED[name]}="
+            message = f"{made.name}({name}=) was removed in Galactic; use {_REMOVED[name]}="
             word = place._replace(end_line=place.line, end_column=place.column + len(name))
             walker.problems.append(Problem("removed-keyword", message, word, subject=_REMOVED[name]))
         elif itself:  # and not of a package, or of the file's own, that has keywords of its own
             near = _near(name, known)
             kind = "misspelt-keyword" if near else "unexpected-keyword"
             meant = is_meant([f"{near}="]) if near else ""
-            walker.problems.append(Problem(kind, f"{made.name} takes no {name}={meant}", place))
+            walker.problems.append(Problem(kind, f"{made.name} has no keyword argument '{name}='{meant}", place))
 
 
 def _near(name: str, known: Collection[str]) -> str:
@@ -242,7 +242,7 @@ def _remappings(walker: Walker, made: Made) -> tuple[tuple[LaunchValue, LaunchVa
                 first, second = (union(Guarded(parts[at], conditions) for parts, conditions in pairs) for at in (0, 1))
                 found.append((walker.text(first, node, made.source), walker.text(second, node, made.source)))
             elif any(isinstance(one.value, str) if parts is None else len(parts) != 2 for parts, one in choices):
-                walker.problems.append(Problem("remapping", "a remapping is a pair of names", span_of(node, made.source)))
+                walker.problems.append(Problem("remapping", "a remapping must be a pair of names", span_of(node, made.source)))
     return tuple(found)
 
 

@@ -27,22 +27,22 @@ if TYPE_CHECKING:
 def undefined(tree: ast.Module, source: Source, met: Iterable[tuple[ast.Name, Source]]) -> Iterator[Problem]:
     """Yield those names that were met, bound by nothing, of which it is sure that Python stops there."""
     for node in unbound(tree, [node for node, where in met if where is source]):
-        yield Problem("undefined-name", f"{node.id} is not defined", span_of(node, source))
+        yield Problem("undefined-name", f"'{node.id}' is not defined", span_of(node, source))
 
 
 _SAY: Mapping[How, tuple[str, str]] = {
-    "added": ("substitution-refused", "a {name} cannot be added to a text: put both into a list, [a, b]"),
-    "joined": ("substitution-refused", "os.path.join() takes no {name}: say PathJoinSubstitution([a, b])"),
+    "added": ("substitution-refused", "a {name} cannot be added to a string; write a list of both, [a, b]"),
+    "joined": ("substitution-refused", "os.path.join() does not accept a {name}; use PathJoinSubstitution([a, b])"),
     "formatted": (
         "substitution-as-text",
-        "a {name} has its value only at launch, too late to be formatted here: write a list, ['a', {name}(...)]",
+        "a {name} has no value before launch, so it cannot be formatted here; write a list, ['a', {name}(...)]",
     ),
-    "compared": ("substitution-as-text", "a {name} never equals a text: say EqualsSubstitution(a, b), or ask perform(context)"),
-    "tested": ("substitution-as-text", "a {name} is always true: say IfCondition(a), or ask perform(context)"),
-    "combined": ("substitution-as-text", "Python takes one of two conditions here: say {way}"),
+    "compared": ("substitution-as-text", "a {name} never equals a string; use EqualsSubstitution(a, b) or perform(context)"),
+    "tested": ("substitution-as-text", "a {name} is always true in Python; use IfCondition(a) or perform(context)"),
+    "combined": ("substitution-as-text", "Python uses only one of the two conditions here; write {way}"),
 }
-_JOINED = "Python takes one of two substitutions here: say {joined}Substitution(a, b)"
-_DECIDED = "a {name} is always true for Python: give it to condition=, or ask evaluate(context)"
+_JOINED = "Python uses only one of the two substitutions here; write {joined}Substitution(a, b)"
+_DECIDED = "a {name} is always true in Python; pass it to condition=, or use evaluate(context)"
 _TELLS = frozenset({"print", "debug", "info", "warning", "warn", "error", "LogInfo"})
 """Calls whose texts nobody but people read."""
 
@@ -141,9 +141,9 @@ def no_texts(tree: ast.Module, source: Source, made: Iterable[Made]) -> Iterator
             if name == "launch_arguments" and not one.seen:
                 continue  # what is passed is looked at when it is launched
             if name == "launch_arguments" and isinstance(value, dict):
-                found.append(("launch_arguments are pairs: say .items()", one.written(position, name)))
+                found.append(("launch_arguments must be pairs; write .items()", one.written(position, name)))
             elif (odd := _odd_in(value)) is not None:
-                message = f"{name} of {one.name} takes texts and substitutions{_instead(odd, one)}"
+                message = f"'{name}' of {one.name} must consist of strings and substitutions{_instead(odd, one)}"
                 found.append((message, one.written(position, name)))
     spared = _spared(tree) if found else set()
     for message, node in found:
@@ -159,15 +159,15 @@ def no_conditions(tree: ast.Module, source: Source, made: Iterable[Made]) -> Ite
             continue
         given = one.get(-1, "condition")
         if isinstance(given, Function):
-            found.append(("no function: say IfCondition(...), or Condition(predicate=...)", one.written(-1, "condition")))
+            found.append(("a function; use IfCondition(...) or Condition(predicate=...)", one.written(-1, "condition")))
         elif isinstance(given, Made) and is_text(given):
-            found.append((f"no {given.name}: say IfCondition(...)", one.written(-1, "condition")))
+            found.append((f"a {given.name}; use IfCondition(...)", one.written(-1, "condition")))
         elif isinstance(given, (bool, str)):
-            found.append((f"no {given!r}: say IfCondition('{given}')", one.written(-1, "condition")))
+            found.append((f"{given!r}; use IfCondition('{given}')", one.written(-1, "condition")))
     spared = _spared(tree) if found else set()
     for message, node in found:
         if node not in spared:
-            yield Problem("no-condition", f"condition takes {message}", span_of(node, source))
+            yield Problem("no-condition", f"'condition' cannot be {message}", span_of(node, source))
 
 
 def _odd_in(value: Value) -> bool | int | float | Made | None:
@@ -187,11 +187,11 @@ def _odd_in(value: Value) -> bool | int | float | Made | None:
 def _instead(odd: bool | int | float | Made, taken: Made) -> str:
     """Return how a message goes on that says what something is given to that takes texts."""
     if not isinstance(odd, Made):
-        return f": say '{odd}' instead of {odd}"
+        return f"; write '{odd}' instead of {odd}"
     name = odd.get(0, "name") if odd.name == "DeclareLaunchArgument" else None
     if not isinstance(name, str):
-        return f", and no {odd.name}"
-    return f", and no {odd.name}: say " + (
+        return f", not {odd.name}"
+    return f", not {odd.name}; write " + (
         f"'{name}'" if taken.name == "LaunchConfiguration" else f"LaunchConfiguration('{name}')"
     )
 

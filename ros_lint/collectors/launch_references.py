@@ -216,7 +216,7 @@ class References:
         for package, path in places:
             rest = path.removeprefix(f"share/{package}")
             if rest != path and is_plain(path) and rest[:1].isalpha() and ("." in rest or "/" in rest):
-                says = f"the path of {package} runs into {rest}: put a slash between them, or join the two"
+                says = f"there is no slash between the share folder of '{package}' and '{rest}'; add one, or join the paths"
                 self.problems[Problem("no-slash", says, value.span)] = None
 
     def _place(self, package: str, value: LaunchValue, package_span: Span | None) -> Span:

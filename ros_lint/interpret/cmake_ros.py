@@ -116,7 +116,7 @@ def _interfaces(run: Run, args: list[str]) -> None:
     if not run.muted and len(args) > 1:
         run.python_packages[package] = None
     elif not run.wild:
-        run.problem("no-interfaces", f"{_GENERATES}() is given no interface file", run.here(), package)
+        run.problem("no-interfaces", f"{_GENERATES}() is called without interface files", run.here(), package)
 
 
 def _python(run: Run, args: list[str]) -> None:

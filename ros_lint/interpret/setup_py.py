@@ -114,7 +114,7 @@ def _run(program: Program, source: Text, start: Span) -> BuildScript:
 def _failing(program: Program, tree: ast.Module, source: Text) -> Iterator[Problem]:
     """Yield what Python stops at, where nothing catches that."""
     for name in unbound(tree, program.strange):
-        yield Problem("undefined-name", f"{name.id} is not defined", span_of(source, name))
+        yield Problem("undefined-name", f"'{name.id}' is not defined", span_of(source, name))
     if not program.no_functions:
         return
     caught = {node for statement in ast.walk(tree) if isinstance(statement, ast.Try) for node in tried(statement)}
@@ -126,7 +126,7 @@ def _failing(program: Program, tree: ast.Module, source: Text) -> Iterator[Probl
 def _no_function(value: Value) -> str:
     if isinstance(value, Module):
         inside = f"{value.name}.{value.name}"
-        return f"{value.name} is a module and cannot be called" + (f"; say {inside}()" if library.member(inside) else "")
+        return f"'{value.name}' is a module and cannot be called" + (f"; write {inside}()" if library.member(inside) else "")
     kind = "text" if isinstance(value, str) else type(value).__name__
     return f"this {kind} cannot be called; is a comma missing after it?"
 

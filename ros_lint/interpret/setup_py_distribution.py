@@ -160,7 +160,9 @@ class Distribution:
                 self._problem("absolute-destination", f"'{folder}' is outside the install prefix", entry[0])
                 continue
             if not isinstance(sources, (list, Unknown)) or not isinstance(entry, tuple):
-                self._problem("data-files-form", "colcon takes only tuples of a folder and a list of files", entry[0])
+                self._problem(
+                    "data-files-form", "an entry of data_files must be a tuple of a folder and a list of files", entry[0]
+                )
             if isinstance(sources, Globbed) and not sources:
                 message = f"no file matches '{sources.pattern}', so nothing is installed to {folder}"
                 self._problem("empty-glob", message, entry[0], sources.pattern)

@@ -1,26 +1,33 @@
 """
 ## What it finds
 
-Build scripts that their tools refuse: syntax errors in `CMakeLists.txt`, `*.cmake`, `setup.py` and `setup.cfg`, marks of a
-merge conflict among them; Python in a `setup.py` that came after the Python of the distribution that was asked for;
-`rosidl_generate_interfaces()` without any interface file; names in a `setup.py` that nothing defines, and calls of what cannot
-be called: a module, or the tuple before a comma that is missing; entries of `data_files` that are no pair of a folder and a
-list, and destinations outside the install prefix.
+Build scripts that their tools reject:
+
+- syntax errors in `CMakeLists.txt`, `*.cmake`, `setup.py` and `setup.cfg`, including markers of a merge conflict;
+- Python in `setup.py` that is newer than the Python of the chosen distribution;
+- `rosidl_generate_interfaces()` without interface files;
+- undefined names in `setup.py`;
+- calls of a value that is not a function, such as a module, or a tuple that is not followed by a comma;
+- entries of `data_files` that are not a pair of a folder and a list, and destinations outside the install prefix.
 
 ## Why it matters
 
-The build stops there. For entries of the wrong form, colcon stops with an AssertionError or TypeError that names no line.
+The build stops there. For malformed entries of `data_files`, colcon stops with an AssertionError or TypeError without a line
+number.
 
 ## How to fix it
 
-Correct the place. An entry of `data_files` is `('share/' + package_name, ['package.xml'])`: a tuple of a folder below the
-prefix and a list of files.
+Correct the line. An entry of `data_files` is `('share/' + package_name, ['package.xml'])`: a tuple of a folder below the prefix
+and a list of files.
 
 ## Limitations
 
-For templates and for Python 2. About Python that is newer than that of the distribution, where no distribution was asked for.
-About names and calls where an error is caught, or where it is not known whether `setup.py` comes there. About interfaces where
-a folder of the package has not been fetched, such as a submodule.
+Not reported:
+
+- Templates and Python 2.
+- Python that is newer than that of the distribution, if no distribution was chosen.
+- Names and calls in code that catches the error, or that `setup.py` may not reach.
+- Missing interface files, if a folder of the package is not available, such as a submodule that is not cloned.
 """
 
 from __future__ import annotations
@@ -57,7 +64,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 RULE = Rule(
     name="invalid-build-script",
     code="ROS312",
-    summary="a build script must be readable for its tool",
+    summary="build scripts parse",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,

@@ -1,44 +1,56 @@
 """
 ## What it finds
 
-A launch file that the real front end refuses: it does not parse, has a tag, an attribute or a substitution that does not
-exist, misses one that is needed, or holds a value of another type; one in Python that gives a node, an argument or another
-thing of the launch libraries keywords which do not exist or were removed, or something without its keyword, comes to a name
-that nothing defines, or takes one from a module that has none; one that gives `PythonLaunchDescriptionSource` a file in XML;
-or one with something that came to the launch format, or to Python, after the distribution that was asked for.
+A launch file that the launch front end rejects:
 
-Also one with a path that begins right behind the share folder of a package, `[FindPackageShare('robot'), 'config', 'a.yaml']`
-where nothing joins the parts: that is `.../share/robotconfiga.yaml`; or with one that is joined with a slash in front,
-`os.path.join(share, '/config/a.yaml')`: that is `/config/a.yaml`, and the share folder is forgotten.
+- It does not parse.
+- It has a tag, attribute or substitution that does not exist, lacks a required one, or has a value of the wrong type.
+- A Python launch file passes unknown or removed keywords to a node, argument or other class of the launch libraries, or passes
+  something without its keyword.
+- A Python launch file uses a name that is not defined, or imports one from a module that does not have it.
+- It passes a file in XML to `PythonLaunchDescriptionSource`.
+- It uses something that was added to the launch format after the chosen distribution.
 
-Besides, one in Python that takes a substitution for the text that it becomes once something is launched: adds it to a text,
-formats, compares or tests it; that joins conditions by `and` and `or`, or gives a function, a substitution or a truth for one,
-`condition=lambda context: ...`; or that gives numbers, truths and actions where texts are taken, `default_value=True`,
-`LaunchConfiguration(argument)`, and `launch_arguments` without `.items()`.
+A wrong path:
+
+- There is no slash after the share folder of a package: `[FindPackageShare('robot'), 'config', 'a.yaml']` is
+  `.../share/robotconfiga.yaml` if nothing joins the parts.
+- It is joined with an absolute path: `os.path.join(share, '/config/a.yaml')` is `/config/a.yaml`, without the share folder.
+
+A Python launch file that uses a substitution or condition wrongly:
+
+- It treats a substitution as the string that it becomes at launch: adds it to a string, formats, compares or tests it.
+- It joins conditions with `and` or `or`, or passes a function, a substitution or a boolean as a condition: `condition=lambda
+  context: ...`.
+- It passes numbers, booleans or actions where strings are required: `default_value=True`, `LaunchConfiguration(argument)`.
+- It passes `launch_arguments` without `.items()`.
 
 ## Why it matters
 
-`ros2 launch` stops with the first of these, and whoever includes the file stops with it. A file half ported from ROS 1
-fails this way: `$(find p)` is `$(find-pkg-share p)`, `$(arg x)` is `$(var x)`, `type=` of a node is `exec=`.
-`'robot_' + LaunchConfiguration('name')` is an error, too; in an f-string stands `<launch.substitutions... object at 0x7f...>`,
-and `LaunchConfiguration('mode') == 'real'` is never true, both without a word: where a file has nothing worse, that is a
-warning.
+`ros2 launch` stops at the first of these, also for launch files that include the file. A file half ported from ROS 1 fails this
+way: `$(find p)` is `$(find-pkg-share p)`, `$(arg x)` is `$(var x)`, `type=` of a node is `exec=`.
+
+`'robot_' + LaunchConfiguration('name')` is an error as well. An f-string contains `<launch.substitutions... object at 0x7f...>`
+instead, and `LaunchConfiguration('mode') == 'real'` is never true, both without an error message. These are reported as
+warnings if the file has no other problem.
 
 ## How to fix it
 
-The message names what is wrong. See the launch format of your distribution for tags and attributes. Where a Python launch
-file has nothing worse than keywords that have another name since Galactic, such as `node_executable`, the fix renames them.
+The message names the problem. See the launch format of your distribution for tags and attributes. If the only problem of a
+Python launch file is keywords that were renamed in Galactic, such as `node_executable`, the fix renames them.
 
 ## Limitations
 
-- Launch files of ROS 1 as a whole, and files of another program whose nodes have neither package nor program.
+Not reported:
+
+- Launch files of ROS 1, and files of another program whose nodes have neither package nor executable.
 - Tags that packages add to the format.
 - Launch files of tests, examples and templates.
-- A launch file that is called after a distribution which takes the removed keywords (`dashing_start.py`) is kept for that:
-  the confidence is medium.
-- What is newer than the distribution, where nobody said which one is meant.
-- A substitution is taken for a text, or a number given for one, where errors are caught, or only in what people read, such as
-  `print()`. A substitution is tested in a function that it was given to: that may ask whether it is there at all.
+- Additions to the format, if no distribution was chosen.
+- Substitutions treated as strings, or numbers passed as strings, in code that catches errors or only prints, such as `print()`.
+- A substitution tested in a function that gets it as an argument, because the test may be whether it is given at all.
+
+The confidence is medium for removed keywords in a launch file named after a distribution that has them (`dashing_start.py`).
 """
 
 from __future__ import annotations
@@ -64,7 +76,7 @@ from ros_lint.api import (
 )
 
 _FOR_OLD = re.compile(r"(?:^|[_.-])(?:crystal|dashing|el[eo]quent|foxy)(?:[_.-]|$)")
-"""In the name of a launch file: distributions that take the keywords which are gone since Galactic."""
+"""In the name of a launch file: a distribution that has the keywords which were removed in Galactic."""
 _MAY_BE_NEWER = frozenset({"unknown-tag", "unexpected-attribute", "unexpected-child", "unexpected-keyword"})
 
 
@@ -87,11 +99,11 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _fix(path: str, problems: Iterable[Problem]) -> Fix | None:
-    """Return how to give keywords their new names, where a file has no other problem."""
+    """Return the fix that renames removed keywords, if the file has no other problem."""
     if any(problem.kind != "removed-keyword" for problem in problems):
         return None
     edits = dict.fromkeys(Edit(problem.span, problem.subject) for problem in problems)
-    return Fix("write the keywords that are there now", tuple(edits), safe=not _is_for_old(path))
+    return Fix("write the current keywords", tuple(edits), safe=not _is_for_old(path))
 
 
 def _is_for_old(path: str) -> bool:
@@ -99,26 +111,26 @@ def _is_for_old(path: str) -> bool:
 
 
 def _newer(problems: Iterable[Problem], target: Target) -> Iterator[Problem]:
-    """Yield what came after the distribution that was asked for; their names go with the alphabet."""
+    """Yield what was added after the chosen distribution; names of distributions are in alphabetical order."""
     if target.told and target.distro != "rolling":
         for problem in problems:
             if target.distro < problem.kind:
-                message = f"{target.distro} has no {problem.message}: it came with {problem.kind}"
+                message = f"{target.distro} has no {problem.message}; it was added in {problem.kind}"
                 yield problem._replace(message=message)
 
 
 def _also(first: Problem, other: Problem) -> str:
-    return "here, too" if _message(other) == _message(first) else _message(other)
+    return "also here" if _message(other) == _message(first) else _message(other)
 
 
 def _message(problem: Problem) -> str:
-    return f"{problem.message}; ROS 2 has {problem.instead}" if problem.instead else problem.message
+    return f"{problem.message}; ROS 2 uses {problem.instead}" if problem.instead else problem.message
 
 
 def _confidence(problem: Problem, path: str, workspace: Workspace) -> Confidence:
     if problem.kind == "removed-keyword" and _is_for_old(path):
         return Confidence.MEDIUM
-    # A package or a newer release may have added what is not known here.
+    # A package or a newer release may have added what is unknown here.
     if problem.instead or problem.kind not in _MAY_BE_NEWER:
         return Confidence.HIGH
     anywhere = problem.kind in ("unknown-tag", "unexpected-keyword")
@@ -128,7 +140,7 @@ def _confidence(problem: Problem, path: str, workspace: Workspace) -> Confidence
 RULE = Rule(
     name="launch-invalid",
     code="ROS506",
-    summary="a launch file must be one that ros2 launch takes",
+    summary="launch files are valid for ros2 launch",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,
