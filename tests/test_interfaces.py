@@ -90,7 +90,8 @@ def test_a_file_that_rosidl_decodes(data: bytes) -> None:
 
 def test_line_ends_of_windows_divide() -> None:
     assert problems(b"int32 a\r\n---\r\nint32 a\r\n", "a/srv/X.srv") == []
-    assert problems(b"int32 a\r\n--- \r\nint32 a\r\n", "a/srv/X.srv") == [("2:1", "a separator line must contain nothing but '---'")]
+    message = "a separator line must contain nothing but '---'"
+    assert problems(b"int32 a\r\n--- \r\nint32 a\r\n", "a/srv/X.srv") == [("2:1", message)]
 
 
 def test_the_messages_that_a_definition_is_made_of() -> None:

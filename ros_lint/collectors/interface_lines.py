@@ -170,7 +170,7 @@ def _element(line: str) -> _Element | None:
             return None
         raise _WrongError("rosidl does not accept spaces at the beginning of a line; remove them", 0, line[: -len(rest)], "")
     if kind.startswith("//"):
-        raise _WrongError("a comment begins with '#'", 0, "//", "#")
+        raise _WrongError("a comment begins with '#', not '//'", 0, "//", "#")
     if not rest:
         raise _WrongError(f"a field consists of a type and a name, but this line only contains '{kind}'", 0, kind)
     start = len(line) - len(rest)
@@ -281,7 +281,7 @@ def _check_value(kind: str, value: str, start: int) -> None:
     elif _is_value(base, value):
         return
     if comment >= 0 and not base.startswith(_STRINGS):
-        raise _WrongError("a comment begins with '#'", start + comment, "//", "#")
+        raise _WrongError("a comment begins with '#', not '//'", start + comment, "//", "#")
     raise _WrongError(f"'{value}' is not a valid value of type '{kind}'", start, value)
 
 

@@ -232,7 +232,7 @@ class _Early(NamedTuple):
     name: str
     span: Span
     sure: bool
-    """Whether it is certainly read there."""
+    """True if it is certainly read there."""
     holds: bool | None
     """The result of a condition that compares the missing configuration; None if launch stops instead."""
 

@@ -114,10 +114,10 @@ class _Place(NamedTuple):
     """A place that names a package; the place that best explains the finding sorts first."""
 
     apart: bool
-    """Whether the launch file is an example, or a test that the build script does not run."""
+    """True if the launch file is an example, or a test that the build script does not run."""
     by_default: bool
     idle: bool
-    """Whether the launch file is not installed."""
+    """True if the launch file is not installed."""
     conditional: bool
     span: Span
     reference: LaunchReference
@@ -147,9 +147,9 @@ class _Verdict(NamedTuple):
     confidence: Confidence
     meant: str = ""
     resembles: bool = True
-    """Whether it is probably a typo or an old name, not a package that is unavailable."""
+    """True if it is probably a typo or an old name, not a package that is unavailable."""
     known: bool = False
-    """Whether the hint names the replacement in ROS 2, or a package of the same words: then it is not available elsewhere."""
+    """True if the hint names the replacement in ROS 2, or a package of the same words: then it is not available elsewhere."""
 
 
 def _unknown(package: Package, workspace: Workspace) -> Iterator[tuple[str, list[_Place]]]:

@@ -96,7 +96,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         related = several(Related(f"linked by '{name}' here", span) for name, span in users)
         if exported is not None:
             related += (Related("exported here", exported),)
-        reason = f", and '{users[0][0]}' needs it at run time" if users else ", although it is exported" if exported else ""
+        reason = f", although '{users[0][0]}' needs it at run time" if users else ", although it is exported" if exported else ""
         yield Finding(
             f"the library '{target.name}' is built, but not installed{reason}; install it to lib",
             target.span,

@@ -205,7 +205,8 @@ class _FolderFindings:
         looked_up = [file for file in named if (places[file].path, _name(file)) not in self._elsewhere]
         examples = few(_name(file) for file in (*named, *(file for file in files if file not in places)))
         return Finding(
-            f"'{folder}/' ({examples}) is not installed, so it will not be found at run time; install it to share/{package.name}",
+            f"'{folder}/' (contains {examples}) is not installed, so it will not be found at run time; "
+            f"install it to share/{package.name}",
             setup_edits.place(script),
             f"{folder}/",
             several(
