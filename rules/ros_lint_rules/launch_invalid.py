@@ -9,7 +9,7 @@ A launch file that the launch front end rejects:
   something without its keyword.
 - A Python launch file uses a name that is not defined, or imports one from a module that does not have it.
 - It passes a file in XML to `PythonLaunchDescriptionSource`.
-- It uses something that was added to the launch format after the chosen distribution.
+- It uses something that was added to the launch format, or to Python, after the chosen distribution.
 
 A wrong path:
 
