@@ -14,6 +14,7 @@ from typing import Final
 import pytest
 
 from tests.cmake_runs import run
+from tests.setup_scripts import script
 
 _MEMORY: Final = 1 << 30
 _SECONDS: Final = 8.0
@@ -62,17 +63,63 @@ CMAKE: Final = {
 }
 
 
-def _run_cmake(name: str) -> None:
-    run(CMAKE[name], tuple(f"src/{number}.cpp" for number in range(1000)))
+_TWO_LISTS: Final = "x = [0]\ny = [0]\n" + "x = [x, x]\ny = [y, y]\n" * 30
+_TWO_TUPLES: Final = "x = (0,)\ny = (0,)\n" + "x = (x, x)\ny = (y, y)\n" * 30
+"""Each holds the one before twice: a billion elements for whoever goes through them."""
+
+
+def _rounds(rounds: int, line: str) -> str:
+    return f"for i in range({rounds}):\n    {line}\n"
+
+
+SETUP: Final = {
+    "lists that are compared": f"{_TWO_LISTS}z = x == y\n",
+    "tuples that are compared": f"{_TWO_TUPLES}z = x < y\n",
+    "an element": f"{_TWO_LISTS}z = x in [y]\n",
+    "a key": f"{_TWO_TUPLES}z = {{x: 1}}\n",
+    "an element of a set": f"{_TWO_TUPLES}z = {{x}}\n",
+    "an index": f"{_TWO_LISTS}z = [y].index(x)\n",
+    "a text": f"{_TWO_LISTS}z = str(x)\n",
+    "an f-string": f"{_TWO_LISTS}z = f'{{x}}'\n",
+    "a template": f"{_TWO_LISTS}z = '%s' % (x,)\n",
+    "sorted": f"{_TWO_LISTS}z = sorted([x, y])\n",
+    "of two ways": f"{_TWO_LISTS}z = x if os.environ['A'] else y\n",
+    "a dictionary": "x = {}\n" + "x = {1: x, 2: x}\n" * 30 + "z = str(x)\n",
+    "a method": f"{_TWO_LISTS}z = str(x.append)\n",
+    "data files": f"{_TWO_LISTS}setup(name='pkg', data_files=x)\n",
+    "entry points": f"{_TWO_LISTS}setup(name='pkg', entry_points={{'console_scripts': x}})\n",
+    "a list that holds itself": "x = []\nx.append(x)\nsetup(name='pkg', entry_points={'console_scripts': x})\n",
+    "a list of a long text": "x = ['a' * 100000] * 100000\nz = str(x)\n",
+    "products": "import itertools\n" + _rounds(900, "z = itertools.product(*([[1, 2]] * 16 + [[1]] * 1000))"),
+    "sums": "x = [(0,) * 100] * 1000\n" + _rounds(900, "z = sum(x, ())"),
+    "long lists that are compared": "x = [[0] * 90000]\ny = [[0] * 90000]\n" + _rounds(9000, "z = x == y"),
+    "words": "x = 'a ' * 50000\ny = []\n" + _rounds(9000, "y.append(x.split())"),
+    "a path": "from pathlib import Path\nx = Path('a')\n" + _rounds(40, "x = x / x"),
+    "a path of parts": "from pathlib import Path\nx = Path('a')\n" + _rounds(40, "x = x.joinpath(x, x, x)"),
+}
+
+
+def _check(kind: str, name: str) -> None:
+    """Run a script in a child process."""
+    command = [sys.executable, "-m", "tests.test_bounds", kind, name]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr[-2000:]
 
 
 @pytest.mark.parametrize("name", CMAKE)
 def test_cmake_scripts_that_grow_end(name: str) -> None:
-    done = subprocess.run([sys.executable, "-m", "tests.test_bounds", name], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr[-2000:]
+    _check("cmake", name)
+
+
+@pytest.mark.parametrize("name", SETUP)
+def test_setup_scripts_that_grow_end(name: str) -> None:
+    _check("setup", name)
 
 
 if __name__ == "__main__":
     resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
     signal.setitimer(signal.ITIMER_PROF, _SECONDS)
-    _run_cmake(sys.argv[1])
+    if sys.argv[1] == "cmake":
+        run(CMAKE[sys.argv[2]], tuple(f"src/{number}.cpp" for number in range(1000)))
+    else:
+        script(SETUP[sys.argv[2]])

@@ -24,6 +24,7 @@ from ros_lint.interpret.setup_py_values import (
     either,
     is_path,
     located,
+    size_of,
     unknown_in,
 )
 
@@ -63,6 +64,11 @@ class Expressions(ABC):
         self._steps += 1
         if self._steps > MOST_STEPS:
             raise ExhaustedError("it takes more steps than are followed")
+
+    def weigh(self, *values: Value) -> None:
+        """Count what looking through values takes. Raises ExhaustedError."""
+        self._steps += size_of(values) >> 12
+        self.step()
 
     def value(self, node: ast.expr) -> Value:
         """Return the value of an expression. Raises LeaveError when it ends the program, and ExhaustedError."""
@@ -120,6 +126,7 @@ class Expressions(ABC):
             self._unpack(target.elts, value)
         elif isinstance(target, ast.Subscript):
             owner, key = self.value(target.value), self.value(target.slice)
+            self.weigh(key)
             if isinstance(owner, (dict, list)):
                 self.journal.touch(owner)
                 if isinstance(key, slice) or not certain(key):
@@ -178,6 +185,7 @@ class Expressions(ABC):
 
     def _joined(self, node: ast.JoinedStr) -> Value:
         parts = [self.value(part) for part in node.values]
+        self.weigh(*parts)
         unknown = unknown_in(parts)
         if unknown is not None and unknown.node in node.values:  # whose places are not the same under each Python
             return Unknown(unknown.reason, node)
@@ -186,13 +194,20 @@ class Expressions(ABC):
     def _formatted(self, node: ast.FormattedValue) -> Value:
         value = self.value(node.value)
         spec = self.value(node.format_spec) if node.format_spec else ""
+        self.weigh(value)
         unknown = unknown_in([value, spec])
         if unknown:
             return unknown
         return formatted(value, node.conversion, spec)
 
     def _binary(self, node: ast.BinOp) -> Value:
-        return binary(node.op, self.value(node.left), self.value(node.right), node)
+        return self.binary(node.op, self.value(node.left), self.value(node.right), node)
+
+    def binary(self, operation: ast.operator, left: Value, right: Value, node: ast.AST) -> Value:
+        """Return what a binary operator gives. Raises what the operator raises, ValueError and ExhaustedError."""
+        if not (isinstance(left, list) and isinstance(right, list)):  # these are put together as they are
+            self.weigh(left, right)
+        return binary(operation, left, right, node)
 
     def _boolean(self, node: ast.BoolOp) -> Value:
         stops = isinstance(node.op, ast.Or)
@@ -219,6 +234,7 @@ class Expressions(ABC):
         left = self.value(node.left)
         for operation, right_node in zip(node.ops, node.comparators, strict=True):
             right = self.value(right_node)
+            self.weigh(left, right)
             found = compare(operation, left, right)
             if found is not True:
                 return found
@@ -246,6 +262,7 @@ class Expressions(ABC):
 
     def _set(self, node: ast.Set) -> Value:
         items = self._list(node)  # type: ignore[arg-type]  # of the same fields
+        self.weigh(items)
         return unknown_in([items]) or set(items)
 
     def _dict(self, node: ast.Dict) -> Value:
@@ -263,6 +280,7 @@ class Expressions(ABC):
     def _enter(self, found: dict[Value, Value], node: ast.expr, value: Value, sure: bool = True) -> None:
         """Enter a value into a dict, by the key that an expression gives."""
         key = self.value(node)
+        self.weigh(key)
         if sure and certain(key):
             found[key] = value
         else:
@@ -270,6 +288,7 @@ class Expressions(ABC):
 
     def _subscript(self, node: ast.Subscript) -> Value:
         owner, key = self.value(node.value), self.value(node.slice)
+        self.weigh(key)
         if isinstance(owner, Unknown) or not certain(key):
             return unknown_in([owner, key])
         if isinstance(owner, dict):
@@ -335,6 +354,7 @@ class Expressions(ABC):
 
     def _set_comprehension(self, node: ast.SetComp) -> Value:
         found = self._comprehension(node)  # type: ignore[arg-type]  # of the same fields
+        self.weigh(found)
         return unknown_in([found]) or set(found)
 
     def _dict_comprehension(self, node: ast.DictComp) -> Value:

@@ -95,13 +95,16 @@ def call(program: Expressions, function: Native, arguments: list[Value], keyword
         known = FUNCTIONS[function.name]
         owner = [] if function.owner is None else [function.owner]
         if function.name not in _TOLERANT:
+            program.weigh(*owner, *arguments, *keywords.values())
             unknown = unknown_in([*owner, *arguments, *keywords.values()])
             if unknown:
                 return unknown
         try:
-            return located(known(program, node, *owner, *arguments, **keywords), node)
+            found = known(program, node, *owner, *arguments, **keywords)
         except (AttributeError, TypeError) as error:  # it may take more than what is known of it
             return Unknown(f"{at(node)} fails with {type(error).__name__}", node)
+        program.weigh(found)
+        return located(found, node)
     return setup_py_methods.call(program, function, arguments, keywords, node)
 
 
@@ -207,7 +210,7 @@ FUNCTIONS: dict[str, Callable[..., Value]] = {
     "path.as_posix": lambda _, __, owner: str(owner),
     "path.resolve": lambda *args: path_of(posixpath.normpath(posixpath.join(ROOT, str(args[2])))),
     "path.absolute": lambda _, __, owner: path_of(ROOT) / owner,
-    "path.joinpath": lambda _, __, owner, *parts: owner.joinpath(*parts),
+    "path.joinpath": lambda _, __, *parts: path_of(*parts),
     "path.relative_to": lambda _, __, owner, *parts: owner.relative_to(*parts),
     "path.with_suffix": lambda _, __, owner, suffix: owner.with_suffix(suffix),
     "path.with_name": lambda _, __, owner, name: owner.with_name(name),

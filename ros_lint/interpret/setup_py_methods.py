@@ -31,11 +31,14 @@ def call(program: Expressions, function: Native, arguments: list[Value], keyword
     """Return what a method gives, and do to its owner what it does."""
     kind, _, name = function.name.partition(".")
     if kind == "str":
-        return _text_method(name, function.owner, arguments, keywords, node)
+        return _text_method(program, name, function.owner, arguments, keywords, node)
     return _container_method(program, name, function.owner, arguments, keywords, node)
 
 
-def _text_method(name: str, owner: str, arguments: list[Value], keywords: dict[str, Value], node: ast.Call) -> Value:
+def _text_method(
+    program: Expressions, name: str, owner: str, arguments: list[Value], keywords: dict[str, Value], node: ast.Call
+) -> Value:
+    program.weigh(*arguments, *keywords.values())
     unknown = unknown_in([*arguments, *keywords.values()])
     if unknown:
         return unknown
@@ -45,7 +48,9 @@ def _text_method(name: str, owner: str, arguments: list[Value], keywords: dict[s
         check_format(owner)
     if name in ("format", "replace"):
         check_size(owner, [*arguments, *keywords.values()])
-    return located(getattr(str, name)(owner, *arguments, **keywords), node)
+    found = getattr(str, name)(owner, *arguments, **keywords)
+    program.weigh(found)
+    return located(found, node)
 
 
 def _container_method(
@@ -55,6 +60,7 @@ def _container_method(
         return _list_method(program, name, owner, arguments, keywords, node)
     if isinstance(owner, dict):
         return _dict_method(program, name, owner, arguments, keywords, node)
+    program.weigh(owner, *arguments)
     unknown = unknown_in([owner, *arguments])
     if unknown:
         return unknown
@@ -86,6 +92,7 @@ def _list_method(
     if name == "sort":
         owner[:] = in_order(program, node, owner, **keywords)
         return None
+    program.weigh(owner, *arguments)
     if unknown_in([owner, *(arguments if name != "insert" else arguments[:1])]):
         program.taint(owner, node)
         return unknown_in([owner])
@@ -114,6 +121,7 @@ def _dict_method(
         return None
     if name in ("copy", "clear"):
         return getattr(owner, name)()
+    program.weigh(arguments[0])
     if not certain(arguments[0]):
         program.taint(owner, node)
         return unknown_in(arguments)

@@ -10,7 +10,7 @@ from typing import Any, Final
 
 from ros_lint.collectors.python_operators import COMPARISONS
 from ros_lint.interpret.setup_py_state import at
-from ros_lint.interpret.setup_py_values import REST, Unknown, Value, Word, certain, located, same, unknown_in
+from ros_lint.interpret.setup_py_values import REST, Unknown, Value, Word, certain, is_path, located, path_of, same, unknown_in
 
 LONGEST: Final = 100_000
 """Elements or characters of a value that is computed."""
@@ -63,6 +63,8 @@ def binary(operation: ast.operator, left: Value, right: Value, node: ast.AST) ->
         if _size(left) * _size(right) > LONGEST:
             raise TooLargeError
         return located(left * right, node)
+    if isinstance(operation, ast.Div) and (is_path(left) or is_path(right)):
+        return path_of(left, right)
     function = _BINARY.get(type(operation))
     if function is None:
         return Unknown(f"the operator of {at(node)} is not followed", node)

@@ -9,7 +9,7 @@ from typing import Any
 
 from ros_lint.collectors.setup_cfg import Line, Option, SetupCfg
 from ros_lint.interpret.setup_py_files import Files
-from ros_lint.interpret.setup_py_values import Unknown, Value, Word
+from ros_lint.interpret.setup_py_values import Unknown, Value, Word, followed
 from ros_lint.text import Span, Text
 
 _LISTS = frozenset({"packages", "py_modules", "scripts"})
@@ -18,7 +18,7 @@ _FINDS = {"find:": False, "find_namespace:": True}
 
 def completed(given: Mapping[str, Value], files: Files, setup_cfg: SetupCfg | None, pyproject: Text | None) -> dict[str, Value]:
     """Return the options that hold: setup() before setup.cfg, and pyproject.toml before both."""
-    options = dict(given)
+    options = {name: followed(value) for name, value in given.items()}
     if setup_cfg is not None:
         options.update({key: value for key, value in _from_cfg(setup_cfg, files).items() if not options.get(key)})
     if pyproject is not None:

@@ -10,7 +10,7 @@ from ros_lint.collectors.python_exceptions import catching, kind_raised
 from ros_lint.interpret import setup_py_library as library
 from ros_lint.interpret.setup_py_expressions import Expressions
 from ros_lint.interpret.setup_py_files import Files
-from ros_lint.interpret.setup_py_operators import TooLargeError, binary
+from ros_lint.interpret.setup_py_operators import TooLargeError
 from ros_lint.interpret.setup_py_state import ExhaustedError, LeaveError, at
 from ros_lint.interpret.setup_py_values import Class, Function, Maybe, Module, Native, Unknown, Value
 
@@ -227,7 +227,7 @@ class Program(Expressions):
             owner += self.elements(value, statement.value)
             return
         try:
-            found = binary(operation, owner, value, statement)
+            found = self.binary(operation, owner, value, statement)
         except (ArithmeticError, TypeError, ValueError) as error:
             if self.caught and not isinstance(error, TooLargeError):
                 raise

@@ -8,7 +8,7 @@ from itertools import product
 from math import prod
 
 from ros_lint.interpret.setup_py_expressions import Expressions
-from ros_lint.interpret.setup_py_operators import LONGEST, TooLargeError, binary
+from ros_lint.interpret.setup_py_operators import LONGEST, TooLargeError
 from ros_lint.interpret.setup_py_values import Globbed, Maybe, Unknown, Value, certain, globbed
 
 
@@ -30,6 +30,7 @@ def _in_reverse(program: Expressions, node: ast.Call, values: Value) -> Value:
 def in_order(program: Expressions, node: ast.Call, values: Value, key: Value = None, reverse: Value = False) -> Value:
     """Return what sorted() gives; as it is, if something in it is not known."""
     found = _sequence(program, node, values)
+    program.weigh(found)
     if all(map(certain, found)):
         keys = [item if key is None else program.call(key, [item], {}, node) for item in found]
         order = sorted(range(len(found)), key=keys.__getitem__, reverse=bool(reverse))
@@ -50,7 +51,7 @@ def _chain_from(program: Expressions, node: ast.Call, lists: Value) -> Value:
 
 
 def _products(_: Expressions, __: ast.Call, *lists: Value) -> Value:
-    if prod(map(len, lists)) > LONGEST:
+    if prod(map(len, lists)) * len(lists) > LONGEST:
         raise TooLargeError
     return list(product(*lists))
 
@@ -58,7 +59,7 @@ def _products(_: Expressions, __: ast.Call, *lists: Value) -> Value:
 def _total(program: Expressions, node: ast.Call, lists: Value, start: Value = 0) -> Value:
     total = start
     for item in program.elements(lists, node):
-        total = binary(ast.Add(), total, item.value if isinstance(item, Maybe) else item, node)
+        total = program.binary(ast.Add(), total, item.value if isinstance(item, Maybe) else item, node)
     return total
 
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeGuard
+from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeGuard
 
 from ros_lint.text import Span
+from ros_lint.wildcards import LONGEST
 
 if TYPE_CHECKING:
     from pathlib import PurePosixPath
@@ -78,6 +79,15 @@ class Native(NamedTuple):
     name: str
     owner: Value = None
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Native) and self.name == other.name and self.owner is other.owner
+
+    def __hash__(self) -> int:
+        return hash(self.name)
+
+    def __repr__(self) -> str:
+        return f"<function {self.name}>"
+
 
 class Function(NamedTuple):
     """A function of setup.py itself."""
@@ -88,6 +98,15 @@ class Function(NamedTuple):
     defaults: tuple[Value, ...]
     keyword_defaults: tuple[Value, ...]
 
+    def __eq__(self, other: object) -> bool:
+        return self is other
+
+    def __hash__(self) -> int:
+        return id(self)
+
+    def __repr__(self) -> str:
+        return "<function>"
+
 
 class Class(NamedTuple):
     """A class of setup.py, or one that it imports: known by name only."""
@@ -95,31 +114,82 @@ class Class(NamedTuple):
     name: str
 
 
+LARGEST: Final = 1 << 25
+"""Characters of a value that is followed. A list that holds another one twice, and so on, is larger than the memory."""
+_DEEPEST: Final = 50
+"""Containers in each other of a value that is followed. Python itself cannot hash a tuple of any depth."""
+_ELEMENT: Final = 128
+"""Characters that an element of a container counts for."""
+
+
+def size_of(values: Iterable[Value]) -> int:
+    """Return how many characters values count for, a container each time that it is there.
+
+    The number is larger than LARGEST for values that are too large or too deep to be followed, which are not measured whole.
+    """
+    size = 0
+    level = [*values]
+    for _ in range(_DEEPEST):
+        size += sum(map(_own_size, level))
+        if size > LARGEST:
+            return size
+        level = [item for value in level for item in _inner(value)]
+        if not level:
+            return size
+    return LARGEST + 1
+
+
+def _own_size(value: Value) -> int:
+    return len(value) if isinstance(value, str) else _ELEMENT * len(value) if _is_container(value) else 0
+
+
+def _inner(value: Value) -> Iterable[Value]:
+    """Return what a container holds."""
+    if isinstance(value, dict):
+        return (*value, *value.values())
+    return value if _is_container(value) else ()
+
+
+def _is_container(value: Value) -> bool:
+    return isinstance(value, (list, dict, set, frozenset)) or type(value) is tuple
+
+
+def followed(value: Value) -> Value:
+    """Return a value, something unknown in place of one that is too large."""
+    return value if size_of((value,)) <= LARGEST else Unknown("it is larger than is followed", None)
+
+
 def certain(value: Value) -> bool:
     """Return whether nothing about a value is unknown."""
+    return size_of((value,)) <= LARGEST and _certain(value)
+
+
+def _certain(value: Value) -> bool:
     if isinstance(value, (Unknown, Maybe)):
         return False
     if isinstance(value, dict):
-        return all(certain(item) for item in value.values())
-    if isinstance(value, (list, set, frozenset)) or type(value) is tuple:
-        return all(certain(item) for item in value)
-    return True
+        return all(map(_certain, value.values()))
+    return all(map(_certain, value)) if _is_container(value) else True
 
 
 def unknown_in(values: Iterable[Value]) -> Unknown | None:
     """Return the first of some values that is unknown, or partly so."""
+    values = [*values]
+    if size_of(values) > LARGEST:
+        return Unknown("it is larger than is followed", None)
+    return _unknown_in(values)
+
+
+def _unknown_in(values: Iterable[Value]) -> Unknown | None:
     for value in values:
         if isinstance(value, Unknown):
             return value
         if isinstance(value, Maybe):
             return Unknown("it depends on something that is not known", getattr(value.value, "node", None))
-        inner = None
-        if isinstance(value, dict):
-            inner = unknown_in(value.values())
-        elif isinstance(value, (list, set, frozenset)) or type(value) is tuple:
-            inner = unknown_in(value)
-        if inner:
-            return inner
+        if _is_container(value):
+            inner = _unknown_in(value.values() if isinstance(value, dict) else value)
+            if inner:
+                return inner
     return None
 
 
@@ -158,7 +228,9 @@ def merged(left: list[Value], right: list[Value]) -> list[Value]:
 
 
 def path_of(*parts: Value) -> PurePosixPath:
-    """Return a path as pathlib.Path() makes it. Raises TypeError as that does."""
+    """Return a path as pathlib.Path() makes it. Raises TypeError as that does, and ValueError for one that is too long."""
+    if sum(len(str(part)) for part in parts) > LONGEST:
+        raise ValueError(parts)
     from pathlib import PurePosixPath  # noqa: PLC0415  (it is slow to import, and few scripts want it)
 
     return PurePosixPath(*parts)
