@@ -59,6 +59,7 @@ CMAKE: Final = {
     "generator expressions": 'string(REPEAT "$<" 400000 p)\n' + _loop(1000, 'string(GENEX_STRIP "${p}" q)'),
     "sums": 'string(REPEAT "1+" 400000 p)\n' + _loop(1000, 'math(EXPR z "${p}1")'),
     "elements that may be missing": "find_package(q)\nif(q_X)\nlist(APPEND l b)\nendif()\nset(z " + '"' + "${l};" * 40_000 + '")',
+    "a path of which little is known": 'find_package(q)\ninstall(FILES "a' + "${q_A}a" * 12 + '/b" DESTINATION share)',
     "folders": "foreach(a 1 2 3 4 5 6 7 8)\n" * 8 + "install(DIRECTORY src DESTINATION share)\n" + "endforeach()\n" * 8,
 }
 
@@ -120,6 +121,6 @@ if __name__ == "__main__":
     resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
     signal.setitimer(signal.ITIMER_PROF, _SECONDS)
     if sys.argv[1] == "cmake":
-        run(CMAKE[sys.argv[2]], tuple(f"src/{number}.cpp" for number in range(1000)))
+        run(CMAKE[sys.argv[2]], ("a" * 200 + "/c", *(f"src/{number}.cpp" for number in range(1000))))
     else:
         script(SETUP[sys.argv[2]])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import posixpath
 import re
+from itertools import count
 from typing import Final
 
 from ros_lint.facts.build import Provided
@@ -15,6 +16,7 @@ from ros_lint.interpret.cmake_run import Handler, Run
 from ros_lint.interpret.cmake_values import ATOM, HOLE, is_fixed, is_known, sure
 from ros_lint.knowledge.cmake_commands import INSTALL_ARTIFACTS
 from ros_lint.tree import join as join_path
+from ros_lint.wildcards import LONGEST, spaced
 
 _OF_TARGETS: Final = frozenset({"ARCHIVE", "LIBRARY", "RUNTIME"})
 _FILE_WORDS: Final = {
@@ -103,7 +105,9 @@ def _may_lie(run: Run, value: str) -> bool:
         inside = join_path(run.directory, value)
     if is_known(inside):
         return True
-    like = re.compile(".*".join(map(re.escape, _UNKNOWN.split(inside))))
+    if len(inside) > LONGEST:
+        return False
+    like = re.compile(spaced(list(map(re.escape, _UNKNOWN.split(inside))), ".*", count()))
     return any(map(like.fullmatch, (*run.files, *run.generated)))
 
 
