@@ -12,7 +12,6 @@ from contextlib import suppress
 from functools import cache
 from typing import TYPE_CHECKING
 
-from ros_lint.safe_yaml import YamlError, tokens
 from ros_lint.suffixes import HEADERS, SOURCES
 
 if TYPE_CHECKING:
@@ -106,6 +105,8 @@ _TO_LINE_END = re.compile(r"#[^\r\n]*")
 
 
 def _in_yaml(text: str) -> Ranges:
+    from ros_lint.safe_yaml import YamlError, tokens  # noqa: PLC0415  (few files are looked at)
+
     try:
         ranges = tokens(text)
     except YamlError:

@@ -12,18 +12,11 @@ from collections.abc import Iterator
 from functools import cache
 from typing import Final, Literal, NamedTuple
 
+from ros_lint.python_code import STRINGS
+
 Kind = Literal["name", "number", "string", "template", "op", "newline", "comment"]
 
 _PREFIX: Final = r"(?:[bBuU]|[bB][rR]|[rR][bB]?)?"
-STRINGS: Final = (
-    r'"""[^"\\]*(?:(?:\\.|"(?!""))[^"\\]*)*"""',
-    r"'''[^'\\]*(?:(?:\\.|'(?!''))[^'\\]*)*'''",
-    r'"(?!"")[^"\\\r\n]*(?:\\(?:\r\n|.)[^"\\\r\n]*)*"',
-    r"'(?!'')[^'\\\r\n]*(?:\\(?:\r\n|.)[^'\\\r\n]*)*'",
-    r'""(?!")',
-    r"''(?!')",
-)
-"""Patterns of strings without their prefix, with the flag DOTALL."""
 _ENDS: Final = {'"""': "", "'''": "", '"': r"\r\n", "'": r"\r\n"}
 _NAMED: Final = r"\\N\{[^}'\"]*\}|"
 
@@ -225,21 +218,19 @@ class _Reader:
             conversion, at = match[1], match.end()
         form = None
         if text.startswith(":", at):
-            if level > 1:
-                self._newer["format specifications in format specifications"] = None
             if level >= _MOST_TEMPLATES:
                 raise TemplateDepthError(f"f-strings nested more than {_MOST_TEMPLATES} levels deep", at)
             form, at = self._pieces(at + 1, quote, raw, depth, level + 1, begun)
-        elif level > 1:
-            self._newer["format specifications in format specifications"] = None
         if not text.startswith("}", at):
             raise TokenError('the "{" of an f-string is not closed', start)
         if len(quote) == 1 and ("\n" in inside or "\r" in inside):
-            self._newer["line breaks in their expressions"] = None
+            self._newer["line breaks in braces"] = None
+        if level > 1:
+            self._newer["nested format specifications"] = None
         if "\\" in inside:
-            self._newer["backslashes in their expressions"] = None
+            self._newer["backslashes in braces"] = None
         if quote in inside:
-            self._newer["their own quotes in their expressions"] = None
+            self._newer["their own quotes inside"] = None
         return Field(start, (start + 1, end), debug, conversion, form), at + 1
 
     def _expression_end(self, at: int, depth: int) -> int:
@@ -262,7 +253,7 @@ class _Reader:
                 elif found in _CLOSES.values():
                     raise TokenError(f'"{found}" closes nothing', at)
             elif kind == "comment":
-                self._newer["comments in their expressions"] = None
+                self._newer["comments in braces"] = None
             at = self.template(at, depth + 1).end if kind == "template" else match.end()
         raise TokenError("this string is not closed", at)
 

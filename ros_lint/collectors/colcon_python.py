@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import ast
 import re
-import sys
 from configparser import Error as ConfigError
 from configparser import RawConfigParser
 from typing import TYPE_CHECKING, NamedTuple
 
+from ros_lint.collectors.pyproject import table, tables
 from ros_lint.collectors.python_syntax import NotPythonError, TooDeepError, parse, span_of
 from ros_lint.facts.manifest import ColconDepend, Role
 
@@ -111,15 +111,7 @@ def _is_setup(node: ast.expr) -> bool:
 def _pyproject_name(pyproject: Text | None) -> str:
     if pyproject is None:
         return ""
-    if sys.version_info >= (3, 11):
-        import tomllib  # noqa: PLC0415  (few workspaces have a plain Python package)
-    else:
-        import tomli as tomllib  # noqa: PLC0415
-    try:
-        project = tomllib.loads(pyproject.text).get("project")
-    except ValueError:
-        return ""
-    name = project.get("name") if isinstance(project, dict) else None
+    name = table(tables(pyproject), "project").get("name")
     return name if isinstance(name, str) else ""
 
 

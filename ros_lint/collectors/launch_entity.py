@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any, Final, Literal
 from ros_lint.collectors.launch_tags import ROS_1
 from ros_lint.collectors.xml_tree import Element, attribute_places
 from ros_lint.facts.sight import Problem
-from ros_lint.safe_yaml import YamlError, load
 from ros_lint.text import Span
 
 if TYPE_CHECKING:
@@ -324,6 +323,8 @@ def _as_yaml(value: str) -> Any:
         if not _is_valid(found):
             raise ValueError(value)
         return found
+    from ros_lint.safe_yaml import YamlError, load  # noqa: PLC0415  (few values are of YAML)
+
     try:
         output = load(value)
     except YamlError:  # the front end takes any failure for "not YAML"

@@ -21,7 +21,7 @@ from ros_lint.collectors.launch_py_run import Machine
 from ros_lint.collectors.launch_py_texts import Within, texts
 from ros_lint.collectors.launch_references import References
 from ros_lint.collectors.launch_text import UNKNOWN
-from ros_lint.collectors.python_misplaced import misplaced
+from ros_lint.collectors.python_ast import compiled
 from ros_lint.collectors.python_syntax import NotPythonError, read, refusal, span_of
 from ros_lint.facts.launch import LaunchAction, LaunchFile
 from ros_lint.facts.sight import Facet, Opaque, Problem
@@ -65,7 +65,7 @@ def collect(
         "python",
         references.all(),
         tuple(references.opaque),
-        tuple(dict.fromkeys([*misplaced(tree, source)] or [*reading.problems, *references.problems])),
+        tuple(dict.fromkeys([*_misplaced(tree, source)] or [*reading.problems, *references.problems])),
         test,
         helper,
         tuple(reading.actions),
@@ -74,6 +74,14 @@ def collect(
         tuple(sorted(map(str, reading.wants))),  # the cache takes none but plain texts
         syntax=newer,
     )
+
+
+def _misplaced(tree: ast.Module, source: Text) -> Iterator[Problem]:
+    """Yield what the compiler of Python refuses, such as a keyword that is given twice."""
+    if (error := compiled(tree)) is not None:
+        from ros_lint.collectors.python_misplaced import misplaced  # noqa: PLC0415  (few launch files have any)
+
+        yield from misplaced(error, tree, source)
 
 
 def _asks_for_arguments(node: ast.stmt) -> bool:

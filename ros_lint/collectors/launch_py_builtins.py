@@ -30,7 +30,6 @@ from ros_lint.collectors.launch_py_objects import (
 )
 from ros_lint.collectors.launch_py_operations import each, text_of, truth
 from ros_lint.collectors.launch_text import OWN_FOLDER, UNKNOWN
-from ros_lint.safe_yaml import YamlBoundError, YamlError, load
 
 if TYPE_CHECKING:
     from ros_lint.collectors.launch_py_run import Machine
@@ -198,6 +197,8 @@ def _content(machine: Machine, text: Value) -> Value:
         machine.lose(text)
         return text if isinstance(text, Unknown) else Unknown("the content of a file")
     machine.spend(len(text) // 50)
+    from ros_lint.safe_yaml import YamlBoundError, YamlError, load  # noqa: PLC0415  (few launch files read YAML)
+
     try:
         return load(text)
     except YamlBoundError:

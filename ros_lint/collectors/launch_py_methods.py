@@ -204,7 +204,7 @@ def _of_text(
             return UNKNOWN
         try:
             result = getattr(str(owner), name)(*values)
-        except (TypeError, ValueError):
+        except (OverflowError, TypeError, ValueError):
             raise Raised from None
         return result if not isinstance(result, str) or len(result) <= LONGEST else UNKNOWN
     if known and name in EVALUATED and len(owner) <= LONGEST and waits(owner) and not names_places(owner):

@@ -228,13 +228,13 @@ def _percent(left: str, right: Value, node: ast.expr, frame: Frame) -> Value:
     if all(isinstance(plain(value), (str, *_NUMBERS)) for value in values) and len(left) < 500 and not _wide(left):
         try:
             return written(left % tuple(plain(value) for value in values), node, frame.source)
-        except (TypeError, ValueError):
+        except (OverflowError, TypeError, ValueError):
             raise Raised from None
     return Unknown("text made with %")
 
 
 def _wide(template: str) -> bool:
-    return any(len(run) > 3 for run in "".join(c if c.isdigit() else " " for c in template).split())
+    return "*" in template or any(len(run) > 3 for run in "".join(c if c.isdigit() else " " for c in template).split())
 
 
 def negated(machine: Machine, value: Value) -> Value:

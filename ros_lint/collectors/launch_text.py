@@ -210,7 +210,7 @@ def _said(inner: str) -> str:
         words = literal(f"({match[2]},)") if match else ()
     except ValueError:
         words = ()
-    if match is None or not words or not isinstance(words, tuple):
+    if match is None or not words or not isinstance(words, tuple) or not all(isinstance(word, str) for word in words):
         return f"$(eval {inner})"
     said = " ".join(f"'{word}'" if not word or (" " in certain_part(word) and word[:2] != "$(") else word for word in words)
     return f"$({match[1].replace('_', '-')} {said})"

@@ -6,7 +6,6 @@ import ast
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from ros_lint.collectors.python_ast import compiled
 from ros_lint.facts.sight import Problem
 from ros_lint.text import Span
 
@@ -19,10 +18,9 @@ _DEFINITIONS = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
 _LOOPS = (ast.For, ast.AsyncFor, ast.While)
 
 
-def misplaced(tree: ast.Module, source: Text) -> Iterator[Problem]:
-    """Yield what the compiler refuses, such as a keyword that is given twice."""
-    error = compiled(tree)
-    if error is None or error.msg.startswith(_OF_SOME_PYTHONS):
+def misplaced(error: SyntaxError, tree: ast.Module, source: Text) -> Iterator[Problem]:
+    """Yield what the compiler refuses in a tree, in the words and at the place that all Pythons give."""
+    if error.msg.startswith(_OF_SOME_PYTHONS):
         return
     line, column = error.lineno or 1, error.offset or 1
     if error.msg.startswith(("'break'", "'continue'")) and (jump := _stray_jump(tree)) is not None:

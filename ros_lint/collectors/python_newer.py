@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from keyword import iskeyword
 from typing import Final, NamedTuple
 
-from ros_lint.collectors.python_code import plain
+from ros_lint.python_code import plain
 from ros_lint.python_tokens import Template, Token, template
 from ros_lint.text import raw
 

@@ -32,19 +32,21 @@ class Reason(NamedTuple):
 _CONFLICT: Final = re.compile(r"^(?:<{7}|>{7}) ", re.MULTILINE)
 _PLACE: Final = re.compile(r"error at (\d+):(\d+)")
 _LINE: Final = re.compile(r"[^\r\n]*(?:\r\n|\r|\n)|[^\r\n]+\Z")
+_OF_PYTHON_2: Final = re.compile(r"^[ \t]*except\b[^,:\r\n]*(,)[ \t]*([a-z_]\w*)[ \t]*:", re.MULTILINE)
 _CONTINUED: Final = frozenset({"elif", "else", "except", "finally"})
 _COMPOUND: Final = _CONTINUED | frozenset({"async", "class", "def", "for", "if", "try", "while", "with"})
 _LONGEST: Final = 100_000
 """How many characters libcst is given. It takes more than a second for these."""
+_LONGEST_TEXT: Final = 500_000
 _LEVELS: Final = 100
 """How many levels of indentation Python has."""
-_MOST_DIGITS: Final = 4_300
-"""How many digits of an integer Python reads."""
 _LONGEST_WORD: Final = 40
 
 
 def reason(text: str) -> Reason:
     """Return why a source is no Python."""
+    if len(text) > _LONGEST_TEXT:
+        return Reason(0, "Python refuses it, and it is too long to say why", known=False)
     found, reasons = list[Token](), list[Reason]()
     try:
         for token in tokens(text):
@@ -54,6 +56,8 @@ def reason(text: str) -> Reason:
     else:
         if (unpaired := brackets(text, found)) is not None:
             reasons.append(Reason(*unpaired[::-1]))
+    if "\0" in text:
+        reasons.append(Reason(text.index("\0"), "Python has no such character"))
     if conflict := _CONFLICT.search(text):
         reasons.append(Reason(conflict.start(), "this merge conflict is not resolved"))
     if indentation := next(_indentation(text, found), None):
@@ -133,6 +137,8 @@ def _in_statements(text: str, found: Sequence[Token]) -> Iterator[Reason]:
         except (SyntaxError, python_ast.TooDeepForPythonError):
             end = starts[behind] if behind < len(starts) else len(text)
             inside = [token for token in found if starts[first] <= token.start < end and token.kind != "comment"]
+            if old := _OF_PYTHON_2.search(statement):
+                yield Reason(starts[first] + old.start(1), f'this is Python 2: say "as {old[2]}"')
             yield from _literals(text, inside)
             place = _place(statement)
             if place is not None:
@@ -215,7 +221,7 @@ def _literals(text: str, code: Sequence[Token]) -> Iterator[Reason]:
     """Yield what is wrong with the strings and numbers of a source."""
     for before, token in pairwise([Token("newline", 0, 0), *code]):
         written = text[token.start : token.end]
-        if token.kind == "number" and not _is_number(written):
+        if token.kind == "number" and not _is_literal(written):
             yield Reason(token.start, "this is no number")
         elif token.kind == "name" and before.kind == "number" and before.end == token.start and not iskeyword(written):
             yield Reason(before.start, "this is no number")
@@ -230,12 +236,6 @@ def _literals(text: str, code: Sequence[Token]) -> Iterator[Reason]:
 def _are_unlike(text: str, before: Token, token: Token) -> bool:
     """Return whether bytes and a text stand side by side."""
     return before.kind in ("string", "template") and len({_is_bytes(text[one.start : one.end]) for one in (before, token)}) == 2
-
-
-def _is_number(written: str) -> bool:
-    if written.isdecimal() and len(written) > _MOST_DIGITS:
-        return False
-    return _is_literal(written)
 
 
 def _is_literal(written: str) -> bool:

@@ -3,26 +3,30 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator
 
 from ros_lint.collectors import python_ast
 from ros_lint.collectors import python_syntax as syntax
-from ros_lint.collectors.python_code import DEEPEST, LONG_NUMBER, SYMBOLS, first_too_deep
 from ros_lint.collectors.python_newer import brackets, rewrite
 from ros_lint.collectors.python_restored import place_of, restore
 from ros_lint.collectors.python_syntax import NotPythonError, Parsed, TooDeepError
 from ros_lint.facts.sight import NewerSyntax
+from ros_lint.python_code import DEEPEST, SYMBOLS, first_too_deep, may_be_paired
 from ros_lint.python_tokens import TemplateDepthError, Token, TokenError, tokens
 from ros_lint.text import Text
+
+_MOST_DIGITS = 1_000
 
 
 def read(source: Text) -> Parsed:
     """Return the tree of a source and what is newer than Python 3.10 in it. Raises NotPythonError, also as TooDeepError."""
     try:
-        found = list(tokens(source.text))
-        if brackets(source.text, found) is not None:
+        paired = may_be_paired(source.text)
+        found = [] if paired else list(tokens(source.text))
+        if not paired and brackets(source.text, found) is not None:
             raise NotPythonError
-        if (deep := too_deep(source.text, found)) is not None:
+        # Where brackets are in pairs, what nests too deeply ends the reading early.
+        if (deep := too_deep(source.text, _kept(tokens(source.text), found) if paired else found)) is not None:
             raise _too_deep(source, *deep)
         rewritten = rewrite(source.text, found)
         tree = python_ast.module(rewritten.text)
@@ -38,18 +42,34 @@ def read(source: Text) -> Parsed:
     return Parsed(tree, tuple(sorted([*newer, *inner], key=lambda one: one.span)))
 
 
-def too_deep(text: str, found: Sequence[Token]) -> tuple[str, int] | None:
+def too_deep(text: str, found: Iterable[Token]) -> tuple[str, int] | None:
     """Return why and where the code of a source exceeds a bound, None where it does not."""
-    counted = [(token, _symbol(text, token)) for token in found]
-    counted = [(token, symbol) for token, symbol in counted if symbol]
-    index = first_too_deep([symbol for _, symbol in counted])
-    if index is not None:
-        return f"expressions nested more than {DEEPEST} levels deep", counted[index][0].start
-    if (number := LONG_NUMBER.search(text)) and any(
-        token.kind == "number" and token.start <= number.start() < token.end for token in found
-    ):
-        return "a number of more than 1,000 digits", number.start()
-    return _branches(text, found)
+    branches = _Branches(text)
+    token = Token("newline", 0, 0)
+    wrong = ""
+
+    def symbols() -> Iterator[str]:
+        nonlocal token, wrong
+        for token in found:
+            if token.kind == "number" and token.end - token.start > _MOST_DIGITS:
+                wrong = f"a number of more than {_MOST_DIGITS:,} digits"
+            elif branches.are_too_many(token):
+                wrong = f"more than {DEEPEST} branches in a row"
+            if wrong:
+                return
+            if symbol := _symbol(text, token):
+                yield symbol
+
+    if first_too_deep(symbols()) is not None:
+        wrong = f"expressions nested more than {DEEPEST} levels deep"
+    return (wrong, token.start) if wrong else None
+
+
+def _kept(found: Iterable[Token], into: list[Token]) -> Iterator[Token]:
+    """Yield tokens that are noted down as they pass."""
+    for token in found:
+        into.append(token)
+        yield token
 
 
 def _symbol(text: str, token: Token) -> str:
@@ -60,23 +80,28 @@ def _symbol(text: str, token: Token) -> str:
     return SYMBOLS.get(text[token.start : token.end], "") if token.kind == "name" else ""
 
 
-def _branches(text: str, found: Iterable[Token]) -> tuple[str, int] | None:
-    """Return why and where branches in a row exceed the bound, None where they do not."""
-    counts: dict[int, int] = {}
-    fresh = True
-    for token in found:
-        if fresh and token.kind == "name":
-            width = token.start - max(text.rfind("\n", 0, token.start), text.rfind("\r", 0, token.start))
-            word = text[token.start : token.end]
-            counts = {column: count for column, count in counts.items() if column <= width}
-            if word == "elif":
-                counts[width] = counts.get(width, 0) + 1
-                if counts[width] > DEEPEST:
-                    return f"more than {DEEPEST} branches in a row", token.start
-            elif word != "else":
-                counts.pop(width, None)
-        fresh = token.kind in ("newline", "comment")
-    return None
+class _Branches:
+    """Counts the branches of each if statement, in the order of the tokens."""
+
+    def __init__(self, text: str) -> None:
+        self._text = text
+        self._counts: dict[int, int] = {}
+        self._fresh = True
+
+    def are_too_many(self, token: Token) -> bool:
+        """Return whether a token begins a branch that exceeds the bound."""
+        text, fresh = self._text, self._fresh
+        self._fresh = token.kind in ("newline", "comment")
+        if not fresh or token.kind != "name":
+            return False
+        column = token.start - max(text.rfind("\n", 0, token.start), text.rfind("\r", 0, token.start))
+        word = text[token.start : token.end]
+        self._counts = {one: count for one, count in self._counts.items() if one <= column}
+        if word == "elif":
+            self._counts[column] = self._counts.get(column, 0) + 1
+        elif word != "else":
+            self._counts.pop(column, None)
+        return self._counts.get(column, 0) > DEEPEST
 
 
 def _too_deep(source: Text, message: str, offset: int) -> TooDeepError:
@@ -85,7 +110,10 @@ def _too_deep(source: Text, message: str, offset: int) -> TooDeepError:
 
 def _expression(text: str, offset: int, source: Text, newer: list[NewerSyntax]) -> ast.expr:
     """Return the tree of an expression in brackets that begins at an offset of a source."""
-    parsed = syntax.read(Text(source.path, text))
+    try:
+        parsed = syntax.read(Text(source.path, text))
+    except TooDeepError as error:
+        raise _too_deep(source, error.message, offset) from None
     body = parsed.tree.body
     if len(body) != 1 or not isinstance(body[0], ast.Expr):
         raise NotPythonError

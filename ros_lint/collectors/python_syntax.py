@@ -5,11 +5,12 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
+from functools import lru_cache
 from typing import NamedTuple
 
 from ros_lint.collectors import python_ast
-from ros_lint.collectors.python_code import DEEPEST, nests_too_deep, plain
 from ros_lint.facts.sight import Facet, NewerSyntax, Opaque, Problem
+from ros_lint.python_code import DEEPEST, most_levels, nests_too_deep, plain
 from ros_lint.text import Span, Text, from_raw, raw
 
 # What only Python 2 reads. One is enough: such a file is not meant for the interpreter that looks at it.
@@ -53,14 +54,57 @@ class Parsed(NamedTuple):
     """What came later than Python 3.10, in order."""
 
 
+class Refusal(NamedTuple):
+    """Why a source has no tree."""
+
+    message: str
+    """A clause."""
+    span: Span
+    known: bool
+    """Whether it is no Python of any version. If not, it counts as not checked."""
+
+    def problem(self) -> Problem:
+        return Problem("syntax", f"not valid Python: {self.message}", self.span)
+
+    def opaque(self, hides: Facet) -> Opaque:
+        """Return what the source hides, as one that is no Python or not checked."""
+        reason = "no Python that can be read" if self.known else self.message
+        return Opaque(hides, reason, self.span, unchecked=not self.known)
+
+
 def parse(source: Text) -> ast.Module:
     """Return the tree of a source. Raises :class:`NotPythonError`, also as :class:`TooDeepError`, and nothing else."""
     return read(source).tree
 
 
 def read(source: Text) -> Parsed:
-    """Return the tree of a source, the same under every Python, and what is newer than 3.10 in it. Raises as :func:`parse`."""
-    if plain(source.text):
+    """Return the tree of a source, the same under every Python, and what is newer than 3.10 in it. Raises as :func:`parse`.
+
+    The tree is shared: nobody may change it.
+    """
+    found = _outcome(source.path, source.text)
+    if isinstance(found, Refusal):
+        raise TooDeepError(found.message, found.span)
+    if found is None:
+        raise NotPythonError
+    return found
+
+
+@lru_cache(maxsize=2)  # several collectors ask for the tree of one source, one after the other
+def _outcome(path: str, text: str) -> Parsed | Refusal | None:
+    """Return a source parsed, why it is not checked, or None where it is no Python."""
+    source = Text(path, text)
+    try:
+        return _parsed(source)
+    except TooDeepError as error:
+        return Refusal(error.message, error.span, known=False)
+    except NotPythonError:
+        return None
+
+
+def _parsed(source: Text) -> Parsed:
+    levels = most_levels(source.text)
+    if plain(source.text) and not (levels > _MOST_LEVELS and nests_too_deep(source.text)):
         try:
             tree = python_ast.module(source.text)
         except SyntaxError:
@@ -68,11 +112,15 @@ def read(source: Text) -> Parsed:
         except python_ast.TooDeepForPythonError:
             pass
         else:
-            if not any(nests_too_deep(statement) for statement in _long_statements(source, tree)):
+            if levels <= DEEPEST or not any(map(nests_too_deep, _long_statements(source, tree))):
                 return Parsed(tree, ())
     from ros_lint.collectors import python_reread  # noqa: PLC0415  (one source of two hundred)
 
     return python_reread.read(source)
+
+
+_MOST_LEVELS = 10_000
+"""How deep the parser of Python 3.10 can go. It overflows the stack at some ten times of that."""
 
 
 def read_expression(text: str) -> ast.expr:
@@ -90,32 +138,35 @@ def read_expression(text: str) -> ast.expr:
 
 
 def _long_statements(source: Text, tree: ast.Module) -> Iterator[str]:
-    """Yield the statements that are long enough to nest too deeply; of those with a body what stands before it.
+    """Yield the statements that may nest too deeply; of those with a body what stands before it.
 
     Raises :class:`TooDeepError` where branches are too many, each of which stands in the one before.
     """
     waiting: list[tuple[_Part, int]] = [(statement, 0) for statement in tree.body]
     while waiting:
         part, branches = waiting.pop()
-        inner: list[_Part] = [each for name in _BODIES for each in getattr(part, name, ())]
-        if isinstance(part, ast.If) and len(part.orelse) == 1 and isinstance(part.orelse[0], ast.If):
-            if branches == DEEPEST:
-                raise TooDeepError(f"more than {DEEPEST} branches in a row", span_of(source, part))
-            waiting.append((part.orelse[0], branches + 1))
-            inner.pop()
-        waiting += [(each, 0) for each in inner]
+        inner: list[_Part] = []
+        if part.__class__ not in _SIMPLE:
+            inner = [each for name in _BODIES for each in getattr(part, name, ())]
+            waiting += [(each, 0) for each in inner]
+            if isinstance(part, ast.If) and len(part.orelse) == 1 and isinstance(part.orelse[0], ast.If):
+                if branches == DEEPEST:
+                    raise TooDeepError(f"more than {DEEPEST} branches in a row", span_of(source, part.orelse[0]).start())
+                waiting[-1] = part.orelse[0], branches + 1
         first = part.pattern if isinstance(part, ast.match_case) else part
         line, column = _beginning(first)
-        if inner and not isinstance(part, (ast.Try, ast.Expr)):
+        if inner:
             end_line, end_column = _beginning(inner[0].pattern if isinstance(inner[0], ast.match_case) else inner[0])
         else:
             end_line, end_column = first.end_lineno or line, first.end_col_offset or column
         if end_line > line or end_column - column > DEEPEST:
-            start, end = _offset(source, line, column), _offset(source, end_line, end_column)
-            if end - start > DEEPEST:
-                yield source.text[start:end]
+            statement = source.text[_offset(source, line, column) : _offset(source, end_line, end_column)]
+            if most_levels(statement) > DEEPEST:
+                yield statement
 
 
+_SIMPLE = frozenset({ast.AnnAssign, ast.Assign, ast.AugAssign, ast.Expr, ast.Import, ast.ImportFrom, ast.Pass, ast.Return})
+"""Statements without a body, most of them."""
 _BODIES = ("body", "handlers", "cases", "orelse", "finalbody")
 _Part = ast.stmt | ast.ExceptHandler | ast.match_case
 
@@ -148,24 +199,6 @@ def _offset(source: Text, line: int, column: int) -> int:
     if not piece.isascii():
         piece = from_raw(raw(piece)[:column])
     return start + len(piece)
-
-
-class Refusal(NamedTuple):
-    """Why a source has no tree."""
-
-    message: str
-    """A clause."""
-    span: Span
-    known: bool
-    """Whether it is no Python of any version. If not, it counts as not checked."""
-
-    def problem(self) -> Problem:
-        return Problem("syntax", f"not valid Python: {self.message}", self.span)
-
-    def opaque(self, hides: Facet) -> Opaque:
-        """Return what the source hides, as one that is no Python or not checked."""
-        reason = "no Python that can be read" if self.known else self.message
-        return Opaque(hides, reason, self.span, unchecked=not self.known)
 
 
 def refusal(source: Text, error: NotPythonError) -> Refusal:

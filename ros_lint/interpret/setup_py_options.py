@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-import sys
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from ros_lint.collectors.pyproject import table, tables
 from ros_lint.collectors.setup_cfg import Line, Option, SetupCfg
 from ros_lint.interpret.setup_py_files import Files
 from ros_lint.interpret.setup_py_values import Unknown, Value, Word, followed
@@ -96,22 +96,15 @@ def _globbed(line: Line, files: Files) -> list[str]:
 
 
 def _from_pyproject(source: Text, files: Files) -> dict[str, Value]:
-    if sys.version_info >= (3, 11):
-        import tomllib  # noqa: PLC0415  (few packages have such a file)
-    else:
-        import tomli as tomllib  # noqa: PLC0415
-    try:
-        content = tomllib.loads(source.text)
-    except ValueError:
-        return {}
-    project, tool = content.get("project", {}), content.get("tool", {}).get("setuptools", {})
+    content = tables(source)
+    project, tool = table(content, "project"), table(content, "tool", "setuptools")
     found: dict[str, Value] = {key: _place(source, project[key]) for key in ("name", "version") if key in project}
-    groups = dict(project.get("entry-points", {}))
+    groups = dict(table(project, "entry-points"))
     groups.update({group: project[key] for key, group in _SCRIPTS.items() if key in project})
     if groups:
         found["entry_points"] = {
-            group: [_place(source, f"{name} = {target}", name) for name, target in entries.items()]
-            for group, entries in groups.items()
+            group: [_place(source, f"{key} = {value}", key) for key, value in table(groups, group).items() if _is_text(value)]
+            for group in groups
         }
     packages = tool.get("packages")
     if isinstance(packages, list):
@@ -123,8 +116,9 @@ def _from_pyproject(source: Text, files: Files) -> dict[str, Value]:
             found[key.replace("-", "_")] = tool[key]
     if "data-files" in tool:
         found["data_files"] = [
-            (_place(source, folder), [_place(source, path, pattern) for pattern in patterns for path in files.glob(pattern)])
-            for folder, patterns in tool["data-files"].items()
+            (_place(source, folder), [_place(source, path, one) for one in patterns if _is_text(one) for path in files.glob(one)])
+            for folder, patterns in table(tool, "data-files").items()
+            if isinstance(patterns, list)
         ]
     return found
 
@@ -143,6 +137,10 @@ def _find_table(find: Mapping[str, Any], files: Files) -> list[str]:
             exclude=find.get("exclude", []),
         )
     ]
+
+
+def _is_text(value: object) -> bool:
+    return isinstance(value, str)
 
 
 def _place(source: Text, value: Value, near: str = "") -> Value:

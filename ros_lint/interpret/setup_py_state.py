@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable
-from copy import copy
 from typing import Any, Final
 
 from ros_lint.interpret.setup_py_values import Unknown, Value, either, merged
@@ -130,13 +129,13 @@ def _shown(node: ast.AST, levels: int) -> ast.AST:
         return ast.Name(_template(node))
     if levels <= 0 and isinstance(node, ast.expr):
         return ast.Name("...")
-    found = copy(node)
-    for name, value in ast.iter_fields(node):
-        if isinstance(value, ast.AST):
-            setattr(found, name, _shown(value, levels - 1))
-        elif isinstance(value, list):
-            setattr(found, name, [_shown(item, levels - 1) if isinstance(item, ast.AST) else item for item in value])
-    return found
+    return type(node)(**{name: _shown_in(value, levels - 1) for name, value in ast.iter_fields(node)})
+
+
+def _shown_in(value: Any, levels: int) -> Any:
+    if isinstance(value, list):
+        return [_shown_in(item, levels) for item in value]
+    return _shown(value, levels) if isinstance(value, ast.AST) else value
 
 
 def _template(node: ast.JoinedStr | ast.FormattedValue) -> str:

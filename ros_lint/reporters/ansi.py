@@ -60,17 +60,13 @@ def glyph(character: str, only_ascii: bool) -> tuple[str, int]:
         return character, 1
     if character == "\t":
         return " " * TAB, TAB
-    import unicodedata  # noqa: PLC0415  (a megabyte that most runs do without)
+    from ros_lint.reporters.widths import columns  # noqa: PLC0415  (most runs do without)
 
-    category = unicodedata.category(character)
-    # Control and format characters (direction marks among them), surrogates, line and paragraph separators.
-    if only_ascii or category in ("Cc", "Cf", "Cs", "Zl", "Zp"):
+    width = None if only_ascii or character < " " or character == "\x7f" else columns(character)
+    if width is None:
         shown = _escape(ord(character))
         return shown, len(shown)
-    # Hangul vowels and finals join the syllable before them.
-    if category in ("Mn", "Me", "Mc") or "\u1160" <= character <= "\u11ff" or "\ud7b0" <= character <= "\ud7fb":
-        return character, 0
-    return character, 2 if unicodedata.east_asian_width(character) in "WF" else 1
+    return character, width
 
 
 def _escape(code: int) -> str:

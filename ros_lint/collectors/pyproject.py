@@ -1,0 +1,29 @@
+"""``pyproject.toml`` as tables."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from ros_lint.text import Text
+
+
+def tables(source: Text) -> Mapping[str, Any]:
+    """Return the tables of a file, none if it is no TOML, or nested too deeply for the library."""
+    if sys.version_info >= (3, 11):
+        import tomllib  # noqa: PLC0415  (few packages have such a file)
+    else:
+        import tomli as tomllib  # noqa: PLC0415
+    try:
+        return tomllib.loads(source.text)
+    except (ValueError, RecursionError):
+        return {}
+
+
+def table(content: Any, *keys: str) -> Mapping[str, Any]:
+    """Return the table below some keys, one after the other, an empty one if there is none."""
+    for key in keys:
+        content = content.get(key) if isinstance(content, dict) else None
+    return content if isinstance(content, dict) else {}
