@@ -1,5 +1,5 @@
 """``python -m ros_lint``."""
 
-from ros_lint.start import run
+from ros_lint.cli.start import run
 
 run()

@@ -2,10 +2,8 @@
 
 from typing import TYPE_CHECKING
 
-from ros_lint import cmake_edits, conditions, interface_names, manifest_edits, setup_edits
-from ros_lint.advice import Advice, advice, availability, lacks_rule, naming
-from ros_lint.apart import is_apart, is_for_tests
-from ros_lint.build_scripts import (
+from ros_lint.analysis.build import cmake_edits
+from ros_lint.analysis.build.commands import (
     ENDS,
     EXPORTING_PLUGINS,
     FINDS_TESTS,
@@ -41,11 +39,23 @@ from ros_lint.build_scripts import (
     unguarded_tests,
     with_client,
 )
-from ros_lint.carriers import Carried, carriers, found_for_nothing
-from ros_lint.cmake_finds import come_along, finds_declared, found_along, found_names, given_for
-from ros_lint.collectors.launch import NAMES as LAUNCH_NAMES
-from ros_lint.collectors.launch_text import agree, configurations, is_plain, renames
-from ros_lint.declare import (
+from ros_lint.analysis.dependencies.find_package import come_along, finds_declared, found_along, found_names, given_for
+from ros_lint.analysis.dependencies.load_bearing import Carried, carriers, found_for_nothing
+from ros_lint.analysis.dependencies.needs import (
+    Need,
+    comes_elsewhere,
+    comes_with_launching,
+    covered,
+    declared_closure,
+    is_miswritten,
+    is_somewhere,
+    needs,
+    tells,
+    undeclared,
+    wishes,
+)
+from ros_lint.analysis.dependencies.remedy import Advice, advice, availability, lacks_rule, naming
+from ros_lint.analysis.dependencies.tags import (
     PYTHON_LIKE,
     add_dependency,
     change_dependency,
@@ -61,19 +71,21 @@ from ros_lint.declare import (
     tag_for,
     works_unseen,
 )
-from ros_lint.evidence import satisfying, used_names
-from ros_lint.facts.build import BuildScript, Component, LeftBehind, PluginClass, PluginFile, PluginLibrary, Provided, ScriptFile
-from ros_lint.facts.cmake import Call
-from ros_lint.facts.cmake import Target as BuildTarget
-from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchFile, LaunchReference, LaunchValue
-from ros_lint.facts.manifest import Depend, Element, Manifest, Role
-from ros_lint.facts.setup_py import EntryPoint, PythonModule, Slot
-from ros_lint.facts.sight import ANYTHING, Facet, Opaque, Problem
-from ros_lint.facts.sources import MachinePath, Mention, PluginLoader, Registration, Use
-from ros_lint.graph import Edge, Graph, Reason
-from ros_lint.graph_cut import Knot, knots
-from ros_lint.knowledge.spelling import VENDOR, may_be_package, near_names
-from ros_lint.launch_files import (
+from ros_lint.analysis.dependencies.unknown_closure import may_bring
+from ros_lint.analysis.dependencies.unresolved import (
+    Stranger,
+    declared_names,
+    is_named,
+    is_near_tool,
+    meant,
+    misspelt,
+    strangers,
+    used_instead,
+)
+from ros_lint.analysis.graph.cycles import Knot, knots
+from ros_lint.analysis.graph.dependency_graph import Edge, Graph, Reason
+from ros_lint.analysis.launch.configurations import Families, asked_at, needed
+from ros_lint.analysis.launch.files import (
     Launchable,
     Programs,
     corrected,
@@ -86,41 +98,42 @@ from ros_lint.launch_files import (
     started,
     used_files,
 )
-from ros_lint.launch_left import Include, Left, includes
-from ros_lint.launch_links import Links, defaults_of, everything, filled, texts_of
-from ros_lint.launch_names import Families, asked_at, needed
-from ros_lint.launch_parameters import Given, ParameterFiles
-from ros_lint.launch_runs import Broken, PassedFile, broken_expressions, launched, passed_files
-from ros_lint.needs import (
-    Need,
-    comes_elsewhere,
-    comes_with_launching,
-    covered,
-    declared_closure,
-    is_miswritten,
-    is_somewhere,
-    needs,
-    tells,
-    undeclared,
-    wishes,
-)
-from ros_lint.providers import Meant
-from ros_lint.python_versions import STANDARD_LIBRARY, too_new
-from ros_lint.report import Target
-from ros_lint.resource_files import uninstalled as uninstalled_resources
-from ros_lint.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
-from ros_lint.slips import did_you_mean, is_meant, similar
-from ros_lint.strangers import Stranger, declared_names, is_named, is_near_tool, meant, misspelt, strangers, used_instead
-from ros_lint.suffixes import HEADERS, INTERFACES
-from ros_lint.suppress import Outcome
-from ros_lint.text import Span, beginning
-from ros_lint.tree import folders_of
-from ros_lint.unknowns import may_bring
-from ros_lint.wording import few, several
-from ros_lint.workspace import Declared, Package, Workspace, per_package, per_workspace
+from ros_lint.analysis.launch.includes import Links, defaults_of, everything, filled, texts_of
+from ros_lint.analysis.launch.parameter_files import Given, ParameterFiles
+from ros_lint.analysis.launch.runs import Broken, PassedFile, broken_expressions, launched, passed_files
+from ros_lint.analysis.launch.scopes import Include, Left, includes
+from ros_lint.analysis.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
+from ros_lint.analysis.wording import few, several
+from ros_lint.base.auxiliary_files import is_apart, is_for_tests
+from ros_lint.base.suggestions import did_you_mean, is_meant, similar
+from ros_lint.base.text import Span, beginning
+from ros_lint.base.tree import folders_of
+from ros_lint.collectors.interfaces import naming as interface_names
+from ros_lint.collectors.launch.detect import NAMES as LAUNCH_NAMES
+from ros_lint.collectors.manifest import conditions
+from ros_lint.collectors.manifest import edits as manifest_edits
+from ros_lint.collectors.python.versions import STANDARD_LIBRARY, too_new
+from ros_lint.collectors.setup_py import edits as setup_edits
+from ros_lint.collectors.suffixes import HEADERS, INTERFACES
+from ros_lint.collectors.symbolic_text import agree, configurations, is_plain, renames
+from ros_lint.engine.report import Target
+from ros_lint.engine.suppressions import Outcome
+from ros_lint.facts.build import BuildScript, Component, LeftBehind, PluginClass, PluginFile, PluginLibrary, Provided, ScriptFile
+from ros_lint.facts.cmake import Call
+from ros_lint.facts.cmake import Target as BuildTarget
+from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchFile, LaunchReference, LaunchValue
+from ros_lint.facts.manifest import Depend, Element, Manifest, Role
+from ros_lint.facts.setup_py import EntryPoint, PythonModule, Slot
+from ros_lint.facts.sources import MachinePath, Mention, PluginLoader, Registration, Use
+from ros_lint.facts.visibility import ANYTHING, Facet, Opaque, Problem
+from ros_lint.knowledge.providers import Meant
+from ros_lint.knowledge.spelling import VENDOR, may_be_package, near_names
+from ros_lint.workspace.build_scripts.resources import uninstalled as uninstalled_resources
+from ros_lint.workspace.model import Declared, Package, Workspace, per_package, per_workspace
+from ros_lint.workspace.usage.resolve import satisfying, used_names
 
 if TYPE_CHECKING:  # made only where it is asked for
-    from ros_lint.interpret.launch_expand import Started as Started  # noqa: PLC0414
+    from ros_lint.collectors.launch.expand import Started as Started  # noqa: PLC0414
 
 __all__ = [
     "ANYTHING",

@@ -19,14 +19,15 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-from ros_lint import edits, engine, registry
-from ros_lint.load import Loader
-from ros_lint.patch import unified
-from ros_lint.report import Issue, Target
-from ros_lint.rule import Rule
-from ros_lint.text import Text, raw, read
-from ros_lint.tree import MemoryTree, OverlayTree, Tree
-from ros_lint.underlay import in_tree
+from ros_lint.analysis.rule import Rule
+from ros_lint.base.diff import unified
+from ros_lint.base.text import Text, raw, read
+from ros_lint.base.tree import MemoryTree, OverlayTree, Tree
+from ros_lint.engine import edits, registry
+from ros_lint.engine import run as engine
+from ros_lint.engine.report import Issue, Target
+from ros_lint.knowledge.underlays import in_tree
+from ros_lint.workspace.loader import Loader
 
 FENCE = re.compile(
     r"^(?:`(?P<path>[^`\n]+)`\n+)?(?P<fence>`{3,})(?P<kind>\w*)\n(?P<body>.*?)^(?P=fence)$", re.MULTILINE | re.DOTALL

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ros_lint.collectors.cmake_syntax import parse
+from ros_lint.base.text import Text
+from ros_lint.collectors.cmake.evaluate import evaluate
+from ros_lint.collectors.cmake.evaluator.sources import Sources
+from ros_lint.collectors.cmake.syntax import parse
 from ros_lint.facts.build import BuildScript
-from ros_lint.facts.sight import Facet
 from ros_lint.facts.sources import Mention
-from ros_lint.interpret.cmake import evaluate
-from ros_lint.interpret.cmake_sources import Sources
-from ros_lint.text import Text
+from ros_lint.facts.visibility import Facet
 
 HEAD = "cmake_minimum_required(VERSION 3.8)\nproject(pkg)\n"
 

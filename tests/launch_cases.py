@@ -1,8 +1,8 @@
 """What the tests of the launch collectors share."""
 
-from ros_lint.collectors import launch
+from ros_lint.base.text import Text
+from ros_lint.collectors.launch import detect as launch
 from ros_lint.facts.launch import LaunchFile, LaunchReference
-from ros_lint.text import Text
 
 
 def collect(path: str, text: str) -> tuple[Text, LaunchFile]:

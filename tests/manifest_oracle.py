@@ -11,10 +11,10 @@ from typing import NamedTuple
 
 from catkin_pkg.package import InvalidPackage, Package, parse_package_string
 
-from ros_lint import conditions
-from ros_lint.collectors.manifest import collect
+from ros_lint.base.text import read
+from ros_lint.collectors.manifest import conditions
+from ros_lint.collectors.manifest.collect import collect
 from ros_lint.facts.manifest import Manifest
-from ros_lint.text import read
 
 CONTEXTS = (
     {},

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from ros_lint import conditions
-from ros_lint.collectors import manifest as manifests
-from ros_lint.discover import Found
+from ros_lint.base.text import Text
+from ros_lint.collectors.manifest import collect as manifests
+from ros_lint.collectors.manifest import conditions
 from ros_lint.facts.manifest import ROLES, ColconDepend, Depend, Manifest, Role
-from ros_lint.text import Text
-from ros_lint.workspace import Declared, Package
+from ros_lint.workspace.discovery.discover import Found
+from ros_lint.workspace.model import Declared, Package
 
 CONTEXT = {"ROS_VERSION": "2", "ROS_PYTHON_VERSION": "3", "ROS_DISTRO": "jazzy", "DISABLE_GROUPS_WORKAROUND": "1"}
 

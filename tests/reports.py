@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from ros_lint.report import Crash, Hidden, Issue, NotChecked, Report, Target, Unseen
-from ros_lint.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
-from ros_lint.text import Span, Text, read
+from ros_lint.analysis.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
+from ros_lint.base.text import Span, Text, read
+from ros_lint.engine.report import Crash, Hidden, Issue, NotChecked, Report, Target, Unseen
 
 DOC = """
 ## What it finds

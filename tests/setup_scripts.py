@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from ros_lint.base.text import Text
+from ros_lint.collectors.setup_py.evaluate import evaluate
 from ros_lint.facts.build import BuildScript
-from ros_lint.interpret.setup_py import evaluate
-from ros_lint.text import Text
 
 FILES = {
     "package.xml": "<package/>",

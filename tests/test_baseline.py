@@ -10,11 +10,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ros_lint import baseline
-from ros_lint.baseline import BaselineError
-from ros_lint.report import UNSURE, Crash, Hidden, Issue, Report, Target
-from ros_lint.rule import Confidence, Finding, Rule, Severity
-from ros_lint.text import Span
+from ros_lint.analysis.rule import Confidence, Finding, Rule, Severity
+from ros_lint.base.text import Span
+from ros_lint.engine import baseline
+from ros_lint.engine.baseline import BaselineError
+from ros_lint.engine.report import UNSURE, Crash, Hidden, Issue, Report, Target
 from tests.test_cli import DEMO, HEADLINES, run
 
 PLACE = Span("a/package.xml", 1, 1, 1, 2)

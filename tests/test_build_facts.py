@@ -8,15 +8,18 @@ from pathlib import Path
 
 import pytest
 
-from ros_lint import setup_edits
-from ros_lint.collectors import cmake_calls, plugin_xml, python_names, setup_layout
-from ros_lint.collectors.cmake_syntax import parse
-from ros_lint.collectors.cpp_registrations import registrations
-from ros_lint.collectors.resources import collect as resource
+from ros_lint.base.text import Text
+from ros_lint.base.tree import MemoryTree
+from ros_lint.collectors.cmake import calls as cmake_calls
+from ros_lint.collectors.cmake.syntax import parse
+from ros_lint.collectors.cpp.registrations import registrations
+from ros_lint.collectors.python import top_level_names as python_names
+from ros_lint.collectors.resources import plugin_descriptions as plugin_xml
+from ros_lint.collectors.resources.collect import collect as resource
+from ros_lint.collectors.setup_py import editable_lists as setup_layout
+from ros_lint.collectors.setup_py import edits as setup_edits
 from ros_lint.facts.cmake import Call
-from ros_lint.source_lists import submodules
-from ros_lint.text import Text
-from ros_lint.tree import MemoryTree
+from ros_lint.workspace.discovery.repository_lists import submodules
 
 # --- CMake
 

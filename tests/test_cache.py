@@ -7,12 +7,14 @@ from pkgutil import iter_modules
 
 import pytest
 
-from ros_lint import cache, facts, kept_files
-from ros_lint.cache import Cache
-from ros_lint.collect import Collected, collect_all
-from ros_lint.facts.sight import Facet
-from ros_lint.rule import Severity
-from ros_lint.tree import DiskTree
+from ros_lint import facts
+from ros_lint.analysis.rule import Severity
+from ros_lint.base.tree import DiskTree
+from ros_lint.facts.visibility import Facet
+from ros_lint.workspace import cache_files as kept_files
+from ros_lint.workspace import fact_cache as cache
+from ros_lint.workspace.collect import Collected, collect_all
+from ros_lint.workspace.fact_cache import Cache
 
 FILES = {
     "p/CMakeLists.txt": "project(p)\nadd_executable(a a.cpp)\n",

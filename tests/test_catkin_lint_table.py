@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-from ros_lint import registry
+from ros_lint.engine import registry
 
 TABLE = (Path(__file__).parent.parent / "docs" / "catkin-lint.md").read_text("utf-8")
 ROWS = re.findall(r"^\| ([A-Z_]+) \| .+? \| (.+) \|$", TABLE, re.MULTILINE)

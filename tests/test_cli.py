@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from ros_lint import __version__
-from ros_lint.options import COMMANDS, FORMATS
+from ros_lint.cli.options import COMMANDS, FORMATS
 from tests.packages import manifest_text
 
 ROOT = Path(__file__).parent.parent
@@ -92,7 +92,7 @@ HEAVY = {"networkx", "libcst", "yaml", "importlib.metadata", "dataclasses", "jso
 def test_what_is_heavy_is_imported_when_needed(clean: Path, arguments: list[str], allowed: set[str]) -> None:
     given = [str(clean) if argument == "CLEAN" else argument for argument in arguments]
     code = (
-        "import sys\nfrom ros_lint.cli import main\ntry:\n    main(sys.argv[1:])\nexcept SystemExit:\n    pass\n"
+        "import sys\nfrom ros_lint.cli.main import main\ntry:\n    main(sys.argv[1:])\nexcept SystemExit:\n    pass\n"
         "print('\\n'.join(sys.modules), file=sys.stderr)"
     )
     done = subprocess.run([sys.executable, "-c", code, *given], capture_output=True, text=True, check=True)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from ros_lint.facts.sight import ANYTHING, Facet
-from ros_lint.interpret.cmake import evaluate
-from ros_lint.interpret.cmake_sources import Sources
+from ros_lint.collectors.cmake.evaluate import evaluate
+from ros_lint.collectors.cmake.evaluator.sources import Sources
+from ros_lint.facts.visibility import ANYTHING, Facet
 from tests.cmake_runs import HEAD, hidden, mentioned, paths, run, sources
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from ros_lint.workspace import Package
+from ros_lint.workspace.model import Package
 from tests.one_package import loaded
 from tests.packages import manifest_text
 

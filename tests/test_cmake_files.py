@@ -9,16 +9,16 @@ from pathlib import Path
 
 import pytest
 
-import ros_lint.interpret.cmake  # noqa: F401  (it fills the tables of commands)
-from ros_lint.collectors.cmake_syntax import parse
-from ros_lint.interpret import cmake_flow
-from ros_lint.interpret.cmake_run import Run
-from ros_lint.interpret.cmake_sources import Sources
-from ros_lint.interpret.cmake_state import Frame
-from ros_lint.interpret.cmake_values import HOLE, TREE, is_fixed
-from ros_lint.script_sources import Surroundings
-from ros_lint.text import Text
-from ros_lint.tree import DiskTree
+import ros_lint.collectors.cmake.evaluate
+from ros_lint.base.text import Text
+from ros_lint.base.tree import DiskTree
+from ros_lint.collectors.cmake.evaluator import flow as cmake_flow
+from ros_lint.collectors.cmake.evaluator.run import Run
+from ros_lint.collectors.cmake.evaluator.sources import Sources
+from ros_lint.collectors.cmake.evaluator.state import Frame
+from ros_lint.collectors.cmake.evaluator.values import HOLE, TREE, is_fixed
+from ros_lint.collectors.cmake.syntax import parse
+from ros_lint.workspace.build_scripts.sources import Surroundings
 
 try:
     from cmake import CMAKE_BIN_DIR  # type: ignore[import-not-found, unused-ignore]  # of the wheel on PyPI

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from ros_lint.interpret.cmake import evaluate
-from ros_lint.text import Text
+from ros_lint.base.text import Text
+from ros_lint.collectors.cmake.evaluate import evaluate
 from tests.cmake_runs import HEAD, mentioned, run, sources
 
 

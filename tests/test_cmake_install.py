@@ -10,12 +10,12 @@ from pathlib import Path
 
 import pytest
 
-from ros_lint.collectors.cmake_syntax import parse
-from ros_lint.interpret.cmake import evaluate
-from ros_lint.interpret.cmake_sources import Sources
-from ros_lint.script_sources import Surroundings
-from ros_lint.text import Text
-from ros_lint.tree import DiskTree
+from ros_lint.base.text import Text
+from ros_lint.base.tree import DiskTree
+from ros_lint.collectors.cmake.evaluate import evaluate
+from ros_lint.collectors.cmake.evaluator.sources import Sources
+from ros_lint.collectors.cmake.syntax import parse
+from ros_lint.workspace.build_scripts.sources import Surroundings
 
 FILES = {
     "CMakeLists.txt": False,

@@ -15,14 +15,14 @@ from typing import NamedTuple
 
 import pytest
 
-import ros_lint.interpret.cmake  # noqa: F401  (it fills the tables of commands)
-from ros_lint.collectors.cmake_syntax import parse
-from ros_lint.interpret import cmake_flow
-from ros_lint.interpret.cmake_run import Run
-from ros_lint.interpret.cmake_sources import Sources
-from ros_lint.interpret.cmake_state import BudgetError, Frame, Variables
-from ros_lint.interpret.cmake_values import HOLE, MAYBE, elements, is_known, sure
-from ros_lint.text import Text
+import ros_lint.collectors.cmake.evaluate
+from ros_lint.base.text import Text
+from ros_lint.collectors.cmake.evaluator import flow as cmake_flow
+from ros_lint.collectors.cmake.evaluator.run import Run
+from ros_lint.collectors.cmake.evaluator.sources import Sources
+from ros_lint.collectors.cmake.evaluator.state import BudgetError, Frame, Variables
+from ros_lint.collectors.cmake.evaluator.values import HOLE, MAYBE, elements, is_known, sure
+from ros_lint.collectors.cmake.syntax import parse
 from tests.cmake_writer import UNKNOWN, VARIABLES, Script, generate
 
 

@@ -6,16 +6,16 @@ import random
 
 import pytest
 
-from ros_lint.collectors.cmake_syntax import parse
+from ros_lint.base.text import Text
+from ros_lint.collectors.cmake.commands import ament as cmake_ros
+from ros_lint.collectors.cmake.commands.compiled_macros import Released, released, run_released
+from ros_lint.collectors.cmake.evaluate import evaluate
+from ros_lint.collectors.cmake.evaluator.flow import call
+from ros_lint.collectors.cmake.evaluator.run import Run
+from ros_lint.collectors.cmake.evaluator.sources import Sources
+from ros_lint.collectors.cmake.released_macros import macros
+from ros_lint.collectors.cmake.syntax import parse
 from ros_lint.facts.build import BuildScript
-from ros_lint.interpret import cmake_ros
-from ros_lint.interpret.cmake import evaluate
-from ros_lint.interpret.cmake_flow import call
-from ros_lint.interpret.cmake_released import Released, released, run_released
-from ros_lint.interpret.cmake_run import Run
-from ros_lint.interpret.cmake_sources import Sources
-from ros_lint.knowledge.cmake_commands import macros
-from ros_lint.text import Text
 
 FILES = ("CMakeLists.txt", "include/pkg/a.hpp", "launch/a.launch.py", "msg/A.msg", "plugins.xml", "src/a.cpp", "src/b.cpp")
 WORDS = (

@@ -6,13 +6,13 @@ from collections.abc import Mapping
 
 import pytest
 
-from ros_lint.collectors.cmake_syntax import parse
-from ros_lint.facts.sight import Facet
-from ros_lint.interpret.cmake import evaluate
-from ros_lint.interpret.cmake_flow import HANDLERS
-from ros_lint.interpret.cmake_sources import Helper, Sources
-from ros_lint.knowledge.cmake_commands import macros
-from ros_lint.text import Text
+from ros_lint.base.text import Text
+from ros_lint.collectors.cmake.evaluate import evaluate
+from ros_lint.collectors.cmake.evaluator.flow import HANDLERS
+from ros_lint.collectors.cmake.evaluator.sources import Helper, Sources
+from ros_lint.collectors.cmake.released_macros import macros
+from ros_lint.collectors.cmake.syntax import parse
+from ros_lint.facts.visibility import Facet
 from tests.cmake_runs import HEAD, hidden, mentioned, paths, run, sources
 
 

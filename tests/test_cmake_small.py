@@ -7,14 +7,14 @@ from pathlib import Path
 
 import pytest
 
-from ros_lint.collectors.cmake_syntax import parse
+from ros_lint.base.text import Text
+from ros_lint.collectors.cmake.evaluator import flow as cmake_flow
+from ros_lint.collectors.cmake.evaluator.run import Run
+from ros_lint.collectors.cmake.evaluator.sources import Sources
+from ros_lint.collectors.cmake.evaluator.state import Frame
+from ros_lint.collectors.cmake.evaluator.values import is_known
+from ros_lint.collectors.cmake.syntax import parse
 from ros_lint.facts.build import BuildScript
-from ros_lint.interpret import cmake_flow
-from ros_lint.interpret.cmake_run import Run
-from ros_lint.interpret.cmake_sources import Sources
-from ros_lint.interpret.cmake_state import Frame
-from ros_lint.interpret.cmake_values import is_known
-from ros_lint.text import Text
 from tests.cmake_runs import mentioned, run
 from tests.cmake_writer import Script
 from tests.test_cmake_language import CMAKE, disagreements, evaluated, really_run

@@ -4,8 +4,8 @@ import pickle
 
 import pytest
 
-from ros_lint.collectors.cmake_syntax import BRACKET, CLOSE, LITERAL, OPEN, PLAIN, QUOTED, UNQUOTED, Command, parse
-from ros_lint.text import Text
+from ros_lint.base.text import Text
+from ros_lint.collectors.cmake.syntax import BRACKET, CLOSE, LITERAL, OPEN, PLAIN, QUOTED, UNQUOTED, Command, parse
 
 
 def commands(text: str) -> tuple[Command, ...]:

@@ -10,9 +10,9 @@ from typing import Any
 
 import pytest
 
-from ros_lint.cache import Cache
-from ros_lint.collect import collect_all
-from ros_lint.tree import DiskTree
+from ros_lint.base.tree import DiskTree
+from ros_lint.workspace.collect import collect_all
+from ros_lint.workspace.fact_cache import Cache
 
 
 class Pool:

@@ -10,9 +10,9 @@ from catkin_pkg.condition import evaluate_condition
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ros_lint import conditions
-from ros_lint.collectors.manifest import collect
-from ros_lint.text import Text
+from ros_lint.base.text import Text
+from ros_lint.collectors.manifest import conditions
+from ros_lint.collectors.manifest.collect import collect
 
 VARIABLES = ["ROS_VERSION", "ROS_DISTRO", "A", "B_1", "and"]
 VALUES = ["1", "2", "10", "humble", "jazzy", "", "x y", "-", "and", "a\tb"]

@@ -4,9 +4,9 @@ from typing import Any
 
 import pytest
 
-from ros_lint import config
-from ros_lint.config import ConfigError, settle
-from ros_lint.options import OPTIONS, schema
+from ros_lint.cli import settings as config
+from ros_lint.cli.options import OPTIONS, schema
+from ros_lint.cli.settings import ConfigError, settle
 
 
 def settings(

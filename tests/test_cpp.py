@@ -10,10 +10,10 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from ros_lint.collectors import cpp
-from ros_lint.collectors.cpp_includes import STANDARD, Found, exact, mentions
+from ros_lint.base.text import Span, Text, read
+from ros_lint.collectors.cpp import collect as cpp
+from ros_lint.collectors.cpp.includes import STANDARD, Found, exact, mentions
 from ros_lint.facts.sources import Mention
-from ros_lint.text import Span, Text, read
 
 
 def includes(text: str) -> Found:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from ros_lint.declare import tag_for
+from ros_lint.analysis.dependencies.tags import tag_for
 from ros_lint.facts.manifest import Role
-from ros_lint.workspace import Package, Workspace
+from ros_lint.workspace.model import Package, Workspace
 from tests import one_package
 
 HEAD = """<package format="{form}">

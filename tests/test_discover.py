@@ -8,9 +8,9 @@ from random import Random
 
 import pytest
 
-from ros_lint.discover import Discovery, Skipped, discover
-from ros_lint.graph import build
-from ros_lint.tree import DiskTree, Entry, MemoryTree
+from ros_lint.analysis.graph.dependency_graph import build
+from ros_lint.base.tree import DiskTree, Entry, MemoryTree
+from ros_lint.workspace.discovery.discover import Discovery, Skipped, discover
 from tests.colcon_oracle import colcon_list
 from tests.packages import CONTEXT, found_package, manifest_text
 from tests.workspaces import write_workspace

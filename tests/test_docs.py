@@ -9,9 +9,11 @@ from pathlib import Path
 import pytest
 import yaml
 
-from ros_lint import docs, registry, testing
-from ros_lint.config import read
-from ros_lint.options import OPTIONS
+from ros_lint import testing
+from ros_lint.cli import rule_pages as docs
+from ros_lint.cli.options import OPTIONS
+from ros_lint.cli.settings import read
+from ros_lint.engine import registry
 
 ROOT = Path(__file__).parent.parent
 PAGES = ROOT / "docs" / "rules"

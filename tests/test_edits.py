@@ -3,11 +3,11 @@ from pathlib import Path
 
 import pytest
 
-from ros_lint import edits
-from ros_lint.patch import unified
-from ros_lint.rule import Edit, Fix
-from ros_lint.text import Span, Text
-from ros_lint.tree import DiskTree
+from ros_lint.analysis.rule import Edit, Fix
+from ros_lint.base.diff import unified
+from ros_lint.base.text import Span, Text
+from ros_lint.base.tree import DiskTree
+from ros_lint.engine import edits
 
 SOURCE = Text("f", "one\r\ntwo\nthree")
 

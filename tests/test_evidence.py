@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import pytest
 
-from ros_lint.evidence import used_names
+from ros_lint.analysis.dependencies.needs import covered, needs, undeclared
+from ros_lint.analysis.dependencies.unknown_closure import may_bring
+from ros_lint.analysis.dependencies.unresolved import meant
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Use
-from ros_lint.needs import covered, needs, undeclared
-from ros_lint.strangers import meant
-from ros_lint.unknowns import may_bring
-from ros_lint.workspace import Workspace
+from ros_lint.workspace.model import Workspace
+from ros_lint.workspace.usage.resolve import used_names
 from tests.one_package import loaded
 
 HEAD = """<package format="3"><name>{name}</name><version>1.0.0</version><description>Does it.</description>

@@ -2,11 +2,11 @@
 
 import json
 
-from ros_lint.commands import explain_package
-from ros_lint.load import Loader
-from ros_lint.report import Target
-from ros_lint.tree import MemoryTree
-from ros_lint.workspace import Workspace
+from ros_lint.base.tree import MemoryTree
+from ros_lint.cli.commands import explain_package
+from ros_lint.engine.report import Target
+from ros_lint.workspace.loader import Loader
+from ros_lint.workspace.model import Workspace
 
 FILES = {
     "robot/package.xml": """\

@@ -13,9 +13,9 @@ from pathlib import Path
 
 import pytest
 
-from ros_lint import files
+from ros_lint.base import files
+from ros_lint.base.tree import DiskTree, Machine
 from ros_lint.knowledge.store import KnowledgeError, Store
-from ros_lint.tree import DiskTree, Machine
 from tests.test_bad_input import GOOD, lint, package, rules
 
 

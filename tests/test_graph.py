@@ -13,13 +13,13 @@ from random import Random
 import networkx as nx
 import pytest
 
-from ros_lint.collectors import manifest as readers
+from ros_lint.analysis.graph.cycles import arcs_within, cheapest_cut, shortest_cycle
+from ros_lint.analysis.graph.dependency_graph import Edge, Graph, Reason, build, components, is_acyclic
+from ros_lint.analysis.graph.metrics import measure
+from ros_lint.base.graph_paths import paths
+from ros_lint.base.text import Span, Text
+from ros_lint.collectors.manifest import collect as readers
 from ros_lint.facts.manifest import ColconDepend, Manifest, Role
-from ros_lint.graph import Edge, Graph, Reason, build, components, is_acyclic
-from ros_lint.graph_cut import arcs_within, cheapest_cut, shortest_cycle
-from ros_lint.graph_metrics import measure
-from ros_lint.graph_paths import paths
-from ros_lint.text import Span, Text
 from tests.colcon_oracle import colcon_list
 from tests.packages import made, package
 from tests.random_graphs import manifests
@@ -276,7 +276,7 @@ def test_metrics_take_a_cycle_for_one_package() -> None:
 def test_a_graph_without_a_cycle_waits_for_no_library() -> None:
     """The time of the import would be a tenth of a whole run."""
     code = (
-        "import sys; from ros_lint.graph import Graph; g = Graph({'a': (), 'b': ()}, {'a': {'b': ()}});"
+        "import sys; from ros_lint.analysis.graph.dependency_graph import Graph; g = Graph({'a': (), 'b': ()}, {'a': {'b': ()}});"
         "assert g.order.names == ('b', 'a') and g.cycles == () and g.possible_cycles == ();"
         "assert 'networkx' not in sys.modules"
     )

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from ros_lint import registry
-from ros_lint.rule import Rule
+from ros_lint.analysis.rule import Rule
+from ros_lint.engine import registry
 from ros_lint.testing import FENCE, read_cases
 
 ROOT = Path(__file__).parent.parent

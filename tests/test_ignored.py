@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from ros_lint.ignored import find, is_ignored, patterns
-from ros_lint.tree import MemoryTree
+from ros_lint.base.gitignore import find, is_ignored, patterns
+from ros_lint.base.tree import MemoryTree
 
 NAMES = ("a", "b.so", "lib", "ab", "x y", "-", "é", "]b", "&")
 PIECES = (

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from ros_lint.collectors import interfaces
-from ros_lint.text import Text, read
+from ros_lint.base.text import Text, read
+from ros_lint.collectors.interfaces import collect as interfaces
 
 
 def collected(path: str, text: str) -> list[tuple[str, str]]:

@@ -17,11 +17,12 @@ from typing import Any, NamedTuple
 import pytest
 
 import ros_lint
-from ros_lint import files, kept_files
-from ros_lint.facts.sight import Facet, Opaque
-from ros_lint.rule import Confidence, Severity
-from ros_lint.sealed import Sealed
-from ros_lint.text import Span, beginning
+from ros_lint.analysis.rule import Confidence, Severity
+from ros_lint.base import files
+from ros_lint.base.sealed import Sealed
+from ros_lint.base.text import Span, beginning
+from ros_lint.facts.visibility import Facet, Opaque
+from ros_lint.workspace import cache_files as kept_files
 
 ATTRIBUTES = ("__dict__", "__class__", "__setstate__", "__call__", "__new__", "__doc__", "anything")
 
@@ -57,7 +58,11 @@ def test_no_name_of_any_module_leads_to_anything_but_facts() -> None:
             for attribute in ATTRIBUTES:
                 with pytest.raises((AttributeError, TypeError)):
                     setattr(made, attribute, tuple)
-    assert {("ros_lint.report", "Report"), ("ros_lint.facts.sight", "Opaque"), ("ros_lint.rule", "Severity")} <= reached
+    assert {
+        ("ros_lint.engine.report", "Report"),
+        ("ros_lint.facts.visibility", "Opaque"),
+        ("ros_lint.analysis.rule", "Severity"),
+    } <= reached
     assert {module for module, _ in reached} == set(kept_files.MODULES)
 
 

@@ -10,13 +10,13 @@ from pathlib import Path
 
 import pytest
 
-from ros_lint import kept_files
-from ros_lint.cache import Cache
-from ros_lint.cli import main
-from ros_lint.collect import collect_all
-from ros_lint.load import Loader
-from ros_lint.options import FORMATS
-from ros_lint.tree import DiskTree, RecordedTree
+from ros_lint.base.tree import DiskTree, RecordedTree
+from ros_lint.cli.main import main
+from ros_lint.cli.options import FORMATS
+from ros_lint.workspace import cache_files as kept_files
+from ros_lint.workspace.collect import collect_all
+from ros_lint.workspace.fact_cache import Cache
+from ros_lint.workspace.loader import Loader
 
 DEMO = Path(__file__).parent.parent / "fixtures" / "workspaces" / "demo"
 
@@ -203,7 +203,7 @@ PLANTED = {
     "a function of the system": b"cposix\nsystem\n" + _of_short('touch "$PLANTED"') + b"\x85R.",
     "builtins of a module of facts": b"cros_lint.tree\nitemgetter\n" + _of_short("eval") + b"\x85R"
     b"cros_lint.tree\n__builtins__\n\x85R" + _RUN + b"\x85R.",
-    "a name with dots": b"\x80\x04" + b"".join(b"\x8c" + bytes([len(name)]) + name for name in (b"ros_lint.tree", b"os.system"))
+    "a name with dots": b"\x80\x04" + b"".join(b"\x8c" + bytes([len(name)]) + name for name in (b"ros_lint.base.tree", b"os.system"))
     + b"\x93" + _of_short('touch "$PLANTED"') + b"\x85R.",
     "a class that has gone": b"cros_lint.facts.sight\nGone\n)R.",
     "a class of a module that has gone": b"cros_lint.facts.gone\nGone\n)R.",

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from ros_lint.collectors.launch_asked import DISTRIBUTIONS
+from ros_lint.collectors.launch.presence_checks import DISTRIBUTIONS
 from ros_lint.knowledge import Knowledge, distros, index, newest_lts, provides, rosdep
 from ros_lint.knowledge.builtin import PYTHON_MODULES
 from ros_lint.knowledge.names import NOTHING_NEEDED, Names

@@ -11,12 +11,14 @@ import pytest
 import yaml
 from catkin_pkg.package import parse_package_string
 
-from ros_lint.collectors import manifest as manifests
-from ros_lint.commands import index as command
-from ros_lint.knowledge import Knowledge, index, rosdep, rosdep_rules, upstream
-from ros_lint.knowledge.manifests import context, describe
+from ros_lint.base.text import Text
+from ros_lint.cli.commands import index as command
+from ros_lint.collectors.manifest import collect as manifests
+from ros_lint.knowledge import Knowledge, index, rosdep
+from ros_lint.knowledge.describe import context, describe
+from ros_lint.knowledge.refresh import rosdep_rules
+from ros_lint.knowledge.refresh import rosdistro as upstream
 from ros_lint.knowledge.store import KnowledgeError
-from ros_lint.text import Text
 
 MANIFEST = """<?xml version="1.0"?>
 <package format="3">

@@ -2,10 +2,14 @@
 
 import pytest
 
-from ros_lint.collectors import colcon_python, launch, launch_py, launch_text, python
-from ros_lint.interpret import setup_py
-from ros_lint.safe_yaml import YamlBoundError, load
-from ros_lint.text import Text
+from ros_lint.base.safe_yaml import YamlBoundError, load
+from ros_lint.base.text import Text
+from ros_lint.collectors import symbolic_text as launch_text
+from ros_lint.collectors.colcon import python_project as colcon_python
+from ros_lint.collectors.launch import detect as launch
+from ros_lint.collectors.launch.python import collect as launch_py
+from ros_lint.collectors.python import collect as python
+from ros_lint.collectors.setup_py import evaluate as setup_py
 
 HEAD = """\
 import json

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from ros_lint import launch_around
-from ros_lint.collectors import launch
-from ros_lint.collectors.launch_text import share
+from ros_lint.base.text import Span, Text
+from ros_lint.base.tree import MemoryTree
+from ros_lint.collectors.launch import detect as launch
+from ros_lint.collectors.symbolic_text import share
 from ros_lint.facts.build import BuildScript, Provided
 from ros_lint.facts.launch import LaunchFile
-from ros_lint.text import Span, Text
-from ros_lint.tree import MemoryTree
+from ros_lint.workspace import launch_modules as launch_around
 
 HELPER = """
 from launch_ros.actions import Node

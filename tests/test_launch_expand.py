@@ -2,8 +2,8 @@
 
 from collections.abc import Mapping
 
+from ros_lint.collectors.launch.expand import Expansion, Started, expand
 from ros_lint.facts.launch import LaunchFile
-from ros_lint.interpret.launch_expand import Expansion, Started, expand
 from tests.launch_cases import collect
 
 

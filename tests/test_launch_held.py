@@ -2,9 +2,9 @@
 
 import pytest
 
-from ros_lint.collectors import launch_xml
-from ros_lint.collectors.launch_held import held
-from ros_lint.text import Text
+from ros_lint.base.text import Text
+from ros_lint.collectors.launch.default_configurations import held
+from ros_lint.collectors.launch.markup import xml as launch_xml
 
 
 @pytest.mark.parametrize(

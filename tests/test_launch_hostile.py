@@ -8,12 +8,12 @@ from pathlib import Path
 
 import pytest
 
-from ros_lint.collectors import launch
+from ros_lint.base.text import Text
+from ros_lint.cli.session import open_workspace
+from ros_lint.collectors.launch import detect as launch
+from ros_lint.collectors.launch.expand import expand
+from ros_lint.engine.registry import load
 from ros_lint.facts.launch import LaunchFile
-from ros_lint.interpret.launch_expand import expand
-from ros_lint.opening import open_workspace
-from ros_lint.registry import load
-from ros_lint.text import Text
 from tests.one_package import loaded
 
 SECONDS = 2.0

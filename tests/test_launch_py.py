@@ -2,8 +2,8 @@
 
 import pytest
 
-from ros_lint.collectors import launch
-from ros_lint.text import read
+from ros_lint.base.text import read
+from ros_lint.collectors.launch import detect as launch
 from tests.launch_cases import collect, said, short
 
 HEAD = "def generate_launch_description():\n"

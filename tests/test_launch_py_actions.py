@@ -5,11 +5,11 @@ The expectations are what the sources of launch say: launch/actions, launch/subs
 
 import pytest
 
-from ros_lint.collectors import launch_py
-from ros_lint.collectors.launch_text import UNKNOWN, prefix
+from ros_lint.base.text import Text
+from ros_lint.collectors.launch.expand import expand
+from ros_lint.collectors.launch.python import collect as launch_py
+from ros_lint.collectors.symbolic_text import UNKNOWN, prefix
 from ros_lint.facts.launch import LaunchFile
-from ros_lint.interpret.launch_expand import expand
-from ros_lint.text import Text
 from tests.launch_cases import said
 
 FRAME = """\

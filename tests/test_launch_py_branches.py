@@ -2,10 +2,10 @@
 
 import pytest
 
-from ros_lint.collectors import launch_py
-from ros_lint.collectors.launch_text import UNKNOWN
-from ros_lint.interpret.launch_expand import expand
-from ros_lint.text import Text
+from ros_lint.base.text import Text
+from ros_lint.collectors.launch.expand import expand
+from ros_lint.collectors.launch.python import collect as launch_py
+from ros_lint.collectors.symbolic_text import UNKNOWN
 
 FRAME = """\
 from launch import LaunchDescription

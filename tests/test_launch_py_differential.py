@@ -4,9 +4,9 @@ import re
 
 import pytest
 
-from ros_lint.collectors import launch_py
-from ros_lint.collectors.launch_text import UNKNOWN
-from ros_lint.text import Text
+from ros_lint.base.text import Text
+from ros_lint.collectors.launch.python import collect as launch_py
+from ros_lint.collectors.symbolic_text import UNKNOWN
 from tests.python_programs import EXPRESSIONS, IMPORTS, OPEN_EXPRESSIONS, OPEN_PROGRAMS, PROGRAMS, values
 
 

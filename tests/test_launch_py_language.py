@@ -6,11 +6,12 @@ from pathlib import Path
 
 import pytest
 
-from ros_lint.collectors import launch_py, launch_text
-from ros_lint.collectors.launch_py_objects import Module
-from ros_lint.facts.sight import Facet
-from ros_lint.interpret.launch_expand import expand
-from ros_lint.text import Text
+from ros_lint.base.text import Text
+from ros_lint.collectors import symbolic_text as launch_text
+from ros_lint.collectors.launch.expand import expand
+from ros_lint.collectors.launch.python import collect as launch_py
+from ros_lint.collectors.python.interpreter.values import Module
+from ros_lint.facts.visibility import Facet
 from tests.launch_cases import collect, said
 
 HEAD = """\
@@ -246,7 +247,9 @@ def test_facts_hold_plain_values(case: str) -> None:
     waiting: list[object] = [found]
     while waiting:
         one = waiting.pop()
-        assert type(one).__module__ in ("builtins", "ros_lint.facts.launch", "ros_lint.facts.sight", "ros_lint.text"), one
+        assert type(one).__module__ in ("builtins", "ros_lint.facts.launch", "ros_lint.facts.visibility", "ros_lint.base.text"), (
+            one
+        )
         assert isinstance(one, tuple) or type(one) in (str, bool, int, type(None), Facet)
         waiting += one if isinstance(one, tuple) else ()
 

@@ -2,10 +2,11 @@
 
 import pytest
 
-from ros_lint.collectors import launch_py, launch_py_run
-from ros_lint.collectors.launch_py_run import Machine
+from ros_lint.base.text import Text
+from ros_lint.collectors.launch.python import collect as launch_py
+from ros_lint.collectors.python.interpreter import machine as launch_py_run
+from ros_lint.collectors.python.interpreter.machine import Machine
 from ros_lint.facts.launch import LaunchFile
-from ros_lint.text import Text
 from tests.launch_cases import said
 
 HEAD = """\

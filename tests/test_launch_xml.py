@@ -2,7 +2,7 @@
 
 import pytest
 
-from ros_lint.collectors import launch
+from ros_lint.collectors.launch import detect as launch
 from tests.launch_cases import collect, said
 
 

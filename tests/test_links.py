@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from ros_lint.tree import LEADS_OUT, DiskTree
+from ros_lint.base.tree import LEADS_OUT, DiskTree
 from tests.test_bad_input import GOOD, lint, package, rules, script_package
 
 SECRET = "the_secret_line"

@@ -11,9 +11,9 @@ from catkin_pkg.package import InvalidPackage, parse_package
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from ros_lint.collectors.manifest import collect
+from ros_lint.base.text import Span, Text, read
+from ros_lint.collectors.manifest.collect import collect
 from ros_lint.facts.manifest import Depend, Element, Manifest
-from ros_lint.text import Span, Text, read
 from tests.manifest_oracle import SEEDS, by_catkin_pkg, differences, mutate
 
 GOOD = """<package format="3">

@@ -10,11 +10,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ros_lint import edits, manifest_edits
-from ros_lint.collectors.manifest import collect
+from ros_lint.analysis.rule import Edit, Fix
+from ros_lint.base.text import Text
+from ros_lint.collectors.manifest import edits as manifest_edits
+from ros_lint.collectors.manifest.collect import collect
+from ros_lint.engine import edits
 from ros_lint.facts.manifest import Manifest
-from ros_lint.rule import Edit, Fix
-from ros_lint.text import Text
 from tests.manifest_oracle import KINDS, by_catkin_pkg
 
 TAGS = [tag for tag in KINDS if tag != "run_depend"]

@@ -6,12 +6,12 @@ from types import SimpleNamespace
 
 import pytest
 
-from ros_lint.commands import mend
-from ros_lint.patch import line_before
-from ros_lint.report import Issue
-from ros_lint.rule import Edit, Finding, Fix, Rule, Severity
-from ros_lint.text import Span
-from ros_lint.tree import MemoryTree
+from ros_lint.analysis.rule import Edit, Finding, Fix, Rule, Severity
+from ros_lint.base.diff import line_before
+from ros_lint.base.text import Span
+from ros_lint.base.tree import MemoryTree
+from ros_lint.engine import fixing as mend
+from ros_lint.engine.report import Issue
 
 RULE = Rule("r", "ROS999", "s", Severity.ERROR, "0.1", "", package=lambda package, workspace: ())
 

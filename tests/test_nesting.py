@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from ros_lint.collectors.python_syntax import NotPythonError, TooDeepError, parse
-from ros_lint.text import Text
+from ros_lint.base.text import Text
+from ros_lint.collectors.python.syntax import NotPythonError, TooDeepError, parse
 
 DEPTHS = (10, 60, 300, 1_500, 10_000, 100_000)
 _SECONDS = 20

@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 import yaml
 
-from ros_lint.collectors.parameter_files import collect
-from ros_lint.text import Text, read
+from ros_lint.base.text import Text, read
+from ros_lint.collectors.resources.parameter_files import collect
 
 
 def nodes(text: str) -> tuple[str, ...] | None:

@@ -17,10 +17,10 @@ from typing import Any, Final
 
 import ros_lint
 import ros_lint_rules
-from ros_lint.collectors import colcon_cmake
-from ros_lint.ignored import is_ignored, patterns
-from ros_lint.interpret.cmake_glob import of_paths
-from ros_lint.text import Text
+from ros_lint.base.gitignore import is_ignored, patterns
+from ros_lint.base.text import Text
+from ros_lint.collectors.cmake.evaluator.glob import of_paths
+from ros_lint.collectors.colcon import cmake_lists as colcon_cmake
 
 _LONG: Final = 100_000
 """How often a part of the table below is repeated: a quadratic expression needs several seconds for that."""
@@ -31,24 +31,24 @@ _SECONDS: Final = 2.0
 
 _TABLE: Final = (
     # expression, how it is used, prefix, repeated part, suffix
-    ("ros_lint.apart._KEPT", "search", "a-old", "1", "!"),
-    ("ros_lint.apart._KEPT", "search", "a-old", " v01", "!"),
-    ("ros_lint.collectors.cmake_syntax._TOKEN", "match", "", " ", '"b)'),
-    ("ros_lint.collectors.cmake_syntax._TOKEN", "match", "", "\n", "[[b)"),
-    ("ros_lint.collectors.cmake_syntax._TOKEN", "match", "", "#", '\n"'),
-    ("ros_lint.collectors.cmake_syntax._OPENING", "match", "", "#[[]]", "x"),
-    ("ros_lint.collectors.colcon_cmake._PROJECT", "search", "project(a", " ", ""),
-    ("ros_lint.collectors.colcon_cmake._FIND_PACKAGE", "search", "find_package(a", " ", ""),
-    ("ros_lint.collectors.colcon_cmake._SUBDIRECTORY", "search", "add_subdirectory(a", "/", "$"),
-    ("ros_lint.collectors.cpp_includes._DIRECTIVE", "search", "", "#include < ", ""),
-    ("ros_lint.collectors.cpp_includes._HIDING", "search", '"', "a\\\n", ""),
-    ("ros_lint.collectors.cpp_includes._HIDING", "search", "'", "a\\\n", ""),
-    ("ros_lint.collectors.parameter_files._FIRST", "search", "  .1", " ", ""),
-    ("ros_lint.collectors.parameter_files._KEY", "match", "a", " ", ""),
-    ("ros_lint.installed._LAUNCH_CONTENT['.xml']", "search", "", "<!-- a -->\n", "<a>"),
-    ("ros_lint.installed._LAUNCH_CONTENT['.xml']", "search", "", "<?a?>", "<a>"),
-    ("ros_lint.interpret.cmake_truth.NUMBER", "fullmatch", "", "9", "z"),
-    ("ros_lint.interpret.cmake_truth.NUMBER", "fullmatch", "0x", "f", "z"),
+    ("ros_lint.base.auxiliary_files._KEPT", "search", "a-old", "1", "!"),
+    ("ros_lint.base.auxiliary_files._KEPT", "search", "a-old", " v01", "!"),
+    ("ros_lint.collectors.cmake.syntax._TOKEN", "match", "", " ", '"b)'),
+    ("ros_lint.collectors.cmake.syntax._TOKEN", "match", "", "\n", "[[b)"),
+    ("ros_lint.collectors.cmake.syntax._TOKEN", "match", "", "#", '\n"'),
+    ("ros_lint.collectors.cmake.syntax._OPENING", "match", "", "#[[]]", "x"),
+    ("ros_lint.collectors.colcon.cmake_lists._PROJECT", "search", "project(a", " ", ""),
+    ("ros_lint.collectors.colcon.cmake_lists._FIND_PACKAGE", "search", "find_package(a", " ", ""),
+    ("ros_lint.collectors.colcon.cmake_lists._SUBDIRECTORY", "search", "add_subdirectory(a", "/", "$"),
+    ("ros_lint.collectors.cpp.includes._DIRECTIVE", "search", "", "#include < ", ""),
+    ("ros_lint.collectors.cpp.includes._HIDING", "search", '"', "a\\\n", ""),
+    ("ros_lint.collectors.cpp.includes._HIDING", "search", "'", "a\\\n", ""),
+    ("ros_lint.collectors.resources.parameter_files._FIRST", "search", "  .1", " ", ""),
+    ("ros_lint.collectors.resources.parameter_files._KEY", "match", "a", " ", ""),
+    ("ros_lint.knowledge.install_prefix._LAUNCH_CONTENT['.xml']", "search", "", "<!-- a -->\n", "<a>"),
+    ("ros_lint.knowledge.install_prefix._LAUNCH_CONTENT['.xml']", "search", "", "<?a?>", "<a>"),
+    ("ros_lint.collectors.cmake.evaluator.truth.NUMBER", "fullmatch", "", "9", "z"),
+    ("ros_lint.collectors.cmake.evaluator.truth.NUMBER", "fullmatch", "0x", "f", "z"),
     ("ros_lint_rules.manifest_schema._NAME", "fullmatch", "", "a", "-"),
     ("ros_lint_rules.manifest_schema._NAME", "fullmatch", "", "a_a", "-"),
 )

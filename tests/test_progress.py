@@ -12,7 +12,7 @@ import termios
 
 import pytest
 
-from ros_lint.progress import Progress
+from ros_lint.cli.progress import Progress
 
 
 class Terminal(io.StringIO):

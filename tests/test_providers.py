@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from ros_lint.knowledge import Knowledge
-from ros_lint.world import Member
+from ros_lint.knowledge.world import Member
 from tests.worlds import member, world, write_prefix
 
 JAZZY = Knowledge("jazzy")

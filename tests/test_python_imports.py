@@ -11,12 +11,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ros_lint.collectors import python
-from ros_lint.collectors.python_import_tree import walk
-from ros_lint.collectors.python_imports import scan
-from ros_lint.collectors.python_syntax import NotPythonError, is_of_others, parse, refusal
-from ros_lint.facts.sight import Facet, Problem
-from ros_lint.text import Text, read
+from ros_lint.base.text import Text, read
+from ros_lint.collectors.python import collect as python
+from ros_lint.collectors.python.import_tree import walk
+from ros_lint.collectors.python.imports import scan
+from ros_lint.collectors.python.syntax import NotPythonError, is_of_others, parse, refusal
+from ros_lint.facts.visibility import Facet, Problem
 
 
 def imports(text: str) -> list[tuple[str, bool]]:

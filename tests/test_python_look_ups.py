@@ -6,13 +6,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ros_lint.collectors import python
-from ros_lint.collectors.python_excerpt import excerpt
-from ros_lint.collectors.python_look_ups import in_excerpt, literals, look_ups
-from ros_lint.collectors.python_syntax import NotPythonError, parse
-from ros_lint.facts.sight import Facet
+from ros_lint.base.text import Text
+from ros_lint.collectors.python import collect as python
+from ros_lint.collectors.python.excerpt import excerpt
+from ros_lint.collectors.python.lookups import in_excerpt, literals, look_ups
+from ros_lint.collectors.python.syntax import NotPythonError, parse
 from ros_lint.facts.sources import FileFacts
-from ros_lint.text import Text
+from ros_lint.facts.visibility import Facet
 
 
 def packages(text: str) -> list[tuple[str, str, bool]]:

@@ -9,11 +9,11 @@ from pathlib import Path
 
 import pytest
 
-from ros_lint.collectors.launch_asked import DISTRIBUTIONS
-from ros_lint.collectors.python_syntax import NotPythonError, parse, read, refusal
-from ros_lint.python_versions import PYTHON_OF, too_new
-from ros_lint.report import Target
-from ros_lint.text import Text
+from ros_lint.base.text import Text
+from ros_lint.collectors.launch.presence_checks import DISTRIBUTIONS
+from ros_lint.collectors.python.syntax import NotPythonError, parse, read, refusal
+from ros_lint.collectors.python.versions import PYTHON_OF, too_new
+from ros_lint.engine.report import Target
 
 NEWER = [
     ("def f[T](x: T) -> T: pass", "type parameter lists", (3, 12), "1:6"),
@@ -215,7 +215,7 @@ setup(
     "    for _ in []:\n        pass\n    with open('a'):\n        break\n    return LaunchDescription([])\n",
     "launch/c.launch.py": "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n"
     "type Name = str\ndef generate_launch_description():\n    d = {'a': 'demo_nodes_cpp'}\n"
-    "    return LaunchDescription([\n        Node(package=f\"{d[\"a\"]}\",\n"
+    '    return LaunchDescription([\n        Node(package=f"{d["a"]}",\n'
     "             executable=f'{d[\"b\"]!r:>3}{'er'}'),\n        Node(package=Name)])\n",
     "launch/d.launch.py": "x = " + "-" * 300 + "1\ndef generate_launch_description():\n    pass\n",
     "launch/e.launch.py": "from launch import LaunchDescription\ndef generate_launch_description():\n"

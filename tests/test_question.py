@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from ros_lint.commands.question import around, enclosing_workspace
+from ros_lint.cli.commands.query import around, enclosing_workspace
 
 
 def test_the_workspace_that_encloses_a_file(tmp_path: Path) -> None:

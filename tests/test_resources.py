@@ -2,9 +2,9 @@
 
 import pytest
 
-from ros_lint.collect import collect
-from ros_lint.collectors import resources
-from ros_lint.text import Text
+from ros_lint.base.text import Text
+from ros_lint.collectors.resources import collect as resources
+from ros_lint.workspace.collect import collect
 
 
 def names(text: str) -> dict[str, bool]:

@@ -4,15 +4,15 @@ from pathlib import Path
 
 import pytest
 
-from ros_lint import registry
-from ros_lint.collectors import manifest
-from ros_lint.discover import discover
-from ros_lint.edits import text_of
+from ros_lint.base.text import Text
+from ros_lint.collectors.manifest import collect as manifest
+from ros_lint.engine import registry
+from ros_lint.engine.edits import text_of
 from ros_lint.facts.manifest import ROLES
 from ros_lint.knowledge import Knowledge
+from ros_lint.knowledge.underlays import in_tree
 from ros_lint.testing import Case, bless, differences, fixed, issues_of, read_cases
-from ros_lint.text import Text
-from ros_lint.underlay import in_tree
+from ros_lint.workspace.discovery.discover import discover
 
 FIXTURES = Path(__file__).parent.parent / "fixtures"
 RULES = {rule.name: rule for rule in registry.load()}

@@ -9,10 +9,10 @@ from typing import Any
 
 import pytest
 
-from ros_lint.cli import main
+from ros_lint.base.text import Span, Text
+from ros_lint.cli.main import main
 from ros_lint.reporters import sarif
 from ros_lint.reporters.ansi import Style
-from ros_lint.text import Span, Text
 from tests.reports import ISSUES, REPORTS, SOUND, SOURCES, texts
 from tests.sarif_checks import changed, complaints
 

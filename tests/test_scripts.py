@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import pytest
 
-from ros_lint import engine, registry
-from ros_lint.facts.sight import ANYTHING, Facet
-from ros_lint.interpret import cmake
-from ros_lint.load import Loader
-from ros_lint.report import Target
-from ros_lint.tree import MemoryTree
-from ros_lint.workspace import Workspace
+from ros_lint.base.tree import MemoryTree
+from ros_lint.collectors.cmake import evaluate as cmake
+from ros_lint.engine import registry
+from ros_lint.engine import run as engine
+from ros_lint.engine.report import Target
+from ros_lint.facts.visibility import ANYTHING, Facet
+from ros_lint.workspace.loader import Loader
+from ros_lint.workspace.model import Workspace
 from tests.one_package import loaded
 from tests.trees import Locked
 

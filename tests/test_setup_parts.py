@@ -13,9 +13,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from setuptools import find_namespace_packages, find_packages
 
-from ros_lint.collectors import setup_cfg
-from ros_lint.interpret.setup_py_files import ROOT, Files
-from ros_lint.text import Text
+from ros_lint.base.text import Text
+from ros_lint.collectors.setup_py import setup_cfg
+from ros_lint.collectors.setup_py.interpreter.files import ROOT, Files
 
 NAMES = ["a", "b", ".h", "ab", "c.py", "a.b", "__init__.py"]
 PARTS = ["*", "**", "a*", "?", ".*", "[ab]", "[!a]*", "a", "b", "", "*.py", ".h", "ab", "**"]

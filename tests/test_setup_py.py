@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from ros_lint.facts.sight import Facet
-from ros_lint.interpret.setup_py import evaluate
-from ros_lint.text import Text
+from ros_lint.base.text import Text
+from ros_lint.collectors.setup_py.evaluate import evaluate
+from ros_lint.facts.visibility import Facet
 from tests.setup_scripts import FILES, HEAD, script
 
 

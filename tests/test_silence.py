@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from ros_lint.commands import silence
-from ros_lint.workspace import Workspace
+from ros_lint.cli.commands import explain_silence as silence
+from ros_lint.workspace.model import Workspace
 from tests.one_package import loaded
 
 FILES = {

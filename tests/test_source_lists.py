@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ros_lint import source_lists
-from ros_lint.tree import MemoryTree
+from ros_lint.base.tree import MemoryTree
+from ros_lint.workspace.discovery import repository_lists as source_lists
 
 
 def test_lists_of_sources_are_found_near_the_top_and_in_packages() -> None:

@@ -12,7 +12,7 @@ import pytest
 
 import ros_lint
 import ros_lint_rules
-from ros_lint import start
+from ros_lint.cli import start
 
 ROOT = Path(__file__).parent.parent
 DEMO = ROOT / "fixtures" / "workspaces" / "demo"
@@ -74,7 +74,9 @@ def test_a_folder_that_holds_this_package_is_the_last(monkeypatch: pytest.Monkey
 
 
 def test_a_current_folder_that_is_gone(tmp_path: Path) -> None:
-    code = "import os, sys; os.rmdir(os.getcwd()); sys.argv = ['ros-lint', '--version']; from ros_lint.start import run; run()"
+    code = (
+        "import os, sys; os.rmdir(os.getcwd()); sys.argv = ['ros-lint', '--version']; from ros_lint.cli.start import run; run()"
+    )
     (tmp_path / "gone").mkdir()
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=tmp_path / "gone", check=False)
     assert (done.returncode, done.stdout) == (0, f"ros-lint {ros_lint.__version__}\n"), done.stderr

@@ -10,12 +10,12 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ros_lint import edits
-from ros_lint.comments import comments
-from ros_lint.report import Issue
-from ros_lint.rule import Finding, Fix, Rule, Severity
-from ros_lint.suppress import Suppression, apply, collect
-from ros_lint.text import Span, Text
+from ros_lint.analysis.rule import Finding, Fix, Rule, Severity
+from ros_lint.base.text import Span, Text
+from ros_lint.collectors.comments import comments
+from ros_lint.engine import edits
+from ros_lint.engine.report import Issue
+from ros_lint.engine.suppressions import Suppression, apply, collect
 
 RULES = tuple(
     Rule(name, code, "it must be so", Severity.WARNING, "0.1", "")

@@ -2,7 +2,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ros_lint.text import Span, Text, decode, read, span_in
+from ros_lint.base.text import Span, Text, decode, read, span_in
 
 TEXTS = st.text(st.sampled_from("ab \t\r\n\f\u2028é漢\U0001f916"), max_size=40)
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from ros_lint.collectors import cpp
-from ros_lint.evidence import Source
+from ros_lint.base.text import read
+from ros_lint.collectors.cpp import collect as cpp
 from ros_lint.knowledge.names import Names
 from ros_lint.knowledge.store import Store
-from ros_lint.text import read
-from ros_lint.traces import mentioned, traces
+from ros_lint.workspace.usage.resolve import Source
+from ros_lint.workspace.usage.textual_mentions import mentioned, traces
 
 
 def test_a_name_leaves_traces_in_many_spellings() -> None:

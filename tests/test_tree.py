@@ -2,7 +2,7 @@ from pathlib import Path
 
 import pytest
 
-from ros_lint.tree import DiskTree, MemoryTree, OverlayTree
+from ros_lint.base.tree import DiskTree, MemoryTree, OverlayTree
 
 FILES = {"a/package.xml": "<package/>", "a/src/x.cpp": b"\xff", "b.txt": "", "a.b/c": "c"}
 

@@ -2,12 +2,12 @@
 
 import pytest
 
-from ros_lint.collectors.cpp_types import declared, introduced
-from ros_lint.evidence import Source
+from ros_lint.base.text import Span
+from ros_lint.base.tree import MemoryTree
+from ros_lint.collectors.cpp.types import declared, introduced
 from ros_lint.facts.sources import FileFacts, Mention
-from ros_lint.text import Span
-from ros_lint.tree import MemoryTree
-from ros_lint.type_names import Types
+from ros_lint.workspace.usage.resolve import Source
+from ros_lint.workspace.usage.unqualified_types import Types
 
 ROUTE = b"namespace house::route_handler {\nclass HOUSE_PUBLIC RouteHandler : Base {};\nstruct Node\n{};\nclass Other;\n}\n"
 DATA = b"using nav_msgs::msg::Odometry;\nusing Line = nav_msgs::msg::Path;\n"

@@ -11,11 +11,11 @@ from pathlib import Path
 
 import pytest
 
-from ros_lint import underlay
-from ros_lint.commands import index as command
+from ros_lint.cli.commands import index as command
 from ros_lint.knowledge import Knowledge, index, provides
-from ros_lint.underlay import Installed, UnderlayError
-from ros_lint.world import World
+from ros_lint.knowledge import underlays as underlay
+from ros_lint.knowledge.underlays import Installed, UnderlayError
+from ros_lint.knowledge.world import World
 
 COLCON = shutil.which("colcon", path=os.path.dirname(sys.executable)) or shutil.which("colcon")
 

@@ -1,7 +1,7 @@
-from ros_lint.rule import Related
-from ros_lint.slips import did_you_mean, is_meant, similar
-from ros_lint.text import Span
-from ros_lint.wording import few, several
+from ros_lint.analysis.rule import Related
+from ros_lint.analysis.wording import few, several
+from ros_lint.base.suggestions import did_you_mean, is_meant, similar
+from ros_lint.base.text import Span
 
 
 def test_a_list_says_when_it_is_cut_short() -> None:

@@ -11,7 +11,7 @@ import pytest
 
 import ros_lint
 from ros_lint.knowledge import Knowledge
-from ros_lint.knowledge.reach import Reach
+from ros_lint.knowledge.closure import Reach
 from tests.worlds import member, world, write_prefix
 
 JAZZY = Knowledge("jazzy")

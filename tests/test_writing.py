@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from ros_lint import edits
-from ros_lint.rule import Edit, Fix
-from ros_lint.text import Span, Text
+from ros_lint.analysis.rule import Edit, Fix
+from ros_lint.base.text import Span, Text
+from ros_lint.engine import edits
 from tests.test_bad_input import Ran, lint, package, rules
 
 CHANGED = "changed since it was read; fix skipped"

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from lxml import etree
 
-from ros_lint.collectors.xml_tree import Element, XmlError, attribute_places, parse
+from ros_lint.base.xml_tree import Element, XmlError, attribute_places, parse
 
 if TYPE_CHECKING:
     from hypothesis.strategies import DrawFn

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ros_lint.tree import MemoryTree
+from ros_lint.base.tree import MemoryTree
 
 
 class Locked(MemoryTree):

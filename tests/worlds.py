@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ros_lint import underlay
 from ros_lint.knowledge import Knowledge
-from ros_lint.world import Member, World
+from ros_lint.knowledge import underlays as underlay
+from ros_lint.knowledge.world import Member, World
 
 
 def world(*members: Member, distro: str = "jazzy", prefixes: tuple[str, ...] = ()) -> World:

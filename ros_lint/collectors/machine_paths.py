@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import re
 
-from ros_lint.comments import comments
+from ros_lint.base.text import Text
+from ros_lint.collectors.comments import comments
 from ros_lint.facts.sources import MachinePath
-from ros_lint.text import Text
 
 _PATH = re.compile(r"(?<![\w.$}~)*/-])(?:file://)?(?P<path>/(?:home|Users)/[\w.+-]+/[^\s\"'`<>|;:,()\[\]{}&$\\*?#]+)")
 _ANY = re.compile(r"/(?:home|Users|opt/ros)/")
@@ -73,7 +73,7 @@ def _docstrings(text: Text) -> list[tuple[int, int]]:
     """Return the ranges of strings that stand alone: documentation, and code that is set aside."""
     import ast  # noqa: PLC0415
 
-    from ros_lint.collectors.python_syntax import NotPythonError, parse, range_of  # noqa: PLC0415
+    from ros_lint.collectors.python.syntax import NotPythonError, parse, range_of  # noqa: PLC0415
 
     try:
         tree = parse(text)

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from ros_lint.text import Text
+    from ros_lint.base.text import Text
 
 
 def tables(source: Text) -> Mapping[str, Any]:

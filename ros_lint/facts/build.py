@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Final, NamedTuple
 
+from ros_lint.base.text import Span
 from ros_lint.facts.cmake import Call, Target
 from ros_lint.facts.setup_py import EntryPoint, PythonModule, Slot, WrittenText
-from ros_lint.facts.sight import Facet, NewerSyntax, Opaque, Problem
 from ros_lint.facts.sources import Mention
-from ros_lint.text import Span
+from ros_lint.facts.visibility import Facet, NewerSyntax, Opaque, Problem
 
 
 class Provided(NamedTuple):

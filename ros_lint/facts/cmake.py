@@ -5,7 +5,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from typing import Literal, NamedTuple
 
-from ros_lint.text import Span
+from ros_lint.base.text import Span
 
 
 class Target(NamedTuple):
@@ -35,7 +35,7 @@ class Call(NamedTuple):
     """In lower case."""
     path: str
     args: tuple[tuple[str, int, int, int], ...]
-    """As :data:`ros_lint.collectors.cmake_syntax.Argument`: text, kind, and offsets of the whole argument."""
+    """As :data:`ros_lint.collectors.cmake.syntax.Argument`: text, kind, and offsets of the whole argument."""
     start: int
     end: int
     """Offset after the closing parenthesis."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ros_lint.text import Span
+from ros_lint.base.text import Span
 
 
 class InterfaceProblem(NamedTuple):

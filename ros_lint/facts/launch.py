@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import Final, Literal, NamedTuple
 
-from ros_lint.facts.sight import NewerSyntax, Opaque, Problem
-from ros_lint.text import Span
+from ros_lint.base.text import Span
+from ros_lint.facts.visibility import NewerSyntax, Opaque, Problem
 
 
 class LaunchValue(NamedTuple):
     """What a text in a launch file can be when it runs."""
 
     texts: tuple[str, ...]
-    """Each alternative, never empty; with the marks of :mod:`ros_lint.collectors.launch_text` for what is not known yet."""
+    """Each alternative, never empty; with the marks of :mod:`ros_lint.collectors.symbolic_text` for what is not known yet."""
     span: Span
     exact: bool = False
     """Whether ``span`` covers the only text and nothing else, so that a fix can put another one there."""

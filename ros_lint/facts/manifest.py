@@ -5,9 +5,9 @@ from __future__ import annotations
 from enum import Flag, auto
 from typing import NamedTuple
 
-from ros_lint.facts.sight import Problem
-from ros_lint.sealed import Sealed
-from ros_lint.text import Span
+from ros_lint.base.sealed import Sealed
+from ros_lint.base.text import Span
+from ros_lint.facts.visibility import Problem
 
 
 class Role(Sealed, Flag):

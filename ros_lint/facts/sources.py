@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Literal, NamedTuple
 
+from ros_lint.base.text import Span
 from ros_lint.facts.interfaces import InterfaceFile
 from ros_lint.facts.manifest import Role
-from ros_lint.facts.sight import Opaque
-from ros_lint.text import Span
+from ros_lint.facts.visibility import Opaque
 
 Via = Literal["package", "cmake", "macro", "target", "include", "import", "interface", "symbol", "launch", "key"]
 """In which of the name spaces a mention is to be looked up; they differ (reference, section D6 and E3.8)."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ros_lint.python_versions import STANDARD_LIBRARY
+from ros_lint.collectors.python.versions import STANDARD_LIBRARY
 
 _APART = frozenset({"tkinter"})
 """Modules that Debian and Ubuntu leave out of Python, for who wants them to install."""

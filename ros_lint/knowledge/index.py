@@ -12,8 +12,8 @@ from collections import defaultdict
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.interface_names import GROUP
-from ros_lint.knowledge.reach import Closure, Reach
+from ros_lint.collectors.interfaces.naming import GROUP
+from ros_lint.knowledge.closure import Closure, Reach
 from ros_lint.knowledge.store import Entries, KnowledgeError, Store, Table
 
 if TYPE_CHECKING:

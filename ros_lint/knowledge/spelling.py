@@ -12,7 +12,7 @@ from bisect import bisect_left
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from ros_lint.slips import similar
+from ros_lint.base.suggestions import similar
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -102,7 +102,7 @@ class Spelling:
 
 
 def near_names(name: str, names: Iterable[str], most: int, least: float) -> list[str]:
-    """Return which of the names that look like another one, as :func:`ros_lint.slips.similar` says, may be meant by it.
+    """Return which of the names that look like another one, as :func:`ros_lint.base.suggestions.similar` says, may be meant by it.
 
     Where both have words that the other one lacks, these must resemble each other: front_camera is not meant to be
     rear_camera, however much of it is the same. If there is one more besides, those that it lacks must begin like others:

@@ -12,8 +12,8 @@ from bisect import bisect_left
 from operator import gt
 from typing import TYPE_CHECKING, Generic, TypeVar
 
-from ros_lint import files
-from ros_lint.report import RefusalError
+from ros_lint.base import files
+from ros_lint.engine.report import RefusalError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence

@@ -5,10 +5,10 @@ from __future__ import annotations
 import importlib
 from collections.abc import Callable
 
-from ros_lint.options import FORMATS
-from ros_lint.report import Report
+from ros_lint.base.text import Text
+from ros_lint.cli.options import FORMATS
+from ros_lint.engine.report import Report
 from ros_lint.reporters.ansi import Style
-from ros_lint.text import Text
 
 Texts = Callable[[str], Text | None]
 """Gives the source of a file, or None when it cannot be read."""

@@ -8,7 +8,7 @@ from ros_lint.reporters.ansi import Style, paint, safe
 from ros_lint.reporters.summary import summary
 
 if TYPE_CHECKING:
-    from ros_lint.report import Issue, Report
+    from ros_lint.engine.report import Issue, Report
     from ros_lint.reporters import Texts
 
 

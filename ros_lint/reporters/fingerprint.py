@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Collection
 
-    from ros_lint.text import Text
+    from ros_lint.base.text import Text
 
 _UNITS = 100
 _BASE = 37

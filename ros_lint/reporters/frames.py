@@ -9,8 +9,8 @@ from ros_lint.reporters.ansi import Style, cells, paint, safe
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from ros_lint.base.text import Span, Text
     from ros_lint.reporters import Texts
-    from ros_lint.text import Span, Text
 
 _CUT = "..."
 _CONTEXT = 20

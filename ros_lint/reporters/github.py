@@ -5,16 +5,16 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING
 
+from ros_lint.analysis.rule import Severity
 from ros_lint.reporters.ansi import Style, safe
 from ros_lint.reporters.summary import and_list, count, crashed, summary, told
-from ros_lint.rule import Severity
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from ros_lint.report import Issue, Report
+    from ros_lint.base.text import Span
+    from ros_lint.engine.report import Issue, Report
     from ros_lint.reporters import Texts
-    from ros_lint.text import Span
 
 _SHOWN = 10
 """Annotations of one level that GitHub shows of a step; the others stand in the log."""

@@ -6,14 +6,14 @@ import hashlib
 from collections import Counter
 from typing import TYPE_CHECKING, Any
 
-from ros_lint.reporters.encode import encode
+from ros_lint.analysis.rule import Severity
+from ros_lint.base.json_text import encode
 from ros_lint.reporters.summary import crashed, told
-from ros_lint.rule import Severity
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from ros_lint.report import Report
+    from ros_lint.engine.report import Report
     from ros_lint.reporters import Texts
     from ros_lint.reporters.ansi import Style
 

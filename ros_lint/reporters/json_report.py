@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ros_lint.reporters.encode import encode
-from ros_lint.rule import Severity
+from ros_lint.analysis.rule import Severity
+from ros_lint.base.json_text import encode
 
 if TYPE_CHECKING:
-    from ros_lint.report import Issue, Report
+    from ros_lint.analysis.rule import Fix
+    from ros_lint.base.text import Span
+    from ros_lint.engine.report import Issue, Report
     from ros_lint.reporters import Texts
     from ros_lint.reporters.ansi import Style
-    from ros_lint.rule import Fix
-    from ros_lint.text import Span
 
 SCHEMA_VERSION = 1
 """Goes up when a key changes its meaning or goes away. New keys may come without notice."""

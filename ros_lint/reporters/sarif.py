@@ -11,19 +11,19 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
-from ros_lint.reporters.encode import encode
+from ros_lint.base.json_text import encode
+from ros_lint.base.text import Span, Text, raw
 from ros_lint.reporters.fingerprint import line_hashes
 from ros_lint.reporters.sarif_rules import LEVELS, TOPICS, capital, descriptor, sentence, topic
 from ros_lint.reporters.summary import and_list, crashed, hidden_findings, some, told
-from ros_lint.text import Span, Text, raw
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from ros_lint.report import Issue, Report
+    from ros_lint.analysis.rule import Edit, Finding, Fix
+    from ros_lint.engine.report import Issue, Report
     from ros_lint.reporters import Texts
     from ros_lint.reporters.ansi import Style
-    from ros_lint.rule import Edit, Finding, Fix
 
 Object = dict[str, Any]
 Group = tuple["Issue", ...]

@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
-from ros_lint.rule import Severity
+from ros_lint.analysis.rule import Severity
 
 if TYPE_CHECKING:
-    from ros_lint.rule import Rule
+    from ros_lint.analysis.rule import Rule
 
 LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
 _PROBLEMS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "recommendation"}

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING
 
+from ros_lint.analysis.rule import Severity
 from ros_lint.reporters.ansi import Style, paint, safe
-from ros_lint.rule import Severity
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from ros_lint.report import Crash, Hidden, NotChecked, Report
+    from ros_lint.engine.report import Crash, Hidden, NotChecked, Report
 
 _LISTED = 10
 """Entries of a list to show; the json format has all."""

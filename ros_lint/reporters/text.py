@@ -5,17 +5,17 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING
 
+from ros_lint.analysis.rule import Confidence
 from ros_lint.reporters.ansi import Style, paint, safe
 from ros_lint.reporters.frames import Mark, frame
 from ros_lint.reporters.summary import count, summary
-from ros_lint.rule import Confidence
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from ros_lint.report import Issue, Report
+    from ros_lint.analysis.rule import Fix
+    from ros_lint.engine.report import Issue, Report
     from ros_lint.reporters import Texts
-    from ros_lint.rule import Fix
 
 _PLAIN = Style()
 _RELATED = 8
@@ -72,8 +72,8 @@ def _issue(issue: Issue, texts: Texts, style: Style) -> list[str]:
 
 def _preview(fix: Fix, texts: Texts, style: Style, gutter: str) -> Iterator[str]:
     """Yield what a fix would change, as a diff beside the gutter of a frame."""
-    from ros_lint.edits import EditError, apply  # noqa: PLC0415  (diffs are shown on demand)
-    from ros_lint.patch import unified  # noqa: PLC0415
+    from ros_lint.base.diff import unified  # noqa: PLC0415
+    from ros_lint.engine.edits import EditError, apply  # noqa: PLC0415  (diffs are shown on demand)
 
     sources = {edit.span.path: texts(edit.span.path) for edit in fix.edits}
     known = {path: source for path, source in sources.items() if source is not None}

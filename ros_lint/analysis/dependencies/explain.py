@@ -1,0 +1,144 @@
+"""Why the rules about dependencies say nothing of a package and a dependency."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from ros_lint.analysis.dependencies.load_bearing import carriers
+from ros_lint.analysis.dependencies.needs import all_declared, despite, only_launched, tells, undeclared
+from ros_lint.analysis.dependencies.remedy import circle
+from ros_lint.analysis.dependencies.tags import builds_something, is_built_in_sight, is_library, is_unseen_by_name
+from ros_lint.analysis.rule import Confidence
+from ros_lint.facts.manifest import Role
+from ros_lint.facts.sources import Use
+from ros_lint.facts.visibility import Facet
+from ros_lint.workspace.model import Package, Workspace
+
+_MOST = 5
+
+
+RULES = ("undeclared-dependency", "unused-dependency")
+"""Those that are explained here."""
+
+
+def explain(package: Package, workspace: Workspace, name: str, told: Mapping[str, Confidence]) -> Iterator[str]:
+    """Yield lines: where the dependency is used, how it is declared, and why each of the rules is silent, if it is.
+
+    ``told`` is how sure those are that say something of it. What they do is theirs to say; here are the reasons only.
+    """
+    uses = [use for use in package.uses if name in use.providers]
+    yield from used_in(uses)
+    for depend in [each.depend for each in package.tags(name)]:
+        condition = f" if {depend.condition}" if depend.condition else ""
+        yield f"{depend.span}: <{depend.tag}>{depend.name}</{depend.tag}>{condition}"
+    silent = (_not_undeclared(package, workspace, name, uses), _not_unused(package, workspace, name, uses))
+    unsure = (_unsure_undeclared(package, workspace, name, uses), _unsure_unused(package, workspace, name))
+    for rule, reason, doubt in zip(RULES, silent, unsure, strict=True):
+        if rule not in told:
+            yield f"{rule}: not reported, because {reason}"
+        elif told[rule] is Confidence.HIGH:
+            yield f"{rule}: reported"
+        else:
+            yield f"{rule}: reported with lower confidence{doubt}; use --pedantic to show it"
+
+
+def used_in(uses: Sequence[Use]) -> Iterator[str]:
+    """Yield lines: where something is used, and for what."""
+    for use in uses[:_MOST]:
+        yield f"{use.span}: {use.what}, {_needed_for(use)}"
+    if len(uses) > _MOST:
+        yield f"and {len(uses) - _MOST} more uses"
+
+
+def _needed_for(use: Use) -> str:
+    words = [word for role, word in _WORDS if use.role & role]
+    doubts = ["optional"] if use.optional else []
+    if not use.sure:
+        doubts.append("the file may not be built or installed, or the name is ambiguous")
+    return f"needed {' and '.join(words) or 'for nothing'}{''.join(f'; {doubt}' for doubt in doubts)}"
+
+
+_WORDS = (
+    (Role.BUILD, "to build"),
+    (Role.EXPORT, "to build against"),
+    (Role.EXEC, "to run"),
+    (Role.TEST, "to test"),
+    (Role.TOOL, "as a build tool"),
+)
+
+
+def _not_undeclared(package: Package, workspace: Workspace, name: str, uses: list[Use]) -> str:
+    if not tells(package):
+        return "package.xml has errors"
+    if package.declares(name):
+        return "it is declared"
+    if not uses:
+        return f"no use of it was found{_hidden(package)}"
+    told = next((need.name for need, _ in undeclared(package, workspace) if any(use in need.uses for use in uses)), "")
+    if told:
+        return f"'{told}' is reported instead, and provides the same"
+    closure = all_declared(package, workspace)
+    starts = [each.name for each in package.declared]
+    brought = [next((other for other in use.providers if other in closure), "") for use in _of_itself(name, uses)]
+    if all(brought):
+        way = workspace.world.path(starts, brought[0])
+        return f"a declared dependency provides it: {' -> '.join(way or (brought[0],))}; see rule transitive-dependency"
+    if only_launched(package, uses):
+        return "only launch files use it; see rule launch-outside-closure"
+    if way := circle(package, workspace, name):
+        return f"it depends on this package, so declaring it would close a cycle: {' -> '.join(way)}"
+    best = "' or '".join(dict.fromkeys(use.package for use in uses if use.package != name))
+    return f"'{best}' is the better match for these uses" if best else "another declared dependency covers these uses"
+
+
+def _unsure_undeclared(package: Package, workspace: Workspace, name: str, uses: list[Use]) -> str:
+    if all(use.optional for use in uses):
+        return ", because every use is optional"
+    own = _of_itself(name, uses)
+    if not any(use.sure for use in own):
+        return ", because no use is certain"
+    unknown = all_declared(package, workspace).unknown
+    if despite(unknown, own, workspace):
+        return ""
+    return f", because the dependencies of {', '.join(unknown)} are unknown and may include it"
+
+
+def _of_itself(name: str, uses: list[Use]) -> list[Use]:
+    """Return the uses that need a name more than another one, all if there is none; those that need not be if all are such."""
+    needed = [use for use in uses if not use.optional] or uses
+    return [use for use in needed if use.package == name] or needed
+
+
+def _not_unused(package: Package, workspace: Workspace, name: str, uses: list[Use]) -> str:
+    tags = package.tags(name)
+    if not tags:
+        return "it is not declared"
+    if not any(declared.always for declared in tags):
+        return "it is declared under a condition"
+    if uses:
+        return f"it is used: {uses[0].span}"
+    if name in package.traces:
+        return f"its name appears here: {package.traces[name]}"
+    hidden = _hidden(package)
+    if hidden and not (is_library(workspace.world, name) and is_built_in_sight(package)):
+        return hidden.removeprefix(", and ")
+    if not builds_something(package):
+        return "the package builds and installs no code of its own"
+    if not is_built_in_sight(package):
+        return "its manifest or build script cannot be analysed"
+    if not any(declared.depend.tag in ("depend", "build_depend") for declared in tags):
+        return "a dependency with this tag may be used without any trace in the sources, or by tests"
+    return "it may be used without being named in the sources"
+
+
+def _unsure_unused(package: Package, workspace: Workspace, name: str) -> str:
+    carried = carriers(package, workspace, package.tags(name)).get(name)
+    if carried:
+        where = "" if carried.package == package.name else f" for '{carried.package}'"
+        return f", because only this dependency provides '{carried.name}'{where}"
+    return ", because it may be used without being named in the sources" if is_unseen_by_name(workspace.world, name) else ""
+
+
+def _hidden(package: Package) -> str:
+    hidden = package.hidden(Facet.USES)
+    return f", and not everything could be analysed: {hidden[0].reason} ({hidden[0].span})" if hidden else ""

@@ -1,0 +1,137 @@
+"""Remedies for undeclared dependencies: the tag to write, where the name resolves, or why it cannot be declared."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.analysis.dependencies.tags import add_dependency, tag_for, tags_for
+from ros_lint.analysis.rule import Fix
+
+if TYPE_CHECKING:
+    from ros_lint.analysis.rule import Edit
+    from ros_lint.facts.manifest import Role
+    from ros_lint.workspace.model import Package, Workspace
+
+
+class Advice(NamedTuple):
+    """The remedy for an undeclared dependency, if there is one."""
+
+    written: str
+    """The element to add, followed by remarks in parentheses."""
+    fix: Fix | None
+    """None when it cannot be declared, or when colcon rejects the manifest, which has to be fixed first."""
+    obstacle: str
+    """Why it cannot be declared: completes "cannot be declared: ". "" when it can."""
+    circular: bool
+    """Whether the obstacle is that it depends on the package itself."""
+    certain: bool = True
+    """Whether the need is as certain as its evidence: not if it is circular or colcon rejects the manifest."""
+
+    @property
+    def ending(self) -> str:
+        """Return the end of a message that has named the undeclared dependency."""
+        return f", and it cannot be declared: {self.obstacle}" if self.obstacle else f": add {self.written}"
+
+
+def advice(package: Package, workspace: Workspace, name: str, role: Role) -> Advice:
+    """Return the remedy for a needed package or key that is not declared. The package has a manifest."""
+    tag = tag_for(package, workspace, name, role)
+    written = " and ".join(f"<{each}>{name}</{each}>" for each in tags_for(package, tag))
+    if way := circle(package, workspace, name):
+        between = f", through {' > '.join(way[1:-1])}" if len(way) > 2 else ""
+        return Advice(written, None, f"it depends on this package itself{between}", circular=True, certain=False)
+    usable = not (package.manifest and package.manifest.problems)
+    if (bare := workspace.by_name.get(name)) and all(each.manifest is None for each in bare):
+        obstacle = f"{bare[0].path} has no package.xml, so rosdep does not know it; add one"
+        return Advice(written, None, obstacle, circular=False, certain=usable)
+    if lacks_rule(workspace, name):
+        obstacle = f"rosdep has no rule for it{_where(workspace, name)}"
+        return Advice(written, None, obstacle, circular=False, certain=usable)
+    if is_of_pip(workspace, name):
+        written += " (installed by pip: a released package cannot depend on it)"
+    written += availability(workspace, name)
+    if _is_exported(package, name):
+        written += " (the tag in <export> declares nothing)"
+    edits = add_dependency(package, tag, name) if usable else ()
+    fix = naming(workspace, name, f"declare '{name}' as <{tag}>", *edits)
+    return Advice(written, fix, "", circular=False, certain=usable)
+
+
+def naming(workspace: Workspace, name: str, title: str, *edits: Edit, safe: bool = True) -> Fix | None:
+    """Return the fix that writes a name into a dependency tag, None where there are no edits.
+
+    Every fix that does so is made here: it is safe only where rosdep resolves the name wherever the workspace is meant to be
+    built, see :func:`availability`.
+    """
+    return Fix.of(title, *edits, safe=safe and not availability(workspace, name))
+
+
+def availability(workspace: Workspace, name: str) -> str:
+    """Return the remark on where a name resolves, such as " (only in humble)", "" where it does so wherever it has to.
+
+    It has to in the stated distribution, or in every active one where none was stated. A package of the workspace or of an
+    underlay is there for all of them; any other name must be a released package or a rosdep key.
+    """
+    world, target = workspace.world, workspace.target
+    if world.layer(name) in ("workspace", "underlay"):
+        return ""
+    knowledge = world.knowledge
+    here = knowledge.rosdep_resolves(name, target.distro)
+    if here and target.told:
+        return ""
+    if not knowledge.covered:
+        return f" (there are no data about {target.distro})"
+    there = [distro for distro in knowledge.active if knowledge.rosdep_resolves(name, distro)]
+    lacking = [distro for distro in knowledge.active if distro not in there]
+    if not there:
+        return " (no distribution has it)"
+    if not here:
+        return f" (not in {target.distro}, only in {', '.join(there)})"
+    if len(lacking) < len(there):
+        return f" (not in {', '.join(lacking)})" if lacking else ""
+    return f" (only in {', '.join(there)})"
+
+
+def circle(package: Package, workspace: Workspace, name: str) -> tuple[str, ...]:
+    """Return a path by which a name depends on the package itself, both ends included, or ().
+
+    In the workspace every tag counts, because colcon orders packages by all of them; otherwise the run-time dependencies of
+    the released package, of any distribution if the target distribution has no such package.
+    """
+    graph = workspace.graph if name in workspace.by_name else None
+    if graph is not None and name in graph.arcs and package.colcon_name in graph.closure(name):
+        from ros_lint.base.graph_paths import paths  # noqa: PLC0415  (few needs are circular)
+
+        return paths(lambda each: sorted(graph.arcs[each]), name, package.colcon_name, 1).found[0]
+    world = workspace.world
+    if not world.is_package(name) and world.knowledge.brings_elsewhere(name, package.name):
+        return (name, package.name)
+    return world.path((name,), package.name)
+
+
+def _is_exported(package: Package, name: str) -> bool:
+    """Return whether a dependency tag with the name is in <export>, where catkin_pkg ignores it."""
+    exports = package.manifest.exports if package.manifest else ()
+    return any(element.tag.endswith("depend") and element.text.strip() == name for element in exports)
+
+
+def lacks_rule(workspace: Workspace, name: str) -> bool:
+    """Return whether a name is a rosdep key without a rule for the platform of the target distribution.
+
+    If the user did not choose a distribution, a rule for the platform of any distribution is enough.
+    """
+    world, knowledge = workspace.world, workspace.world.knowledge
+    if world.is_package(name) or not world.is_key(name) or knowledge.resolves(name) is not False:
+        return False
+    return workspace.target.told or not knowledge.resolving(name)
+
+
+def is_of_pip(workspace: Workspace, name: str) -> bool:
+    """Return whether a name is a rosdep key that only pip installs, which the build farm does not accept."""
+    key = None if workspace.world.is_package(name) else workspace.world.knowledge.rosdep.get(name)
+    return key is not None and bool(key.pip) and not key.apt
+
+
+def _where(workspace: Workspace, name: str) -> str:
+    knowledge = workspace.world.knowledge
+    return f" on {knowledge.platform}, the platform of {workspace.target.distro}" if knowledge.resolving(name) else ""

@@ -1,0 +1,227 @@
+"""Who needs whom among the packages of a workspace, as colcon orders them (reference, sections B1 and B2).
+
+An edge leads from a package to what has to be built before it: build, run and test dependencies, members of groups,
+and what colcon.pkg or the script of a plain package adds. Documentation dependencies, conflicts and false conditions
+give no edge. Nodes are the names that colcon uses (:attr:`Package.colcon_name`): a manifest that names a package by
+another name orders nothing. Packages of one name are one node.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from heapq import heapify, heappop, heappush
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.facts.manifest import Role
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+
+    from ros_lint.base.text import Span
+    from ros_lint.workspace.model import Package
+
+_CATEGORIES = {
+    "depend": ("build", "run"),
+    "build_depend": ("build",),
+    "buildtool_depend": ("build",),
+    "build_export_depend": ("run",),
+    "buildtool_export_depend": ("run",),
+    "exec_depend": ("run",),
+    "run_depend": ("run",),
+    "test_depend": ("test",),
+}
+"""The tags that order packages, and the categories that colcon-ros puts them in."""
+
+Edge = tuple[str, str]
+"""Who needs, and what is needed."""
+
+Arcs = dict[str, frozenset[str]]
+"""Successors by node, without reasons."""
+
+
+class Reason(NamedTuple):
+    """Why a package has to be built before another."""
+
+    tag: str
+    """A dependency tag, or the name of the file that colcon takes the edge from."""
+    categories: tuple[str, ...]
+    """Of "build", "run", "test", "group"."""
+    span: Span
+    certain: bool = True
+    """False under a condition with a variable that nobody knows."""
+
+
+class Order(NamedTuple):
+    """A build order, as far as there is one."""
+
+    names: tuple[str, ...]
+    stuck: tuple[str, ...]
+    """What lies on a cycle or needs something that does, sorted."""
+
+
+class Graph:
+    """Packages by name, and why each needs the others. Iterations are in the order of names."""
+
+    def __init__(self, places: Mapping[str, Sequence[Package]], needs: Mapping[str, Mapping[str, Sequence[Reason]]]) -> None:
+        self.places = {name: tuple(places[name]) for name in sorted(places)}
+        self.needs = {name: {other: tuple(needs[name][other]) for other in sorted(needs.get(name, ()))} for name in self.places}
+        self._closures: dict[str, frozenset[str]] = {}
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        return tuple(self.places)
+
+    @property
+    def edges(self) -> Iterator[Edge]:
+        return ((name, other) for name, others in self.needs.items() for other in others)
+
+    def reasons(self, edge: Edge) -> tuple[Reason, ...]:
+        """Return why there is an edge. Raises KeyError when there is none."""
+        return self.needs[edge[0]][edge[1]]
+
+    @cached_property
+    def arcs(self) -> Arcs:
+        """All edges."""
+        return {name: frozenset(others) for name, others in self.needs.items()}
+
+    @cached_property
+    def certain_arcs(self) -> Arcs:
+        """The edges that do not hang on an unknown condition."""
+        return {
+            name: frozenset(other for other, reasons in others.items() if any(reason.certain for reason in reasons))
+            for name, others in self.needs.items()
+        }
+
+    @cached_property
+    def needed_by(self) -> Arcs:
+        """All edges, the other way round."""
+        return reverse(self.arcs)
+
+    @cached_property
+    def order(self) -> Order:
+        """The first build order in the order of names.
+
+        It obeys uncertain edges, too, except where these close a cycle.
+        """
+        names, stuck = sort(self.arcs)
+        if stuck and any(self.certain_arcs[name] != self.arcs[name] for name in stuck):
+            knots = [frozenset(component) for component in components(self.arcs)]
+            inside = {name: knot for knot in knots for name in knot}
+            arcs = {
+                name: others - (inside.get(name, frozenset()) - self.certain_arcs[name]) for name, others in self.arcs.items()
+            }
+            names, stuck = sort(arcs)
+        return Order(names, stuck)
+
+    @cached_property
+    def cycles(self) -> tuple[tuple[str, ...], ...]:
+        """The strongly connected components that make colcon refuse the workspace, each sorted."""
+        return components(self.certain_arcs) if self.order.stuck else ()
+
+    @cached_property
+    def possible_cycles(self) -> tuple[tuple[str, ...], ...]:
+        """The strongly connected components that an unknown condition would close, and that hold no cycle without."""
+        if self.arcs == self.certain_arcs or is_acyclic(self.arcs):
+            return ()
+        certain = [set(cycle) for cycle in self.cycles]
+        return tuple(found for found in components(self.arcs) if not any(cycle <= set(found) for cycle in certain))
+
+    def closure(self, name: str) -> frozenset[str]:
+        """Return everything that a package needs, directly or not; itself only when it lies on a cycle."""
+        if name not in self._closures:
+            self._closures[name] = reachable(self.arcs, name)
+        return self._closures[name]
+
+
+def build(packages: Iterable[Package]) -> Graph:
+    """Return the graph of the packages of a workspace."""
+    places: dict[str, list[Package]] = {}
+    members: dict[str, list[str]] = {}
+    for package in packages:
+        places.setdefault(package.colcon_name, []).append(package)
+        for group in package.groups:
+            members.setdefault(group, []).append(package.name)
+    needs: dict[str, dict[str, list[Reason]]] = {name: {} for name in places}
+    for name, same in places.items():
+        for package in same:
+            for other, reason in _reasons(package, members):
+                if other in places:
+                    needs[name].setdefault(other, []).append(reason)
+    return Graph(places, needs)
+
+
+def _reasons(package: Package, members: Mapping[str, Iterable[str]]) -> Iterator[tuple[str, Reason]]:
+    if package.type.startswith("ros."):  # otherwise colcon does not look into the manifest
+        for declared in package.declared:
+            if categories := _CATEGORIES.get(declared.depend.tag):
+                reason = Reason(declared.depend.tag, categories, declared.depend.span, declared.certain)
+                yield declared.name, reason
+        for declared in package.group_depends:
+            reason = Reason(declared.depend.tag, ("group",), declared.depend.span, declared.certain)
+            yield from ((member, reason) for member in members.get(declared.name, ()) if member != package.colcon_name)
+    for depend in package.colcon_depends:
+        file = depend.span.path.rpartition("/")[2]
+        yield depend.name, Reason(file, tuple(_categories(depend.role)), depend.span)
+
+
+def _categories(role: Role) -> Iterator[str]:
+    if role & (Role.BUILD | Role.TOOL):
+        yield "build"
+    if role & (Role.EXPORT | Role.EXEC):
+        yield "run"
+    if role & Role.TEST:
+        yield "test"
+
+
+def components(arcs: Mapping[str, Collection[str]]) -> tuple[tuple[str, ...], ...]:
+    """Return the strongly connected components that hold a cycle, each sorted, in the order of their first names."""
+    import networkx as nx  # noqa: PLC0415  (costs more than a run without a cycle)
+
+    # Whatever can be peeled off from either end lies on no cycle.
+    stuck = set(sort(arcs)[1])
+    stuck &= set(sort(reverse({name: stuck.intersection(arcs[name]) for name in stuck}))[1])
+    graph: nx.DiGraph[str] = nx.DiGraph({name: sorted(stuck.intersection(arcs[name])) for name in sorted(stuck)})
+    found = nx.strongly_connected_components(graph)
+    return tuple(sorted(tuple(sorted(nodes)) for nodes in found if len(nodes) > 1 or graph.has_edge(*nodes, *nodes)))
+
+
+def reverse(arcs: Mapping[str, Collection[str]]) -> Arcs:
+    """Return the arcs the other way round."""
+    found: dict[str, set[str]] = {name: set() for name in arcs}
+    for name, others in arcs.items():
+        for other in others:
+            found[other].add(name)
+    return {name: frozenset(others) for name, others in found.items()}
+
+
+def reachable(arcs: Mapping[str, Collection[str]], start: str) -> frozenset[str]:
+    """Return the nodes that can be reached over one arc or more."""
+    found: set[str] = set()
+    todo = [start]
+    while todo:
+        fresh = set(arcs[todo.pop()]) - found
+        found |= fresh
+        todo += fresh
+    return frozenset(found)
+
+
+def is_acyclic(arcs: Mapping[str, Collection[str]]) -> bool:
+    """Return whether there is an order in which every node comes after its successors."""
+    return not sort(arcs)[1]
+
+
+def sort(arcs: Mapping[str, Collection[str]]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the first order by name in which successors come first, and the nodes that have no place in it."""
+    missing = {name: len(others) for name, others in arcs.items()}
+    before = reverse(arcs)
+    ready = [name for name, count in missing.items() if not count]
+    heapify(ready)
+    names: list[str] = []
+    while ready:
+        name = heappop(ready)
+        names.append(name)
+        for other in before[name]:
+            missing[other] -= 1
+            if not missing[other]:
+                heappush(ready, other)
+    return tuple(names), tuple(sorted(missing.keys() - set(names)))

@@ -1,0 +1,55 @@
+"""The parameter files that launch files of the workspace give to nodes, with default arguments."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.analysis.launch.includes import defaults_of, everything, filled, installed_below_share
+
+if TYPE_CHECKING:
+    from ros_lint.facts.launch import LaunchAction, LaunchFile, LaunchValue
+    from ros_lint.facts.sources import ParameterFile
+    from ros_lint.workspace.model import Workspace
+
+
+class Given(NamedTuple):
+    """A parameter file of the workspace that a launch file gives to a node or component."""
+
+    action: LaunchAction
+    value: LaunchValue
+    """What names the file."""
+    file: ParameterFile
+    names: tuple[str, ...]
+    """What the node can be called; () when the launch file does not say."""
+    namespaces: tuple[str, ...]
+    """As the action itself gives it; ("",) when it gives none."""
+
+
+class ParameterFiles:
+    """All parameter files of a workspace by where they are installed."""
+
+    def __init__(self, workspace: Workspace) -> None:
+        self._links = workspace.links
+        self._by_path: dict[tuple[str, str], ParameterFile | None] = {}
+        for package in workspace.packages:
+            for file, path in installed_below_share(package, package.parameter_files):
+                key = (package.name, path)
+                # Where one of two is installed, nobody knows which.
+                self._by_path[key] = None if key in self._by_path else file
+
+    def given(self, file: LaunchFile) -> Iterator[Given]:
+        """Yield the parameter files that a launch file gives to nodes, as far as it is clear which these are."""
+        defaults: Mapping[str, tuple[str, ...]] | None = None
+        for action in everything(file.actions):
+            for name, value in action.parameters if action.kind in ("node", "component") else ():
+                if name:
+                    continue
+                if defaults is None:
+                    defaults = defaults_of(file)
+                texts = filled(value, defaults)
+                place = self._links.installed_at(texts[0], file) if len(texts) == 1 else None
+                found = self._by_path.get(place) if place is not None else None
+                if found is not None:
+                    names, namespaces = filled(action.name, defaults), filled(action.namespace, defaults)
+                    yield Given(action, value, found, names, namespaces or ("",))

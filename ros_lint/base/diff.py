@@ -1,0 +1,38 @@
+"""Differences between texts, as patches."""
+
+from __future__ import annotations
+
+import difflib
+import re
+
+from ros_lint.base.text import raw
+
+
+def unified(path: str, before: str | None, after: str) -> str:
+    """Return the difference of two texts of a file, with a line of context around each change. Line ends are kept.
+
+    ``before`` is None for a file that comes into being.
+    """
+    old = "/dev/null" if before is None else f"a/{path}"
+    lines = difflib.unified_diff(_lines(before or ""), _lines(after), old, f"b/{path}", n=1)
+    return "".join(line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n" for line in lines)
+
+
+def unified_bytes(path: str, before: bytes | None, after: bytes) -> bytes:
+    """Return what :func:`unified` does for two states of a file as they are on the disk, whatever their encoding."""
+    was = None if before is None else before.decode("latin-1")  # a letter for each byte, for difflib compares texts
+    return unified(raw(path).decode("latin-1"), was, after.decode("latin-1")).encode("latin-1")
+
+
+def _lines(text: str) -> list[str]:
+    """Split at line feeds only: str.splitlines knows more line ends than patch does."""
+    return re.findall(r"[^\n]*\n|[^\n]+", text)
+
+
+def line_before(before: str, after: str, line: int) -> int:
+    """Return the line of the old text that a line of the new one was, or the one that came to stand there. Lines count from 1."""
+    old, new = _lines(before), _lines(after)
+    for _, old_start, old_end, new_start, new_end in difflib.SequenceMatcher(None, old, new, autojunk=False).get_opcodes():
+        if line - 1 < new_end:
+            return max(min(old_start + line - 1 - new_start, old_end - 1), 0) + 1
+    return max(len(old), 1)

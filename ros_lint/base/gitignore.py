@@ -1,0 +1,170 @@
+"""What git is told to leave out of a repository: a file that is ignored is made or fetched, and no checkout has it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from functools import lru_cache
+from itertools import count
+from typing import Final, NamedTuple
+
+from ros_lint.base.text import octets, read
+from ros_lint.base.tree import Tree, folders_of, join, parent
+from ros_lint.base.wildcards import LONGEST, letters, spaced
+from ros_lint.engine.report import NotChecked
+
+_NAME = ".gitignore"
+
+
+class Pattern(NamedTuple):
+    """A line of a ``.gitignore`` (gitignore(5))."""
+
+    folder: str
+    """Where the file lies; what is not below it is not meant."""
+    glob: str
+    """Of a path below the folder. Most runs never ask, so it is translated when it is needed."""
+    negated: bool
+    """Whether it takes back what an earlier line said."""
+
+
+class Ignores(NamedTuple):
+    """What the ``.gitignore`` files of a workspace say, and those that cannot be read."""
+
+    patterns: tuple[Pattern, ...]
+    """Later patterns win."""
+    not_checked: tuple[NotChecked, ...]
+
+
+def find(tree: Tree, packages: Iterable[tuple[str, Iterable[str]]]) -> Ignores:
+    """Return the patterns for packages, given by folder with the files in it."""
+    paths = {_NAME}
+    for folder, files in packages:
+        paths.update([join(folder, file) for file in files if file.rpartition("/")[2] == _NAME])
+        paths.update([join(above, _NAME) for above in folders_of(folder)])
+    found: list[Pattern] = []
+    unread: list[NotChecked] = []
+    for path in sorted(paths, key=lambda path: (path.count("/"), path)):
+        try:
+            found += patterns(parent(path), read(path, tree.read(path)).text)
+        except (FileNotFoundError, NotADirectoryError):
+            continue
+        except OSError as error:
+            unread.append(NotChecked.of(path, error))
+    return Ignores(tuple(found), tuple(unread))
+
+
+def patterns(folder: str, text: str) -> Iterator[Pattern]:
+    """Yield what the text of a ``.gitignore`` in a folder says."""
+    for written in text.split("\n"):
+        line = _trimmed(written.removesuffix("\r"))
+        if line.startswith("#"):
+            continue
+        negated = line.startswith("!")
+        whole = line[negated:].removesuffix("/")
+        if whole:
+            yield Pattern(folder, whole.removeprefix("/") if "/" in whole else f"**/{whole}", negated)
+
+
+def _trimmed(line: str) -> str:
+    """Return a line without the spaces at its end, but for one that is escaped."""
+    stripped = line.rstrip(" ")
+    backslashes = len(stripped) - len(stripped.rstrip("\\"))
+    return line[: len(stripped) + backslashes % 2]
+
+
+def is_ignored(given: Iterable[Pattern], path: str) -> bool:
+    """Return whether git leaves out a path, which need not exist: it, or a folder it is in."""
+    ours = [
+        (regex, len(octets(one.folder)) + 1 if one.folder else 0, one.negated)
+        for one in given
+        if (not one.folder or path.startswith(f"{one.folder}/")) and (regex := _compiled(one.glob))
+    ]
+    parts = octets(path).split("/")
+    for number in range(len(parts)) if ours else ():
+        place = "/".join(parts[: number + 1])
+        said = [not negated for regex, start, negated in ours if len(place) > start and regex.match(place, start)]
+        if said and said[-1]:
+            return True
+    return False
+
+
+# --- patterns (wildmatch.c of git) ----------------------------------------------------------------------------------
+
+_TOKEN = re.compile(r"((?:\A|(?<=/))\*\*+(?=/|\Z))|(\*+)|(\?)|(\[)|(\\?/)|\\(.)|([^\\])", re.DOTALL)
+# Groups: 1 any number of folders, 2 star, 3 question mark, 4 bracket, 5 slash, 6 escaped and 7 other characters.
+_ELEMENT = re.compile(r"\[:([^\]]*):\]|(?:\\(.)|([^\\]))(?:-(?:\\(.)|([^\]\\])))?", re.DOTALL)
+"""What stands in brackets: a class by its name (group 1), or a character (2, 3) and perhaps the end of a range (4, 5)."""
+_CLASSES: Final = {
+    "alnum": "09AZaz", "alpha": "AZaz", "blank": "\t\t  ", "cntrl": "\0\x1f\x7f\x7f", "digit": "09", "graph": "!~",
+    "lower": "az", "print": " ~", "punct": "!/:@[`{~", "space": "\t\n\r\r  ", "upper": "AZ", "xdigit": "09AFaf",
+}  # fmt: skip
+"""The first and the last character of each range."""
+
+
+class _MalformedError(Exception):
+    """git matches nothing with the pattern."""
+
+
+@lru_cache(maxsize=1024)
+def _compiled(glob: str) -> re.Pattern[str] | None:
+    """Return an expression for a path as :func:`~ros_lint.base.text.octets`, None when git matches nothing with the pattern."""
+    try:
+        names = _names(octets(glob))
+    except _MalformedError:
+        return None
+    numbers = count()
+    pieces = [""]
+    for rest, name in zip(range(len(names) - 1, -1, -1), names, strict=True):
+        if name:
+            pieces[-1] += spaced(name, "[^/]*", numbers) + ("/" if rest else "")
+        else:
+            pieces.append("" if rest else "[^/]+")
+    return re.compile(spaced(pieces, "(?:[^/]+/)*", numbers) + r"\Z")
+
+
+def _names(glob: str) -> list[list[str]]:
+    """Return for each name in a pattern what stands between its stars, as expressions; an empty list for ``**``."""
+    if len(glob) > LONGEST:
+        raise _MalformedError
+    names = [[""]]
+    at = 0
+    while at < len(glob):
+        match = _TOKEN.match(glob, at)
+        if match is None:
+            raise _MalformedError
+        at = match.end()
+        pieces = names[-1]
+        match match.lastindex:
+            case 1:
+                pieces.clear()
+            case 2:
+                pieces.append("")
+            case 3:
+                pieces[-1] += "[^/]"
+            case 4:
+                letter, at = _letter(glob, at)
+                pieces[-1] += letter
+            case 5:
+                names.append([""])
+            case _:
+                pieces[-1] += re.escape(match[6] or match[7])
+    return names
+
+
+def _letter(glob: str, at: int) -> tuple[str, int]:
+    """Return an expression for a bracket that is open at an offset, and the offset behind it."""
+    negated = glob[at : at + 1] in ("!", "^")
+    at += negated
+    ranges: list[tuple[int, int]] = []
+    while not ranges or glob[at : at + 1] != "]":
+        match = _ELEMENT.match(glob, at)
+        if match is None or (match[1] is not None and match[1] not in _CLASSES):
+            raise _MalformedError
+        at = match.end()
+        if match[1] is not None:
+            ends = _CLASSES[match[1]]
+        else:
+            low = match[2] or match[3]
+            ends = low + low + low + (match[4] or match[5] or low)  # the first character counts even where the range is empty
+        ranges += [(ord(low), ord(high)) for low, high in zip(ends[::2], ends[1::2], strict=True)]
+    return letters(ranges, negated=negated), at + 1

@@ -1,0 +1,392 @@
+"""Where files come from: a disk, a mapping, or one laid over the other.
+
+Everything above asks a tree, so that a patched workspace or a case from a test is read by the same code as a real one.
+Paths are relative to the base of the tree, with forward slashes; the base itself is ``""``.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import posixpath
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from operator import itemgetter
+from typing import Literal, NamedTuple, Protocol
+
+from ros_lint.base import files
+from ros_lint.base.text import Text, raw, read
+
+Kind = Literal["file", "directory", "other"]
+
+
+class Entry(NamedTuple):
+    """A name in a directory. Links are followed; a broken link and a device are ``other``."""
+
+    name: str
+    kind: Kind
+    link: bool = False
+
+
+class Stamp(NamedTuple):
+    """The state of a file: time of its content in nanoseconds, size in bytes, permission bits, time of its inode, inode.
+
+    Tools set the first three back (``cp -p``, ``rsync -t``, git-restore-mtime). No tool sets the time of the inode (st_ctime),
+    and the inode changes when a link leads to another file.
+    """
+
+    time: int
+    size: int
+    mode: int
+    changed: int = 0
+    inode: int = 0
+
+    @property
+    def executable(self) -> bool:
+        return bool(self.mode & 0o111)
+
+
+class Tree(Protocol):
+    """Files to read. Every method may raise OSError for the place it was asked about."""
+
+    def list(self, path: str) -> list[Entry]:
+        """Return the entries of a directory, sorted by name."""
+
+    def read(self, path: str) -> bytes:
+        """Return the bytes of a file."""
+
+    def stamp(self, path: str) -> Stamp:
+        """Return what tells this state of a file from another."""
+
+    def identity(self, path: str) -> str:
+        """Return a path that two paths share if they lead to one directory.
+
+        Below a directory that is no link, it is the identity of the parent joined to the name.
+        """
+
+
+def join(directory: str, name: str) -> str:
+    """Return the path of a name in a directory."""
+    return f"{directory}/{name}" if directory else name
+
+
+def seen_from(directory: str, path: str) -> str:
+    """Return the path that a relative one, which may lead upwards, means from a directory."""
+    return posixpath.normpath(join(directory, path))
+
+
+def towards(directory: str, path: str) -> str:
+    """Return the relative path, which may lead upwards, by which a directory means a path: the reverse of :func:`seen_from`."""
+    return posixpath.relpath(f"/{path}", f"/{directory}")
+
+
+def is_outside(path: str) -> bool:
+    """Return whether a relative path leads out of the directory that it is relative to."""
+    return path == ".." or path.startswith("../")
+
+
+def within(directory: str, path: str) -> str:
+    """Return a path as it is in a directory that it lies in: the reverse of :func:`join`. Others stay as they are."""
+    return path.removeprefix(f"{directory}/") if directory else path
+
+
+def text_of(tree: Tree, path: str) -> Text | None:
+    """Return the text of a file, None if it cannot be read."""
+    try:
+        return read(path, tree.read(path))
+    except OSError:
+        return None
+
+
+def contents(tree: Tree, folder: str, files: Iterable[str]) -> Iterator[tuple[str, bytes]]:
+    """Yield those files below a folder that can be read, by their path in the tree, with what they hold."""
+    for path in (join(folder, file) for file in files):
+        try:
+            yield path, tree.read(path)
+        except OSError:
+            continue
+
+
+def parent(path: str) -> str:
+    """Return the directory that a path lies in."""
+    return path.rpartition("/")[0]
+
+
+def is_below(path: str, folder: str) -> bool:
+    """Return whether a path is that of a directory, or of something that lies in it. The empty one holds everything."""
+    return path == folder or path.startswith(f"{folder.rstrip('/')}/" if folder else "")
+
+
+def folders_of(path: str) -> Iterator[str]:
+    """Yield the directories that a path lies in, innermost first; not the base, in which everything lies."""
+    while path := parent(path):
+        yield path
+
+
+_NAME = itemgetter(0)
+_make = tuple.__new__
+
+
+def upwards(folder: str) -> Iterator[str]:
+    """Yield a folder of the machine and those that it lies in, innermost first."""
+    while True:
+        yield folder
+        above = os.path.dirname(folder)
+        if above == folder:
+            return
+        folder = above
+
+
+def repository_of(folder: str) -> str:
+    """Return the root of the repository that a folder of the machine is in, or ""."""
+    return next((above for above in upwards(folder) if os.path.exists(os.path.join(above, ".git"))), "")
+
+
+def _followed(entry: os.DirEntry[str]) -> Entry:
+    try:
+        kind: Kind = "directory" if entry.is_dir() else "file" if entry.is_file() else "other"
+    except OSError:
+        kind = "other"  # such as a link to itself
+    return Entry(entry.name, kind, entry.is_symlink())
+
+
+LEADS_OUT = "links to a place outside of the workspace"
+
+
+class DiskTree:
+    """The files below a directory. Reads, and never writes.
+
+    ``inside`` are the real paths of the folders that links to files may lead into, by default the directory itself. A file
+    in a folder that is reached by a link which leads out of these may link into that folder, too, and into its repository.
+    """
+
+    __slots__ = ("_base", "_inside")
+
+    def __init__(self, base: str, inside: Sequence[str] = ()) -> None:
+        self._base = base
+        self._inside = tuple(inside)
+
+    def place(self, path: str) -> str:
+        """Return the path as the operating system takes it."""
+        return f"{self._base}/{path}" if path else self._base
+
+    def list(self, path: str) -> list[Entry]:
+        found = []
+        with os.scandir(self.place(path)) as entries:
+            for entry in entries:
+                # The two common cases cost no call to the system, and as little as can be in Python.
+                if entry.is_file(follow_symlinks=False):
+                    found.append(_make(Entry, (entry.name, "file", False)))
+                elif entry.is_dir(follow_symlinks=False):
+                    found.append(_make(Entry, (entry.name, "directory", False)))
+                else:
+                    found.append(_followed(entry))
+        found.sort(key=_NAME)
+        return found
+
+    def read(self, path: str) -> bytes:
+        """Return the bytes of a file. Raises OSError, with EXDEV for a link that leads out of the workspace."""
+        try:
+            return files.read(self.place(path), links=False)
+        except OSError as error:
+            if error.errno not in _IS_LINK:
+                raise
+        target = self.identity(path)
+        if not self._may_lead_to(target, parent(path)):
+            raise OSError(errno.EXDEV, LEADS_OUT, self.place(path))
+        return files.read(target)
+
+    def _may_lead_to(self, target: str, folder: str) -> bool:
+        """Return whether a link in a folder may lead to a place."""
+        inside = self._inside or (self.identity(""),)
+        if _is_in(target, inside):
+            return True
+        linked = ""  # the real path of the outermost folder that is reached by a link which leads out
+        while folder and not _is_in(real := self.identity(folder), inside):
+            linked, folder = real, parent(folder)
+        return bool(linked) and _is_in(target, (linked, repository_of(linked) or linked))
+
+    def stamp(self, path: str) -> Stamp:
+        found = os.stat(self.place(path))
+        return Stamp(found.st_mtime_ns, found.st_size, found.st_mode & 0o777, found.st_ctime_ns, found.st_ino)
+
+    def identity(self, path: str) -> str:
+        return os.path.realpath(os.path.join(self._base, path))
+
+
+_IS_LINK = (errno.ELOOP, errno.EMLINK)
+"""The errors of O_NOFOLLOW: of Linux and macOS, and of FreeBSD."""
+
+
+def _is_in(path: str, folders: Iterable[str]) -> bool:
+    return any(is_below(path, folder) for folder in folders)
+
+
+class Machine(DiskTree):
+    """All files of the machine, by their absolute paths. Links are followed wherever they lead."""
+
+    __slots__ = ()
+
+    def __init__(self) -> None:
+        super().__init__("")
+
+    def place(self, path: str) -> str:
+        return path
+
+    def read(self, path: str) -> bytes:
+        return files.read(path)
+
+
+Told = list[Entry] | Stamp | str | int
+"""What a tree says to a question, or the number of the error."""
+
+
+class RecordedTree:
+    """A disk that takes down what it is asked and what it says, so that it can be asked the same another day.
+
+    ``steady`` turns False when it says two things to one question: then somebody writes while a run reads.
+    """
+
+    def __init__(self, disk: DiskTree) -> None:
+        self.disk = disk
+        self.said: dict[tuple[str, str], Told] = {}
+        self.steady = True
+        self._known: dict[tuple[str, str], Told] = {}
+
+    def still_says(self, said: Iterable[tuple[tuple[str, str], Told]]) -> bool:
+        """Return whether the disk says what was taken down another day. What it says now is not asked for once more."""
+        for (question, path), told in said:
+            now = self._told(question, path)
+            self._known[question, path] = now
+            if now != told:
+                return False
+        return True
+
+    def list(self, path: str) -> list[Entry]:
+        told = self._answer("list", path)
+        assert isinstance(told, list)
+        return told
+
+    def read(self, path: str) -> bytes:
+        try:
+            self.stamp(path)  # before, so that what changes meanwhile counts as changed
+            return self.disk.read(path)
+        except OSError as error:
+            self._note("read", path, error.errno or 0)
+            raise
+
+    def stamp(self, path: str) -> Stamp:
+        told = self.said.get(("stamp", path)) or self._answer("stamp", path)
+        if not isinstance(told, Stamp):
+            raise self._error(told, path)
+        return told
+
+    def identity(self, path: str) -> str:
+        told = self._answer("identity", path)
+        assert isinstance(told, str)
+        return told
+
+    def _answer(self, question: str, path: str) -> Told:
+        told = self._known.pop((question, path), None)
+        if told is None:
+            told = self._told(question, path)
+        self._note(question, path, told)
+        if isinstance(told, int):
+            raise self._error(told, path)
+        return told
+
+    def _told(self, question: str, path: str) -> Told:
+        disk = self.disk
+        try:
+            if question == "list":
+                return disk.list(path)
+            if question == "stamp":
+                return disk.stamp(path)
+            if question == "identity":
+                return disk.identity(path)
+            disk.read(path)
+        except OSError as error:
+            return error.errno or 0
+        return "read"
+
+    def _note(self, question: str, path: str, told: Told) -> None:
+        if self.said.setdefault((question, path), told) != told:
+            self.steady = False
+
+    def _error(self, told: object, path: str) -> OSError:
+        number = told if isinstance(told, int) else 0
+        return OSError(number, os.strerror(number), self.disk.place(path))
+
+
+class MemoryTree:
+    """Files from a mapping of path to content. ``executable`` names those that have the bit."""
+
+    __slots__ = ("_directories", "_executable", "_files")
+
+    def __init__(self, files: Mapping[str, str | bytes], executable: frozenset[str] = frozenset()) -> None:
+        self._files = {path: _bytes(content) for path, content in files.items()}
+        self._executable = executable
+        self._directories: dict[str, dict[str, Entry]] = {"": {}}
+        for path in self._files:
+            self._enter(path, "file")
+
+    def _enter(self, path: str, kind: Kind) -> None:
+        directory, _, name = path.rpartition("/")
+        if directory not in self._directories:
+            self._directories[directory] = {}
+            self._enter(directory, "directory")
+        self._directories[directory][name] = Entry(name, kind)
+
+    def list(self, path: str) -> list[Entry]:
+        if path not in self._directories:
+            raise NotADirectoryError(20, os.strerror(20), path)
+        return sorted(self._directories[path].values())
+
+    def read(self, path: str) -> bytes:
+        if path not in self._files:
+            raise FileNotFoundError(2, os.strerror(2), path)
+        return self._files[path]
+
+    def stamp(self, path: str) -> Stamp:
+        return Stamp(0, len(self.read(path)), 0o755 if path in self._executable else 0o644)
+
+    def identity(self, path: str) -> str:
+        return path
+
+
+class OverlayTree:
+    """A tree in which some files have another content, or come into being in a directory that is there. None goes."""
+
+    __slots__ = ("_below", "_changed", "_names")
+
+    def __init__(self, below: Tree, changed: Mapping[str, bytes]) -> None:
+        self._below = below
+        self._changed = changed
+        self._names: dict[str, list[str]] = {}
+        for file in changed:
+            directory, _, name = file.rpartition("/")
+            self._names.setdefault(directory, []).append(name)
+
+    def list(self, path: str) -> list[Entry]:
+        entries = self._below.list(path)
+        if path not in self._names:
+            return entries
+        new = set(self._names[path]).difference(entry.name for entry in entries)
+        return sorted([*entries, *(Entry(name, "file") for name in new)], key=_NAME)
+
+    def read(self, path: str) -> bytes:
+        return self._changed[path] if path in self._changed else self._below.read(path)
+
+    def stamp(self, path: str) -> Stamp:
+        try:
+            return self._below.stamp(path)
+        except FileNotFoundError:
+            if path not in self._changed:
+                raise
+            return Stamp(0, len(self._changed[path]), 0o644)
+
+    def identity(self, path: str) -> str:
+        return self._below.identity(path)
+
+
+def _bytes(content: str | bytes) -> bytes:
+    return content if isinstance(content, bytes) else raw(content)

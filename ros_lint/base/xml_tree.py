@@ -1,0 +1,126 @@
+"""XML as a tree with exact places. Neither entities nor anything outside the file is resolved."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from typing import Any, Final, Protocol, TypeVar
+from xml.parsers import expat
+
+from ros_lint.base.text import from_raw, raw
+
+
+class XmlError(Exception):
+    """The text is not XML that can be read safely. ``offset`` is from 0 to the length of the text."""
+
+    def __init__(self, message: str, offset: int) -> None:
+        super().__init__(message)
+        self.message: Final = message
+        self.offset: Final = offset
+
+
+class Element:
+    """An element: ``start`` is the offset of its ``<``; comments and text between elements are left out."""
+
+    __slots__ = ("attributes", "children", "start", "tag")
+
+    def __init__(self, tag: str, attributes: dict[str, str], start: int) -> None:
+        self.tag = tag
+        self.attributes = attributes
+        self.start = start
+        self.children: list[Element] = []
+
+    def walk(self) -> Iterator[Element]:
+        """Yield the element and all below it, in the order of the file."""
+        waiting = [self]
+        while waiting:
+            found = waiting.pop()
+            yield found
+            waiting += reversed(found.children)
+
+
+_DEEPEST = 200
+_ATTRIBUTE = re.compile(r"""\s+([^\s=/>"']+)\s*=\s*("[^"]*"|'[^']*')""")
+_NAME = re.compile(r"<[^\s/>]+")
+
+
+class _Parent(Protocol):
+    @property
+    def children(self) -> list[Any]: ...
+
+
+_E = TypeVar("_E", bound=_Parent)
+
+
+def parse(text: str) -> Element:
+    """Return the root element. Raises XmlError, also for a declared entity: it could be a bomb, or read other files."""
+    return parse_as(text, Element)
+
+
+def parse_as(text: str, make: Callable[[str, dict[str, str], int], _E]) -> _E:
+    """Return the root as an element of a kind of its own, made from tag, attributes and offset; else as :func:`parse`."""
+    data = unmarked(raw(text))
+    offset = _Offsets(data).of
+    parser = expat.ParserCreate("utf-8")  # the text is decoded already, whatever its declaration says
+    parser.buffer_text = True
+    root: list[_E] = []
+    open_elements: list[_E] = []
+
+    def start(tag: str, attributes: dict[str, str]) -> None:
+        if len(open_elements) > _DEEPEST:
+            raise XmlError("elements are nested too deeply", offset(parser.CurrentByteIndex))
+        element = make(tag, attributes, offset(parser.CurrentByteIndex))
+        (open_elements[-1].children if open_elements else root).append(element)
+        open_elements.append(element)
+
+    def end(_: str) -> None:
+        open_elements.pop()
+
+    def entity(*_: object) -> None:
+        raise XmlError("declares an entity, which is not resolved here", offset(parser.CurrentByteIndex))
+
+    parser.StartElementHandler = start
+    parser.EndElementHandler = end
+    parser.EntityDeclHandler = entity
+    try:
+        parser.Parse(data, True)
+    except expat.ExpatError as error:
+        message = expat.ErrorString(error.code) or "not well-formed"
+        raise XmlError(message, offset(parser.ErrorByteIndex)) from None
+    return root[0]
+
+
+def unmarked(data: bytes) -> bytes:
+    """Return a text for expat, which would pass over a second byte order mark as it does over the first, taken off already."""
+    return b"\xef\xbf\xbe" + data[3:] if data.startswith(b"\xef\xbb\xbf") else data
+
+
+def attribute_places(text: str, element: Element) -> dict[str, tuple[int, int]]:
+    """Return the offsets of the values of the attributes, as they are written between the quotes."""
+    name = _NAME.match(text, element.start)
+    at = name.end() if name else element.start
+    places = {}
+    while match := _ATTRIBUTE.match(text, at):
+        places[match[1]] = (match.start(2) + 1, match.end(2) - 1)
+        at = match.end()
+    return places
+
+
+class _Offsets:
+    """Turns offsets of bytes into offsets of characters; fast when they rise."""
+
+    __slots__ = ("_ascii", "_byte", "_character", "_data")
+
+    def __init__(self, data: bytes) -> None:
+        self._data = data
+        self._ascii = data.isascii()
+        self._byte = self._character = 0
+
+    def of(self, byte: int) -> int:
+        if self._ascii:
+            return byte
+        if byte < self._byte:
+            self._byte = self._character = 0
+        self._character += len(from_raw(self._data[self._byte : byte]))
+        self._byte = byte
+        return self._character

@@ -1,0 +1,244 @@
+"""``ros-lint [check] PATH...``: look for what is wrong, and mend it when asked."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Mapping
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from ros_lint import __version__
+from ros_lint.analysis.rule import Severity
+from ros_lint.base.tree import Machine, RecordedTree, text_of
+from ros_lint.cli import session as opening
+from ros_lint.cli.progress import Progress
+from ros_lint.engine.report import Hidden, RefusalError, Report, Unseen
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from ros_lint.cli.session import Asked, Opened
+    from ros_lint.cli.settings import Settings
+    from ros_lint.engine import run as engine
+    from ros_lint.engine.baseline import Baseline
+    from ros_lint.reporters.ansi import Style
+    from ros_lint.workspace.model import Workspace
+
+Said = Mapping[str, Any]
+
+
+def run(said: Said) -> int:
+    """Check what the options name, print the findings, return the exit code."""
+    if said.get("version"):
+        print(f"ros-lint {__version__}")
+        return 0
+    progress = Progress(sys.stderr, wanted=said.get("progress", True))
+    try:
+        with progress:
+            asked = opening.ask(said, os.environ)
+            _warn(asked.settings.warnings)
+            if asked.settings["show-settings"]:
+                print(asked.settings.show(), end="")
+                return 0
+            known = _known(asked.settings)
+            if asked.settings["fix"] or asked.settings["diff"]:
+                from ros_lint.engine import fixing as mend  # noqa: PLC0415
+
+                report, code = mend.run(opening.opened(asked, progress.tell), select(asked.settings))
+            else:
+                report, code = _checked(asked, progress), 0
+            if asked.settings["write-baseline"]:
+                return max(code, _keep(report, asked))
+            if known is not None:
+                path = asked.settings["baseline"]
+                report = known.without(report, os.path.basename(path), _folders(asked, path))
+    except RefusalError as error:
+        print(f"ros-lint: {error}", file=sys.stderr)
+        return 2
+    _warn((*report.warnings, *_alone(asked)))
+    if asked.settings["diff"]:  # standard output holds a patch and nothing else
+        return max(code, exit_code(report, asked.settings["fail-on"]))
+    return max(code, _print(report, asked))
+
+
+def _warn(warnings: Iterable[str]) -> None:
+    for warning in warnings:
+        print(f"ros-lint: {warning}", file=sys.stderr)
+
+
+def _known(settings: Settings) -> Baseline | None:
+    """Return what the file of known findings says, None without one. Raises BaselineError, and UsageError for nonsense."""
+    path, write = settings["baseline"], settings["write-baseline"]
+    if write and not path:
+        raise opening.UsageError("--write-baseline needs a file: use --baseline FILE, or set baseline in ros-lint.toml")
+    if write and settings["diff"]:
+        raise opening.UsageError("--write-baseline and --diff cannot be combined, because --diff writes no files")
+    if write or not path:
+        return None
+    from ros_lint.engine import baseline  # noqa: PLC0415
+
+    return baseline.read(path)
+
+
+def _keep(report: Report, asked: Asked) -> int:
+    """Write what was found to the file of known findings, unless it is not all that there is. Raises BaselineError."""
+    from ros_lint.engine import baseline  # noqa: PLC0415
+
+    path = asked.settings["baseline"]
+    if code := exit_code(report, "never"):
+        why = "a rule failed, so its findings are unknown" if report.packages else opening.no_packages(asked)
+        print(f"ros-lint: {path}: not written: {why.removeprefix('ros-lint: ')}", file=sys.stderr)
+        return code
+    baseline.write(path, report, _folders(asked, path))
+    count = len(report.issues)
+    print(f"ros-lint: wrote {count} finding{'s' * (count != 1)} to {path}", file=sys.stderr)
+    return 0
+
+
+def _folders(asked: Asked, path: str) -> list[str]:
+    """Return what was asked for, relative to the folder of a file."""
+    folder = os.path.dirname(os.path.realpath(path))
+    return [os.path.relpath(os.path.join(asked.base, root), folder).replace(os.sep, "/") for root in asked.roots]
+
+
+def _alone(asked: Asked) -> Iterator[str]:
+    """Yield what to say of a single package of a workspace or repository: the others are not known then."""
+    root = os.path.join(asked.base, asked.roots[0]) if asked.roots[0] else asked.base
+    manifest, repository = (os.path.join(root, name) for name in ("package.xml", ".git"))
+    if len(asked.roots) > 1 or os.path.exists(repository) or not os.path.isfile(manifest):
+        return
+    from ros_lint.cli.commands.query import enclosing_workspace  # noqa: PLC0415
+
+    around = enclosing_workspace(manifest)
+    if around != root:
+        what, where = os.path.relpath(root, around), os.path.relpath(around)
+        yield f"'{what}' was checked without its sibling packages; run 'ros-lint {where}' for the whole workspace"
+
+
+def _checked(asked: Asked, progress: Progress) -> Report:
+    """Return the report of a run, or the one of an earlier run if nothing that it depends on has changed."""
+    reports = opening.reports(asked)
+    disks = asked.disk, Machine()
+    recorded = [RecordedTree(disk) for disk in disks]
+    if kept := reports.fetch(recorded):
+        return kept
+    opened = opening.opened(asked, progress.tell, *(recorded if reports else disks))
+    report = check(opened, opened.loader.load(), select(asked.settings))
+    reports.store(recorded, report)
+    return report
+
+
+def select(settings: Settings) -> engine.Selection:
+    """Return the rules that the settings select. Raises SelectionError and PluginError."""
+    from ros_lint.engine import registry
+    from ros_lint.engine import run as engine  # noqa: PLC0415  (all the rules, of which a kept report needs none)
+
+    return engine.select(
+        registry.load(settings["plugins"]),
+        chosen=settings["select"],
+        added=settings["extend-select"],
+        ignored=settings["ignore"],
+        severities=settings["severity"],
+        per_path=settings["per-path-ignores"],
+        pedantic=settings["pedantic"],
+    )
+
+
+def check(opened: Opened, workspace: Workspace, selection: engine.Selection) -> Report:
+    """Return what the selected rules say of a workspace, suppressions and settings respected."""
+    from ros_lint.engine import registry
+    from ros_lint.engine import run as engine  # noqa: PLC0415
+
+    known = registry.load(opened.settings["plugins"])
+    checked = engine.check(workspace, selection.rules, opened.loader.suppressions(), known)
+    shown, hidden = engine.show(checked.issues, selection)
+    if checked.suppressed:
+        hidden = (*hidden, Hidden("suppressed by comments", len(checked.suppressed)))
+    return Report(
+        issues=shown,
+        rules=selection.rules,
+        packages=len(workspace.packages) + len(workspace.unusable),
+        target=workspace.target,
+        data_date=opened.knowledge.date,
+        version=__version__,
+        hidden=hidden,
+        not_checked=workspace.not_checked,
+        unseen=_unseen(workspace),
+        crashes=checked.crashes,
+        workspace=opened.roots[0] if len(opened.roots) == 1 else "",
+        warnings=opened.warnings,
+    )
+
+
+def exit_code(report: Report, fail_on: str) -> int:
+    """Return 2 when the tool could not do its job, 1 for findings at or above ``fail_on``, else 0."""
+    if not report.packages or report.crashes:
+        return 2
+    if fail_on == "never":
+        return 0
+    return int(any(issue.severity >= Severity[fail_on.upper()] for issue in report.issues))
+
+
+def _print(report: Report, asked: Asked) -> int:
+    from ros_lint import reporters  # noqa: PLC0415
+
+    settings = asked.settings
+    render = reporters.reporter(settings["format"])
+    data = render(report, partial(text_of, asked.disk), _style(settings)).encode("utf-8", "backslashreplace")
+    if settings["output"]:
+        from ros_lint.engine import edits  # noqa: PLC0415  (few runs write a file)
+
+        try:
+            edits.write(settings["output"], data)
+        except edits.EditError as error:
+            print(f"ros-lint: {error}", file=sys.stderr)
+            return 2
+    else:
+        sys.stdout.buffer.write(data)
+        sys.stdout.buffer.flush()
+    if not report.packages:
+        print(opening.no_packages(asked), file=sys.stderr)
+    return exit_code(report, settings["fail-on"])
+
+
+def _style(settings: Settings) -> Style:
+    from ros_lint.reporters.ansi import Style  # noqa: PLC0415
+
+    encoding = "utf-8" if settings["output"] else (sys.stdout.encoding or "ascii")
+    only_ascii = "utf" not in encoding.lower()
+    if sys.stdout.isatty() and not settings["output"]:
+        import shutil  # noqa: PLC0415
+
+        return Style(_wants_color(settings), only_ascii, max(shutil.get_terminal_size().columns, 60), fixes=True)
+    return Style(_wants_color(settings), only_ascii)
+
+
+def _wants_color(settings: Settings) -> bool:
+    """Return whether to colour: the flag, then NO_COLOR, then FORCE_COLOR, then whether a terminal reads along."""
+    if settings["color"] != "auto":
+        return bool(settings["color"] == "always")
+    if os.environ.get("NO_COLOR"):
+        return False
+    if os.environ.get("FORCE_COLOR") or os.environ.get("CLICOLOR_FORCE"):
+        return not settings["output"]
+    return sys.stdout.isatty() and not settings["output"] and os.environ.get("TERM") != "dumb"
+
+
+def _unseen(workspace: Workspace) -> tuple[Unseen, ...]:
+    from ros_lint.facts.visibility import Facet  # noqa: PLC0415
+
+    words = {
+        Facet.USES: "used dependencies",
+        Facet.EXECUTABLES: "executables",
+        Facet.SHARE: "installed share files",
+        Facet.PYTHON: "Python modules",
+        Facet.LIBRARIES: "libraries",
+        Facet.INTERFACES: "interfaces",
+        Facet.COMPONENTS: "components",
+    }
+    blind = {
+        word: tuple([package.name or package.path for package in workspace.packages if package.hidden(facet)])
+        for facet, word in words.items()
+    }
+    return tuple(Unseen(word, packages) for word, packages in blind.items() if packages)

@@ -1,0 +1,29 @@
+"""``ros-lint why A B --explain-silence``: why the rules about dependencies say nothing of A and B."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ros_lint.analysis.dependencies.explain import RULES, explain
+from ros_lint.analysis.rule import Confidence
+from ros_lint.engine import registry
+from ros_lint.workspace.model import Package, Workspace
+
+
+def run(workspace: Workspace, name: str, other: str) -> tuple[str, str, int]:
+    """Return what goes to standard output and to standard error, and the exit code: 2 when there is no such package."""
+    packages = workspace.called(name)
+    if not packages:
+        return "", f"ros-lint: the workspace has no package '{name}'\n", 2
+    lines = [line for package in packages for line in explain(package, workspace, other, _told(package, workspace, other))]
+    return "".join(f"{line}\n" for line in lines), "", 0
+
+
+def _told(package: Package, workspace: Workspace, name: str) -> Mapping[str, Confidence]:
+    """Return how sure the rules are that say something of a dependency, by their names."""
+    found: dict[str, Confidence] = {}
+    for rule in registry.load():
+        if rule.name in RULES and rule.package is not None:
+            sure = [finding.confidence for finding in rule.package(package, workspace) if finding.subject == name]
+            found.update({rule.name: max(sure)} if sure else {})
+    return found

@@ -1,0 +1,141 @@
+"""``ros-lint graph``: the dependency graph for people and for programs.
+
+The JSON has ``schema_version`` 1 and, in the order of names:
+
+- ``packages``: ``name``; ``places``, each with ``path`` (relative, "." for the base) and ``type`` as colcon prints it; and
+  with metrics ``metrics`` as in :class:`ros_lint.analysis.graph.metrics.Metrics`, where ``redundant`` lists ways round.
+- ``edges``: ``from`` needs ``to``; ``test_only``; ``certain``, false when it hangs on an unknown condition; ``reasons``, each
+  with ``tag``, ``categories`` (build, run, test, group), ``path``, ``line`` and ``column``.
+- ``cycles``: ``packages`` of the knot, a shortest ``cycle``, the ``cut`` as pairs, and ``certain``.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+from ros_lint.analysis.graph.cycles import knots
+from ros_lint.cli.commands.output import label, where
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from ros_lint.analysis.graph.dependency_graph import Edge, Graph
+    from ros_lint.analysis.graph.metrics import Metrics
+    from ros_lint.workspace.model import Workspace
+
+Format = Literal["dot", "mermaid", "json"]
+
+SCHEMA_VERSION = 1
+
+
+def run(workspace: Workspace, form: Format = "dot", *, metrics: bool = False) -> tuple[str, str, int]:
+    """Return what goes to standard output and to standard error, and the exit code, which is 0.
+
+    With metrics, JSON holds them beside the graph; the other formats give way to a table.
+    """
+    graph = workspace.graph
+    figures = _measure(graph) if metrics else {}
+    if form == "json":
+        return _json(graph, figures), "", 0
+    lines = _table(figures) if metrics else _dot(graph) if form == "dot" else _mermaid(graph)
+    return "".join(f"{line}\n" for line in lines), "", 0
+
+
+def _measure(graph: Graph) -> Mapping[str, Metrics]:
+    from ros_lint.analysis.graph.metrics import measure  # noqa: PLC0415  (only where they are asked for)
+
+    return measure(graph)
+
+
+def _dot(graph: Graph) -> Iterator[str]:
+    knotted = _knotted(graph)
+    yield "digraph workspace {"
+    yield "  rankdir=LR;"
+    yield "  node [shape=box, fontname=Helvetica];"
+    for name in graph.names:
+        yield f"  {_quoted(name)};"
+    for edge in graph.edges:
+        style = [*(["style=dashed"] if is_test_only(graph, edge) else []), *(["color=red"] if edge in knotted else [])]
+        attributes = f" [{', '.join(style)}]" if style else ""
+        yield f"  {_quoted(edge[0])} -> {_quoted(edge[1])}{attributes};"
+    yield "}"
+
+
+def _quoted(name: str) -> str:
+    # DOT has no escape for a backslash, which must not stand before a quote, but reads the entities of HTML.
+    text = name.replace("&", "&amp;").replace("\\", "&#92;").replace('"', '\\"')
+    return f'"{text}"'
+
+
+def _mermaid(graph: Graph) -> Iterator[str]:
+    knotted = _knotted(graph)
+    identifier = {name: f"p{number}" for number, name in enumerate(graph.names)}
+    yield "flowchart LR"
+    for name in graph.names:
+        yield f'  {identifier[name]}["{label(name)}"]'
+    red = []
+    for number, edge in enumerate(graph.edges):
+        arrow = "-.->" if is_test_only(graph, edge) else "-->"
+        yield f"  {identifier[edge[0]]} {arrow} {identifier[edge[1]]}"
+        if edge in knotted:
+            red.append(str(number))
+    if red:
+        yield f"  linkStyle {','.join(red)} stroke:red"
+
+
+def _json(graph: Graph, figures: Mapping[str, Metrics]) -> str:
+    import json  # noqa: PLC0415  (only where it is asked for)
+
+    document = {
+        "schema_version": SCHEMA_VERSION,
+        "packages": [
+            {
+                "name": name,
+                "places": [{"path": package.path or ".", "type": package.type} for package in places],
+                **({"metrics": figures[name]._asdict()} if figures else {}),
+            }
+            for name, places in graph.places.items()
+        ],
+        "edges": [
+            {
+                "from": edge[0],
+                "to": edge[1],
+                "test_only": is_test_only(graph, edge),
+                "certain": edge[1] in graph.certain_arcs[edge[0]],
+                "reasons": [
+                    {"tag": reason.tag, "categories": reason.categories, **where(reason.span)} for reason in graph.reasons(edge)
+                ],
+            }
+            for edge in graph.edges
+        ],
+        "cycles": [
+            {"packages": knot.names, "cycle": knot.cycle, "cut": knot.cut, "certain": knot.certain} for knot in knots(graph)
+        ],
+    }
+    return json.dumps(document, indent=2, ensure_ascii=False) + "\n"
+
+
+def _table(figures: Mapping[str, Metrics]) -> Iterator[str]:
+    rows: list[tuple[str, ...]] = [("package", "needed by", "needs", "depth", "reach", "redundant")]
+    for name, found in figures.items():
+        numbers = (found.needed_by, found.needs, found.depth, found.reach, len(found.redundant))
+        rows.append((name, *map(str, numbers)))
+    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
+    for name, *cells in rows:
+        yield "  ".join((name.ljust(widths[0]), *(cell.rjust(width) for cell, width in zip(cells, widths[1:], strict=True))))
+    ways = [way for found in figures.values() for way in found.redundant]
+    if ways:
+        yield ""
+        yield "Redundant edges, because another path implies the same build order:"
+        yield from (f"  {way[0]} -> {way[-1]}: {' -> '.join(way)}" for way in ways)
+
+
+def is_test_only(graph: Graph, edge: Edge) -> bool:
+    """Return whether only tests need what an edge leads to."""
+    return all(reason.categories == ("test",) for reason in graph.reasons(edge))
+
+
+def _knotted(graph: Graph) -> frozenset[Edge]:
+    """Return the edges that lie in a knot."""
+    member = {name: number for number, names in enumerate(graph.cycles) for name in names}
+    return frozenset(edge for edge in graph.edges if edge[0] in member and member[edge[0]] == member.get(edge[1]))

@@ -1,0 +1,41 @@
+"""``order``, ``why``, ``graph``, ``overlay`` and ``explain-package``: questions to the model."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from ros_lint.cli.commands import explain_package, graph, order, overlay, why
+from ros_lint.cli.commands import explain_silence as silence
+from ros_lint.cli.commands.query import Answer, around, ask
+from ros_lint.cli.session import Opened, no_packages
+from ros_lint.workspace.model import Workspace
+
+Said = Mapping[str, Any]
+
+_COMMANDS: Mapping[str, Callable[[Workspace, Said], Answer]] = {
+    "order": lambda workspace, said: order.run(workspace),
+    "overlay": lambda workspace, said: overlay.run(workspace),
+    "graph": lambda workspace, said: graph.run(workspace, said["format"], metrics=said.get("metrics", False)),
+    "explain-package": lambda workspace, said: explain_package.run(workspace, said["package"], said["format"]),
+    "why": lambda workspace, said: (
+        silence.run(workspace, said["package"], said["dependency"])
+        if said.get("explain-silence")
+        else why.run(workspace, said["package"], said["dependency"])
+    ),
+}
+
+_WITH_SOURCES = ("explain-package", "why")
+"""Questions about what the sources say; manifests answer the others."""
+
+
+def run(command: str, said: Said) -> int:
+    """Answer one of the questions, print the answer, return the exit code."""
+
+    def answer(opened: Opened, workspace: Workspace) -> Answer:
+        out, err, code = _COMMANDS[command](workspace, said)
+        return (out, err, code) if workspace.packages else (out, f"{err}{no_packages(opened)}\n", 2)
+
+    if command in _WITH_SOURCES and not said.get("paths"):
+        said = {**said, "paths": [around()]}
+    return ask(said, answer, sources=command in _WITH_SOURCES)

@@ -1,0 +1,147 @@
+"""``ros-lint index``: rebuild what is known of the released world, or make the same of an installed prefix."""
+
+from __future__ import annotations
+
+import os
+import sys
+import tempfile
+from datetime import datetime, timezone
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from ros_lint.base.auxiliary_files import TEST_FOLDERS
+from ros_lint.knowledge import index, provides, rosdep
+from ros_lint.knowledge import underlays as underlay
+from ros_lint.knowledge.provides import LETTERS, Provided
+from ros_lint.knowledge.refresh import rosdep_rules
+from ros_lint.knowledge.refresh import rosdistro as upstream
+from ros_lint.knowledge.store import KnowledgeError, Store, user_directory
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping, Sequence
+
+    from ros_lint.knowledge.underlays import Installed
+
+
+class Refreshed(NamedTuple):
+    """A data file that was written, and what became of its lines."""
+
+    path: str
+    lines: int
+    added: int
+    removed: int
+    changed: int
+
+    def __str__(self) -> str:
+        return f"{self.path}: {self.lines} lines, {self.added} added, {self.removed} removed, {self.changed} changed"
+
+
+def run(options: Mapping[str, Any]) -> int:
+    """Run the command as the command line gives it. Returns the exit code: 2 when something could not be read."""
+    try:
+        if options["action"] == "refresh":
+            to = options["to"] or user_directory(os.environ)
+            for line in refresh(options["source"], options["distro"], to, options["rosdep"]):
+                print(line)
+        else:
+            _put(options["distro"], options["to"], *scan(options["prefixes"], options["distro"]))
+    except (KnowledgeError, underlay.UnderlayError) as error:
+        print(f"ros-lint: {error}", file=sys.stderr)
+        return 2
+    except OSError as error:
+        print(f"ros-lint: {error.filename or 'data'} cannot be written: {error.strerror}", file=sys.stderr)
+        return 2
+    return 0
+
+
+def refresh(
+    source: str, distros: Sequence[str], to: str, rosdep_files: Sequence[str] = (), date: str = ""
+) -> tuple[Refreshed, ...]:
+    """Write the ``.idx`` files of distributions, and ``rosdep.tsv`` when rule files are given; return what has changed.
+
+    ``source`` is upstream's ``index-v4.yaml``, and like ``rosdep_files`` a path or a URL; no distribution named means all
+    ROS 2 distributions that are not at their end of life; ``to`` is a folder; ``date`` is that of the data, today by
+    default. Nothing is written before everything has been read. Raises KnowledgeError when something cannot be read,
+    and OSError when it cannot be written.
+    """
+    date = date or _today()
+    found = upstream.sources(source)
+    unknown = [name for name in distros if name not in found]
+    if unknown:
+        raise KnowledgeError(f"{source} has no distribution '{unknown[0]}'; available: {', '.join(sorted(found))}")
+    wanted = distros or sorted(name for name, entry in found.items() if entry.active)
+    files = {f"{name}.idx": index.render_file(name, "", date, upstream.packages(found[name])) for name in wanted}
+    if rosdep_files:
+        rules = [(place, upstream.load_yaml(place)) for place in rosdep_files]
+        files["rosdep.tsv"] = rosdep.render_file(rosdep_rules.keys(rules))
+    os.makedirs(to, exist_ok=True)
+    return tuple(_replace(to, name, text) for name, text in files.items())
+
+
+def scan(prefixes: Sequence[str], distro: str, date: str = "") -> tuple[str, str]:
+    """Return the ``.idx`` and ``.prov`` files of what is installed. The first of several prefixes with a package wins.
+
+    Raises underlay.UnderlayError for a folder that is no prefix.
+    """
+    found: dict[str, Installed] = {}
+    for layer in underlay.read(prefixes, distro):
+        for name, installed in layer.packages.items():
+            found.setdefault(name, installed)
+    described = (installed.released or index.Released(name, "", "?-", name, {}) for name, installed in found.items())
+    idx = index.render_file(distro, "", date or _today(), described)
+    return idx, provides.render_file(distro, (_provided(installed) for installed in found.values()))
+
+
+def _provided(installed: Installed) -> Provided:
+    fields = {}
+    for facet, letter in LETTERS.items():
+        known = installed.known(facet)
+        names = (*known.names, *(f"{name}?" for name in known.maybe))
+        if facet == "modules" and installed.known("interfaces").names:
+            # The module of an interface package is made from its interfaces, and goes without saying.
+            names = tuple(name for name in names if name != installed.name)
+        if facet == "modules":
+            # What find_packages() takes along of tests is nobody's to import; the shipped data do not name it either.
+            names = tuple(name for name in names if name not in TEST_FOLDERS)
+        if facet == "plugins":
+            names = tuple(name.replace(" ", "") for name in names)  # as the shipped data write them
+        # Other names with a space could not be told apart in a line.
+        fields[letter] = tuple(sorted(name for name in names if " " not in name))
+    return Provided(installed.name, "=", fields)
+
+
+def _put(distro: str, to: str, idx: str, prov: str) -> None:
+    if not to:
+        sys.stdout.write(idx + prov)
+        return
+    os.makedirs(to, exist_ok=True)
+    for name, text in ((f"{distro}.idx", idx), (f"{distro}.prov", prov)):
+        print(_replace(to, name, text))
+
+
+def _replace(folder: str, name: str, text: str) -> Refreshed:
+    """Write a data file in one step, so that no reader ever sees half of it."""
+    try:
+        before = _by_name(Store((folder,)).lines(name)[1])
+    except KnowledgeError:
+        before = {}  # what is damaged is about to be mended
+    after = _by_name(text.split("\n")[1:-1])
+    path = os.path.join(folder, name)
+    handle, temporary = tempfile.mkstemp(dir=folder, prefix=f".{name}.")
+    try:
+        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
+            file.write(text)
+        os.chmod(temporary, 0o644)
+        os.replace(temporary, path)
+    except BaseException:
+        os.unlink(temporary)
+        raise
+    changed = sum(after[key] != before[key] for key in after.keys() & before.keys())
+    return Refreshed(path, len(after), len(after.keys() - before), len(before.keys() - after), changed)
+
+
+def _by_name(lines: Iterable[str]) -> dict[str, str]:
+    return {line.partition("\t")[0]: line for line in lines}
+
+
+def _today() -> str:
+    return datetime.now(timezone.utc).strftime("%Y-%m-%d")

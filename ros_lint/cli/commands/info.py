@@ -1,0 +1,52 @@
+"""``rules``, ``rule``, ``schema`` and ``completion``: what the tool says about itself."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping
+from typing import Any
+
+from ros_lint.cli import rule_pages as docs
+from ros_lint.engine import registry
+
+
+def run(command: str, said: Mapping[str, Any]) -> int:
+    """Print what was asked for and return the exit code."""
+    match command:
+        case "rules":
+            rules = registry.load()
+            print(docs.as_json(rules) if said.get("format") == "json" else docs.listing(rules), end="")
+            return 0
+        case "rule":
+            return _rule(said["rule"], said.get("format", "text"))
+        case "schema":
+            import json  # noqa: PLC0415
+
+            from ros_lint.cli.options import schema  # noqa: PLC0415
+
+            print(json.dumps(schema(), indent=2))
+            return 0
+        case _:
+            return _completion(said["shell"])
+
+
+def _rule(name: str, form: str) -> int:
+    rules = registry.load()
+    found = [rule for rule in rules if name.lower() in (rule.name, rule.code.lower())]
+    if not found:
+        print(f"ros-lint: {registry.no_rule(rules, name)}", file=sys.stderr)
+        return 2
+    print(docs.as_json(found) if form == "json" else docs.page(found[0]), end="")
+    return 0
+
+
+def _completion(shell: str) -> int:
+    try:
+        import shtab  # noqa: PLC0415
+    except ModuleNotFoundError:
+        print("ros-lint: completion needs shtab: pip install 'ros-lint[completion]'", file=sys.stderr)
+        return 2
+    from ros_lint.cli.arguments import parser  # noqa: PLC0415
+
+    print(shtab.complete(parser("check", top=True), shell=shell))
+    return 0

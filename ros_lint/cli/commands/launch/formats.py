@@ -1,0 +1,275 @@
+"""What a launch file would start, for people (tree, mermaid) and for programs (json).
+
+The JSON has ``schema_version`` 1, ``file``, and
+
+- ``arguments``: those of the launch file and of included ones, each with ``name``, ``values``, ``given``, ``included``
+  (whether an included file declares it), ``path``, ``line`` and ``column``;
+- ``starts``: in order, each with ``kind`` (node, component, process, include), ``package``, ``target`` (executable, class,
+  command or file), ``name``, ``namespace``, ``container``, ``parameters``, ``remappings``, ``environment``, ``arguments``,
+  ``words`` (what a node is given on its command line), ``later`` (whether a timer or an event starts it), ``certain``,
+  ``when`` (what it depends on), ``unknown`` (why something is not known), ``path``, ``line`` and ``column``;
+  for an include ``follows`` (the file that was read, or null) and ``starts`` again;
+- ``unknown``: what could not be seen through in these files, each with ``reason``, ``path``, ``line`` and ``column``.
+
+Texts are lists of alternatives, in the spelling of XML launch files, with ``?`` for what is not known.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from ros_lint.cli.commands.output import label, where
+from ros_lint.collectors.symbolic_text import UNKNOWN, readable
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+
+    from ros_lint.base.text import Span
+    from ros_lint.cli.commands.launch.lookup import LookUp
+    from ros_lint.collectors.launch.expand import Argument, Expansion, Started
+    from ros_lint.facts.launch import LaunchCondition, LaunchFile
+
+SCHEMA_VERSION = 1
+
+_MOST_UNKNOWN = 20
+
+
+class Found(NamedTuple):
+    """What is to be told."""
+
+    file: LaunchFile
+    expansion: Expansion
+    look_up: LookUp
+
+
+# --- words ---------------------------------------------------------------------------------------------------------
+
+
+def _text(texts: Iterable[str]) -> str:
+    return " | ".join(readable(text) for text in texts)
+
+
+def _value(texts: Iterable[str]) -> str:
+    return _text(texts) or "''"
+
+
+def _full_name(started: Started) -> str:
+    """Return the name in its namespace, as far as a launch file says it."""
+    spaces = [f"/{space.strip('/')}".rstrip("/") for space in started.namespace or ("",)]
+    if not started.name:
+        return readable(" | ".join(dict.fromkeys(f"{space}/..." for space in spaces if space)))
+    return _text(dict.fromkeys(f"{space}/{name}" for space in spaces for name in started.name))
+
+
+def _condition(condition: LaunchCondition) -> str:
+    """Return what must hold, "" when nobody knows what."""
+    if all(text.rstrip("0123456789") == UNKNOWN for text in condition.texts):
+        return ""
+    text = _text(condition.texts)
+    if condition.equals is None:
+        return f"{'if' if condition.wanted else 'unless'} {text}"
+    return f"if {text} {'==' if condition.wanted else '!='} {condition.equals or repr('')}"
+
+
+def _when(started: Started) -> list[str]:
+    return [said for condition in dict.fromkeys(started.when) if (said := _condition(condition))]
+
+
+def _why_not_followed(started: Started, look_up: LookUp) -> str:
+    if len(started.target) != 1 or UNKNOWN in started.target[0]:
+        return _NOT_KNOWN
+    absent = look_up.absent(started.target[0])
+    return absent.reason if absent is not None else _NOT_KNOWN
+
+
+_NOT_KNOWN = "the path of the file is not known"
+
+
+def _head(started: Started) -> str:
+    target = _text(started.target) or "?"
+    if started.kind == "process":
+        return f"process {target}{' (later)' if started.later else ''}"
+    if started.kind == "include":
+        return f"include {target}"
+    name = _full_name(started)
+    later = " (later)" if started.later else ""
+    package = f"{_text(started.package)} " if started.package else ""
+    return f"{started.kind} {package}{target}{f' as {name}' if name else ''}{later}"
+
+
+def _unknown(found: Found) -> list[tuple[str, Span]]:
+    files = (found.file, *found.look_up.followed)
+    return list(dict.fromkeys((opaque.reason, opaque.span) for file in files for opaque in file.opaque))
+
+
+# --- tree ----------------------------------------------------------------------------------------------------------
+
+
+def tree(found: Found) -> str:
+    """Return the expansion as an indented list."""
+    expansion = found.expansion
+    lines = [found.file.path]
+    lines += [f"  {_argument(one)}" for one in expansion.arguments if one.depth == 0]
+    for started in expansion.started:
+        indent = "  " * (started.depth + 1)
+        lines.append(f"{indent}{_head(started)}")
+        lines += [f"{indent}  {detail}" for detail in _details(started, found)]
+    unknown = _unknown(found)
+    if unknown:
+        lines += ["", "not analysed:"]
+        lines += [f"  {span}: {reason}" for reason, span in unknown[:_MOST_UNKNOWN]]
+        lines += [f"  and {len(unknown) - _MOST_UNKNOWN} more"] if len(unknown) > _MOST_UNKNOWN else []
+    lines += ["", _summary(expansion)]
+    return "".join(f"{line}\n" for line in lines)
+
+
+def _argument(argument: Argument) -> str:
+    return f"argument {readable(argument.name)} = {_value(argument.texts)}{' (given)' if argument.given else ''}"
+
+
+def _details(started: Started, found: Found) -> Iterator[str]:
+    if not started.certain:
+        yield " and ".join(_when(started)) or "conditional: the condition is not known"
+    if started.container:
+        yield f"in container {_text(name if name.startswith('/') else f'/{name}' for name in started.container)}"
+    if started.words:
+        yield f"arguments {' '.join(map(_value, started.words))}"
+    for name, texts in started.parameters:
+        if name == UNKNOWN:
+            continue
+        yield f"parameter {readable(name)} = {_value(texts)}" if name else f"parameters {_text(texts)}"
+    if any(name == UNKNOWN for name, _ in started.parameters):
+        yield "unknown parameters"
+    for before, after in started.remappings:
+        yield f"remap {_text(before)} to {_text(after)}"
+    for name, texts in started.environment:
+        yield f"environment {readable(name)} = {_value(texts)}"
+    for name, texts in started.arguments:
+        yield f"{'argument ' if started.kind == 'include' else ''}{readable(name)} = {_value(texts)}"
+    if started.kind == "include" and not started.file:
+        yield f"not followed: {_why_not_followed(started, found.look_up)}"
+    yield from (f"? {reason}" for reason in started.unknown)
+
+
+def _summary(expansion: Expansion) -> str:
+    counts: dict[str, int] = {}
+    for started in expansion.started:
+        counts[started.kind] = counts.get(started.kind, 0) + 1
+    plural = {"process": "processes"}
+    said = [
+        f"{counts[kind]} {kind if counts[kind] == 1 else plural.get(kind, kind + 's')}"
+        for kind in ("node", "component", "process", "include")
+        if kind in counts
+    ]
+    perhaps = sum(not started.certain for started in expansion.started)
+    cut = "" if expansion.complete else "; incomplete"
+    return f"{', '.join(said) or 'starts nothing'}{f' ({perhaps} conditional)' if perhaps else ''}{cut}"
+
+
+# --- json ----------------------------------------------------------------------------------------------------------
+
+
+def json(found: Found) -> str:
+    """Return the expansion for programs."""
+    import json as library  # noqa: PLC0415  (only where it is asked for)
+
+    expansion = found.expansion
+    document = {
+        "schema_version": SCHEMA_VERSION,
+        "file": found.file.path,
+        "arguments": [
+            {
+                **_named([(one.name, one.texts)])[0],
+                "given": one.given,
+                "included": one.depth > 0,
+                **where(one.span),
+            }
+            for one in expansion.arguments
+        ],
+        "starts": _nested(expansion.started, 0, found),
+        "unknown": [{"reason": reason, **where(span)} for reason, span in _unknown(found)],
+        "complete": expansion.complete,
+    }
+    return library.dumps(document, indent=2, ensure_ascii=False) + "\n"
+
+
+def _nested(started: Sequence[Started], depth: int, found: Found) -> list[dict[str, Any]]:
+    items: list[dict[str, Any]] = []
+    at = 0
+    while at < len(started):
+        one = started[at]
+        end = at + 1
+        while end < len(started) and started[end].depth > depth:
+            end += 1
+        item = _item(one)
+        if one.kind == "include":
+            item["follows"] = one.file or None
+            if not one.file:
+                item["unknown"].append(_why_not_followed(one, found.look_up))
+            item["starts"] = _nested(started[at + 1 : end], depth + 1, found)
+        items.append(item)
+        at = end
+    return items
+
+
+def _item(one: Started) -> dict[str, Any]:
+    return {
+        "kind": one.kind,
+        "package": _list(one.package),
+        "target": _list(one.target),
+        "name": _list(one.name),
+        "namespace": [f"/{space.strip('/')}" for space in _list(one.namespace)],
+        "container": _list(one.container),
+        "words": [_list(texts) for texts in one.words],
+        "later": one.later,
+        "parameters": _named(one.parameters),
+        "remappings": [{"from": _list(before), "to": _list(after)} for before, after in one.remappings],
+        "environment": _named(one.environment),
+        "arguments": _named(one.arguments),
+        "certain": one.certain,
+        "when": _when(one),
+        "unknown": list(one.unknown),
+        **where(one.span),
+    }
+
+
+def _named(pairs: Iterable[tuple[str, Iterable[str]]]) -> list[dict[str, Any]]:
+    return [{"name": readable(name), "values": _list(texts)} for name, texts in pairs]
+
+
+def _list(texts: Iterable[str]) -> list[str]:
+    return [readable(text) for text in texts]
+
+
+# --- mermaid -------------------------------------------------------------------------------------------------------
+
+
+def mermaid(found: Found) -> str:
+    """Return the expansion as a flow chart: files, what they start, and what they include; dotted is perhaps."""
+    lines = ["flowchart LR", f'  n0["{label(found.file.path.rpartition("/")[2])}"]']
+    above = ["n0"]
+    for number, started in enumerate(found.expansion.started, 1):
+        del above[started.depth + 1 :]
+        name = f"n{number}"
+        opening, closing = _SHAPES[started.kind]
+        lines.append(f'  {name}{opening}"{_label(started)}"{closing}')
+        said = " and ".join(_when(started))
+        arrow = "-->" if started.certain else f'-.->|"{label(said)}"|' if said else "-.->"
+        lines.append(f"  {above[started.depth]} {arrow} {name}")
+        if started.kind == "include":
+            above.append(name)
+    return "".join(f"{line}\n" for line in lines)
+
+
+_SHAPES = {"node": ("(", ")"), "component": ("([", "])"), "process": ("{{", "}}"), "include": ("[", "]")}
+
+
+def _label(started: Started) -> str:
+    target = _text(started.target) or "?"
+    if started.kind == "include":
+        return label(target.rpartition("/")[2])
+    lines = [f"{_text(started.package)} {target}".strip(), _full_name(started)]
+    return "<br/>".join(label(line) for line in lines if line)
+
+
+FORMATS: Mapping[str, Callable[[Found], str]] = {"tree": tree, "json": json, "mermaid": mermaid}

@@ -1,0 +1,125 @@
+"""``ros-lint launch FILE [name:=value ...]``: what a launch file would start, without starting it.
+
+The exit code is 0 when launching would go through, as far as can be seen; 1 when it would stop, with the reasons on
+standard error; 2 when the question makes no sense: no such file, package or argument, no launch file.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from ros_lint.base.suggestions import did_you_mean, similar
+from ros_lint.cli.commands.launch import formats as launch_formats
+from ros_lint.cli.commands.launch.lookup import LookUp
+from ros_lint.cli.commands.query import Answer, around, ask, enclosing_workspace
+from ros_lint.cli.session import Opened, UsageError
+from ros_lint.collectors.launch.expand import Expansion, expand
+from ros_lint.collectors.symbolic_text import readable
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping, Sequence
+
+    from ros_lint.facts.launch import LaunchFile
+    from ros_lint.workspace.model import Workspace
+
+
+class Asked(NamedTuple):
+    """What the words of the command line mean."""
+
+    package: str
+    """"" when the file is named by its path."""
+    file: str
+    given: Mapping[str, str]
+
+
+def run(said: Mapping[str, Any]) -> int:
+    """Answer the question, print the answer, return the exit code."""
+    try:
+        asked = understood(said["words"], os.path.isfile)
+        paths = said.get("paths") or [around() if asked.package else enclosing_workspace(asked.file)]
+    except UsageError as error:
+        print(f"ros-lint: {error}", file=sys.stderr)
+        return 2
+
+    def answered(opened: Opened, workspace: Workspace) -> Answer:
+        path = "" if asked.package else os.path.relpath(os.path.realpath(asked.file), opened.base).replace(os.sep, "/")
+        return answer(workspace, LookUp(workspace, opened.loader.tree), asked, path, said["format"])
+
+    return ask({**said, "paths": paths}, answered)
+
+
+def understood(words: Sequence[str], is_file: Callable[[str], bool]) -> Asked:
+    """Return what the words mean: FILE or PACKAGE FILE, and arguments, as ``ros2 launch`` takes them. Raises UsageError."""
+    places = [word for word in words if ":=" not in word]
+    given: dict[str, str] = {}
+    for word in words:
+        name, mark, value = word.partition(":=")
+        if mark and not name:
+            raise UsageError(f"argument without a name: '{word}'; write name:=value")
+        if mark:
+            given[name] = value
+    if not places:
+        raise UsageError("no launch file given; use 'ros-lint launch FILE' or 'ros-lint launch PACKAGE FILE'")
+    if len(places) > 2 or (len(places) == 2 and is_file(places[0])):
+        raise UsageError(f"unexpected '{places[-1]}'; launch arguments are written as name:=value")
+    if len(places) == 2:
+        return Asked(places[0], places[1], given)
+    if not is_file(places[0]):
+        raise UsageError(f"{places[0]}: no such file; for an installed launch file use 'ros-lint launch PACKAGE FILE'")
+    return Asked("", places[0], given)
+
+
+def answer(workspace: Workspace, look_up: LookUp, asked: Asked, path: str, form: str) -> tuple[str, str, int]:
+    """Return what goes to standard output and to standard error, and the exit code.
+
+    ``path`` is that of the file, relative to the base of the workspace, if no package is named. Raises UsageError.
+    """
+    if asked.package:
+        file, place = look_up.installed_file(asked.package, asked.file)
+    else:
+        file, place = look_up.source_file(path), path
+    expansion = expand(file._replace(path=place), asked.given, look_up.included, workspace.target.distro)
+    doubts = list(_doubts(file, look_up, expansion, asked.given))
+    problems = list(dict.fromkeys(_problems(file, look_up, expansion)))
+    err = "".join(f"ros-lint: {line}\n" for line in (*doubts, *problems))
+    found = launch_formats.Found(file, expansion, look_up)
+    return launch_formats.FORMATS[form](found), err, 1 if problems else 0
+
+
+def _doubts(file: LaunchFile, look_up: LookUp, expansion: Expansion, given: Mapping[str, str]) -> Iterator[str]:
+    """Yield doubts about arguments that nothing seems to take. Raises UsageError where there is hardly any."""
+    takes = look_up.takes(file)
+    declared = list(dict.fromkeys(argument.name for argument in expansion.arguments))
+    known = {*takes.known, *declared, *look_up.used(file)}
+    for name in given:
+        if name in known:
+            continue
+        near = similar(name, declared, 1, 0.75)
+        hint = did_you_mean(near) or (f"; available: {', '.join(declared)}" if declared else "; it declares none")
+        if takes.complete or near:
+            raise UsageError(f"{file.path} has no argument '{name}'{hint}")
+        yield f"no launch file that can be read uses the argument '{name}'{hint}"
+
+
+def _problems(file: LaunchFile, look_up: LookUp, expansion: Expansion) -> Iterator[str]:
+    """Yield why launching stops."""
+    for one in (file, *look_up.followed):
+        for problem in one.problems:
+            yield f"{problem.span}: {problem.message}"
+    for missing in expansion.missing:
+        if missing.include is None:
+            yield f"{missing.span}: the argument '{missing.name}' has no default; pass {missing.name}:=VALUE"
+        else:
+            yield f"{missing.include}: the argument '{missing.name}' is not passed here and has no default at {missing.span}"
+    for refused in expansion.refused:
+        choices = ", ".join(refused.choices)
+        yield f"{refused.span}: '{refused.value}' is not a valid choice for the argument '{refused.name}'; use one of {choices}"
+    for circle in expansion.circles:
+        yield f"{circle.span}: this include leads back to {circle.path}, so launching never ends"
+    for started in expansion.started:
+        if started.kind == "include" and started.certain and not started.file and len(started.target) == 1:
+            absent = look_up.absent(started.target[0])
+            if absent is not None and absent.surely:
+                yield f"{started.span}: {readable(started.target[0])}: {absent.reason}"

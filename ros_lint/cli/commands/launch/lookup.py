@@ -1,0 +1,174 @@
+"""Where the launch files are that a launch file names: in the workspace, or installed in an underlay."""
+
+from __future__ import annotations
+
+import posixpath
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.analysis.launch.includes import Links, Takes, everything, values
+from ros_lint.base.suggestions import did_you_mean, similar
+from ros_lint.base.text import read
+from ros_lint.base.tree import seen_from, within
+from ros_lint.cli.session import UsageError
+from ros_lint.collectors.symbolic_text import configurations, installed, share
+from ros_lint.facts.visibility import Facet
+from ros_lint.workspace.collect import collect, kind_of
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from ros_lint.base.tree import Tree
+    from ros_lint.facts.launch import LaunchFile
+    from ros_lint.workspace.model import Package, Workspace
+
+
+class Absent(NamedTuple):
+    """Why a launch file could not be read."""
+
+    reason: str
+    surely: bool
+    """Whether it will not be there when the launch file runs, either."""
+
+
+class LookUp:
+    """Finds launch files, and remembers which were followed and why others were not."""
+
+    def __init__(self, workspace: Workspace, tree: Tree) -> None:
+        self._workspace = workspace
+        self._tree = tree
+        self._sources = {file.path: file for package in workspace.packages for file in package.launch}
+        self._links = Links(workspace.packages)
+        self._found: dict[str, LaunchFile | Absent] = {}
+
+    @property
+    def followed(self) -> tuple[LaunchFile, ...]:
+        """Return the files that were included, in the order in which they were met."""
+        return tuple(file for file in self._found.values() if not isinstance(file, Absent))
+
+    def takes(self, file: LaunchFile) -> Takes:
+        """Return what a file, and those of the workspace that it includes, do with launch configurations."""
+        return self._links.takes(file)
+
+    def used(self, file: LaunchFile) -> frozenset[str]:
+        """Return the launch configurations that a file, or one that was followed from it, asks for."""
+        found: set[str] = set()
+        for one in (file, *self.followed):
+            for action in everything(one.actions):
+                texts = [text for value in values(action) for text in value.texts]
+                texts += [text for condition in action.conditions for text in condition.texts]
+                found.update(name for text in texts for name, *_ in configurations(text))
+        return frozenset(found)
+
+    def absent(self, path: str) -> Absent | None:
+        """Return why an included file was not followed, None for one that was, or that was never asked for."""
+        found = self._found.get(path)
+        return found if isinstance(found, Absent) else None
+
+    # --- the file that is launched --------------------------------------------------------------------------------
+
+    def source_file(self, path: str) -> LaunchFile:
+        """Return a launch file by its path, relative to the base of the workspace. Raises UsageError."""
+        found = self._sources.get(path) or self._read(path)
+        return self._launchable(found, path)
+
+    def installed_file(self, package: str, name: str) -> tuple[LaunchFile, str]:
+        """Return the launch file of a package that has a name, and where it lies when installed.
+
+        Like ``ros2 launch`` (reference, section G1.1): anywhere below share/<package>, by the exact name. Raises UsageError.
+        """
+        packages = self._workspace.by_name.get(package, ())
+        below = self._workspace.world.installed(package)
+        if packages:
+            paths = [path for one in packages for path in _share_files(one)]
+        elif below is not None:
+            paths = list(below.share_files.names)
+        else:
+            raise UsageError(self._no_package(package))
+        same = sorted({path for path in paths if path.rpartition("/")[2] == name})
+        if len(same) > 1:
+            raise UsageError(f"'{package}' installs several files '{name}', so ros2 launch rejects the name: {', '.join(same)}")
+        if not same:
+            raise UsageError(self._no_file(packages, package, name, paths))
+        path = f"{share(package)}/{same[0]}"
+        found = self.included(path)
+        return self._launchable(found or self._found[path], f"{package}/{same[0]}"), path
+
+    def _launchable(self, found: LaunchFile | Absent, path: str) -> LaunchFile:
+        if isinstance(found, Absent):
+            raise UsageError(f"{path}: {found.reason}")
+        if found.helper:
+            raise UsageError(f"{path}: not a launch file: it has no generate_launch_description() without parameters")
+        return found
+
+    def _no_package(self, package: str) -> str:
+        if self._workspace.world.is_package(package):
+            return f"'{package}' is neither in the workspace nor in an underlay; --underlay PREFIX adds an install prefix"
+        return f"there is no package '{package}'{did_you_mean(self._workspace.world.suggest(package))}"
+
+    def _no_file(self, packages: Sequence[Package], package: str, name: str, paths: Sequence[str]) -> str:
+        for one in packages:
+            source = next((file.path for file in one.launch if file.path.rpartition("/")[2] == name), "")
+            if source:
+                return f"'{package}' has {within(one.path, source)}, but does not install it; use 'ros-lint launch {source}'"
+        names = sorted({path.rpartition("/")[2] for path in paths if "launch" in path})
+        hint = did_you_mean(similar(name, names)) or f"; available: {', '.join(names) or 'none'}"
+        return f"'{package}' does not install a launch file '{name}'{hint}"
+
+    # --- files that are included ----------------------------------------------------------------------------------
+
+    def included(self, path: str) -> LaunchFile | None:
+        """Return a launch file by the path that an include has, None if it cannot be had; see :meth:`absent`."""
+        found = self._found.get(path)
+        if found is None:
+            found = self._found[path] = self._find(path)
+        return None if isinstance(found, Absent) else found
+
+    def _find(self, path: str) -> LaunchFile | Absent:
+        places = list(installed(path))
+        if places:
+            return self._in_package(places[0].package, places[0].path)
+        if path.startswith("/"):
+            return Absent("it is outside the workspace", surely=False)
+        path = posixpath.normpath(path)
+        return self._sources.get(path) or self._read(path)
+
+    def _in_package(self, package: str, path: str) -> LaunchFile | Absent:
+        packages = self._workspace.by_name.get(package, ())
+        name = path.removeprefix(f"share/{package}/")
+        for one in packages:
+            for provided in one.built.provides:
+                if provided.path == path:
+                    if not provided.source:
+                        return Absent("it is generated when the package is built", surely=False)
+                    source = seen_from(one.path, provided.source)
+                    return self._sources.get(source) or self._read(source)
+        if packages:
+            if any(one.script is None or one.hidden(Facet.SHARE, path) for one in packages):
+                return Absent(f"'{package}' may install it in a way that cannot be analysed", surely=False)
+            return Absent(f"'{package}' does not install '{name}'", surely=True)
+        below = self._workspace.world.installed(package)
+        if below is None:
+            return Absent(self._no_package(package), surely=False)
+        data = below.prefix.read(path)
+        if data is None:
+            return Absent(f"'{package}' in the underlay has no '{name}'", surely=True)
+        return self._collected(f"{below.prefix.root}/{path}", data)
+
+    def _read(self, path: str) -> LaunchFile | Absent:
+        try:
+            data = self._tree.read(path)
+        except (FileNotFoundError, NotADirectoryError):
+            return Absent("no such file", surely=True)
+        except OSError as error:
+            return Absent(f"it cannot be read: {error.strerror or error}", surely=False)
+        return self._collected(path, data)
+
+    def _collected(self, path: str, data: bytes) -> LaunchFile | Absent:
+        kind = kind_of(path)
+        launch = collect(read(path, data), kind).launch if kind is not None else None
+        return launch if launch is not None else Absent("not a ROS 2 launch file", surely=True)
+
+
+def _share_files(package: Package) -> list[str]:
+    share_folder = f"share/{package.name}/"
+    return [one.path[len(share_folder) :] for one in package.built.provides if one.path.startswith(share_folder)]

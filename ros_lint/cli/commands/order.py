@@ -1,0 +1,54 @@
+"""``ros-lint order``: the names of the packages, one a line, in an order in which they can be built."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros_lint.analysis.graph.cycles import knots
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from ros_lint.analysis.graph.cycles import Knot
+    from ros_lint.analysis.graph.dependency_graph import Graph
+    from ros_lint.workspace.model import Workspace
+
+
+def run(workspace: Workspace) -> tuple[str, str, int]:
+    """Return what goes to standard output and to standard error, and the exit code.
+
+    The code is 1 when colcon would refuse the workspace: for a cycle, or for a name that several packages have. What
+    can be ordered is printed all the same.
+    """
+    graph = workspace.graph
+    said = [*_cycles(graph), *_left_out(graph), *_twice(graph)]
+    return "".join(f"{name}\n" for name in graph.order.names), "".join(f"{line}\n" for line in said), int(bool(said))
+
+
+def _cycles(graph: Graph) -> Iterator[str]:
+    for knot in knots(graph):
+        if knot.certain:
+            yield f"no build order, because of a dependency cycle: {', '.join(knot.names)}"
+            yield from _edges(graph, knot)
+
+
+def _edges(graph: Graph, knot: Knot) -> Iterator[str]:
+    cycle = tuple(zip(knot.cycle, (*knot.cycle[1:], knot.cycle[0]), strict=True))
+    yield f"  shortest cycle: {' -> '.join((*knot.cycle, knot.cycle[0]))}"
+    for edge in (*cycle, *(edge for edge in knot.cut if edge not in cycle)):
+        out = "; removing it breaks the cycle" if edge in knot.cut else ""
+        for reason in graph.reasons(edge):
+            yield f"    {reason.span}: {edge[0]} depends on {edge[1]} ({reason.tag}){out}"
+
+
+def _left_out(graph: Graph) -> Iterator[str]:
+    on_cycles = {name for cycle in graph.cycles for name in cycle}
+    if after := [name for name in graph.order.stuck if name not in on_cycles]:
+        yield f"no build order, because of a dependency on a package of the cycle: {', '.join(after)}"
+
+
+def _twice(graph: Graph) -> Iterator[str]:
+    for name, places in graph.places.items():
+        if len(places) > 1:
+            where = " and ".join(package.path or "." for package in places)
+            yield f"{len(places)} packages are named '{name}', so colcon rejects the workspace: {where}"

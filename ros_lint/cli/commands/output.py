@@ -1,0 +1,18 @@
+"""What several commands write alike: a place in JSON, a text in a flow chart of Mermaid."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ros_lint.base.text import Span
+
+
+def where(span: Span) -> dict[str, object]:
+    """Return a place for JSON."""
+    return {"path": span.path, "line": span.line, "column": span.column}
+
+
+def label(text: str) -> str:
+    """Return a text as it stands in a flow chart of Mermaid, which takes most marks for its own."""
+    return "".join(letter if letter.isalnum() or letter in "_-. /" else f"#{ord(letter)};" for letter in text)

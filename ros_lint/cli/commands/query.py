@@ -1,0 +1,67 @@
+"""Commands that answer a question about a workspace: open it, load it, print the answer."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from ros_lint.base.tree import repository_of, upwards
+from ros_lint.cli.progress import Progress
+from ros_lint.cli.session import Opened, UsageError, open_workspace
+from ros_lint.cli.settings import ConfigError
+from ros_lint.knowledge.store import KnowledgeError
+from ros_lint.workspace.model import Workspace
+
+Answer = tuple[str, str, int]
+"""What goes to standard output, what to standard error, and the exit code."""
+
+
+def ask(said: Mapping[str, Any], answer: Callable[[Opened, Workspace], Answer], *, sources: bool = True) -> int:
+    """Print what is answered about the workspace that the options name. Returns the exit code, 2 when there is no answer.
+
+    Without ``sources`` only manifests are read.
+    """
+    progress = Progress(sys.stderr, wanted=said.get("progress", True))
+    try:
+        with progress:
+            opened = open_workspace(said, os.environ, progress.tell)
+            workspace = opened.loader.load(sources=sources)
+        out, err, code = answer(opened, workspace)
+    except (UsageError, ConfigError, KnowledgeError) as error:
+        print(f"ros-lint: {error}", file=sys.stderr)
+        return 2
+    for warning in (*opened.settings.warnings, *opened.warnings):
+        print(f"ros-lint: {warning}", file=sys.stderr)
+    sys.stdout.write(out)
+    sys.stdout.flush()
+    sys.stderr.write(err)
+    return code
+
+
+def around() -> str:
+    """Return the workspace that the current folder lies in, if it is in a package; else the current folder."""
+    in_package = any(os.path.isfile(os.path.join(folder, "package.xml")) for folder in upwards(os.path.realpath(os.curdir)))
+    return enclosing_workspace(os.path.join(os.curdir, "package.xml")) if in_package else os.curdir
+
+
+def enclosing_workspace(file: str) -> str:
+    """Return the workspace that a file lies in.
+
+    That is the folder whose ``src`` holds the file's package, if the repository goes so far up or colcon has built there;
+    else the repository; else the current folder, if the file is below it; else the package, or the folder of the file.
+    """
+    folders = list(upwards(os.path.dirname(os.path.realpath(file))))
+    repository = repository_of(folders[0])
+    inside = folders[: folders.index(repository) + 1] if repository else folders
+    # The outermost: colcon looks into no package for further ones.
+    packages = [folder for folder in inside if os.path.isfile(os.path.join(folder, "package.xml"))]
+    start = packages[-1] if packages else folders[0]
+    for folder in folders[folders.index(start) + 1 :]:
+        above = os.path.dirname(folder)
+        built = any(os.path.isdir(os.path.join(above, name)) for name in ("build", "install", "log"))
+        if os.path.basename(folder) == "src" and (built or (repository and above in inside)):
+            return above
+    here = os.path.realpath(os.curdir)
+    return repository or (here if here in folders else start)

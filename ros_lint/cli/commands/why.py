@@ -1,0 +1,142 @@
+"""``ros-lint why A B``: every way in which one package needs another, with the line of each edge and what it is for."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.analysis.dependencies.explain import used_in
+from ros_lint.base.graph_paths import Paths, paths
+from ros_lint.base.suggestions import did_you_mean, similar
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from ros_lint.base.text import Span
+    from ros_lint.workspace.model import Declared, Package, Workspace
+
+_TAGS = {
+    "build_export_depend": "e",
+    "buildtool_export_depend": "u",
+    "exec_depend": "x",
+}
+"""What brings a released package along with another one (reference, section E3.3)."""
+
+_MOST_USES = 2
+
+
+class _Line(NamedTuple):
+    tag: str
+    place: str
+    condition: str = ""
+
+
+def run(workspace: Workspace, start: str, end: str, most: int = 10) -> tuple[str, str, int]:
+    """Return what goes to standard output and to standard error, and the exit code.
+
+    Inside the workspace every dependency counts that orders packages; from packages outside only what comes along at
+    run time is followed. At most ``most`` ways are told, the shortest first. The code is 0 when there is a way, 1 when
+    there is none, 2 when a name is known to nobody. Raises KnowledgeError.
+    """
+    unknown = [name for name in (start, end) if not _is_known(workspace, name)]
+    if unknown:
+        return "", "".join(_no_such(workspace, name) for name in unknown), 2
+    model = _Model(workspace)
+    found = paths(model.needs, start, end, most)
+    if not found.found:
+        back = paths(model.needs, end, start, 1).found
+        uses = [use for package in workspace.called(start) for use in package.uses if end in use.providers]
+        if uses:
+            hint = f" ('{end}' depends on '{start}': see 'ros-lint why {end} {start}')" if back else ""
+            head = f"'{start}' uses '{end}', but declares neither it nor anything that depends on it{hint}:"
+            return "".join(f"{line}\n" for line in (head, *(f"   {line}" for line in used_in(uses)))), "", 1
+        hint = f"; but '{end}' depends on '{start}': see 'ros-lint why {end} {start}'" if back else ""
+        return f"'{start}' does not depend on '{end}'{hint}\n", "", 1
+    return "".join(f"{line}\n" for line in _tell(model, found, start, end)), "", 0
+
+
+class _Model:
+    """Who needs whom, in the workspace and outside."""
+
+    def __init__(self, workspace: Workspace) -> None:
+        self.workspace = workspace
+        self._needs: dict[str, tuple[str, ...]] = {}
+
+    def needs(self, name: str) -> tuple[str, ...]:
+        if name not in self._needs:
+            found = set(self.workspace.graph.needs.get(name, ()))
+            found.update(declared.name for declared in self._declared(name))
+            if not self._packages(name):
+                found.update(self.workspace.world.depends(name, _TAGS.values()) or ())
+            self._needs[name] = tuple(sorted(found))
+        return self._needs[name]
+
+    def lines(self, name: str, other: str) -> Iterator[_Line]:
+        """Yield what makes an edge."""
+        graph = self.workspace.graph
+        if other in graph.needs.get(name, ()):
+            for reason in graph.reasons((name, other)):
+                yield _Line(reason.tag, str(reason.span), "" if reason.certain else "if its condition is true")
+            return
+        for declared in self._declared(name):
+            if declared.name == other:
+                condition = "" if declared.certain else f"if {declared.depend.condition}"
+                yield _Line(declared.depend.tag, str(declared.depend.span), condition)
+        if not self._packages(name):
+            world = self.workspace.world
+            tags = [tag for tag, kind in _TAGS.items() if other in (world.depends(name, kind) or ())]
+            layer = world.layer(name)
+            place = f"as released in {self.workspace.target.distro}" if layer == "index" else f"in the {layer}"
+            yield from (_Line(tag, place) for tag in tags)
+
+    def uses(self, name: str, other: str) -> list[tuple[str, Span]]:
+        """Return the places in the sources that need it, sorted."""
+        found = {use.span: use.what for package in self._packages(name) for use in package.uses if other in use.providers}
+        return [(found[span], span) for span in sorted(found)]
+
+    def _declared(self, name: str) -> Iterator[Declared]:
+        for package in self._packages(name):
+            if package.type.startswith("ros."):  # otherwise nobody looks into the manifest
+                yield from package.declared
+
+    def _packages(self, name: str) -> Sequence[Package]:
+        return self.workspace.called(name)
+
+
+def _tell(model: _Model, found: Paths, start: str, end: str) -> Iterator[str]:
+    count = f"{'at least ' if found.more else ''}{len(found.found)} path{'s' if len(found.found) > 1 else ''}"
+    yield f"'{start}' depends on '{end}' through {count}{'; shortest first' if len(found.found) > 1 else ''}:"
+    told: set[tuple[str, str]] = set()
+    for number, path in enumerate(found.found, 1):
+        yield ""
+        yield f"{number}. {' -> '.join(path)}"
+        for edge in pairwise(path):
+            yield from _tell_edge(model, edge, again=edge in told)
+            told.add(edge)
+
+
+def _tell_edge(model: _Model, edge: tuple[str, str], *, again: bool) -> Iterator[str]:
+    name, other = edge
+    for line in model.lines(name, other):
+        condition = f" {line.condition}" if line.condition else ""
+        yield f"   {name} -> {other}: {_tag(line.tag)}{condition} {line.place}"
+    uses = [] if again else model.uses(name, other)
+    for what, span in uses[:_MOST_USES]:
+        yield f"      because of {what} {span}"
+    if len(uses) > _MOST_USES:
+        yield f"      and {len(uses) - _MOST_USES} more"
+
+
+def _tag(tag: str) -> str:
+    return tag if "." in tag else f"<{tag}>"
+
+
+def _is_known(workspace: Workspace, name: str) -> bool:
+    if workspace.called(name) or workspace.world.is_package(name) or workspace.world.is_key(name):
+        return True
+    return any(package.tags(name) for package in workspace.packages)
+
+
+def _no_such(workspace: Workspace, name: str) -> str:
+    near = [*similar(name, workspace.by_name, 2, 0.75), *workspace.world.suggest(name)]
+    return f"ros-lint: unknown package or rosdep key '{name}'{did_you_mean(list(dict.fromkeys(near[:3])))}\n"

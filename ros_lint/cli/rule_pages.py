@@ -1,0 +1,114 @@
+"""What is written about rules: the list, the page of a rule, the pages below docs/rules; and the table of options."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from ros_lint.analysis.rule import Rule
+from ros_lint.cli.options import Option
+from ros_lint.cli.settings import toml
+
+GROUPS = {
+    "1": "Workspace and manifest",
+    "2": "Dependencies",
+    "3": "Build scripts",
+    "4": "Install",
+    "5": "Launch",
+    "9": "The tool itself",
+}
+
+
+def group(rule: Rule) -> str:
+    """Return the heading that a rule is listed under."""
+    return GROUPS[rule.code[3]]
+
+
+def listing(rules: Iterable[Rule]) -> str:
+    """Return one line a rule: code, name, severity, whether it is on and fixable, summary."""
+    rules = list(rules)
+    width = max((len(rule.name) for rule in rules), default=0)
+    lines = []
+    for rule in rules:
+        marks = f"{'on ' if rule.default else 'off'} {'fix' if rule.fixable else '   '}"
+        lines.append(f"{rule.code}  {rule.name:{width}}  {rule.severity!s:7}  {marks}  {rule.summary}")
+    return "".join(f"{line}\n" for line in lines)
+
+
+def page(rule: Rule, example: str = "") -> str:
+    """Return the page of a rule in Markdown, with an example of what it prints behind what it finds, if there is one."""
+    facts = [
+        f"{rule.severity!s}",
+        "on by default" if rule.default else f"off by default (`--select {rule.name}` or `--pedantic`)",
+        "some findings have a fix" if rule.fixable else "no fix",
+        f"since {rule.since}",
+    ]
+    summary = f"{rule.summary[0].upper()}{rule.summary[1:]}."
+    doc = rule.doc.strip()
+    if example:
+        found, why, rest = doc.partition(_WHY)
+        doc = f"{found}```text\n{example}\n```\n\n{why}{rest}"
+    return f"# {rule.name} ({rule.code})\n\n{summary}\n\n{' · '.join(facts)}\n\n{doc}\n"
+
+
+_WHY = "## Why it matters\n"
+
+
+def overview(rules: Sequence[Rule]) -> str:
+    """Return the page that lists all rules in Markdown, with links to their pages."""
+    parts = ["# Rules\n\nGenerated from the rules and their cases by `pytest --bless`. `ros-lint rule NAME` prints a page.\n"]
+    for digit, heading in GROUPS.items():
+        mine = [rule for rule in rules if rule.code[3] == digit]
+        if not mine:
+            continue
+        parts.append(f"\n## {heading}\n\n| code | rule | severity | default | fix | checks that |\n|---|---|---|---|---|---|\n")
+        parts += [
+            f"| {rule.code} | [{rule.name}]({rule.name}.md) | {rule.severity!s} | {'on' if rule.default else 'off'} "
+            f"| {'yes' if rule.fixable else ''} | {rule.summary} |\n"
+            for rule in mine
+        ]
+    return "".join(parts)
+
+
+def settings(options: Iterable[Option]) -> str:
+    """Return the table of options in Markdown: those that may stand in a file first."""
+    lines = ["| setting | command line | default | meaning |", "|---|---|---|---|"]
+    for option in sorted(options, key=lambda option: not option.in_file):
+        name = f"`{option.name}`" if option.in_file else ""
+        default = f"`${option.environment}`" if option.environment else f"`{toml(option.default)}`" if option.in_file else ""
+        choices = f": {', '.join(f'`{choice}`' for choice in option.choices)}" if option.choices and option.type == "word" else ""
+        lines.append(f"| {name} | {_flag(option)} | {default} | {option.help}{choices} |")
+    return "\n".join(lines)
+
+
+def _flag(option: Option) -> str:
+    if not option.on_command_line:
+        return ""
+    if option.type == "flag":
+        return f"`--no-{option.name}`" if option.default else f"`--{option.name}`"
+    return f"`--{option.name} {option.metavar or 'WORD'}`"
+
+
+def as_json(rules: Iterable[Rule]) -> str:
+    """Return rules as a JSON list, with everything that is known of them."""
+    import json  # noqa: PLC0415
+
+    return (
+        json.dumps(
+            [
+                {
+                    "name": rule.name,
+                    "code": rule.code,
+                    "group": group(rule),
+                    "severity": str(rule.severity),
+                    "default": rule.default,
+                    "fixable": rule.fixable,
+                    "since": rule.since,
+                    "summary": rule.summary,
+                    "doc": rule.doc.strip(),
+                }
+                for rule in rules
+            ],
+            indent=2,
+        )
+        + "\n"
+    )

@@ -1,0 +1,228 @@
+"""From what was said on the command line to a workspace that can be loaded."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from ros_lint.base.suggestions import did_you_mean, similar
+from ros_lint.base.tree import DiskTree, repository_of
+from ros_lint.cli.options import COMMANDS, OPTIONS
+from ros_lint.cli.settings import Settings, settle
+from ros_lint.engine.registry import BUILTIN
+from ros_lint.engine.report import RefusalError, Target
+from ros_lint.knowledge import Knowledge, distros, newest_lts
+from ros_lint.knowledge.store import user_directory
+from ros_lint.workspace import fact_cache as cache
+
+if TYPE_CHECKING:
+    from ros_lint.base.tree import Tree
+    from ros_lint.knowledge import underlays as underlay
+    from ros_lint.workspace.loader import Loader, Progress
+
+
+class UsageError(RefusalError):
+    """Something that was asked for cannot be done. The message names it, and the way out."""
+
+
+class Asked(NamedTuple):
+    """A workspace and settings that are known to make sense. Nothing has been read of it."""
+
+    settings: Settings
+    base: str
+    """Absolute. Every path in the output is relative to it: the root of the repository, or the workspace itself."""
+    roots: tuple[str, ...]
+    """What was asked for, relative to the base."""
+    inside: tuple[str, ...]
+    """Absolute. The folders that links of the workspace may lead into: the repository, or what was asked for."""
+    target: Target
+    places: tuple[str, ...]
+    """Folders with data of the released world that go before those shipped."""
+    cache: str
+    """The folder for what is kept between runs, or ""."""
+    warnings: tuple[str, ...]
+
+    @property
+    def disk(self) -> DiskTree:
+        """Return the files of the workspace."""
+        return DiskTree(self.base, self.inside)
+
+
+class Opened(NamedTuple):
+    """A workspace that is ready to be loaded."""
+
+    loader: Loader
+    settings: Settings
+    knowledge: Knowledge
+    base: str
+    """As in :class:`Asked`."""
+    roots: tuple[str, ...]
+    """As in :class:`Asked`."""
+    warnings: tuple[str, ...]
+
+
+def open_workspace(said: Mapping[str, Any], environment: Mapping[str, str], progress: Progress) -> Opened:
+    """Return the workspace that the options name, not yet loaded.
+
+    ``said`` is what :func:`ros_lint.cli.arguments.parse` gives. Raises UsageError, ConfigError and KnowledgeError.
+    """
+    return opened(ask(said, environment), progress)
+
+
+def ask(said: Mapping[str, Any], environment: Mapping[str, str]) -> Asked:
+    """Return what the options name. Raises UsageError and ConfigError."""
+    paths = [os.path.realpath(path) for path in said.get("paths") or ["."]]
+    for path, written in zip(paths, said.get("paths") or ["."], strict=True):
+        if not os.path.exists(path):
+            raise UsageError(f"{written}: no such file or directory{_command(written)}")
+        if not os.path.isdir(path):
+            raise UsageError(f"{written}: not a directory; pass a workspace or a package")
+    base = _base(paths)
+    inside = (base,) if repository_of(base) else tuple(repository_of(path) or path for path in paths)
+    settings = settle(
+        {name: value for name, value in said.items() if name != "paths"}, os.path.commonpath(paths), environment, base
+    )
+    places = (user_directory(environment),)
+    target, warnings = _target(settings, places)
+    roots = tuple("" if path == base else os.path.relpath(path, base).replace(os.sep, "/") for path in paths)
+    return Asked(settings, base, roots, inside, target, places, cache.folder(environment) if settings["cache"] else "", warnings)
+
+
+def opened(asked: Asked, progress: Progress, workspace: Tree | None = None, machine: Tree | None = None) -> Opened:
+    """Return a workspace that is ready to be loaded, from trees that stand for its base and the machine if need be.
+
+    Raises UsageError and KnowledgeError.
+    """
+    from ros_lint.workspace.loader import Loader  # noqa: PLC0415  (all that reads a workspace, of which a kept report needs nothing)
+
+    settings, base = asked.settings, asked.base
+    knowledge = Knowledge(asked.target.distro, asked.places)
+    underlays, unread = _underlays(settings, asked.target.distro, base, machine)
+    loader = Loader(
+        workspace or asked.disk,
+        asked.roots,
+        asked.target,
+        underlays=underlays,
+        knowledge=knowledge,
+        exclude=_excluder(settings["exclude"]),
+        jobs=settings["jobs"],
+        cache=cache.Cache(asked.cache, _kept_by(asked)),
+        progress=progress,
+    )
+    return Opened(loader, settings, knowledge, base, asked.roots, (*asked.warnings, *unread))
+
+
+def _kept_by(asked: Asked) -> str:
+    """Return the name by which the facts of files are kept: they depend on where links may lead."""
+    return asked.base if asked.inside == (asked.base,) else os.pathsep.join((asked.base, *asked.inside))
+
+
+_OF_NO_MATTER = frozenset((
+    "baseline", "cache", "color", "config", "diff", "fail-on", "fix", "format", "isolated", "jobs", "output", "progress",
+    "show-settings", "unsafe-fixes", "write-baseline",
+))  # fmt: skip
+"""Settings that the report does not depend on: it does on what a configuration file says, and not on where it lies."""
+
+
+_LIBRARIES = ("libcst", "networkx", "yaml")
+"""What takes part in reading a workspace besides Python and our own code."""
+
+
+def reports(asked: Asked) -> cache.Reports:
+    """Return the reports that are kept of what is asked for.
+
+    None are while plugins take part: nobody watches all the files that these are made of.
+    """
+    settings = asked.settings
+    if not asked.cache or settings["plugins"]:
+        return cache.Reports("", asked.base, "", ())
+    from importlib.util import find_spec  # noqa: PLC0415
+
+    values = [(option.name, settings[option.name]) for option in OPTIONS if option.name not in _OF_NO_MATTER]
+    rules = find_spec(BUILTIN)
+    folders = [*(rules.submodule_search_locations or () if rules else ()), *asked.places]
+    libraries = [spec.origin or "" for name in _LIBRARIES if (spec := find_spec(name))]
+    data = [*libraries, *(file for folder in folders for file in cache.files_below(folder))]
+    prefixes = [os.path.abspath(prefix) for prefix in settings["underlay"] if prefix]
+    said = repr((asked.roots, asked.inside, asked.target, values, prefixes, settings.origin("underlay")))
+    return cache.Reports(asked.cache, asked.base, said, data)
+
+
+def _underlays(
+    settings: Settings, distro: str, base: str, machine: Tree | None
+) -> tuple[tuple[underlay.Underlay, ...], tuple[str, ...]]:
+    """Return the underlays and warnings. What was asked for must be one; what merely lies in the environment need not."""
+    prefixes = [prefix for prefix in settings["underlay"] if prefix]
+    if not prefixes:
+        return (), ()
+    from ros_lint.knowledge import underlays as underlay  # noqa: PLC0415
+
+    if settings.origin("underlay") != "AMENT_PREFIX_PATH":
+        try:
+            return underlay.read(prefixes, distro, machine=machine), ()
+        except underlay.UnderlayError as error:
+            raise UsageError(str(error)) from error
+    found: list[underlay.Underlay] = []
+    warnings: list[str] = []
+    for prefix in prefixes:
+        try:
+            found += underlay.read([prefix], distro, base, machine)
+        except underlay.UnderlayError as error:
+            warnings.append(f"AMENT_PREFIX_PATH: {error}")
+    return tuple(found), tuple(warnings)
+
+
+def no_packages(asked: Asked | Opened) -> str:
+    """Return what to say when there is nothing to work on."""
+    from ros_lint.workspace.discovery.discover import discover  # noqa: PLC0415  (a kept report comes without)
+
+    places = ", ".join(root or asked.base for root in asked.roots)
+    skipped = [f"{one.path or '.'} ({one.reason})" for one in discover(DiskTree(asked.base), asked.roots, {}).skipped]
+    if not skipped:
+        return f"ros-lint: no package found below {places}; is there a package.xml?"
+    more = f" and {len(skipped) - _MOST_SKIPPED} more" if len(skipped) > _MOST_SKIPPED else ""
+    named = ", ".join(skipped[:_MOST_SKIPPED])
+    nothing = f"ros-lint: no package found below {places}; skipped: {named}{more}"
+    return f"{nothing}; to check a skipped folder, pass its path"
+
+
+_MOST_SKIPPED = 3
+
+
+def _command(written: str) -> str:
+    """Return a suggestion for a path that does not exist and resembles the name of a command."""
+    return next((f"; did you mean the command '{command}'?" for command in similar(written, COMMANDS)), "")
+
+
+def _base(paths: Sequence[str]) -> str:
+    """Return the root of the repository that holds the paths, or their common folder.
+
+    What code review shows is relative to the repository, so paths in the output are, too, wherever the tool is called.
+    """
+    common = os.path.commonpath(paths)
+    return repository_of(common) or common
+
+
+def _target(settings: Settings, places: Sequence[str]) -> tuple[Target, tuple[str, ...]]:
+    distro = settings["distro"]
+    if not distro:
+        return Target(newest_lts(places), "newest LTS", told=False), ()
+    known = [known.name for known in distros(places)]
+    if distro in known:
+        return Target(distro, settings.origin("distro")), ()
+    if settings.origin("distro") == "ROS_DISTRO":
+        return Target(distro, "ROS_DISTRO"), (f"unknown distribution '{distro}' in ROS_DISTRO; available: {', '.join(known)}",)
+    from ros_lint.knowledge.names import has_ended  # noqa: PLC0415
+
+    kind, hint = ("end-of-life", "") if has_ended(distro) else ("unknown", did_you_mean(similar(distro, known)))
+    available = f"(available: {', '.join(known)})"
+    raise UsageError(f"{settings.origin('distro')}: {kind} distribution '{distro}'{hint} {available}")
+
+
+def _excluder(patterns: Sequence[str]) -> Callable[[str], bool]:
+    if not patterns:
+        return lambda path: False
+    from ros_lint.engine.run import matches  # noqa: PLC0415
+
+    return lambda path: any(matches(path, pattern) for pattern in patterns)

@@ -1,0 +1,234 @@
+"""Settings: command line over configuration file over environment over defaults, each with its origin.
+
+The file is the nearest ``ros-lint.toml``, or ``pyproject.toml`` with a table ``[tool.ros-lint]``, at the workspace or above it.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from ros_lint.base import files
+from ros_lint.base.suggestions import did_you_mean, similar
+from ros_lint.base.tree import upwards
+from ros_lint.cli.options import BY_NAME, MOST, OPTIONS, Option
+from ros_lint.engine.report import RefusalError
+
+_MOST_BYTES = 256 << 10
+"""Of a configuration file. Many times as much as any has."""
+
+_MOST_SEARCHED = 16 << 20
+"""Of a pyproject.toml, to find out whether it has our table."""
+
+_LONG_KEY = r"""(?:\.[ \t]*(?:[\w-]+|"(?:[^"\\\n]|\\.){0,50}"|'[^'\n]{0,50}')[ \t]*){50}"""
+"""The rest of a key with more than 50 parts. The time that tomllib takes for a key grows with the square of the parts."""
+
+
+class ConfigError(RefusalError):
+    """Settings that cannot be used. The message names the place and the way out."""
+
+
+class Setting(NamedTuple):
+    """The value of an option, and where it was said."""
+
+    value: Any
+    origin: str
+
+
+class Settings:
+    """Every option with its value. ``settings["fail-on"]`` is the value, ``settings.origin("fail-on")`` where it was said.
+
+    ``warnings`` names settings of the file that have no effect.
+    """
+
+    def __init__(self, values: Mapping[str, Setting], warnings: tuple[str, ...] = ()) -> None:
+        self._values = values
+        self.warnings = warnings
+
+    def __getitem__(self, name: str) -> Any:
+        return self._values[name].value
+
+    def origin(self, name: str) -> str:
+        """Return where the value was said: a flag, a file with its path, an environment variable, or "default"."""
+        return self._values[name].origin
+
+    def show(self) -> str:
+        """Return one line an option, for ``--show-settings``."""
+        width = max(len(name) for name in self._values)
+        return "".join(f"{name:{width}} = {toml(setting.value)}  # {setting.origin}\n" for name, setting in self._values.items())
+
+
+def settle(given: Mapping[str, Any], start: str, environment: Mapping[str, str], display: str = "") -> Settings:
+    """Return the settings for a run.
+
+    ``given`` has what the command line said, by option name; ``start`` is the absolute path of the workspace, from which the
+    configuration file is looked for; ``environment`` is read for the variables that the table names and for no others.
+    Raises ConfigError.
+    """
+    isolated = bool(given.get("isolated"))
+    path = "" if isolated else str(given.get("config") or "") or find(start)
+    if given.get("config") and not os.path.isfile(path):
+        raise ConfigError(f"{path}: no such configuration file")
+    from_file, warnings = read(path) if path else ({}, ())
+    shown = os.path.relpath(path, display) if path and display else path
+    values: dict[str, Setting] = {}
+    for option in OPTIONS:
+        if option.name in given:
+            values[option.name] = Setting(given[option.name], f"--{option.name}")
+        elif option.name in from_file:
+            values[option.name] = Setting(_relative(option, from_file[option.name], path), shown)
+        elif not isolated and option.environment and (found := environment.get(option.environment)):
+            values[option.name] = Setting(_from_environment(option, found), option.environment)
+        else:
+            values[option.name] = Setting(option.default, "default")
+    return Settings(values, warnings)
+
+
+def find(start: str) -> str:
+    """Return the path of the nearest configuration file at ``start`` or above, or ""."""
+    folder = os.path.abspath(start)
+    if not os.path.isdir(folder):
+        folder = os.path.dirname(folder)
+    for place in upwards(folder):
+        own = os.path.join(place, "ros-lint.toml")
+        if os.path.isfile(own):
+            return own
+        project = os.path.join(place, "pyproject.toml")
+        if os.path.isfile(project) and _mentions_us(project):
+            return project
+    return ""
+
+
+def read(path: str) -> tuple[dict[str, Any], tuple[str, ...]]:
+    """Return the settings of a file, checked against the table of options, and warnings. Raises ConfigError."""
+    try:
+        data = files.read(path, _MOST_BYTES)
+    except OSError as error:
+        raise ConfigError(f"{path}: {error.strerror or error}") from error
+    table: Any = _load_toml(path, data)
+    for name in ("tool", "ros-lint") if os.path.basename(path) == "pyproject.toml" else ():
+        table = table.get(name, {})
+        if not isinstance(table, dict):
+            raise ConfigError(f"{path}: {'tool.ros-lint' if name == 'ros-lint' else name} is not a table")
+    text = data.decode("utf-8", "replace")
+    refused = [name for name in table if name in BY_NAME and BY_NAME[name].loads_code]
+    settings = {name: _checked(path, text, name, value) for name, value in table.items() if name not in refused}
+    return settings, tuple([_without_effect(path, text, name) for name in refused])
+
+
+def _without_effect(path: str, text: str, name: str) -> str:
+    return f"{_place(path, text, name)}: {name} has no effect in a file because it loads code; use --{name} on the command line"
+
+
+def _mentions_us(path: str) -> bool:
+    """Return whether a pyproject.toml has our table, also one that is too large to be read as TOML."""
+    try:
+        with open(path, "rb") as file:
+            head = file.read(_MOST_SEARCHED)
+    except OSError:
+        return False
+    return re.search(rb"^[ \t]*\[[ \t]*tool[ \t]*\.[ \t]*['\"]?ros-lint", head, re.MULTILINE) is not None
+
+
+def _load_toml(path: str, data: bytes) -> dict[str, Any]:
+    if sys.version_info >= (3, 11):
+        import tomllib  # noqa: PLC0415
+    else:
+        import tomli as tomllib  # noqa: PLC0415
+    try:
+        text = data.decode("utf-8")
+        if long := re.search(_LONG_KEY, text):
+            raise ConfigError(f"{path}:{text.count(chr(10), 0, long.start()) + 1}: a key has more than 50 parts")
+        return tomllib.loads(text)
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise ConfigError(f"{path}: {error}") from error
+    except ValueError as error:  # of int(), which takes 4,300 digits
+        raise ConfigError(f"{path}: a number has too many digits") from error
+    except RecursionError as error:
+        raise ConfigError(f"{path}: nested too deep") from error
+
+
+def _checked(path: str, text: str, name: str, value: Any) -> Any:
+    option = BY_NAME.get(name)
+    if option is None or not option.in_file:
+        known = [option.name for option in OPTIONS if option.in_file]
+        if option is not None:
+            raise ConfigError(f"{_place(path, text, name)}: '{name}' is a command-line option, not a setting")
+        hint = did_you_mean(similar(name.replace("_", "-"), known)) or f"; available: {', '.join(known)}"
+        raise ConfigError(f"{_place(path, text, name)}: unknown setting '{name}'{hint}")
+    if complaint := _complaint(option, value):
+        raise ConfigError(f"{_place(path, text, name)}: '{name}' {complaint}")
+    if option.type in ("words", "paths"):
+        return tuple(value)
+    return value
+
+
+def _complaint(option: Option, value: Any) -> str:
+    match option.type:
+        case "flag":
+            return "" if isinstance(value, bool) else "must be true or false"
+        case "number":
+            fits = isinstance(value, int) and not isinstance(value, bool) and 0 <= value <= MOST
+            return "" if fits else f"must be a whole number from 0 to {MOST}"
+        case "word" | "path":
+            return _word_complaint(option, value)
+        case "words" | "paths":
+            return "" if _is_words(value) else "must be a list of strings"
+        case "table":
+            if not isinstance(value, dict):
+                return "must be a table"
+            if option.choices:
+                wrong = [f"of '{key}' {why}" for key, entry in value.items() if (why := _word_complaint(option, entry))]
+                return wrong[0] if wrong else ""
+            return "" if all(_is_words(entry) for entry in value.values()) else "must map patterns to lists of rules"
+
+
+def _word_complaint(option: Option, value: Any) -> str:
+    if not isinstance(value, str):
+        return "must be a string"
+    if option.choices and value not in option.choices:
+        hint = did_you_mean(similar(value, option.choices))
+        return f"must be one of {', '.join(option.choices)}, not {value!r}{hint}"
+    return ""
+
+
+def _is_words(value: Any) -> bool:
+    return isinstance(value, list) and all(isinstance(word, str) for word in value)
+
+
+def _place(path: str, text: str, name: str) -> str:
+    found = re.search(
+        rf"^[ \t]*[\"']?{re.escape(name)}[\"']?[ \t]*(?:=|\.)|^[ \t]*\[[^\]\n]*\b{re.escape(name)}", text, re.MULTILINE
+    )
+    return f"{path}:{text.count(chr(10), 0, found.start()) + 1}" if found else path
+
+
+def _relative(option: Option, value: Any, path: str) -> Any:
+    """A path in a file is relative to that file."""
+    if option.type == "paths":
+        return tuple(os.path.join(os.path.dirname(path), entry) for entry in value)
+    return os.path.join(os.path.dirname(path), value) if option.type == "path" else value
+
+
+def _from_environment(option: Option, value: str) -> Any:
+    if option.type == "paths":
+        return tuple(entry for entry in value.split(os.pathsep) if entry)
+    return value
+
+
+def toml(value: Any) -> str:
+    """Return the value of an option as it is written in a file."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, tuple | list):
+        return f"[{', '.join(toml(entry) for entry in value)}]"
+    if isinstance(value, dict):
+        return f"{{{', '.join(f'{toml(key)} = {toml(entry)}' for key, entry in value.items())}}}"
+    if isinstance(value, int):
+        return str(value)
+    import json  # noqa: PLC0415
+
+    return json.dumps(value, ensure_ascii=False)

@@ -1,0 +1,346 @@
+"""Commands of ROS packages: the released macros, and the primitives that their effects are written in."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from itertools import accumulate, pairwise
+from typing import Final
+
+from ros_lint.base.tree import is_outside
+from ros_lint.base.tree import join as join_path
+from ros_lint.collectors.cmake.commands.compiled_macros import released, run_released
+from ros_lint.collectors.cmake.commands.install_directory import unlisted
+from ros_lint.collectors.cmake.commands.targets import SOURCES
+from ros_lint.collectors.cmake.evaluator.arguments import sections
+from ros_lint.collectors.cmake.evaluator.flow import HANDLERS
+from ros_lint.collectors.cmake.evaluator.run import Handler, Run
+from ros_lint.collectors.cmake.evaluator.state import Properties
+from ros_lint.collectors.cmake.evaluator.values import FILE, HOLE, MAYBE, elements, is_known, sure
+from ros_lint.facts.build import Component, Provided
+from ros_lint.facts.sources import Purpose
+from ros_lint.facts.visibility import ANYTHING, Facet
+
+_PRODUCER = re.compile(r"install|program|executable|node|script|package|component|launch|resource|share|deploy|xacro|module")
+"""Names of unknown commands that may well install something."""
+_BUILDER = re.compile(r"librar|executable|target|plugin|component|node|kernel|module|build|(?:\A|_)add(?:_|\Z)")
+"""Names of unknown commands that may well build something."""
+_TESTER = re.compile(
+    r"(?:\A|_)(?:\w*test\w*|lint\w*|gmock|pytest|coverage|benchmark\w*|check\w*|cpplint|cppcheck|flake8)(?:_|\Z)"
+)
+"""Names of unknown commands that test, and install nothing."""
+_GENERATES: Final = "rosidl_generate_interfaces"
+
+
+def foreign(run: Run, name: str, args: list[str]) -> int | None:
+    """Carry out a command that neither CMake nor the package defines."""
+    macro = released(name)
+    if macro is not None:
+        provider = macro.procedure.provider
+        if provider and run.at_home():
+            purpose: Purpose = "interfaces" if name == _GENERATES else ""
+            run.mention(provider, "macro", run.here(), f"{name}()", purpose=purpose)
+        return run_released(run, macro, args)
+    if name.startswith("_") and name[1:] in HANDLERS and name[1:] in run.procedures:
+        return HANDLERS[name[1:]](run, args)  # the original of an overridden command
+    run.open_world = True
+    hidden = Facet.USES
+    if not _TESTER.search(name):
+        run.wild = True
+        run.builds = run.builds or _BUILDER.search(name) is not None
+        if _PRODUCER.search(name):
+            hidden = ANYTHING
+        elif _is_given_data(run, args):
+            hidden |= Facet.SHARE
+    run.hide(hidden, f"what {name}() does is not known")
+    return None
+
+
+def _is_given_data(run: Run, args: list[str]) -> bool:
+    """Whether an argument is the path or the name of a folder of the package without sources: such is there to be installed."""
+    words = frozenset([plain for arg in args if is_known(plain := sure(arg)[0])])
+    below = [file for file in run.files if not words.isdisjoint(_folders(file))]
+    return bool(below) and not any(file.endswith(SOURCES) for file in below)
+
+
+def _folders(file: str) -> list[str]:
+    """Return the folders that a file lies in, by their paths and by their names."""
+    names = file.split("/")[:-1]
+    return [*names, *accumulate(names, join_path)]
+
+
+def _component(run: Run, args: list[str]) -> None:
+    """``ros_lint_component(class...)``."""
+    for arg in args:
+        name, certain = sure(arg)
+        if not is_known(name):
+            run.hide(Facet.COMPONENTS, "the class of a component is not known")
+        elif not run.muted:
+            run.components.append(Component(name, run.conditional or run.testing or not certain, run.where(arg)))
+            run.registered.append(run.scopes[-1])
+
+
+def _exported(run: Run, args: list[str]) -> None:
+    """``ros_lint_exported(sets...)``: whoever finds the package has the targets in these sets."""
+    if not (run.muted or run.conditional or run.testing):
+        run.exported_sets.update(dict.fromkeys([name for name, certain in map(sure, args) if certain]))
+
+
+def _interfaces(run: Run, args: list[str]) -> None:
+    """``ros_lint_interfaces(install|- files...)``: interface files to generate code from."""
+    project = run.get("PROJECT_NAME") or ""
+    package = project if is_known(project) else run.sources.name or run.name
+    for arg in args[1:]:
+        plain, certain = sure(arg)
+        path = plain.rpartition(":")[2] if ":" in plain else plain
+        folder, name = posixpath.split(path)
+        stem, dot, suffix = name.rpartition(".")
+        kind = posixpath.basename(folder) or suffix
+        if not is_known(f"{kind}{stem}") or not dot:
+            run.hide(Facet.INTERFACES, "an interface file is not known")
+            continue
+        if run.muted:
+            continue
+        run.interfaces[f"{suffix if suffix != 'idl' else kind}/{stem}"] = None
+        span = run.where(arg)
+        source = run.source(plain.replace(":", "/") if ":" in plain else plain)
+        conditional = run.conditional or run.testing or not certain
+        if source is not None and source not in run.files:
+            run.missing.append((source, span, conditional))
+        if args[0] == "install":
+            written = source if source is not None and source not in run.generated else ""
+            # rosidl_adapter puts what it makes into the folder of its kind, wherever the definition lies
+            places = [(folder, "idl", written)] if suffix == "idl" else [(kind, suffix, written), (suffix, "idl", "")]
+            for place, end, made in places:
+                run.installed.append(Provided(f"share/{package}/{place}/{stem}.{end}", made, False, conditional, span))
+    if not run.muted and len(args) > 1:
+        run.python_packages[package] = None
+    elif not run.wild:
+        run.problem("no-interfaces", f"{_GENERATES}() is called without interface files", run.here(), package)
+
+
+def _python(run: Run, args: list[str]) -> None:
+    """``ros_lint_python(module folder)``: an importable package or module is installed."""
+    if args and not is_known(args[0]):
+        run.hide(Facet.PYTHON, "the name of a Python package is not known")
+        return
+    if run.muted or not args:
+        return
+    name = args[0].replace("/", ".")
+    run.python_packages[name] = None
+    folder = run.reached(args[1]) if len(args) > 1 else None
+    if folder is None or (is_outside(folder) and not run.below(folder)):
+        if len(args) > 1 and (HOLE in args[1] or run.leads_out(args[1])):
+            run.hide(Facet.PYTHON, "the folder of a Python package is not known")
+        return
+    span = run.where(args[0])
+    base = run.get("PYTHON_INSTALL_DIR") or ""
+    skip = len(folder) + 1 if folder else 0
+    conditional = run.conditional or run.testing
+    more = unlisted(run, folder, Facet.PYTHON, span) if run.sources.unseen else []
+    files = (*run.below(folder), *more)
+    run.charge(FILE * len(files))
+    for file in files:
+        if file.endswith(".py"):
+            inner = posixpath.dirname(file[skip:])
+            if inner:
+                run.python_packages[f"{name}.{inner.replace('/', '.')}"] = None
+        path = join_path(join_path(base, args[0]), file[skip:])
+        if is_known(path) and not file.endswith((".pyc", ".pyo")):
+            run.installed.append(Provided(path, run.listed(file), False, conditional, span))
+
+
+def _scripts(run: Run, args: list[str]) -> None:
+    """``ros_lint_console_scripts(destination setup.cfg)``: console_scripts of a setup.cfg become programs."""
+    path = run.source(args[1])
+    text = run.sources.texts.get(path) if path is not None else None
+    destination = run.destination(args[0])
+    if text is None or destination is None:
+        run.hide(Facet.EXECUTABLES, "the console_scripts of a setup.cfg cannot be read")
+        return
+    for name in console_scripts(text):
+        run.installed.append(Provided(join_path(destination, name), "", True, run.conditional or run.testing, run.here()))
+
+
+def console_scripts(text: str) -> list[str]:
+    """Return the names of the console_scripts that a setup.cfg declares, none when it cannot be parsed."""
+    import configparser  # noqa: PLC0415  (few packages have one)
+
+    parser = configparser.ConfigParser(interpolation=None)
+    try:
+        parser.read_string(text)
+        value = parser.get("options.entry_points", "console_scripts", fallback="")
+    except configparser.Error:
+        return []
+    return [line.partition("=")[0].strip() for line in value.splitlines() if "=" in line]
+
+
+def _provide(run: Run, args: list[str]) -> None:
+    """``ros_lint_provide(path [program])``: a generated file is installed."""
+    path = run.destination(args[0])
+    if path is not None and not run.muted:
+        program = "program" in args[1:]
+        run.installed.append(Provided(path, "", program, run.conditional or run.testing, run.here()))
+
+
+def _headers(run: Run, args: list[str]) -> None:
+    """``ros_lint_headers(scoped)``: the headers of ament_auto_package() (reference, section H13)."""
+    scoped = args[:1] == ["TRUE"] or run.distro in _SCOPED
+    folder = f"include/{run.get('PROJECT_NAME') or ''}" if scoped else "include"
+    run_handler(run, "install", ["DIRECTORY", "include/", "DESTINATION", folder, "OPTIONAL"])
+
+
+_SCOPED: Final = frozenset({"kilted", "lyrical", "rolling"})
+
+
+def _package(run: Run, args: list[str]) -> None:
+    """``ros_lint_package(...)``: ament_package(), which makes the package findable and hands on its CONFIG_EXTRAS."""
+    if run.muted:
+        return
+    name = run.get("PROJECT_NAME") or ""
+    span = run.here()
+    conditional = run.conditional or run.testing
+    given = sections(args, dict.fromkeys(_EXTRAS, -1)) if args else {}
+    for word in _EXTRAS:
+        files = [*given.get(word, ()), *elements(run.normal(f"{name}_{word}") or "")]
+        if files:
+            _extras(run, name, files, conditional)
+    if is_known(name):
+        found = [(f"share/{name}/package.xml", "package.xml")] if "package.xml" in run.files else []
+        found += [(f"share/ament_index/resource_index/packages/{name}", ""), (f"share/{name}/cmake/{name}Config.cmake", "")]
+        run.installed += [Provided(path, source, False, conditional, span) for path, source in found]
+    if run.registered and not any(variable.startswith(_REGISTERED) for scope in run.scopes for variable in scope):
+        for number, scope in enumerate(run.registered):
+            if not any(scope is seen for seen in run.scopes):
+                run.components[number] = run.components[number]._replace(lost=True)
+        if all(component.lost for component in run.components):
+            run.installed[:] = [provided for provided in run.installed if not provided.path.startswith(_COMPONENT_INDEX)]
+    _end(run)
+
+
+_COMPONENT_INDEX: Final = "share/ament_index/resource_index/rclcpp_components/"
+_REGISTERED: Final = "_RCLCPP_COMPONENTS"
+"""How the variables begin in which rclcpp_components notes what ament_package() has to write: some packages hand them on."""
+_EXTRAS: Final = ("CONFIG_EXTRAS", "CONFIG_EXTRAS_POST")
+
+
+def _needed(run: Run, args: list[str]) -> None:
+    """``ros_lint_needed(files...)``: files without which ament stops (assert_file_exists)."""
+    for arg in args:
+        plain, certain = sure(arg)
+        path, span = run.source(plain), run.where(arg)
+        # It looks beside the file that has the call, and elsewhere that need not be where CMake takes paths from.
+        if path and path not in run.files and not (run.muted or run.is_unseen(path)) and span.path.endswith("CMakeLists.txt"):
+            run.missing.append((path, span, run.conditional or run.testing or not certain))
+
+
+def _extras(run: Run, name: str, files: list[str], conditional: bool) -> None:
+    _needed(run, files)
+    for file in files:
+        plain, certain = sure(file)
+        path = run.source(plain)
+        source = next((one for one in (path, f"{path}.in") if path is not None and one in run.files), None)
+        written = posixpath.basename(source or plain)
+        if source is not None:
+            run.extras.append(source)
+        elif path is not None or not is_known(written):
+            continue
+        installed = f"share/{name}/cmake/{written.removesuffix('.in')}"
+        run.installed.append(Provided(installed, source or "", False, conditional or not certain, run.where(file)))
+
+
+def _end(run: Run) -> None:
+    """Note the place before ament_package(): install rules belong there, set off as it is itself."""
+    frame = next(frame for frame in reversed(run.frames) if frame.own)
+    top = join_path(run.sources.path, "CMakeLists.txt")
+    if run.end is None and not run.unsure and frame.procedure is None and frame.path == top and frame.command:
+        run.end = frame.command.place(frame.path).start()
+        commands = run.sources.scripts["CMakeLists.txt"].commands
+        before = next((one for one, other in pairwise(commands) if other.start == frame.command.start), None)
+        if before is not None:
+            lines = frame.command.line - before.line - len(before.breaks)
+            if lines > 1 and frame.command.start - before.end in (lines, 2 * lines):  # with either kind of line ends
+                run.behind = before.span(frame.path, before.end, before.end)
+
+
+def _unknown(run: Run, args: list[str]) -> None:
+    """``ros_lint_unknown(variables...)``: variables hold something that cannot be known here."""
+    for arg in args:
+        if is_known(arg):
+            run.set(arg, HOLE)
+
+
+def _of_index(run: Run, args: list[str]) -> None:
+    """``ros_lint_of_index(variable)``: a variable holds what some package has registered in the index."""
+    _unknown(run, args)
+    run.of_index.update(args)
+
+
+def _package_xml(run: Run, _args: list[str]) -> None:
+    """``ros_lint_package_xml()``: the manifest gives name and version."""
+    name = run.sources.name
+    run.set("_AMENT_PACKAGE_NAME", name)
+    run.set(f"{name}_VERSION", run.sources.version or HOLE)
+    run.set(f"{name}_MAINTAINER", HOLE)
+
+
+def _test_executable(run: Run, args: list[str]) -> None:
+    """``ros_lint_test_executable(target sources...)``: a program that tests, whether or not it stands in a test scope."""
+    testing, run.testing = run.testing, True
+    given = [arg for arg in args if arg[:1] != MAYBE or _TEST_WORDS.get(arg[1:]) != 0]  # whether it runs is no matter here
+    try:
+        run_handler(run, "add_executable", sections(given, _TEST_WORDS)[""])
+    finally:
+        run.testing = testing
+
+
+_TEST_WORDS: Final = {
+    "SKIP_LINKING_MAIN_LIBRARIES": 0, "SKIP_TEST": 0, "RUNNER": 1, "TIMEOUT": 1, "WORKING_DIRECTORY": 1, "APPEND_ENV": -1,
+    "APPEND_LIBRARY_DIRS": -1, "ENV": -1,
+}  # fmt: skip
+
+
+def _vendor(run: Run, args: list[str]) -> None:
+    """``ros_lint_vendor(target ...)``: a project from elsewhere is built and installed below opt/."""
+    if args:
+        run.put(run.targets, args[0], Properties(KIND="other"))
+    run.hide(Facet.USES | Facet.LIBRARIES, "what ament_vendor() builds comes from elsewhere")
+
+
+def _tests(run: Run, args: list[str]) -> None:
+    """``ros_lint_runs(files or folders...)``: an interpreter runs these as tests."""
+    for arg in args:
+        path = run.source(sure(arg)[0])
+        if path is None and HOLE in arg:
+            run.ran[""] = None
+        elif path in run.files or (path and run.is_folder(path)):
+            run.ran[path] = None
+
+
+RUNNERS: Final = frozenset({"add_test", "ros_lint_runs"})
+"""What runs tests that are not compiled: CMake's own command, and what the commands of released packages come down to."""
+
+
+def run_handler(run: Run, name: str, args: list[str]) -> None:
+    """Carry out one of CMake's own commands."""
+    HANDLERS[name](run, args)
+
+
+COMMANDS: Final[dict[str, Handler]] = {
+    "ros_lint_component": _component,
+    "ros_lint_exported": _exported,
+    "ros_lint_interfaces": _interfaces,
+    "ros_lint_python": _python,
+    "ros_lint_console_scripts": _scripts,
+    "ros_lint_provide": _provide,
+    "ros_lint_headers": _headers,
+    "ros_lint_needed": _needed,
+    "ros_lint_package": _package,
+    "ros_lint_unknown": _unknown,
+    "ros_lint_of_index": _of_index,
+    "ros_lint_package_xml": _package_xml,
+    "ros_lint_test_executable": _test_executable,
+    "ros_lint_vendor": _vendor,
+    "ros_lint_runs": _tests,
+    "add_test": _tests,
+}

@@ -1,0 +1,342 @@
+"""CMake's commands for variables, files of code and control: set(), option(), include(), project(), return() ..."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from typing import Final
+
+from ros_lint.base.text import Text
+from ros_lint.collectors.cmake.commands.ros2_run import started
+from ros_lint.collectors.cmake.evaluator.arguments import parse_keywords
+from ros_lint.collectors.cmake.evaluator.flow import run_file, run_named
+from ros_lint.collectors.cmake.evaluator.run import MOST_STEPS, Handler, Run
+from ros_lint.collectors.cmake.evaluator.state import BREAK, CONTINUE, RETURN, STOP, Frame
+from ros_lint.collectors.cmake.evaluator.truth import TRUE_WORDS, is_off
+from ros_lint.collectors.cmake.evaluator.values import (
+    HOLE,
+    MAYBE,
+    SLOW,
+    certainly_set,
+    elements,
+    is_fixed,
+    is_known,
+    join,
+    kept,
+    merge,
+    natural,
+    split,
+)
+from ros_lint.collectors.cmake.syntax import parse
+from ros_lint.facts.visibility import ANYTHING
+
+
+def _set(run: Run, args: list[str]) -> None:
+    if not args or HOLE in args[0]:
+        return
+    name = args[0]
+    if name.startswith("ENV{"):
+        run.put(run.environment, name[4:-1], join(args[1:2]))
+        return
+    if len(args) == 1:
+        run.set(name, None)
+        return
+    if len(args) > 3 and "CACHE" in args[1:]:
+        at = len(args) - 3 if args[-3] == "CACHE" else len(args) - 4 if args[-4] == "CACHE" and args[-1] == "FORCE" else 0
+        if at:
+            _set_cache(run, name, join(args[1:at]), args[at + 1], args[-1] == "FORCE")
+            return
+    if args[-1] == "PARENT_SCOPE":
+        run.set_outer(name, join(args[1:-1]) if len(args) > 2 else None)
+        return
+    value = join(args[1:])
+    if len(run.scopes) == 1 and (run.testing or name in run.for_tests or name in run.gained):
+        _note_switch(run, name, value)
+        run.note_gained(name, split(value))
+    command = run.frames[-1].command
+    if run.distro and run.distro in value and command and any("$ENV{ROS_DISTRO}" in text for text, *_ in command.args):
+        run.settable.add(name)  # as soft as the variable of the environment itself
+    run.set(name, value)
+    run.remember(1)
+
+
+def _note_switch(run: Run, name: str, value: str) -> None:
+    """Note a variable that becomes true, if that happens only where tests are wanted."""
+    if is_off(value):
+        return
+    before = run.get(name)
+    if not run.testing:
+        run.for_tests.pop(name, None)
+    elif before is None or is_off(before):
+        run.for_tests[name] = value
+
+
+def _set_cache(run: Run, name: str, value: str, kind: str, force: bool) -> None:
+    new = name not in run.cache
+    if kind in ("PATH", "FILEPATH"):
+        value = _path(value)
+    if kind != "INTERNAL" and not force:
+        run.settable.add(name)
+    if not new and not force and kind != "INTERNAL" and not certainly_set(run.cache[name]):
+        run.put(run.cache, name, merge([run.cache[name], value]))
+        run.set(name, HOLE)
+    elif new or force or kind == "INTERNAL":
+        run.put(run.cache, name, value)
+        if run.versions < (3, 21):  # policy CMP0126
+            run.set(name, None)
+
+
+def _path(value: str) -> str:
+    """Return what the cache makes of a path."""
+    odd = HOLE in value or "//" in value or "\\" in value or ";" in value or value.startswith("~")
+    return HOLE if odd else value.rstrip("/") or value
+
+
+def _unset(run: Run, args: list[str]) -> None:
+    if not args or HOLE in args[0]:
+        return
+    if args[0].startswith("ENV{"):
+        run.put(run.environment, args[0][4:-1], "")
+    elif "CACHE" in args[1:]:
+        run.remove(run.cache, args[0])
+    elif "PARENT_SCOPE" in args[1:]:
+        run.set_outer(args[0], None)
+    else:
+        run.set(args[0], None)
+
+
+def _option(run: Run, args: list[str]) -> None:
+    if not args or HOLE in args[0]:
+        return
+    name = args[0]
+    usual = _switch(args[2]) if len(args) > 2 else "OFF"
+    run.settable.add(name)
+    value = run.normal(name)
+    if value is not None and run.versions >= (3, 13):  # policy CMP0077
+        if not certainly_set(value):
+            run.put(run.cache, name, merge([run.cache.get(name), usual]))
+            run.set(name, HOLE)
+        return
+    if name not in run.cache:
+        run.put(run.cache, name, usual)
+        run.set(name, None)
+    elif not certainly_set(run.cache[name]):
+        run.put(run.cache, name, merge([run.cache[name], usual]))
+        if value is not None:
+            run.set(name, HOLE)
+
+
+def _switch(value: str) -> str:
+    """Return the word that option() makes of a value."""
+    if not is_fixed(value):
+        return HOLE
+    return "ON" if value.upper() in TRUE_WORDS else "OFF"
+
+
+def _message(_run: Run, args: list[str]) -> int | None:
+    return STOP if args and args[0] == "FATAL_ERROR" else None
+
+
+def _return(run: Run, args: list[str]) -> int:
+    if "PROPAGATE" in args and run.versions >= (3, 25):  # policy CMP0140
+        for name in args[args.index("PROPAGATE") + 1 :]:
+            run.return_to_caller(name, run.get(name))
+    return RETURN
+
+
+def _break(_run: Run, _args: list[str]) -> int:
+    return BREAK
+
+
+def _continue(_run: Run, _args: list[str]) -> int:
+    return CONTINUE
+
+
+def _minimum(run: Run, args: list[str]) -> None:
+    if "VERSION" in args[:-1]:
+        _policies(run, args[args.index("VERSION") + 1])
+
+
+def _policy(run: Run, args: list[str]) -> None:
+    if args[:1] == ["VERSION"] and len(args) > 1:
+        _policies(run, args[1])
+    elif args[:1] == ["GET"] and len(args) > 2:
+        run.set(args[2], HOLE)
+
+
+def _policies(run: Run, wanted: str) -> None:
+    run.versions = _version(wanted) or run.versions
+
+
+@kept(256)
+def _version(wanted: str) -> tuple[int, int] | None:
+    """Return the version up to which policies are new, given ``3.5`` or ``3.5...3.20``."""
+    match = re.match(r"([0-9]+)(?:\.([0-9]+))?", wanted.rpartition("...")[2])
+    if match is None or not is_known(wanted):
+        return None
+    major, minor = natural(match[1]), natural(match[2] or "0")
+    return None if major is None or minor is None else (major, minor)
+
+
+def _project(run: Run, args: list[str]) -> None:
+    name = args[0] if args and is_fixed(args[0]) else HOLE
+    number = ""
+    if "VERSION" in args[1:-1]:
+        number = args[args.index("VERSION") + 1]
+    top = not run.name and not run.directory
+    if run.directory and is_known(name):
+        run.bundled[name] = None
+    if top:
+        run.name = name if is_known(name) else ""
+        run.name_span = run.where(args[0]) if run.name else None
+        if is_known(number) and number:
+            run.version, run.version_span = number, run.where(number)
+        run.set("CMAKE_PROJECT_NAME", name)
+        run.places["CMAKE_INSTALL_DOCDIR"] = f"share/doc/{name}"
+    folder, build = run.places["CMAKE_CURRENT_SOURCE_DIR"], run.places["CMAKE_CURRENT_BINARY_DIR"]
+    values: dict[str, str | None] = {
+        "PROJECT_NAME": name,
+        "PROJECT_SOURCE_DIR": folder,
+        "PROJECT_BINARY_DIR": build,
+        "PROJECT_VERSION": number,
+        f"{name}_SOURCE_DIR": folder,
+        f"{name}_BINARY_DIR": build,
+        f"{name}_VERSION": number,
+    }
+    parts = number.split(".") if is_known(number) else [HOLE] * 4
+    for index, part in enumerate(("MAJOR", "MINOR", "PATCH", "TWEAK")):
+        values[f"PROJECT_VERSION_{part}"] = values[f"{name}_VERSION_{part}"] = parts[index] if index < len(parts) else ""
+    if name == HOLE:
+        values = {variable: value for variable, value in values.items() if HOLE not in variable}
+    run.set_all(values)
+
+
+def _parse_arguments(run: Run, args: list[str]) -> None:
+    """cmake_parse_arguments(prefix options one multi args...) and its PARSE_ARGV form."""
+    if args[:1] == ["PARSE_ARGV"]:
+        prefix, options, ones, multis = (*args[2:6], "", "", "", "")[:4]
+        rest = _rest_of_call(run, args[1])
+        if rest is None:  # any keyword may be given
+            run.set_all(dict.fromkeys(parse_keywords(prefix, options, ones, multis, ()), HOLE))
+            return
+        given = [arg.replace(";", "\\;") for arg in rest]
+    else:
+        prefix, options, ones, multis = (*args[:4], "", "", "", "")[:4]
+        given = args[4:]
+        if ";" in "".join(given):
+            given = [element for arg in given for element in split(arg)]
+        elif "" in given:
+            given = [arg for arg in given if arg]
+    if not is_known(f"{prefix}{options}{ones}{multis}"):
+        return
+    run.charge(len(prefix) * sum(names.count(";") for names in (options, ones, multis)))
+    run.set_all(parse_keywords(prefix, options, ones, multis, given))
+
+
+def _rest_of_call(run: Run, first: str) -> list[str] | None:
+    """Return the arguments of the function from one on; None if nobody knows which these are."""
+    begin, end = natural(first), natural(run.get("ARGC") or "")
+    if begin is None:
+        return None
+    if end is not None:
+        return [run.get(f"ARGV{index}") or "" for index in range(begin, end)] if end <= MOST_STEPS else None
+    firm: list[str] = []
+    while (arg := run.get(f"ARGV{len(firm)}")) and not _NOT_ONE.search(arg):
+        firm.append(arg)
+    if begin > len(firm):
+        return None
+    return [*firm[begin:], *elements(run.get("ARGV") or HOLE)[len(firm) :]]
+
+
+_NOT_ONE = re.compile(f"[{HOLE}{MAYBE};\\\\[\\]]")
+"""What stands in values that may be no argument or several, or are not what they were before they were put into a list."""
+
+
+def _language(run: Run, args: list[str]) -> int | None:
+    """``cmake_language(CALL command args...)`` and ``(EVAL CODE text...)``."""
+    mode = args[0] if args else ""
+    if mode == "CALL" and len(args) > 1 and is_known(args[1]):
+        return run_named(run, args[1].lower(), args[2:])
+    if mode == "EVAL" and args[1:2] == ["CODE"] and is_fixed(" ".join(args)):
+        frame = run.frames[-1]
+        run.charge(SLOW * sum(map(len, args)))
+        commands = parse(Text(frame.path, " ".join(args[2:]))).commands
+        return run_file(run, commands, Frame(False, frame.path, frame.file, provider=frame.provider))
+    if mode in ("CALL", "EVAL", "DEFER"):
+        run.open_world = run.wild = run.builds = True
+        run.hide(ANYTHING, f"what cmake_language({mode}) runs is not known")
+    elif len(args) > 1:
+        run.set(args[-1], HOLE)
+    return None
+
+
+def _folder_sources(run: Run, args: list[str]) -> None:
+    """``aux_source_directory(folder variable)``."""
+    if len(args) < 2 or HOLE in args[1]:
+        return
+    folder = run.source(args[0])
+    if folder is None:
+        run.set(args[1], HOLE)
+        return
+    skip = len(folder) + 1 if folder else 0
+    files = run.below(folder)
+    run.charge(SLOW * len(files))
+    names = [file[skip:] for file in files if "/" not in file[skip:]]
+    sources = [
+        f"{args[0]}/{name}" for name in names if name.endswith((".c", ".cc", ".cpp", ".cxx", ".C", ".c++", ".cu", ".m", ".mm"))
+    ]
+    run.set(args[1], join([*filter(None, [run.get(args[1])]), *sources]))
+
+
+def _execute_process(run: Run, args: list[str]) -> None:
+    """``execute_process(COMMAND cmake -S folder ...)`` and others: a project among the sources is built along then."""
+    folder = run.source(args[args.index("-S") + 1]) if "-S" in args[:-1] else None
+    if folder and run.is_folder(folder) and not run.muted:
+        run.bundled[posixpath.basename(folder)] = None
+    started(run, args)
+    for keyword in ("RESULT_VARIABLE", "OUTPUT_VARIABLE", "ERROR_VARIABLE", "RESULTS_VARIABLE"):
+        for index in range(len(args) - 1):
+            if args[index] == keyword:
+                run.set(args[index + 1], HOLE)
+
+
+def nothing(_run: Run, _args: list[str]) -> None:
+    """Carry out a command that changes nothing that matters here."""
+
+
+COMMANDS: Final[dict[str, Handler]] = {
+    "set": _set,
+    "unset": _unset,
+    "option": _option,
+    "message": _message,
+    "return": _return,
+    "break": _break,
+    "continue": _continue,
+    "cmake_minimum_required": _minimum,
+    "cmake_policy": _policy,
+    "project": _project,
+    "cmake_parse_arguments": _parse_arguments,
+    "execute_process": _execute_process,
+    "exec_program": _execute_process,
+    "cmake_language": _language,
+    "aux_source_directory": _folder_sources,
+    "check_language": nothing,
+}
+COMMANDS.update(
+    dict.fromkeys(
+        (
+            "mark_as_advanced", "include_guard", "enable_testing", "enable_language",
+            "add_compile_definitions", "add_link_options", "link_directories", "source_group",
+            "add_dependencies", "set_tests_properties", "remove_definitions", "set_source_files_properties",
+            "set_directory_properties",
+            "variable_watch", "build_command", "create_test_sourcelist", "define_property", "include_regular_expression",
+            "include_external_msproject", "load_cache", "cmake_print_variables", "cmake_print_properties",
+            "feature_summary", "add_feature_info", "set_package_properties", "ctest_start", "ctest_test", "export",
+            "target_compile_definitions", "target_compile_features", "target_link_options",
+            "target_link_directories", "target_precompile_headers", "gtest_discover_tests", "gtest_add_tests",
+            "check_ipo_supported", "cmake_push_check_state", "cmake_pop_check_state", "cmake_file_api",
+            "write_file", "make_directory", "check_struct_has_member",
+        ),
+        nothing,
+    )
+)  # fmt: skip

@@ -1,0 +1,194 @@
+"""Released macros, compiled: most are a cmake_parse_arguments() and a few commands, and each is called in hundreds of packages.
+
+A macro that is made of such commands alone runs without variables and scopes of its own, as long as what it is given is plain
+text. All others, and all functions, run step by step.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from functools import cache, partial
+from typing import Final, NamedTuple
+
+from ros_lint.base.text import Text
+from ros_lint.collectors.cmake.evaluator.arguments import parse_keywords
+from ros_lint.collectors.cmake.evaluator.blocks import Body, Definition, If, blocks
+from ros_lint.collectors.cmake.evaluator.definitions import counts
+from ros_lint.collectors.cmake.evaluator.expansion import Template, expand, template
+from ros_lint.collectors.cmake.evaluator.flow import HANDLERS, call, perhaps, run_named
+from ros_lint.collectors.cmake.evaluator.run import MOST_STEPS, Run
+from ros_lint.collectors.cmake.evaluator.state import NEXT, STOP, TESTS, USUAL, BudgetError, Exit, Frame, Procedure
+from ros_lint.collectors.cmake.evaluator.values import join, split
+from ros_lint.collectors.cmake.released_macros import macros
+from ros_lint.collectors.cmake.syntax import QUOTED, UNQUOTED, Command, parse
+
+_NOT_PLAIN = re.compile(r"[\0\2$\\;\[]")
+_TESTS: Final = "BUILD_TESTING"
+
+
+_Reference = tuple[str, Template, bool]
+"""An argument with references: the variable if it is nothing but one reference, its parts, and whether it is quoted."""
+_Conditions = tuple[tuple[str, bool], ...]
+"""Keywords that must be given, or must not."""
+_Step = tuple[str, tuple[str | _Reference, ...], _Conditions]
+"""A command with its arguments."""
+_Keywords = tuple[str, str, str, str]
+"""Prefix, options, keywords with one value and keywords with many, as cmake_parse_arguments() is given them."""
+
+
+class Released(NamedTuple):
+    """A released macro or function."""
+
+    procedure: Procedure
+    direct: tuple[str, list[str]] | None
+    """A primitive and its first arguments, when the macro does nothing but hand all that it is given to it."""
+    keywords: _Keywords | None
+    steps: tuple[_Step, ...] | None
+    """None when it cannot be compiled."""
+    frame: Frame
+
+
+@cache
+def released(name: str) -> Released | None:
+    """Return a macro by its name in lower case, None when there is none of that name."""
+    macro = macros().get(name)
+    if macro is None:
+        return None
+    (node,) = blocks(parse(Text("ros_macros.cmake", macro.text)).commands)
+    assert isinstance(node, Definition)
+    _, *parameters = [argument[0] for argument in node.command.args]
+    is_macro = node.command.name == "macro"
+    procedure = Procedure(name, is_macro, tuple(parameters), node.body, False, "", "", macro.package, counts(node.body))
+    keywords, body = _split_keywords(node.body)
+    steps = tuple(_steps(body, keywords[0] if keywords else "", ())) if is_macro else (None,)
+    compiled = None if None in steps else tuple(step for step in steps if step is not None)
+    return Released(procedure, _direct(node.body, parameters), keywords, compiled, Frame(False, "", "", procedure))
+
+
+def _direct(body: Body, parameters: Sequence[str]) -> tuple[str, list[str]] | None:
+    if len(body) == 1 and isinstance(only := body[0], Command) and only.name.startswith("ros_lint_"):
+        words = [argument[0] for argument in only.args]
+        handed = [f"${{{parameter}}}" for parameter in (*parameters, "ARGN")]
+        first = len(words) - len(handed)
+        if words[first:] == handed and not any("$" in word for word in words[:first]):
+            return only.name, words[:first]
+    return None
+
+
+def _split_keywords(body: Body) -> tuple[_Keywords | None, Body]:
+    if body and isinstance(first := body[0], Command) and first.name == "cmake_parse_arguments":
+        texts = [argument[0] for argument in first.args]
+        if texts[4:] == ["${ARGN}"]:
+            return (texts[0], texts[1], texts[2], texts[3]), body[1:]
+    return None, body
+
+
+def _steps(body: Body, prefix: str, conditions: _Conditions) -> Iterator[_Step | None]:
+    """Yield the commands of a body, None for what cannot be compiled."""
+    for node in body:
+        if isinstance(node, Command):
+            if node.name == "set" and prefix and node.args[0][0].startswith(f"{prefix}_"):
+                yield None  # what is given by keywords stays as it is
+            yield node.name, tuple([_argument(text, kind) for text, kind, _, _ in node.args]), conditions
+        elif isinstance(node, If) and len(node.branches) <= 2 and node.branches[-1][0] in (None, node.command):
+            words = [argument[0] for argument in node.command.args]
+            name, wanted = words[-1], words[0] != "NOT"
+            if len(words) != 2 - wanted or not (name == _TESTS or (prefix and name.startswith(f"{prefix}_"))):
+                yield None
+            for (_, inner), value in zip(node.branches, (wanted, not wanted), strict=False):
+                yield from _steps(inner, prefix, (*conditions, (name, value)))
+        else:
+            yield None
+
+
+def _argument(text: str, kind: int) -> str | _Reference:
+    if kind not in (UNQUOTED, QUOTED):
+        return text
+    parts = template(text)
+    if isinstance(parts, str):
+        return parts, (("", (parts,)),), kind == QUOTED
+    return "", parts, kind == QUOTED
+
+
+def run_released(run: Run, macro: Released, args: list[str]) -> Exit:
+    """Run a released macro or function, given its evaluated arguments."""
+    text = "".join(args)
+    if macro.direct is not None and ";" not in text:
+        primitive, words = macro.direct
+        run.calls.add(primitive)
+        return HANDLERS[primitive](run, [*words, *args]) or NEXT
+    if macro.steps is None or _NOT_PLAIN.search(text):
+        return call(run, macro.procedure, args)
+    parameters = macro.procedure.parameters
+    given = [arg for arg in args[len(parameters) :] if arg]
+    values: dict[str, str | None] = parse_keywords(*macro.keywords, given) if macro.keywords else {}
+    values.update(zip(parameters, args, strict=False))
+    for name in parameters[len(args) :]:
+        values[name] = ""
+    values["ARGN"] = join(given)
+    run.frames.append(macro.frame)
+    try:
+        return _run_steps(run, macro.steps, values, 0)
+    finally:
+        run.frames.pop()
+
+
+def _run_steps(run: Run, steps: Sequence[_Step], values: dict[str, str | None], start: int) -> Exit:
+    run.steps += len(steps) - start
+    if run.steps > MOST_STEPS:
+        raise BudgetError
+    for index in range(start, len(steps)):
+        name, wanted, conditions = steps[index]
+        tests = False
+        if conditions:
+            if not all(_holds(values, *condition) for condition in conditions):
+                continue
+            tests = not run.testing and (_TESTS, True) in conditions
+        args = _evaluated(run, wanted, values)
+        if tests:
+            run.testing = True
+        try:
+            handler = HANDLERS.get(name)
+            if handler is None or name in run.procedures:
+                ended = run_named(run, name, args)
+            else:
+                run.calls.add(name)
+                ended = handler(run, args) or NEXT
+        finally:
+            if tests:
+                run.testing = False
+        if ended == NEXT or ended == NEXT | STOP:
+            continue
+        if not ended & NEXT:
+            return ended
+        run.steps -= len(steps) - index - 1  # they are counted once more
+        rest, changes = perhaps(run, partial(_run_steps, run, steps, values, index + 1), ended)
+        run.join([{}, changes], 1 if ended & USUAL else None)
+        return (ended & ~(NEXT | USUAL | TESTS)) | rest
+    return NEXT
+
+
+def _holds(values: dict[str, str | None], name: str, wanted: bool) -> bool:
+    return wanted == (name == _TESTS or values.get(name) not in (None, "", "FALSE"))
+
+
+def _evaluated(run: Run, wanted: Sequence[str | _Reference], values: dict[str, str | None]) -> list[str]:
+    found: list[str] = []
+    value: str | None
+    for arg in wanted:
+        if isinstance(arg, str):
+            found.append(arg)
+            continue
+        name, parts, quoted = arg
+        if name:
+            value = values[name] if name in values else run.get(name)
+        else:
+            value = expand(parts, lambda name, where: values[name] or "" if name in values else run.lookup(name, where))
+        if quoted:
+            found.append(value or "")
+        elif value and ";" in value:
+            found += split(value)
+        elif value:
+            found.append(value)
+    return found

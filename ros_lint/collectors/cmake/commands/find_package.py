@@ -1,0 +1,274 @@
+"""Which packages a script names: find_package() and its kin, pkg-config, targets of others."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Final
+
+from ros_lint.analysis.wording import few
+from ros_lint.base.text import Span
+from ros_lint.collectors.cmake.commands.include import include_foreign, include_own
+from ros_lint.collectors.cmake.commands.include_directories import ALL_TARGETS, FOREIGN_VARIABLE, found_as, given, given_folders
+from ros_lint.collectors.cmake.evaluator.run import Handler, Run
+from ros_lint.collectors.cmake.evaluator.values import ATOM, FOREIGN, HOLE, TREE, is_known, maybe, split, sure
+from ros_lint.collectors.cmake.released_macros import VISIBILITY
+from ros_lint.collectors.cmake.syntax import QUOTED, UNQUOTED
+from ros_lint.facts.sources import Purpose
+from ros_lint.facts.visibility import ANYTHING, Facet, Problem
+
+_FOREIGN_TARGET = re.compile(r"(?<!\w)(?<!::)[A-Za-z_][\w.+-]*::[\w.+:-]*\w")
+
+
+_SHARED_LIBRARIES: Final = frozenset({"ament_cmake_ros", "ament_cmake_ros_core"})
+"""Packages that turn BUILD_SHARED_LIBS on (reference, section C1.6)."""
+_BUILD_TOOL: Final = "ament_cmake"
+_OF_ROS_1: Final = frozenset({"catkin", "roscpp"})
+"""What scripts for both ask for; a build for ROS 2 does not find it."""
+_FOUND_DECLARED: Final = f"{ATOM}found-build-depends"
+"""What stands for all that ament_auto_find_build_dependencies() finds: a target that is given it uses none of it for sure."""
+_PYTHON: Final = frozenset({"Python", "Python3"})
+"""What finds the interpreter, which is always there, and as a component the headers and libraries, which are not."""
+
+
+def find_package(run: Run, args: list[str]) -> int | None:
+    """``find_package(name [version] [QUIET] [REQUIRED] ...)``."""
+    name, certain = sure(args[0]) if args else ("", True)
+    if not is_known(name):
+        run.open_world = True
+        if _may_become_package(name):
+            run.hide(Facet.USES, "find_package() of a name that is not known")
+        return None
+    if (run.get(f"{name}_DIR") or "").startswith(f"{TREE}/") and not run.muted:
+        run.bundled[name] = None  # the script says where it lies among the sources
+    required = "REQUIRED" in args
+    module = run.modules.get(name) if run.modules and "CONFIG" not in args and "NO_MODULE" not in args else None
+    span = run.where(args[0]) if name else run.here()
+    told = run.at_home() or (run.is_helped() and span != run.here())  # or the package tells a helper what to find
+    if name and module is None and told and not run.is_bundled(name):
+        optional = not certain or ("QUIET" in args and not required)
+        run.mention(name, "cmake", span, optional=optional)
+        if name in _PYTHON and any(arg.startswith("Development") for arg in args):
+            run.mention(f"{name}/Development", "cmake", span, f"find_package({name} ... Development)", optional=optional)
+        if not required and not run.muted:
+            run.loose.setdefault(name, []).append(span)
+        if name == run.sources.name and required and certain and not (run.muted or run.unsure or run.normal(f"{name}_DIR")):
+            says = f"find_package({name}) looks for this package itself, which is not installed yet; link its targets instead"
+            run.refused[Problem("no-package", says, span, subject=name)] = None
+    found(run, name, required=required and certain)
+    if module is not None and all(frame.file != run.named(module) for frame in run.frames):
+        return include_own(run, module)
+    return None
+
+
+def _may_become_package(name: str) -> bool:
+    """Return whether a name that is known in part may be that of a ROS package: those are in lower case (REP 144)."""
+    return not any(letter.isupper() for letter in name)
+
+
+def found(run: Run, name: str, *, required: bool) -> None:
+    """Take a package for found: what it sets is unknown from now on, and its CMake code runs if it is in sight."""
+    if name in _OF_ROS_1 and not required and name not in run.helpers:
+        run.set(f"{name}_FOUND", "0")
+        return
+    # Scripts for several build tools ask whether it is there; it is, where the manifest names it for the build.
+    if required or (name == _BUILD_TOOL and name in run.sources.build_depends):
+        run.put(run.packages, name, "1")
+        if run.normal(f"{name}_FOUND") is not None:
+            run.set(f"{name}_FOUND", "1")
+    else:
+        run.set(f"{name}_FOUND", HOLE)
+    run.open_world = True
+    run.prefixes[name] = True
+    if name in _SHARED_LIBRARIES and run.get("BUILD_SHARED_LIBS") is None:
+        run.put(run.cache, "BUILD_SHARED_LIBS", "ON")
+        run.settable.add("BUILD_SHARED_LIBS")
+    helper = run.helpers.get(name)
+    if helper is None or name == run.sources.name:
+        return
+    run.set(f"{name}_DIR", f"{FOREIGN}{name}/share/{name}/cmake")
+    if name in run.included:
+        return
+    run.put(run.included, name, "1")
+    for source in helper.script.extras:
+        if source in helper.sources.scripts:
+            include_foreign(run, name, source)
+        else:
+            run.hide(Facet.USES, f"the CMake code of {name} is not in sight")
+
+
+def _find_all(run: Run, args: list[str]) -> None:
+    """``ros_lint_find(build|test)``: what the manifest declares is searched."""
+    names = run.sources.test_depends
+    if args[:1] == ["build"]:
+        names = run.sources.build_depends
+        run.set(f"{run.get('PROJECT_NAME') or ''}_FOUND_BUILD_DEPENDS", _FOUND_DECLARED)
+    run.open_world = True
+    run.prefixes.update(dict.fromkeys(names, True))
+    packages = run.packages
+    for name in names:
+        if name not in packages:
+            run.put(packages, name, "1")
+        if name in run.helpers or name in _SHARED_LIBRARIES:
+            found(run, name, required=True)
+
+
+_NO_PACKAGES: Final = VISIBILITY | {"SYSTEM"}
+_PURPOSES: Final[Mapping[str, Purpose]] = {"-": "", "export": "export", "interfaces": "interfaces", "plugins": "plugins"}
+
+
+def _uses(run: Run, args: list[str]) -> None:
+    """``ros_lint_uses(for how names...)``: a macro is given the names of packages."""
+    purpose = _PURPOSES[args[0]]
+    certainly: dict[str, Span] = {}
+    for arg in args[2:]:
+        name, certain = sure(arg)
+        if name in _NO_PACKAGES:
+            continue
+        if name == _FOUND_DECLARED and purpose == "interfaces":
+            _uses(run, [*args[:2], *map(maybe, run.sources.build_depends)])  # keys are not found
+        if HOLE in name:
+            if _may_become_package(name):
+                run.hide(Facet.USES, "the name of a package is not known")
+        elif is_known(name) and not run.is_bundled(name):
+            if certain:
+                certainly[name] = run.where(arg)
+            what = f"{args[1]} {name}" if args[1] != "-" else ""
+            run.mention(name, "target", run.where(arg), what, optional=not certain, purpose=purpose)
+    if certainly and not (run.muted or run.unsure):
+        _doubt(run, args[1].partition(" ")[0], certainly)
+
+
+def _doubt(run: Run, command: str, given: Mapping[str, Span]) -> None:
+    """Note what is given for packages to a command that asks whether they are found, and can never be."""
+    targets = [name for name in given if "::" in name] if command.startswith("ament_") else []
+    if targets:
+        are = "is a target" if len(targets) == 1 else "are targets"
+        _refuse(run, command, f"{few(targets)} {are}", given[targets[0]], targets[0])
+    own = run.sources.name
+    asked = own in given and command == "ament_target_dependencies"
+    if asked and own not in run.packages and run.normal(f"{own}_FOUND") is None:
+        _refuse(run, command, f"'{own}' is this package; link its targets with target_link_libraries()", given[own], own)
+
+
+def _refuse(run: Run, command: str, what: str, span: Span, name: str) -> None:
+    says = f"{command}() expects packages that are found, but {what}"
+    run.refused[Problem("no-package", says, span, subject=name)] = None
+
+
+def _target_uses(run: Run, args: list[str]) -> None:
+    """``ros_lint_target_uses(how target names...)``."""
+    _give(run, args[0].partition(" ")[0], args[1:2])
+    names = [name for name in args[2:] if name not in _NO_PACKAGES]
+    given(run, args[1] if len(args) > 1 else ALL_TARGETS, [name if HOLE in name else f"{name}::" for name in names])
+    _uses(run, ["-", args[0], *args[2:]])
+
+
+def _give(run: Run, command: str, args: list[str]) -> None:
+    """Note that a target is given something, if so for sure, and where tests are not wanted, too."""
+    name, certain = sure(args[0]) if args else ("", False)
+    if certain and not (run.muted or run.unsure or run.testing) and is_known(name) and "::" not in name:
+        run.given.setdefault((name, command), run.here())
+
+
+def _pkg_config(run: Run, args: list[str]) -> None:
+    if not args or HOLE in args[0]:
+        return
+    run.open_world = True
+    run.prefixes.setdefault(args[0], False)
+    run.set(f"{args[0]}_FOUND", "1" if "REQUIRED" in args else HOLE)
+
+
+def link(run: Run, args: list[str]) -> None:
+    """Note the packages whose targets or variables a target command names."""
+    for arg in args[1:]:
+        if "::" not in arg:
+            continue
+        plain, certain = sure(arg)
+        for name in [plain] if is_known(plain) and "$" not in plain else _FOREIGN_TARGET.findall(plain):
+            space, _, inner = name.partition("::")
+            if name in run.targets or space in (run.name, run.sources.name) or _brings(run, space, inner):
+                continue
+            run.mention(name, "target", run.where(arg), optional=not certain)
+    if not run.at_home():
+        return
+    frame = run.frames[-1]
+    command = frame.command
+    if command is None:
+        return
+    for text, kind, start, end in command.args:
+        if (kind != UNQUOTED and kind != QUOTED) or "_" not in text:  # noqa: PLR1714  (this is fast)
+            continue
+        for match in FOREIGN_VARIABLE.finditer(text):
+            if match[1] in run.sources.name or match[1] == "PROJECT_NAME":
+                continue
+            package = found_as(run, match[1])
+            if package and run.prefixes[package]:  # and not by pkg-config, under a name of the script's own
+                place = command.span(frame.path, start, end) if frame.own else run.here()
+                run.mention(package, "target", place, match[0])
+
+
+def _target_include_directories(run: Run, args: list[str]) -> None:
+    given_folders(run, args[0] if args else ALL_TARGETS, args[1:])
+    _include_directories(run, args)
+
+
+def _all_include_directories(run: Run, args: list[str]) -> None:
+    given_folders(run, ALL_TARGETS, args)
+    _include_directories(run, args)
+
+
+def _include_directories(run: Run, args: list[str]) -> None:
+    link(run, args)
+    run.reaches_out = run.reaches_out or any(map(run.leads_out, args))
+
+
+def _link_all(run: Run, args: list[str]) -> None:
+    """``link_libraries(names...)``."""
+    given(run, ALL_TARGETS, args)
+    link(run, args)
+
+
+def _brings(run: Run, space: str, inner: str) -> bool:
+    """Return whether a target is of what is built along, or of a package that is found by the name of the target itself."""
+    return run.is_bundled(space) or (space not in run.prefixes and inner in run.prefixes)
+
+
+_LINK_WORDS: Final = VISIBILITY | {"LINK_PRIVATE", "LINK_PUBLIC", "LINK_INTERFACE_LIBRARIES", "debug", "optimized", "general"}
+
+
+def _link_libraries(run: Run, args: list[str]) -> None:
+    """``target_link_libraries(target [PRIVATE|PUBLIC|INTERFACE] names...)``."""
+    link(run, args)
+    given(run, args[0] if args else ALL_TARGETS, [arg for arg in args[1:] if arg not in _LINK_WORDS])
+    _give(run, "target_link_libraries", args)
+    if run.muted or not args or run.unsure or (run.testing and "TEST" not in run.targets.get(args[0], ())):
+        return
+    span = run.here()
+    links = run.links.setdefault(args[0], {})
+    for arg in args[1:]:
+        links.setdefault(arg, span)
+
+
+def _hide(run: Run, args: list[str]) -> None:
+    """``ros_lint_hide(facets reason)``."""
+    facet = Facet(0)
+    for name in split(args[0]):
+        facet |= ANYTHING if name == "ANYTHING" else Facet[name]
+    run.hide(facet, args[1])
+
+
+COMMANDS: Final[dict[str, Handler]] = {
+    "find_package": find_package,
+    "find_dependency": find_package,
+    "pkg_check_modules": _pkg_config,
+    "pkg_search_module": _pkg_config,
+    "target_link_libraries": _link_libraries,
+    "target_include_directories": _target_include_directories,
+    "include_directories": _all_include_directories,
+    "link_libraries": _link_all,
+    "ros_lint_find": _find_all,
+    "ros_lint_uses": _uses,
+    "ros_lint_target_uses": _target_uses,
+    "ros_lint_hide": _hide,
+}

@@ -1,0 +1,197 @@
+"""include() and add_subdirectory(): the package's own scripts, and those of other packages of the workspace."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from typing import Final
+
+from ros_lint.base.tree import is_outside, towards
+from ros_lint.base.tree import join as join_path
+from ros_lint.collectors.cmake.evaluator.flow import run_file
+from ros_lint.collectors.cmake.evaluator.run import Handler, Run
+from ros_lint.collectors.cmake.evaluator.sources import AROUND
+from ros_lint.collectors.cmake.evaluator.state import NEXT, Frame, Variables
+from ros_lint.collectors.cmake.evaluator.values import ATOM, BINARY, FOREIGN, HOLE, PREFIX, TREE, is_fixed
+from ros_lint.collectors.cmake.syntax import Command, Parsed
+from ros_lint.facts.visibility import ANYTHING, Facet
+
+
+def _include(run: Run, args: list[str]) -> int | None:
+    optional = "OPTIONAL" in args
+    if "RESULT_VARIABLE" in args[:-1]:
+        run.set(args[args.index("RESULT_VARIABLE") + 1], HOLE)
+    name = args[0] if args else ""
+    if not name or name in MODULES:
+        if name in MODULES:
+            _module(run, name)
+        return None
+    if not is_fixed(name):
+        if _is_registered(run):
+            return _skip(run, "a file that another package has registered")
+        run.hide(ANYTHING, "include() of a file whose name is not known")
+        run.open_world = True
+        return None
+    return _include_file(run, name, optional)
+
+
+def _include_file(run: Run, name: str, optional: bool) -> int | None:
+    if name.startswith(FOREIGN):
+        return _include_foreign(run, name)
+    is_module = "/" not in name and "." not in name
+    folders = run.get("CMAKE_MODULE_PATH") or ""
+    candidates = [name]
+    if not name.startswith("/"):
+        candidates[:0] = [f"{folder}/{name}.cmake" for folder in folders.split(";") if is_fixed(folder)]
+    for candidate in candidates:
+        path = run.reached(candidate)
+        parsed = run.script(path) if path is not None else None
+        if path is not None and parsed is not None:
+            return _run_script(run, path, parsed)
+    if optional:
+        return None
+    if is_module:
+        # Whatever a found package's or CMake's own module does, it is made to be called, not to build things itself.
+        run.open_world = True
+        if not folders or HOLE not in folders:
+            run.hide(Facet.USES, f"include() of the module {name}, which is not in sight")
+        return None
+    if name.startswith(f"/{ATOM}") and not name.startswith((TREE, BINARY, PREFIX)):
+        return _skip(run, f"{posixpath.basename(name)} of another package")
+    path = run.source(name)
+    if path is not None and not name.startswith(BINARY) and path not in run.files:
+        run.problem("missing-script", f"include({path}): the file does not exist", run.where(name), path)
+        return None
+    run.open_world = run.wild = run.builds = True
+    shown = run.relative(name) or name.replace(BINARY, "the build folder").replace("\1", "")
+    run.hide(ANYTHING, f"include() of {shown} cannot be followed")
+    return None
+
+
+def include_own(run: Run, path: str) -> int | None:
+    """Run a script of the package in the current scope."""
+    return _run_script(run, path, run.sources.scripts[path])
+
+
+def _run_script(run: Run, path: str, parsed: Parsed) -> int | None:
+    """Run a script of the package or of the tree around it, given by its path relative to the package."""
+    around = is_outside(path)
+    if around:
+        run.around.append(parsed)
+        if parsed.problems:
+            run.hide(ANYTHING, f"{path} cannot be read to its end")
+    frame = Frame(not around, run.place(path), run.named(path), provider=AROUND if around else "")
+    return run_file(run, parsed.commands, frame)
+
+
+def _include_foreign(run: Run, name: str) -> int | None:
+    package, _, installed = name[len(FOREIGN) :].partition("/")
+    helper = run.helpers.get(package)
+    if helper is not None:
+        source = next((file.source for file in helper.script.provides if file.path == installed), None)
+        if source is not None and source in helper.sources.scripts:
+            return include_foreign(run, package, source)
+    return _skip(run, f"{installed} of {package}")
+
+
+def _skip(run: Run, what: str) -> int:
+    """Pass over a file of another package: it is made to be called, as a module is, and not to install things itself."""
+    run.open_world = True
+    run.hide(Facet.USES, f"include() of {what} cannot be followed")
+    return NEXT
+
+
+def _is_registered(run: Run) -> bool:
+    """Return whether include() is given a path that begins with what another package has put into the index."""
+    command = run.frames[-1].command
+    match = _BEGINS.match(command.args[0][0]) if command is not None and command.args else None
+    return match is not None and match[1] in run.of_index
+
+
+_BEGINS: Final = re.compile(r"\$\{(\w+)\}/[\w./-]+\Z")
+
+
+def include_foreign(run: Run, package: str, source: str) -> int | None:
+    """Run a script of another package of the workspace in the current scope."""
+    helper = run.helpers[package]
+    installed = f"share/{package}/cmake/{posixpath.basename(source).removesuffix('.in')}"
+    installed = next((file.path for file in helper.script.provides if file.source == source), installed)
+    frame = Frame(False, join_path(helper.sources.path, source), f"{FOREIGN}{package}/{installed}", provider=package)
+    commands = helper.sources.scripts[source].commands
+    if source.endswith(".in"):
+        commands = tuple([_configured(command, helper.script.name or package) for command in commands])
+    return run_file(run, commands, frame)
+
+
+def _configured(command: Command, project: str) -> Command:
+    """Return a command of a template as it is installed. Other variables than the name are rarely asked for in code."""
+    args = [(text.replace("@PROJECT_NAME@", project), kind, start, end) for text, kind, start, end in command.args]
+    return command._replace(args=tuple(args))
+
+
+MODULES: Final = frozenset({
+    "CMakePackageConfigHelpers", "CTest", "CheckCXXCompilerFlag", "CheckCXXSourceCompiles", "CheckCXXSourceRuns",
+    "CheckCCompilerFlag", "CheckCSourceCompiles", "CheckFunctionExists", "CheckIPOSupported", "CheckIncludeFile",
+    "CheckIncludeFileCXX", "CheckIncludeFiles", "CheckLanguage", "CheckLibraryExists", "CheckSymbolExists",
+    "CheckTypeSize", "CMakeDependentOption", "CMakeParseArguments", "CMakePrintHelpers", "CPack", "ExternalProject",
+    "FeatureSummary", "FetchContent", "FindPackageHandleStandardArgs", "FindPkgConfig", "GNUInstallDirs",
+    "GenerateExportHeader", "GoogleTest", "InstallRequiredSystemLibraries", "ProcessorCount", "TestBigEndian",
+    "UseJava", "UseSWIG", "WriteBasicConfigVersionFile", "CheckLinkerFlag", "CheckCompilerFlag", "CheckCXXSymbolExists",
+    "CheckStructHasMember", "CheckPIESupported", "CheckSourceCompiles", "DefaultPolicies", "FortranCInterface",
+    "CMakePushCheckState", "CheckCXXLinkerFlag",
+})  # fmt: skip
+"""CMake's own modules. They define commands and build nothing by themselves."""
+
+
+def _module(run: Run, name: str) -> None:
+    if name == "CTest":
+        run.settable.add("BUILD_TESTING")
+
+
+def _add_subdirectory(run: Run, args: list[str]) -> int | None:
+    name = args[0] if args else ""
+    path = run.reached(name) if is_fixed(name) else None
+    script = join_path(path or "", _TOP)
+    parsed = run.script(script) if path is not None else None
+    if path is None or (parsed is None and is_outside(path)):
+        run.open_world = run.wild = run.builds = True
+        run.hide(ANYTHING, "add_subdirectory() of a folder that is not in sight")
+        return None
+    if not (run.unsure or run.muted or is_outside(path)):
+        run.entered[path] = None
+    if run.testing and not is_outside(path):
+        run.entered_for_tests[path] = None
+    last = posixpath.basename(run.place(path))
+    if path and (parsed is None or run.is_folder(f"{path}/include/{last}")):
+        run.bundled[last] = None  # a library with a folder of its own, or one that is not checked out
+    if parsed is None:
+        if run.is_folder(path):
+            run.open_world = run.wild = run.builds = True
+            run.hide(ANYTHING, f"add_subdirectory() of {path}, which has no CMakeLists.txt in sight", inside=path)
+        else:
+            run.problem("missing-folder", f"add_subdirectory({path}): the folder does not exist", run.where(name), path)
+        return None
+    run.enter_directory(path, _built_in(run, path, args[1:]))
+    run.scopes.append(Variables())
+    kept = run.versions
+    try:
+        return _run_script(run, script, parsed)
+    finally:
+        run.versions = kept
+        run.scopes.pop()
+        run.leave_directory()
+
+
+_TOP: Final = "CMakeLists.txt"
+
+
+def _built_in(run: Run, path: str, args: list[str]) -> str:
+    """Return where a folder is built: below where the current one is, as the arguments behind its name say, or as its path."""
+    told = next((arg for arg in args if arg not in ("EXCLUDE_FROM_ALL", "SYSTEM")), "")
+    below = told or towards(run.place(run.directory), run.place(path))
+    if not is_fixed(below) or (is_outside(below) and not told):
+        return HOLE
+    return below if below.startswith("/") else posixpath.normpath(f"{run.places['CMAKE_CURRENT_BINARY_DIR']}/{below}")
+
+
+COMMANDS: Final[dict[str, Handler]] = {"include": _include, "add_subdirectory": _add_subdirectory}

@@ -1,0 +1,176 @@
+"""Where targets get headers of other packages from: what they are linked with, and their include directories.
+
+Everything counts that may be given to a target, under whatever conditions: what is not in here, no build gives it.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Final
+
+from ros_lint.collectors.cmake.evaluator.run import folded
+from ros_lint.collectors.cmake.evaluator.values import ATOM, HOLE, MAYBE, TREE, elements
+from ros_lint.collectors.cmake.released_macros import VISIBILITY
+from ros_lint.collectors.cmake.syntax import QUOTED, UNQUOTED
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from ros_lint.collectors.cmake.evaluator.run import Handler, Run
+    from ros_lint.collectors.cmake.evaluator.state import Properties
+
+FOREIGN_VARIABLE: Final = re.compile(
+    r"\$\{([A-Za-z0-9_+.-]+?)_(?:TARGETS|LIBRARIES|LIBRARY|LIBS|INCLUDE_DIRS?|INCLUDES|DEFINITIONS|LDFLAGS|CFLAGS)\}"
+)
+"""A reference to what a found package sets, with its name."""
+
+ALL_TARGETS: Final = ""
+"""What stands for every target, where include_directories() and link_libraries() give something."""
+
+_ANYTHING: Final = HOLE
+_NAME = re.compile(r"(?<![\w./+\1-])[A-Za-z_][\w.+-]*(?:::[\w.+-]+)*(?![\w./+:-])")
+_OF_OURS: Final = (TREE, f"/{ATOM}build", f"/{ATOM}prefix", "/usr/")
+"""Folders that hold no headers of other ROS packages."""
+
+
+def given(run: Run, target: str, args: Iterable[str]) -> None:
+    """Note what a target is given: targets, libraries or whole paths, as evaluated, and packages with ``::`` behind the name."""
+    have = run.headers.setdefault(target, {})
+    known = True
+    for arg in args:
+        if _PLAIN.match(arg):  # by far the most
+            have[arg] = None
+            continue
+        known = known and HOLE not in arg
+        for each in elements(arg):
+            have.update(dict.fromkeys(_names(run, each.lstrip(MAYBE))))
+    if not known:
+        have.update(dict.fromkeys(_written(run)))
+
+
+_PLAIN = re.compile(r"\w[\w:.+-]*\Z")
+
+
+def given_folders(run: Run, target: str, args: Iterable[str]) -> None:
+    """Note the include directories that a target is given."""
+    folders = (arg for arg in args if arg not in _NO_FOLDERS and not arg.startswith("$<INSTALL_INTERFACE:"))
+    here = run.places["CMAKE_CURRENT_SOURCE_DIR"]
+    given(run, target, [f"{here}/{folder}" if _RELATIVE.match(folder) else folder for folder in folders])
+
+
+_NO_FOLDERS: Final = VISIBILITY | {"BEFORE", "AFTER", "SYSTEM"}
+_RELATIVE = re.compile(r"[\w.]")
+
+
+def _names(run: Run, arg: str) -> tuple[str, ...]:
+    if HOLE in arg:
+        return ()
+    if "$<" in arg:
+        return (_ANYTHING,) if "TARGET_PROPERTY" in arg else tuple(_NAME.findall(arg))
+    if arg.startswith("/") or ATOM in arg:
+        return () if arg.startswith(_OF_OURS) and not run.leads_out(arg) else (_ANYTHING,)
+    return (_ANYTHING,) if run.leads_out(arg) else (arg,)
+
+
+def _written(run: Run) -> list[str]:
+    """Return which packages the command that runs names by their variables, and what may be anything."""
+    command = run.frames[-1].command
+    found: list[str] = []
+    for text, kind, _, _ in command.args if command is not None else ():
+        if kind in (UNQUOTED, QUOTED) and HOLE in run.evaluated(text):
+            found += [_package(run, match) for match in FOREIGN_VARIABLE.finditer(text)]
+            if HOLE in run.evaluated(FOREIGN_VARIABLE.sub("", text)):
+                found.append(_ANYTHING)
+    return found or [_ANYTHING]
+
+
+def _package(run: Run, variable: re.Match[str]) -> str:
+    """Return the package whose variable a reference names: anything where none is found that sets it, or the script does."""
+    name = found_as(run, variable[1]) if run.normal(variable[0][2:-1]) is None else ""
+    return f"{name}::" if name else _ANYTHING
+
+
+def found_as(run: Run, prefix: str) -> str:
+    """Return by what name was found what sets variables with a prefix, whatever its case; "" for nothing that was."""
+    if run.prefixes.get(prefix):
+        return prefix
+    letters = folded(prefix)
+    names = [name for name in run.prefixes if folded(name) == letters]
+    return next((name for name in names if run.prefixes[name]), names[0] if names else "")
+
+
+def _given(run: Run, args: list[str]) -> None:
+    """``ros_lint_headers_of(target names...)``: the target has the headers of packages."""
+    given(run, args[0], args[1:])
+
+
+def _options(run: Run, args: list[str]) -> None:
+    """Note include directories that are given as options of the compiler."""
+    if any(_FOLDER_OPTION.search(arg) for arg in args):
+        given(run, ALL_TARGETS, [f"/{ATOM}"])
+
+
+_FOLDER_OPTION = re.compile(r"(?:\A|[\s:;])-(?:I|isystem|include)")
+_FLAGS: Final = ("CMAKE_CXX_FLAGS", "CMAKE_C_FLAGS", "CMAKE_CXX_STANDARD_INCLUDE_DIRECTORIES")
+_PROPERTIES: Final = frozenset(
+    {
+        "COMPILE_FLAGS", "COMPILE_OPTIONS", "INCLUDE_DIRECTORIES", "INTERFACE_INCLUDE_DIRECTORIES", "INTERFACE_LINK_LIBRARIES",
+        "LINK_LIBRARIES",
+    }
+)  # fmt: skip
+
+
+def are_in_flags(run: Run) -> bool:
+    """Whether the flags that every target is compiled with have include directories."""
+    return any(_FOLDER_OPTION.search(run.get(flags) or "") for flags in _FLAGS)
+
+
+def reached(run: Run, name: str, targets: Mapping[str, Properties]) -> tuple[str, ...] | None:
+    """Return what a target may get headers from, as find_package() calls it or by another name; None if from anywhere."""
+    found: dict[str, None] = {}
+    waiting = [name, ALL_TARGETS]
+    seen: set[str] = set()
+    while waiting:
+        each = waiting.pop()
+        if each in seen:
+            continue
+        seen.add(each)
+        target = targets.get(each)
+        if target is not None:
+            if target["KIND"] == "imported" or not _PROPERTIES.isdisjoint(target):
+                return None
+            if target["KIND"] == "alias":
+                waiting.append(target["ALIASED"])
+        elif each not in (name, ALL_TARGETS) and not each.startswith(f"{run.sources.name}__"):  # its interfaces aside
+            owners = _owners(run, each)
+            if not owners:
+                return None
+            found.update(dict.fromkeys(owners))
+        waiting += run.headers.get(each, ())
+        if _ANYTHING in waiting:
+            return None
+    return tuple(sorted(found))
+
+
+def _owners(run: Run, name: str) -> tuple[str, ...]:
+    """Return what a target or library that is none of this package may be called after; () if that may be any package.
+
+    ``BT::behaviortree_cpp`` is of behaviortree_cpp.
+    """
+    space, sign, inner = name.partition("::")
+    if not sign or not inner:
+        return (space,)
+    if space in run.prefixes:
+        return (space,)
+    if inner in run.prefixes:
+        return (space, inner)
+    letters = folded(space)
+    return (space,) if any(folded(found).startswith(letters) for found in run.prefixes) else ()
+
+
+COMMANDS: Final[Mapping[str, Handler]] = {
+    "ros_lint_headers_of": _given,
+    "add_compile_options": _options,
+    "add_definitions": _options,
+    "target_compile_options": _options,
+}

@@ -1,0 +1,117 @@
+"""What install() puts where (cmake-commands install(7); reference, section C5)."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from itertools import count
+from typing import Final
+
+from ros_lint.base.tree import join as join_path
+from ros_lint.base.wildcards import LONGEST, spaced
+from ros_lint.collectors.cmake.commands.install_destinations import ANYWHERE, hide, place_of
+from ros_lint.collectors.cmake.commands.install_directory import install_directories
+from ros_lint.collectors.cmake.commands.install_targets import install_targets
+from ros_lint.collectors.cmake.evaluator.arguments import sections, with_one_destination
+from ros_lint.collectors.cmake.evaluator.run import Handler, Run
+from ros_lint.collectors.cmake.evaluator.values import ATOM, HOLE, is_fixed, is_known, sure
+from ros_lint.collectors.cmake.released_macros import INSTALL_ARTIFACTS
+from ros_lint.facts.build import Provided
+
+_OF_TARGETS: Final = frozenset({"ARCHIVE", "LIBRARY", "RUNTIME"})
+_FILE_WORDS: Final = {
+    "TYPE": 1, "DESTINATION": 1, "PERMISSIONS": -1, "CONFIGURATIONS": -1, "COMPONENT": 1, "RENAME": 1, "OPTIONAL": 0,
+    "EXCLUDE_FROM_ALL": 0,
+}  # fmt: skip
+
+
+_WRITES = re.compile(
+    r"\bfile\s*\(|symlink|\bcopy|\binstall|\b(?:ln|cp|mv)\b|configure_file|rename|\btar\b|\bmake\b", re.IGNORECASE
+)
+"""What code that puts files somewhere has in it."""
+
+
+def _install(run: Run, args: list[str]) -> None:
+    mode = args[0] if args else ""
+    args = with_one_destination(args)
+    if args[1:2] and (args[1] == "DESTINATION" or (mode == "TARGETS" and args[1] in INSTALL_ARTIFACTS)):
+        return  # the list was empty, which CMake allows
+    if mode in ("FILES", "PROGRAMS", "DIRECTORY") and (strange := next((arg for arg in args if arg in _OF_TARGETS), "")):
+        run.problem("cmake-syntax", f"install({mode}) knows no {strange}, that belongs to install(TARGETS)", run.where(strange))
+        args = [arg for arg in args if arg not in _OF_TARGETS]
+    if mode == "TARGETS":
+        install_targets(run, args[1:])
+    elif mode in ("FILES", "PROGRAMS"):
+        _install_files(run, [arg for arg in args[1:] if arg != mode], mode == "PROGRAMS")
+    elif mode == "DIRECTORY":
+        install_directories(run, args[1:])
+    elif mode == "SCRIPT" or (mode == "CODE" and any(not is_fixed(arg) or _WRITES.search(arg) for arg in args[1:])):
+        run.hide(ANYWHERE, f"install({mode}) runs code during the installation")
+    elif mode == "CODE":
+        pass  # such as compiling Python modules
+    elif mode not in ("EXPORT", "EXPORT_ANDROID_MK", "IMPORTED_RUNTIME_ARTIFACTS", "RUNTIME_DEPENDENCY_SET"):
+        run.hide(ANYWHERE, "install() of something unknown")
+
+
+def _install_files(run: Run, args: list[str], program: bool) -> None:
+    parts = sections(args, _FILE_WORDS)
+    destination = place_of(run, parts)
+    rename = parts.get("RENAME", [""])[0] if parts.get("RENAME") else ""
+    if "PERMISSIONS" in parts:
+        program = any(word.endswith("_EXECUTE") for word in parts["PERMISSIONS"])
+    for value in parts[""]:
+        plain, certain = sure(value)
+        name = rename or posixpath.basename(plain)
+        if destination is None or "$<" in name or not is_fixed(name):
+            hide(run, destination, "install() of files whose names or place are not known")
+            continue
+        _install_file(run, value, join_path(destination, name), program, certain, "OPTIONAL" in parts)
+
+
+def _install_file(run: Run, value: str, path: str, program: bool, certain: bool, optional: bool) -> None:
+    if run.muted:
+        return
+    plain = sure(value)[0]
+    span = run.where(value)
+    source = run.source(plain)
+    conditional = run.conditional or run.testing or not certain
+    if source is None:
+        source = run.beside(plain)
+        conditional = conditional or (source is None and (optional or not _may_lie(run, plain)))
+    elif run.is_unseen(source):
+        source = None
+    if source is not None and not run.is_file(source):
+        if run.is_folder(source) and source:
+            run.problem("file-is-directory", f"install(FILES) cannot install '{source}', because it is a directory", span, source)
+            return
+        if optional:
+            return
+        run.missing.append((source, span, conditional))
+        if source not in run.generated:
+            run.installed.append(Provided(path, source, program, True, span))
+            return
+        source = ""
+    run.installed.append(Provided(path, source or "", program, conditional, span, test=run.testing))
+
+
+def _may_lie(run: Run, value: str) -> bool:
+    """Return whether a path that is known in part may be that of a file: if it leads into the package, of one that is there."""
+    home = f"{run.named('')}/"
+    if value.startswith(home):
+        inside = value[len(home) :]
+    elif value[:1] in ("/", "$", HOLE):
+        return True
+    else:
+        inside = join_path(run.directory, value)
+    if is_known(inside):
+        return True
+    if len(inside) > LONGEST:
+        return False
+    like = re.compile(spaced(list(map(re.escape, _UNKNOWN.split(inside))), ".*", count()))
+    return any(map(like.fullmatch, (*run.files, *run.generated)))
+
+
+_UNKNOWN: Final = re.compile(rf"[{HOLE}\3]+|{ATOM}[^/]*")
+
+
+COMMANDS: Final[dict[str, Handler]] = {"install": _install}

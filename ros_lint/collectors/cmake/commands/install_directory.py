@@ -1,0 +1,195 @@
+"""install(DIRECTORY): folders with all that is in them, but for what patterns leave out."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from typing import Final, NamedTuple
+
+from ros_lint.base.text import Span, octets
+from ros_lint.base.tree import is_outside
+from ros_lint.base.tree import join as join_path
+from ros_lint.collectors.cmake.commands.install_destinations import facet_of, hide, place_of
+from ros_lint.collectors.cmake.evaluator.arguments import sections
+from ros_lint.collectors.cmake.evaluator.glob import of_ends
+from ros_lint.collectors.cmake.evaluator.run import Run
+from ros_lint.collectors.cmake.evaluator.values import ATOM, FILE, HOLE, is_known, sure
+from ros_lint.facts.build import Provided
+from ros_lint.facts.visibility import Facet
+
+_WORDS: Final = {
+    "TYPE": 1, "DESTINATION": 1, "FILE_PERMISSIONS": -1, "DIRECTORY_PERMISSIONS": -1, "USE_SOURCE_PERMISSIONS": 0,
+    "OPTIONAL": 0, "MESSAGE_NEVER": 0, "CONFIGURATIONS": -1, "COMPONENT": 1, "EXCLUDE_FROM_ALL": 0, "FILES_MATCHING": 0,
+}  # fmt: skip
+
+
+class _Pattern(NamedTuple):
+    matches: re.Pattern[str]
+    excluded: bool
+    executable: bool | None
+    """What its permissions say, None when it gives none."""
+
+
+class _Rule(NamedTuple):
+    """What an install(DIRECTORY) says of all its folders."""
+
+    patterns: list[_Pattern]
+    only: bool
+    """Whether files that no pattern matches are left out (FILES_MATCHING)."""
+    executable: bool | None
+    """What the permissions say, None when those of the source are kept."""
+    optional: bool
+
+
+def install_directories(run: Run, args: list[str]) -> None:
+    """Install what ``install(DIRECTORY args...)`` names."""
+    at = min([args.index(word) for word in ("PATTERN", "REGEX") if word in args], default=len(args))
+    parts = sections(args[:at], _WORDS)
+    destination = place_of(run, parts)
+    patterns = _patterns(args[at:]) if at < len(args) else []
+    if patterns is None:
+        hide(run, destination, "install(DIRECTORY) with a pattern that is not known")
+        return
+    permissions = parts.get("FILE_PERMISSIONS")
+    executable: bool | None = None if "USE_SOURCE_PERMISSIONS" in parts else False
+    if permissions is not None:
+        executable = any(word.endswith("_EXECUTE") for word in permissions)
+    rule = _Rule(patterns, "FILES_MATCHING" in parts or "FILES_MATCHING" in args[at:], executable, "OPTIONAL" in parts)
+    for value in parts[""]:
+        plain = sure(value)[0]
+        source = run.reached(plain)
+        name = posixpath.basename(plain)  # that of the folder is kept, wherever it lies
+        if destination is None or HOLE in plain or (source is not None and ATOM in name):
+            known = destination is not None and name not in ("", ".", "..") and is_known(name)
+            place = join_path(destination or "", name) if known else destination
+            hide(run, place, "install(DIRECTORY) of a folder or to a place that is not known")
+        elif source is None or (is_outside(source) and not (run.below(source) or run.is_file(source))):
+            hide(run, destination, "install(DIRECTORY) of a folder that is not in the sources")
+            _install_configured(run, value, destination, rule)
+        elif not run.muted:
+            target = posixpath.normpath(join_path(destination, name))
+            _install_directory(run, value, source, "" if target == "." else target, rule)
+
+
+def _install_directory(run: Run, value: str, source: str, target: str, rule: _Rule) -> None:
+    plain, certain = sure(value)
+    span = run.where(value)
+    conditional = run.conditional or run.testing or not certain
+    if run.is_file(source):
+        run.problem("directory-is-file", f"install(DIRECTORY) cannot install '{source}', because it is a file", span, source)
+        return
+    more = unlisted(run, source, facet_of(run, target), span) if run.sources.unseen else []
+    own = run.below(source)
+    made, filled = _made(run, source)
+    top = plain.rstrip("/") if plain.startswith("/") else f"/{join_path(run.directory, plain)}".rstrip("/")
+    if filled:
+        hide(run, target, "install(DIRECTORY) of a folder that the build fills")
+    elif not (own or made) and source and not run.is_unseen(source):
+        # What is not there is no folder for CMake, but a file, which it passes over where patterns leave it out.
+        if not rule.optional and _chosen(posixpath.basename(top), posixpath.dirname(top), rule)[0]:
+            run.missing.append((f"{source}/", span, conditional))
+        return
+    skip = len(source) + 1 if source else 0
+    start = f"{target}/" if target else ""
+    chosen = bool(rule.patterns or rule.only)
+    files = (*own, *more, *made) if more or made else own
+    run.charge(FILE * len(files))
+    for file in files:
+        program = file in run.sources.executables if rule.executable is None else rule.executable
+        if chosen:
+            wanted, given = _chosen(file[skip:], top, rule)
+            if not wanted:
+                continue
+            program = program if given is None else given
+        path = f"{start}{file[skip:]}"
+        run.installed.append(Provided(path, run.listed(file), program, conditional, span, test=run.testing))
+
+
+def _made(run: Run, folder: str) -> tuple[list[str], bool]:
+    """Return the files below a folder that come into being during the build, and whether there are more that nobody knows."""
+    below = f"{folder}/" if folder else ""
+    new = sorted(path for path in run.generated if path.startswith(below) and path not in run.files)
+    return [path for path in new if path[-1] != "/"], any(path[-1] == "/" and not run.below(path[:-1]) for path in new)
+
+
+def _install_configured(run: Run, value: str, destination: str, rule: _Rule) -> None:
+    """Install what configure_file() has put into a folder below the build folder. The build may put more there."""
+    plain, certain = sure(value)
+    folder = run.build(plain)
+    if folder is None or run.muted:
+        return
+    span = run.where(value)
+    target = destination if plain.endswith("/") or not folder else join_path(destination, posixpath.basename(folder))
+    for path, always in run.configured.items():
+        inner = path if not folder else path[len(folder) + 1 :] if path.startswith(f"{folder}/") else ""
+        if inner and _chosen(inner, plain.rstrip("/"), rule)[0]:
+            conditional = run.conditional or run.testing or not certain or not always
+            run.installed.append(Provided(join_path(target, inner), "", False, conditional, span))
+
+
+def unlisted(run: Run, source: str, facet: Facet, span: Span) -> list[str]:
+    """Return the files below a folder that are none of the package's own, but are installed with them all the same.
+
+    These are those of nested packages, and of folders that colcon is told to ignore.
+    """
+    found: list[str] = []
+    for folder in run.sources.unseen:
+        inside = source == folder or source.startswith(f"{folder}/")
+        if inside or not source or folder.startswith(f"{source}/"):
+            files = run.sources.look(folder)
+            if not files:
+                run.hide(facet, "install(DIRECTORY) of a folder whose files are not listed", span)
+            found += [file for file in files if not source or file.startswith(f"{source}/")]
+    return found
+
+
+def _chosen(file: str, top: str, rule: _Rule) -> tuple[bool, bool | None]:
+    """Return whether patterns leave a file below a folder in, and what permissions they give it.
+
+    Patterns see the path of the folder as it is written.
+    """
+    end = -1
+    while True:  # the folder and those on the way to the file
+        folder = f"{top}/{file[:end]}" if end > 0 else top
+        if any(pattern.excluded and pattern.matches.search(octets(folder)) for pattern in rule.patterns):
+            return False, None
+        end = file.find("/", end + 1)
+        if end < 0:
+            break
+    matching = [pattern for pattern in rule.patterns if pattern.matches.search(octets(f"{top}/{file}"))]
+    if any(pattern.excluded for pattern in matching) or (rule.only and not matching):
+        return False, None
+    given = [pattern.executable for pattern in matching if pattern.executable is not None]
+    return True, any(given) if given else None
+
+
+def _patterns(args: list[str]) -> list[_Pattern] | None:
+    found: list[_Pattern] = []
+    index = 0
+    while index < len(args):
+        word = args[index]
+        index += 1
+        if word not in ("PATTERN", "REGEX") or index >= len(args):
+            continue
+        text = args[index]
+        if not is_known(text):
+            return None
+        index += 1
+        regex = _regex(text) if word == "REGEX" else of_ends(text)
+        if regex is None:
+            return None
+        excluded, executable = False, None
+        while index < len(args) and args[index] not in ("PATTERN", "REGEX"):
+            excluded = excluded or args[index] == "EXCLUDE"
+            if args[index] == "PERMISSIONS":
+                executable = False
+            executable = executable or (True if args[index].endswith("_EXECUTE") else executable)
+            index += 1
+        found.append(_Pattern(regex, excluded, executable))
+    return found
+
+
+def _regex(text: str) -> re.Pattern[str] | None:
+    from ros_lint.collectors.cmake.evaluator.regex import translated  # noqa: PLC0415  (few packages match by expressions)
+
+    return translated(text)

@@ -1,0 +1,104 @@
+"""install(TARGETS): what targets build, and where it goes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Final
+
+from ros_lint.base.tree import join as join_path
+from ros_lint.collectors.cmake.commands.target_headers import DESTINATION, FILE_SET, installed_headers
+from ros_lint.collectors.cmake.commands.targets import output_name, real_target
+from ros_lint.collectors.cmake.evaluator.run import Run
+from ros_lint.collectors.cmake.evaluator.state import InstalledTarget, Properties
+from ros_lint.collectors.cmake.evaluator.values import is_known, sure
+from ros_lint.collectors.cmake.released_macros import INSTALL_ARTIFACTS, INSTALL_TARGETS_WORDS, VARIABLES
+from ros_lint.facts.build import Provided
+from ros_lint.facts.visibility import Facet, Opaque
+
+
+def install_targets(run: Run, args: list[str]) -> None:
+    """Note the targets that ``install(TARGETS args...)`` names."""
+    names: list[str] = []
+    destinations: dict[str, str] = {}
+    exported_in = ""
+    artifact = ""
+    room = -1
+    keyword = ""
+    for arg in args:
+        if arg in INSTALL_ARTIFACTS:
+            artifact, keyword = arg, arg
+        elif arg in INSTALL_TARGETS_WORDS:
+            keyword, room = arg, INSTALL_TARGETS_WORDS[arg]
+        elif arg == "TARGETS":
+            keyword = ""  # said again, which CMake allows; likewise with files
+        elif not keyword:
+            names.append(arg)
+        elif keyword == "FILE_SET" and room:
+            artifact = f"{FILE_SET}{arg}"
+            destinations[artifact] = DESTINATION
+            room -= 1
+        elif keyword == "DESTINATION" and room:
+            destinations[artifact] = arg
+            room -= 1
+        elif keyword == "EXPORT" and not exported_in:
+            exported_in = sure(arg)[0]
+            if not is_known(exported_in):
+                run.hide(Facet.LIBRARIES, "the set that targets are exported in is not known")
+    everywhere = destinations.get("")
+    runtime = run.destination(sure(destinations.get("RUNTIME") or everywhere or "bin")[0])
+    library = run.destination(sure(destinations.get("LIBRARY") or everywhere or "lib")[0])
+    archive = run.destination(sure(destinations.get("ARCHIVE") or everywhere or "lib")[0])
+    of_headers = [artifact for artifact in destinations if artifact.startswith(FILE_SET) or artifact.endswith("_HEADER")]
+    headers = tuple([(artifact, run.destination(sure(destinations[artifact])[0])) for artifact in of_headers])
+    for name in names:
+        plain, certain = sure(name)
+        if not is_known(plain):
+            run.hide(Facet.EXECUTABLES | Facet.LIBRARIES, "install() of targets whose names are not known")
+        elif not run.muted:
+            conditional = run.conditional or run.testing or not certain
+            span = run.where(name)
+            made = InstalledTarget(plain, runtime, library, archive, conditional, span, exported_in, headers)
+            run.installed_targets.append(made)
+
+
+_PYTHON: Final = f"{VARIABLES['PYTHON_INSTALL_DIR']}/"
+
+
+def installed_targets(run: Run) -> Iterator[Provided]:
+    """Return the files of the targets that were installed, after the whole script has run."""
+    for installed in run.installed_targets:
+        name, span, conditional = installed.target, installed.span, installed.conditional
+        target = real_target(run, name)
+        if target is None:
+            if not run.open_world or "::" not in name:
+                run.undefined.append((name, span, conditional))
+            reason = f"what the target {name} is, is not known"
+            run.opaques.setdefault(Opaque(Facet.EXECUTABLES | Facet.LIBRARIES, reason, span, name))
+            if installed.executables is not None:  # should it be there after all, it is most likely a program
+                yield Provided(join_path(installed.executables, name), "", True, True, span, name)
+            continue
+        yield from installed_headers(run, name, target, installed.headers, conditional or "CONDITIONAL" in target, span)
+        if target["KIND"] not in ("interface", "object", "other", "imported"):
+            unsure = conditional or not {"CONDITIONAL", "PERHAPS", "TEST"}.isdisjoint(target)
+            yield from _built_files(run, installed, target, unsure)
+            if "PERHAPS" in target:
+                yield from _built_files(run, installed, Properties(target, KIND=target["PERHAPS"]), unsure)
+
+
+def _built_files(run: Run, installed: InstalledTarget, target: Properties, unsure: bool) -> Iterator[Provided]:
+    """Return the files of an installed target that builds some."""
+    name, span, kind = installed.target, installed.span, target["KIND"]
+    where = {"executable": installed.executables, "static": installed.archives}.get(kind, installed.libraries)
+    file = output_name(target)
+    if where is None or file is None:
+        facet = Facet.EXECUTABLES if kind == "executable" else Facet.LIBRARIES | Facet.PYTHON
+        run.opaques.setdefault(Opaque(facet, f"where the target {name} is installed is not known", span))
+        return
+    path = join_path(where, file)
+    yield Provided(path, "", kind == "executable", unsure, span, name)
+    if path.startswith(_PYTHON) and not file.startswith("lib"):
+        run.python_packages[path[len(_PYTHON) :].partition(".")[0].replace("/", ".")] = None
+    if kind == "shared":
+        for number in {target.get("VERSION", ""), target.get("SOVERSION", "")} - {""}:
+            if is_known(number):
+                yield Provided(join_path(where, f"{file}.{number}"), "", False, unsure, span, name)

@@ -1,0 +1,61 @@
+"""Headers that belong to a target and are installed along with it: file sets, and those in its property PUBLIC_HEADER."""
+
+from __future__ import annotations
+
+import posixpath
+from collections.abc import Iterator
+from typing import Final
+
+from ros_lint.base.text import Span
+from ros_lint.base.tree import join as join_path
+from ros_lint.collectors.cmake.evaluator.arguments import sections
+from ros_lint.collectors.cmake.evaluator.run import Run
+from ros_lint.collectors.cmake.evaluator.state import Properties
+from ros_lint.collectors.cmake.evaluator.values import elements, join, sure
+from ros_lint.collectors.cmake.released_macros import VISIBILITY
+from ros_lint.facts.build import Provided
+from ros_lint.facts.visibility import Facet, Opaque
+
+FILE_SET: Final = "FILE_SET "
+"""How the name of a file set begins where artifacts of targets have names."""
+DESTINATION: Final = "include"
+"""Where headers go of which install() does not say it."""
+_WORDS: Final = {"FILE_SET": 1, "TYPE": 1, "BASE_DIRS": -1, "FILES": -1}
+
+
+def file_sets(run: Run, target: Properties, args: list[str]) -> list[str]:
+    """Note the file sets of a call of target_sources(), and return all sources in it, those of the sets included."""
+    found: list[str] = []
+    starts = [index for index, arg in enumerate(args) if arg in VISIBILITY or arg == "FILE_SET"]
+    for start, end in zip([0, *starts], [*starts, len(args)], strict=True):
+        parts = sections([arg for arg in args[start:end] if arg not in VISIBILITY], _WORDS)
+        files = [*parts[""], *parts.get("FILES", [])]
+        found += files
+        for name in parts.get("FILE_SET", []):
+            for key, values in ((f"HEADER_SET_{name}", files), (f"HEADER_DIRS_{name}", parts.get("BASE_DIRS", []))):
+                paths = [run.source(sure(value)[0]) for value in values]
+                known = [path if path is not None else "?" for path in paths]
+                run.put(target, key, join([*elements(target.get(key, "")), *known]))
+    return found
+
+
+def installed_headers(
+    run: Run, name: str, target: Properties, places: tuple[tuple[str, str | None], ...], unsure: bool, span: Span
+) -> Iterator[Provided]:
+    """Return the headers that install() puts to some places, by artifact. Sets that nobody knows hide what there is."""
+    for artifact, where in places:
+        if artifact.startswith(FILE_SET):
+            of_set = artifact.removeprefix(FILE_SET)
+            files = elements(target.get(f"HEADER_SET_{of_set}", "?"))
+            folders = elements(target.get(f"HEADER_DIRS_{of_set}", "")) or [run.source(".") or ""]
+        else:
+            files, folders = [run.source(sure(file)[0]) or "?" for file in elements(target.get(artifact, ""))], []
+        for file in files:
+            ends = [
+                file[len(folder) + 1 :] if folder else file for folder in folders if not folder or file.startswith(f"{folder}/")
+            ]
+            end = min(ends, key=len, default=posixpath.basename(file))
+            if file == "?" or where is None:
+                run.opaques.setdefault(Opaque(Facet.LIBRARIES, f"the headers of the target {name} are not known", span))
+            else:
+                yield Provided(join_path(where, end), file, False, unsure, span, name)

@@ -1,0 +1,260 @@
+"""Targets: add_executable(), add_library(), their sources and properties."""
+
+from __future__ import annotations
+
+from typing import Final, Literal
+
+from ros_lint.base.text import Span
+from ros_lint.collectors.cmake.commands.include_directories import are_in_flags, reached
+from ros_lint.collectors.cmake.commands.ros2_run import started
+from ros_lint.collectors.cmake.commands.target_headers import file_sets
+from ros_lint.collectors.cmake.evaluator.run import Handler, Run
+from ros_lint.collectors.cmake.evaluator.state import Properties
+from ros_lint.collectors.cmake.evaluator.truth import is_off
+from ros_lint.collectors.cmake.evaluator.values import HOLE, elements, is_fixed, is_known, join, sure
+from ros_lint.facts.cmake import Target
+from ros_lint.facts.visibility import Facet
+
+_LIBRARY_TYPES: Final = ("STATIC", "SHARED", "MODULE", "OBJECT", "INTERFACE", "UNKNOWN")
+
+
+SOURCES: Final = (".c", ".C", ".c++", ".cc", ".cpp", ".cxx", ".cu", ".m", ".mm", ".h", ".hh", ".hpp", ".hxx", ".in", ".txx")
+"""How sources end: what CMake adds to one that is not there without it (policy CMP0115)."""
+
+
+def _add_executable(run: Run, args: list[str]) -> None:
+    _add(run, args, "executable", ("WIN32", "MACOSX_BUNDLE", "EXCLUDE_FROM_ALL", "IMPORTED", "GLOBAL"))
+
+
+def _add_library(run: Run, args: list[str]) -> None:
+    word = next(iter([word for word in args[1:3] if word in _LIBRARY_TYPES]), "")
+    kind = word.lower()
+    shared: str | None = ""
+    if not kind:
+        shared = run.get("BUILD_SHARED_LIBS")
+        kind = "static" if shared is None or is_off(shared) else "shared"
+    _add(run, args, kind, (*_LIBRARY_TYPES, "EXCLUDE_FROM_ALL", "IMPORTED", "GLOBAL"))
+    if shared and not is_known(shared) and (target := run.targets.get(args[0])) is not None and target["KIND"] == kind:
+        target["PERHAPS"] = "static"
+        target["TYPE"] = HOLE
+
+
+def _add(run: Run, args: list[str], kind: str, keywords: tuple[str, ...]) -> None:
+    if not args or not is_known(args[0]):
+        if not run.testing:
+            run.hide(Facet.LIBRARIES, "the name of a target is not known")
+        elif args:  # called after an implementation of the middleware, say
+            name = "".join([letter for letter in args[0] if letter.isprintable()])
+            _build(run, name, Properties(KIND=kind), args, keywords)
+        return
+    name = args[0]
+    if "ALIAS" in args[1:2]:
+        run.put(run.targets, name, Properties(KIND="alias", ALIASED=args[2] if len(args) > 2 else HOLE))
+        return
+    target = Properties(KIND=kind, NAME=name, TYPE="EXECUTABLE" if kind == "executable" else f"{kind.upper()}_LIBRARY")
+    if "IMPORTED" in args[1:4]:
+        target["KIND"] = "imported"
+    run.put(run.targets, name, target)
+    _build(run, name, target, args, keywords)
+
+
+def _build(run: Run, name: str, target: Properties, args: list[str], keywords: tuple[str, ...]) -> None:
+    """Take a target for built, of the sources that the arguments name; the name is as much of it as is known."""
+    target["SOURCES"] = ""
+    if run.conditional:
+        target["CONDITIONAL"] = "1"
+    if run.testing:
+        target["TEST"] = "1"
+    run.built.append((name, target, run.where(args[0])))
+    _add_sources(run, target, [arg for arg in args[1:] if arg not in keywords])
+
+
+def _add_sources(run: Run, target: Properties, sources: list[str]) -> None:
+    if not sources:
+        return
+    have = elements(target.get("SOURCES", ""))
+    for source in sources:
+        plain, certain = sure(source)
+        path = run.source(plain)
+        if path in run.files:
+            have.append(path if certain else source[0] + path)
+        elif path is not None and "$<" not in plain:
+            path = next((f"{path}{suffix}" for suffix in SOURCES if f"{path}{suffix}" in run.files), path)
+            have.append(path if certain else source[0] + path)
+            if certain and path not in run.files:
+                run.missing.append((path, run.where(source), bool(run.muted or run.unsure)))
+        elif HOLE in plain:
+            have.append(HOLE)
+    run.put(target, "SOURCES", join(have))
+
+
+def _target_sources(run: Run, args: list[str]) -> None:
+    if not args or args[0] not in run.targets:
+        return
+    target = run.targets[args[0]]
+    _add_sources(run, target, file_sets(run, target, args[1:]))
+
+
+def _set_target_properties(run: Run, args: list[str]) -> None:
+    if "PROPERTIES" not in args:
+        return
+    at = args.index("PROPERTIES")
+    for name in args[:at]:
+        _set_properties(run, name, args[at + 1 :])
+
+
+def _set_properties(run: Run, name: str, pairs: list[str]) -> None:
+    target = run.targets.get(name)
+    if target is None:
+        return
+    for index in range(0, len(pairs) - 1, 2):
+        run.put(target, pairs[index], pairs[index + 1])
+
+
+def _set_property(run: Run, args: list[str]) -> None:
+    if "PROPERTY" not in args[1:]:
+        return
+    at = args.index("PROPERTY")
+    name, values = args[at + 1] if at + 1 < len(args) else "", args[at + 2 :]
+    modes = {"APPEND", "APPEND_STRING"}.intersection(args[:at])
+    holders: list[Properties] = []
+    if args[0] == "GLOBAL":
+        holders = [run.globals]
+    elif args[0] == "TARGET":
+        holders = [run.targets[target] for target in args[1:at] if target in run.targets]
+    elif args[0] == "CACHE":
+        for entry in args[1:at]:
+            if name == "VALUE" and entry in run.cache:
+                run.put(run.cache, entry, join(values))
+        return
+    for holder in holders:
+        old = holder.get(name, "")
+        if "APPEND" in modes:
+            run.put(holder, name, join([*([old] if old else []), *values]))
+        elif modes:
+            run.put(holder, name, old + join(values))
+        else:
+            run.put(holder, name, join(values))
+
+
+def _get_property(run: Run, args: list[str]) -> None:
+    """``get_property(variable GLOBAL|TARGET t|... PROPERTY name [SET|DEFINED])``."""
+    if len(args) < 4 or "PROPERTY" not in args[:-1] or HOLE in args[0]:
+        return
+    name = args[args.index("PROPERTY") + 1]
+    value: str | None = HOLE
+    if args[-1] not in ("SET", "DEFINED", "BRIEF_DOCS", "FULL_DOCS"):
+        if args[1] == "GLOBAL":
+            value = run.globals.get(name, HOLE if run.open_world or name.isupper() else "")
+        elif args[1] == "TARGET":
+            value = _property(run, args[2], name, "")
+    run.set(args[0], value)
+
+
+def _get_target_property(run: Run, args: list[str]) -> None:
+    if len(args) >= 3 and HOLE not in args[0]:
+        run.set(args[0], _property(run, args[1], args[2], f"{args[0]}-NOTFOUND"))
+
+
+def _property(run: Run, name: str, wanted: str, missing: str) -> str:
+    target = run.targets.get(name)
+    if target is None or not is_fixed(wanted):
+        return HOLE
+    if target["KIND"] == "alias":
+        return _property(run, target["ALIASED"], wanted, missing) if target["ALIASED"] in run.targets else HOLE
+    if wanted in ("NAME", "OUTPUT_NAME") or (wanted in target and wanted != "SOURCES"):
+        return target.get(wanted, missing)
+    return HOLE
+
+
+def _custom_command(run: Run, args: list[str], *, optional: bool = False) -> None:
+    """What add_custom_command() writes may be named as a source before it is there."""
+    started(run, args, optional=optional)
+    outputs = False
+    for arg in args:
+        if arg in ("OUTPUT", "BYPRODUCTS"):
+            outputs = True
+        elif arg.isupper() and len(arg) > 4 and "/" not in arg:
+            outputs = False
+        elif outputs:
+            generate(run, arg)
+
+
+def generate(run: Run, path: str, *, folder: bool = False) -> None:
+    """Note that a file, or a folder with nobody knows what in it, comes into being during the build."""
+    place = run.source(path)
+    if place is not None:
+        run.generated.add(f"{place}/" if folder else place)
+
+
+def _custom_target(run: Run, args: list[str]) -> None:
+    if args and is_known(args[0]):
+        run.put(run.targets, args[0], Properties(KIND="other", NAME=args[0], TYPE="UTILITY"))
+        _custom_command(run, args, optional=args[1:2] != ["ALL"])
+
+
+def output_name(target: Properties) -> str | None:
+    """Return the file name of what a target builds, None when it is unknown or there is none."""
+    kind = target["KIND"]
+    specific = {"executable": "RUNTIME", "shared": "LIBRARY", "module": "LIBRARY", "static": "ARCHIVE"}.get(kind)
+    if specific is None:
+        return None
+    name = target.get(f"{specific}_OUTPUT_NAME", target.get("OUTPUT_NAME", target["NAME"]))
+    prefix = target.get("PREFIX", "" if kind == "executable" else "lib")
+    suffix = target.get("SUFFIX", {"executable": "", "static": ".a"}.get(kind, ".so"))
+    whole = f"{prefix}{name}{suffix}"
+    return whole if is_known(whole) and "$<" not in whole else None
+
+
+def targets(run: Run) -> tuple[Target, ...]:
+    """Return the targets that the package builds, in the order of their definition."""
+    found = []
+    anywhere = are_in_flags(run)
+    for name, target, span in run.built:
+        kind = target["KIND"]
+        if kind == "imported":
+            continue
+        listed = elements(target["SOURCES"])
+        named = [sure(path) for path in listed if HOLE not in path]
+        sources = tuple(dict.fromkeys([path for path, _ in named]))
+        firm = frozenset() if "CONDITIONAL" in target else {path for path, certain in named if certain}
+        optional = tuple([path for path in sources if path not in firm])
+        links = _links(run, name) if name in run.links else ()
+        whole = len(named) == len(listed)
+        headers = None if anywhere or not sources or "TEST" in target else reached(run, name, run.targets)
+        found.append(Target(name, _KINDS.get(kind, "library"), sources, "TEST" in target, span, links, optional, whole, headers))
+    return tuple(dict.fromkeys(found)) if len(found) > 1 else tuple(found)
+
+
+_KINDS: Final[dict[str, Literal["executable", "interface"]]] = {"executable": "executable", "interface": "interface"}
+
+
+def _links(run: Run, name: str) -> tuple[tuple[str, Span], ...]:
+    """Return the targets of the package that another one is linked with, aliases by the names of what they stand for."""
+    found: dict[str, Span] = {}
+    for other, span in run.links[name].items():
+        target = real_target(run, other)
+        if target is not None and target.get("KIND") != "imported" and "NAME" in target:
+            found.setdefault(target["NAME"], span)
+    return tuple(found.items())
+
+
+def real_target(run: Run, name: str) -> Properties | None:
+    """Return a target by its name or that of an alias, or None."""
+    target = run.targets.get(name)
+    if target is not None and target["KIND"] == "alias":
+        return run.targets.get(target["ALIASED"])
+    return target
+
+
+COMMANDS: Final[dict[str, Handler]] = {
+    "add_executable": _add_executable,
+    "add_library": _add_library,
+    "target_sources": _target_sources,
+    "set_target_properties": _set_target_properties,
+    "set_property": _set_property,
+    "get_property": _get_property,
+    "get_target_property": _get_target_property,
+    "add_custom_command": _custom_command,
+    "add_custom_target": _custom_target,
+}

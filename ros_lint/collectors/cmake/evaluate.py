@@ -1,0 +1,301 @@
+"""What a package's CMake scripts build, provide and need: a static evaluation of CMakeLists.txt and all that it includes."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Final
+
+from ros_lint.base.text import Span, beginning
+from ros_lint.base.tree import is_outside, join
+from ros_lint.collectors.cmake.commands import ament as cmake_ros
+from ros_lint.collectors.cmake.commands import basic as cmake_basic
+from ros_lint.collectors.cmake.commands import fetch_content as cmake_fetch
+from ros_lint.collectors.cmake.commands import file as cmake_file
+from ros_lint.collectors.cmake.commands import find_package as cmake_find
+from ros_lint.collectors.cmake.commands import include as cmake_include
+from ros_lint.collectors.cmake.commands import include_directories as cmake_headers
+from ros_lint.collectors.cmake.commands import install as cmake_install
+from ros_lint.collectors.cmake.commands import install_targets as cmake_install_targets
+from ros_lint.collectors.cmake.commands import list as cmake_list
+from ros_lint.collectors.cmake.commands import math as cmake_math
+from ros_lint.collectors.cmake.commands import string as cmake_string
+from ros_lint.collectors.cmake.commands import system_queries as cmake_answers
+from ros_lint.collectors.cmake.commands import targets as cmake_targets
+from ros_lint.collectors.cmake.commands.compiled_macros import released
+from ros_lint.collectors.cmake.evaluator import branches as cmake_branches
+from ros_lint.collectors.cmake.evaluator import definitions as cmake_definitions
+from ros_lint.collectors.cmake.evaluator import flow as cmake_flow
+from ros_lint.collectors.cmake.evaluator import loops as cmake_loops
+from ros_lint.collectors.cmake.evaluator.flow import HANDLERS
+from ros_lint.collectors.cmake.evaluator.run import Run, folded
+from ros_lint.collectors.cmake.evaluator.sources import Helper, Sources
+from ros_lint.collectors.cmake.evaluator.state import MOST_CHARACTERS, STOP, BudgetError, Frame
+from ros_lint.collectors.cmake.evaluator.values import is_known
+from ros_lint.collectors.cmake.released_macros import macros
+from ros_lint.collectors.cmake.syntax import Command, is_template
+from ros_lint.facts.build import BuildScript, Exported, Provided
+from ros_lint.facts.sources import Mention
+from ros_lint.facts.visibility import ANYTHING, Facet, Opaque, Problem
+
+for _module in (
+    cmake_answers,
+    cmake_basic,
+    cmake_fetch,
+    cmake_file,
+    cmake_find,
+    cmake_headers,
+    cmake_include,
+    cmake_install,
+    cmake_list,
+    cmake_math,
+    cmake_ros,
+    cmake_string,
+    cmake_targets,
+):
+    cmake_flow.HANDLERS.update(_module.COMMANDS)
+cmake_flow.BLOCKS.update({**cmake_branches.BLOCKS, **cmake_definitions.BLOCKS, **cmake_loops.BLOCKS})
+
+_TOP = "CMakeLists.txt"
+_NO_HELPERS: Mapping[str, Helper] = {}
+
+
+def evaluate(sources: Sources, distro: str = "", helpers: Mapping[str, Helper] = _NO_HELPERS) -> BuildScript:
+    """Return what the build of a package does, worked out from its CMakeLists.txt without running CMake.
+
+    ``distro`` is the ROS distribution that ``$ENV{ROS_DISTRO}`` names, "" when it is not known. ``helpers`` are the packages
+    of the workspace whose CMake code runs in packages that find them: those whose own result has ``extras``. Evaluate these
+    first (in an order in which each comes after those it finds), then the others.
+
+    Conditions that cannot be decided are followed both ways; what such a branch provides is ``conditional`` and what it
+    mentions ``optional``. Options have their default, and what the other branch would do is reported as conditional. What
+    cannot be seen through is in ``opaque`` with the facet that it hides. Problems have the kinds "cmake-syntax",
+    "missing-file", "missing-folder" (of add_subdirectory), "missing-script" (of include), "no-interfaces", "undefined-target",
+    "file-is-directory" and "directory-is-file". Never raises for what the files hold.
+    """
+    run = Run(sources, distro, helpers, cmake_ros.foreign)
+    path = join(sources.path, _TOP)
+    parsed = sources.scripts.get(_TOP)
+    if parsed is None:
+        return BuildScript(path, opaque=(Opaque(ANYTHING, "there is no CMakeLists.txt to read", beginning(path)),))
+    frame = Frame(True, path, run.named(_TOP))
+    try:
+        ended = cmake_flow.run_file(run, parsed.commands, frame)
+    except (BudgetError, RecursionError):
+        run.frames[:] = [frame]
+        run.characters = MOST_CHARACTERS  # for what is asked below
+        run.hide(ANYTHING, "the script runs longer than can be followed", frame.command and frame.command.place(path))
+    else:
+        run.frames[:] = [frame]
+        if ended & STOP:
+            run.hide(ANYTHING, "the script stops with an error before its end", frame.command and frame.command.place(path))
+    return _result(run, path)
+
+
+def _result(run: Run, path: str) -> BuildScript:
+    provides = [*_installed_files(run), *cmake_install_targets.installed_targets(run)]
+    undefined = _undefined(run)
+    taken = _taken(run) if run.loose else {}
+    problems = [*run.problems, *_missing(run), *undefined]
+    nowhere = {problem.span for problem in undefined}  # these are mistakes, and hide nothing
+    opaques = [opaque for opaque in run.opaques if opaque.span not in nowhere or not opaque.undefined]
+    for file, parsed in run.sources.scripts.items():
+        if parsed.problems and not (is_template(file) or file in run.templates):
+            problems += parsed.problems
+            facets = ANYTHING if file == _TOP else ANYTHING & ~Facet.INTERFACES
+            opaques += [Opaque(facets, "the file cannot be read to its end", problem.span) for problem in parsed.problems]
+    calls = tuple(sorted([call for call in run.calls if not call.startswith("ros_lint_")]))
+    return BuildScript(
+        path,
+        run.name,
+        run.name_span,
+        run.version,
+        run.version_span,
+        _mentions(run, taken),
+        cmake_targets.targets(run),
+        tuple(provides),
+        tuple(run.components),
+        (),
+        tuple(sorted(run.python_packages)),
+        tuple(sorted(run.interfaces)),
+        calls,
+        tuple(opaques),
+        tuple(problems),
+        run.end,
+        tuple(run.extras),
+        behind=run.behind,
+        makes_nothing=bool(calls) and _MAKES_NOTHING.issuperset(calls),
+        entered=tuple(run.entered),
+        test_folders=tuple([folder for folder in run.entered_for_tests if folder]),
+        handed_on=tuple(_handed_on(run)),
+        untaken=tuple(_untaken(run, taken)),
+        bundled=tuple(run.bundled),
+        reaches_out=run.reaches_out,
+        refused=tuple(_refused(run)),
+        runs=_runs(run),
+        runs_tests=any(map(_RUNS_TESTS.search, calls)),
+        exported=tuple(_exported(run)),
+        set_aside=tuple([name for parsed in run.sources.scripts.values() for name in parsed.set_aside]),
+    )
+
+
+def _exported(run: Run) -> Iterator[Exported]:
+    for made in run.installed_targets:
+        if made.exported_in and is_known(made.exported_in):
+            yield Exported(made.target, made.exported_in, not made.conditional and made.exported_in in run.exported_sets)
+
+
+_MAKES_NOTHING: Final = frozenset(
+    {
+        "add_compile_options", "ament_auto_find_build_dependencies", "ament_auto_package", "ament_package",
+        "ament_lint_auto_find_test_dependencies", "cmake_minimum_required", "find_package", "list", "message", "option",
+        "project", "set",
+    }
+)  # fmt: skip
+
+
+def _handed_on(run: Run) -> Iterator[tuple[Mention, bool]]:
+    """Yield what CONFIG_EXTRAS and templates of a CMake package search, macros left out: those ask when they are called."""
+    for file in dict.fromkeys([*run.extras, *run.templates]):
+        blocks: list[bool | None] = []  # for each block around, whether everybody comes by; None: whoever calls it
+        for command in run.sources.scripts[file].commands if file in run.sources.scripts else ():
+            words = [argument[0] for argument in command.args]
+            if command.name in ("function", "macro"):
+                blocks.append(None)
+            elif command.name in ("if", "foreach", "while", "block"):
+                blocks.append(command.name == "if" and _asks_if_there(words))
+            elif command.name.startswith("end") and blocks:
+                blocks.pop()
+            elif command.name in ("else", "elseif") and blocks:
+                blocks[-1] = False
+            elif command.name in ("find_package", "find_dependency") and words and _PLAIN_NAME.fullmatch(words[0]):
+                if None in blocks or words[0] in (run.name, run.sources.name) or words[0] in run.modules:
+                    continue
+                needed = "REQUIRED" in words or command.name == "find_dependency"
+                path = join(run.sources.path, file)
+                what = f"{command.name}({words[0]}) for those who find this package"
+                yield Mention(words[0], "cmake", _first(path, command), what, not needed), all(blocks)
+
+
+_PLAIN_NAME: Final = re.compile(r"[A-Za-z][\w+.-]*")
+
+
+def _asks_if_there(words: Sequence[str]) -> bool:
+    """Whether a condition only asks if a target, a package or a policy is there already."""
+    return len(words) <= 3 and ("TARGET" in words or "POLICY" in words or words[-1].endswith("_FOUND"))
+
+
+def _first(path: str, command: Command) -> Span:
+    _, _, start, end = command.args[0]
+    return command.span(path, start, end)
+
+
+def _runs(run: Run) -> tuple[str, ...] | None:
+    """Return what is run as tests, None if that is not known: no command is called that does it, or one that nobody knows."""
+    strange = (call for call in run.calls if _RUNS_TESTS.search(call) and not _is_known(run, call))
+    if run.calls.isdisjoint(cmake_ros.RUNNERS) or any(strange):
+        return None
+    return tuple(run.ran)
+
+
+_RUNS_TESTS: Final = re.compile(r"pytest|launch_test|ros_test|add_test\Z|nose|isolated_test\Z")
+
+
+def _is_known(run: Run, call: str) -> bool:
+    return call in HANDLERS or call in run.procedures or released(call) is not None
+
+
+def _installed_files(run: Run) -> list[Provided]:
+    files, generated = run.files, run.generated
+    found = []
+    for provided in run.installed:
+        if not provided.source or is_outside(provided.source) or provided.source in files:
+            found.append(provided)
+        elif provided.source in generated:
+            found.append(provided._replace(source=""))
+    return found
+
+
+def _mentions(run: Run, taken: Mapping[str, bool]) -> tuple[Mention, ...]:
+    """Return the mentions, given what :func:`_taken` says.
+
+    A package that is not required is optional where X_FOUND is asked for, and serves tests where these alone take what was
+    found (reference, section C2.2).
+    """
+    if not run.loose:
+        return tuple(run.mentions)
+    guarded = {span for name in run.loose if f"{name}_FOUND" in run.tested for span in run.loose[name]}
+    tests = {span for name in run.loose if taken.get(folded(name)) for span in run.loose[name]}
+    return tuple(
+        [
+            mention._replace(optional=mention.optional or mention.span in guarded, test=mention.test or mention.span in tests)
+            if mention.via == "cmake"
+            else mention
+            for mention in run.mentions
+        ]
+    )
+
+
+def _taken(run: Run) -> dict[str, bool]:
+    """Return the folded names of packages whose targets, variables or macros are used, and whether only tests use them."""
+    taken: dict[str, bool] = {}
+    for mention in run.mentions:
+        if mention.via in ("target", "macro"):
+            name = folded(mention.name.partition("::")[0])
+            taken[name] = mention.test and taken.get(name, True)
+    return taken
+
+
+def _untaken(run: Run, taken: Mapping[str, bool]) -> Iterator[Span]:
+    """Yield where packages are searched that are not required, and whose names stand nowhere else."""
+    if not run.loose:
+        return
+    known = {macro.package for macro in macros().values()}
+    for name in _unnamed(run, [name for name in run.loose if folded(name) not in taken]):
+        if not name.startswith("ament_") and (name in known or not _WORKS_BY_BEING_FOUND.search(name)):
+            yield from run.loose[name]
+
+
+_WORKS_BY_BEING_FOUND: Final = re.compile(r"cmake|rosidl|^PkgConfig$|backward")
+"""Names of what brings commands, find modules or settings, and need not be named again."""
+
+
+def _unnamed(run: Run, names: Iterable[str]) -> list[str]:
+    """Return those names that stand in no command of the package but find_package()."""
+    left = list(names)
+    if not left:
+        return left
+    commands = (command for parsed in (*run.sources.scripts.values(), *run.around) for command in parsed.commands)
+    words = [argument[0] for command in commands if command.name != "find_package" for argument in command.args]
+    text = "\n".join(words).replace("_", "").replace("-", "").lower()
+    return [name for name in left if folded(name) not in text]
+
+
+def _missing(run: Run) -> list[Problem]:
+    found = []
+    for path, span, unsure in run.missing:
+        source = path.rstrip("/")
+        # CMake takes a folder among the sources, and does nothing with it.
+        if not unsure and run.generated.isdisjoint((source, path)) and not run.is_folder(source):
+            empty = f"'{path}' is missing or empty; git does not keep empty folders, so install() fails"
+            message = f"'{source}' does not exist" if source == path else empty
+            found.append(Problem("missing-file", message, span, subject=source))
+    return list(dict.fromkeys(found))
+
+
+def _undefined(run: Run) -> list[Problem]:
+    if run.wild or any(opaque.hides & Facet.LIBRARIES and not opaque.undefined for opaque in run.opaques):
+        return []
+    return [
+        Problem("undefined-target", f"install() fails because '{name}' is not a target", span)
+        for name, span, conditional in run.undefined
+        if not conditional and "__rosidl" not in name
+    ]
+
+
+def _refused(run: Run) -> Iterator[Problem]:
+    yield from run.refused
+    if not run.wild and not any(opaque.hides & Facet.LIBRARIES and not opaque.undefined for opaque in run.opaques):
+        for (name, command), span in run.given.items():
+            if name not in run.targets and "__rosidl" not in name:
+                yield Problem("undefined-target", f"{command}() fails because '{name}' is not a target", span, subject=name)

@@ -1,0 +1,96 @@
+"""Arguments with keywords, as cmake_parse_arguments() and most commands take them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from functools import lru_cache
+
+from ros_lint.collectors.cmake.evaluator.values import HOLE, MAYBE, WILD, join, split
+
+_FLAG, _SINGLE, _LIST, _MAYBE = 1, 2, 3, 4
+
+
+@lru_cache(maxsize=512)
+def _keywords(prefix: str, options: str, ones: str, multis: str) -> tuple[dict[str, int], dict[str, str | None]]:
+    """Return what kind each keyword is of, and what is set when nothing is given."""
+    flags, singles, lists = split(options), split(ones), split(multis)
+    kinds = {**dict.fromkeys(lists, _LIST), **dict.fromkeys(singles, _SINGLE), **dict.fromkeys(flags, _FLAG)}
+    initial: dict[str, str | None] = {f"{prefix}_{name}": "FALSE" for name in flags}
+    unset = (*singles, *lists, "UNPARSED_ARGUMENTS", "KEYWORDS_MISSING_VALUES")
+    initial.update({f"{prefix}_{name}": None for name in unset})
+    return kinds, initial
+
+
+def parse_keywords(prefix: str, options: str, ones: str, multis: str, args: Sequence[str]) -> dict[str, str | None]:
+    """Return the variables that cmake_parse_arguments() sets; None unsets one."""
+    kinds, initial = _keywords(prefix, options, ones, multis)
+    values = initial.copy()
+    given: dict[str, list[str]] = {}
+    unparsed: list[str] = []
+    state = ""
+    taking = 0
+    if args and args[-1][:1] == MAYBE and kinds.get(args[-1][1:]) == _FLAG:  # nothing follows that it could cut off
+        values[f"{prefix}_{args[-1][1:]}"] = HOLE
+        args = args[:-1]
+    for arg in args:
+        kind = kinds.get(arg)
+        if kind == _FLAG:
+            values[f"{prefix}_{arg}"] = "TRUE"
+            taking = 0
+        elif kind is not None:
+            state, taking = arg, kind
+            given.setdefault(arg, [])
+        elif taking == _SINGLE:
+            values[f"{prefix}_{state}"] = arg
+            taking = _MAYBE if arg in (HOLE, WILD) or arg.startswith(MAYBE) else 0
+        elif taking == _LIST:
+            given[state].append(arg)
+        elif taking == _MAYBE and arg.startswith(MAYBE):
+            values[f"{prefix}_{state}"] = HOLE
+        else:
+            taking = 0
+            unparsed.append(arg)
+        if arg[:1] == MAYBE and arg[1:] in kinds:
+            return dict.fromkeys(values, HOLE)
+    if given:
+        lists = [name for name in given if kinds[name] == _LIST]
+        values.update({f"{prefix}_{name}": join(given[name]) for name in lists})
+        missing = [name for name in lists if not given[name]]
+        missing += [name for name in given if kinds[name] == _SINGLE and values[f"{prefix}_{name}"] is None]
+        if missing:
+            values[f"{prefix}_KEYWORDS_MISSING_VALUES"] = join(missing)
+    if unparsed:
+        values[f"{prefix}_UNPARSED_ARGUMENTS"] = join(unparsed)
+    return values
+
+
+def sections(args: Iterable[str], keywords: Mapping[str, int]) -> dict[str, list[str]]:
+    """Return arguments by the keyword before them; those before the first keyword under "".
+
+    ``keywords`` gives how many arguments a keyword takes, -1 for any number. What follows when it has enough belongs to "".
+    """
+    found: dict[str, list[str]] = {"": []}
+    current, room = found[""], -1
+    for arg in args:
+        wanted = keywords.get(arg)
+        if wanted is not None:
+            current, room = found.setdefault(arg, []), wanted
+            if not room:
+                current, room = found[""], -1
+        else:
+            if not room:
+                current, room = found[""], -1
+            current.append(arg)
+            room -= room > 0
+    return found
+
+
+def with_one_destination(args: list[str]) -> list[str]:
+    """Return the arguments with a HOLE for a destination that is one of several, which the branches of a condition gave."""
+    result: list[str] = []
+    for arg in args:
+        if arg[:1] == MAYBE and result[-2:-1] == ["DESTINATION"] and result[-1][:1] in (MAYBE, HOLE):
+            result[-1] = HOLE
+        else:
+            result.append(arg)
+    return result

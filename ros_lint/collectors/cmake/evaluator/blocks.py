@@ -1,0 +1,147 @@
+"""The block structure of a CMake file: commands nested in if(), loops, function() and macro()."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+from ros_lint.collectors.cmake.syntax import Argument, Command
+
+
+class If(NamedTuple):
+    """``if()`` with its branches. The branch of ``else()`` has no condition."""
+
+    command: Command
+    branches: tuple[tuple[Command | None, Body], ...]
+
+
+class Loop(NamedTuple):
+    """``foreach()`` or ``while()``."""
+
+    command: Command
+    body: Body
+
+
+class Definition(NamedTuple):
+    """``function()`` or ``macro()``."""
+
+    command: Command
+    body: Body
+
+
+class Scope(NamedTuple):
+    """``block()``, which has variables of its own."""
+
+    command: Command
+    body: Body
+
+
+Node = Command | If | Loop | Definition | Scope
+Body = tuple[Node, ...]
+
+Rewrite = Callable[[tuple[Argument, ...]], tuple[Argument, ...]]
+"""What turns the arguments of a command into others."""
+
+_ENDS = {
+    "endif": "if",
+    "endforeach": "foreach",
+    "endwhile": "while",
+    "endfunction": "function",
+    "endmacro": "macro",
+    "endblock": "block",
+}
+_STARTS = frozenset(_ENDS.values())
+_BRANCHES = frozenset({"else", "elseif"})
+
+
+class UnbalancedError(Exception):
+    """A block is not closed, or closed without being open. ``command`` is the culprit, ``body`` what stands before it."""
+
+    def __init__(self, message: str, command: Command, body: Body) -> None:
+        super().__init__(message)
+        self.command = command
+        self.body = body
+
+
+class _Open:
+    """A block that is being read."""
+
+    __slots__ = ("branches", "command", "condition", "nodes")
+
+    def __init__(self, command: Command) -> None:
+        self.command = command
+        self.condition: Command | None = command
+        self.nodes: list[Node] = []
+        self.branches: list[tuple[Command | None, Body]] = []
+
+    def next_branch(self, condition: Command | None) -> None:
+        self.branches.append((self.condition, tuple(self.nodes)))
+        self.condition = condition
+        self.nodes = []
+
+    def close(self) -> Node:
+        body = tuple(self.nodes)
+        match self.command.name:
+            case "if":
+                return If(self.command, (*self.branches, (self.condition, body)))
+            case "foreach" | "while":
+                return Loop(self.command, body)
+            case "block":
+                return Scope(self.command, body)
+            case _:
+                return Definition(self.command, body)
+
+
+def blocks(commands: Sequence[Command]) -> Body:
+    """Return commands with their nesting. Raises UnbalancedError."""
+    nodes: list[Node] = []
+    stack: list[_Open] = []
+    outer: list[list[Node]] = []
+    for command in commands:
+        name = command.name
+        if name in _STARTS:
+            stack.append(_Open(command))
+            outer.append(nodes)
+            nodes = stack[-1].nodes
+        elif name in _BRANCHES:
+            if not stack or stack[-1].command.name != "if" or stack[-1].condition is None:
+                raise UnbalancedError(f"{name}() stands in no if()", command, tuple(outer[0] if outer else nodes))
+            stack[-1].next_branch(command if name == "elseif" else None)
+            nodes = stack[-1].nodes
+        elif name in _ENDS:
+            if not stack or stack[-1].command.name != _ENDS[name]:
+                message = f"{name}() closes no {_ENDS[name]}()"
+                raise UnbalancedError(message, command, tuple(outer[0] if outer else nodes))
+            closed = stack.pop().close()
+            nodes = outer.pop()
+            nodes.append(closed)
+        else:
+            nodes.append(command)
+    if stack:
+        culprit = stack[-1].command
+        raise UnbalancedError(f"{culprit.name}() is never closed", culprit, tuple(outer[0]))
+    return tuple(nodes)
+
+
+def rewritten(body: Body, arguments: Rewrite) -> Body:
+    """Return a body in which every command has other arguments, as a macro gives them to a function defined within it."""
+    return tuple(_rewritten(node, arguments) for node in body)
+
+
+def _rewritten(node: Node, arguments: Rewrite) -> Node:
+    command = node if isinstance(node, Command) else node.command
+    command = command._replace(args=arguments(command.args))
+    match node:
+        case Command():
+            return command
+        case If():
+            branches = tuple(
+                (
+                    condition and condition._replace(args=arguments(condition.args)),
+                    rewritten(body, arguments),
+                )
+                for condition, body in node.branches
+            )
+            return If(command, branches)
+        case _:
+            return type(node)(command, rewritten(node.body, arguments))

@@ -1,0 +1,119 @@
+"""if(): each branch that can be taken is run from the same start, and what they leave behind is joined."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any, Final, NamedTuple
+
+from ros_lint.collectors.cmake.evaluator.blocks import Body, If
+from ros_lint.collectors.cmake.evaluator.conditions import condition
+from ros_lint.collectors.cmake.evaluator.flow import run_body
+from ros_lint.collectors.cmake.evaluator.regex import forget
+from ros_lint.collectors.cmake.evaluator.run import Run
+from ros_lint.collectors.cmake.evaluator.state import NEXT, STOP, TESTS, USUAL, Changes, Exit
+from ros_lint.collectors.cmake.evaluator.truth import FALSE, LIKELY, TRUE, UNLIKELY, Truth
+
+
+class _Way(NamedTuple):
+    body: Body
+    usual: bool
+    """Whether it is taken unless the user asks for something else."""
+    testing: bool
+
+
+def _run_if(run: Run, node: If) -> Exit:
+    if len(node.branches) == 1:
+        return _run_single(run, node)
+    ways: list[_Way] = []
+    open_end = True  # whether what was passed so far may all be false by default
+    testing = run.testing
+    certain = True
+    for command, body in node.branches:
+        if command is None:
+            truth = Truth(TRUE, False, False)
+        else:
+            run.frames[-1].command = command
+            truth = condition(run, command)
+            if ways and any(text == "MATCHES" for text, *_ in command.args):
+                forget(run)  # nobody knows whether this was asked at all
+        if truth.value == FALSE:
+            testing = testing or truth.test_if_false
+            continue
+        if truth.value == TRUE:
+            ways.append(_Way(body, open_end, testing or truth.test_if_true))
+            certain = False
+            break
+        ways.append(_Way(body, truth.value == LIKELY and open_end, testing or truth.test_if_true))
+        open_end = open_end and truth.value == UNLIKELY
+        testing = testing or truth.test_if_false
+    if certain:
+        ways.append(_Way((), open_end, testing))
+    if len(ways) == 1:
+        return _run_way(run, ways[0])
+    if len(ways) == 2 and ways[0].usual and not ways[1].body:
+        # What is done by default stays as it is when the other way does nothing.
+        return _run_way(run, ways[0]) | NEXT
+    return _run_ways(run, ways)
+
+
+def _run_single(run: Run, node: If) -> Exit:
+    """Run an if() without further branches, as most are."""
+    ((command, body),) = node.branches
+    assert command is not None
+    run.frames[-1].command = command
+    truth = condition(run, command)
+    if truth.value == FALSE:
+        return NEXT
+    testing = run.testing
+    way = _Way(body, truth.value >= LIKELY, testing or truth.test_if_true)
+    if truth.value == TRUE:
+        return _run_way(run, way)
+    if truth.value == LIKELY:
+        # What is done by default stays as it is, for the other way does nothing.
+        return _run_way(run, way) | NEXT
+    return _run_ways(run, [way, _Way((), truth.value == UNLIKELY, testing or truth.test_if_false)])
+
+
+def _run_way(run: Run, way: _Way) -> Exit:
+    if way.testing == run.testing:
+        return run_body(run, way.body)
+    run.testing = True
+    try:
+        return run_body(run, way.body)
+    finally:
+        run.testing = False
+
+
+def _run_ways(run: Run, ways: Sequence[_Way]) -> Exit:
+    ended: Exit = 0
+    alive: list[tuple[Changes, bool]] = []
+    onward: list[tuple[_Way, Exit]] = []
+    some_usual = any(way.usual for way in ways)
+    for way in ways:
+        run.unsure += not way.usual
+        run.unusual += some_usual and not way.usual
+        try:
+            one, changes = run.branch(partial(_run_way, run, way))
+        finally:
+            run.unsure -= not way.usual
+            run.unusual -= some_usual and not way.usual
+        if one == STOP:
+            continue
+        if one & NEXT:
+            onward.append((way, one))
+        ended |= one & ~STOP
+        alive.append((changes, way.usual))
+    if not alive:
+        return STOP
+    default = next((index for index, (_, usual) in enumerate(alive) if usual), None)
+    run.join([changes for changes, _ in alive], default)
+    if ended != NEXT and onward:
+        # The usual way goes on for sure if nothing in it can leave, or if what leaves is the exception there.
+        ended &= ~USUAL
+        ended |= USUAL if any(way.usual and (one & ~STOP == NEXT or one & USUAL) for way, one in onward) else 0
+        ended |= TESTS if all(way.testing for way, _ in onward) and not run.testing else 0
+    return ended
+
+
+BLOCKS: Final[dict[type, Callable[[Run, Any], Exit]]] = {If: _run_if}

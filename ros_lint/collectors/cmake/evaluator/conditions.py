@@ -1,0 +1,231 @@
+"""The conditions of if(), elseif() and while(): cmake's if(7), with answers that may not be known.
+
+An answer is true, false, unknown, or *likely* and *unlikely*: true or false unless the user sets an option or a variable.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Final
+
+from ros_lint.collectors.cmake.evaluator.condition_tests import BINARY, UNARY
+from ros_lint.collectors.cmake.evaluator.truth import (
+    FALSE,
+    LIKELY,
+    TRUE,
+    UNKNOWN,
+    UNLIKELY,
+    Token,
+    Truth,
+    both,
+    constant,
+    either,
+    is_off,
+    negated,
+    softened,
+    softened_by,
+)
+from ros_lint.collectors.cmake.evaluator.values import effort, is_fixed, kept, split
+from ros_lint.collectors.cmake.syntax import BRACKET, LITERAL, PLAIN, QUOTED, UNQUOTED, Command
+
+if TYPE_CHECKING:
+    from ros_lint.collectors.cmake.evaluator.run import Run
+
+_TESTS_WANTED: Final = Truth(LIKELY, test_if_true=True)
+_NO_TESTS: Final = Truth(UNLIKELY, test_if_true=True)
+
+
+_TEST_VARIABLE = re.compile(
+    r"(?:\A|_)(?:BUILD_TESTING|(?:CATKIN|AMENT)_ENABLE_TESTING|(?:BUILD|ENABLE)_(?:\w+_)?TEST(?:S|ING)?|BUILD_TEST)\Z"
+)
+_REFERENCE = re.compile(r"\$\{([A-Za-z0-9_./+-]+)\}")
+
+
+_ASKED = re.compile(r"\$\{(\w+_FOUND)\}")
+
+
+def condition(run: Run, command: Command) -> Truth:
+    """Return what a condition evaluates to."""
+    if len(command.args) == 1:
+        text, kind, _, _ = command.args[0]
+        if kind == PLAIN:  # by far the most frequent conditions
+            return _word(run, Token(text, False, False))
+    tokens: list[Token] = []
+    for text, kind, _, _ in command.args:
+        if kind == UNQUOTED:
+            soft = _is_soft(run, text)
+            value = run.evaluated(text)
+            run.charge(effort(value))
+            tokens += [Token(part, False, soft) for part in split(value)]
+        elif kind == QUOTED:
+            tokens.append(Token(run.evaluated(text), True, _is_soft(run, text)))
+        else:
+            tokens.append(Token(text, kind in (LITERAL, BRACKET), False))
+        if "_FOUND}" in text:
+            run.tested.update(_ASKED.findall(text))
+    if len(tokens) > 1:
+        truth = _Parser(run, tokens).whole()
+        if sum(token.text == "MATCHES" for token in tokens) > 1:
+            from ros_lint.collectors.cmake.evaluator.regex import forget  # noqa: PLC0415
+
+            forget(run)  # which match came last depends on the parentheses
+        return truth
+    return _word(run, tokens[0]) if tokens else Truth(FALSE)
+
+
+def _is_soft(run: Run, text: str) -> bool:
+    # The packages of a repository are built for more distributions than the one that is asked about.
+    return "$ENV{ROS_DISTRO}" in text or any(run.may_be_set(name) for name in _REFERENCE.findall(text))
+
+
+class _Parser:
+    """Reduces tokens as CMake does: parentheses, unary tests, binary tests, NOT, then AND and OR from left to right."""
+
+    def __init__(self, run: Run, tokens: list[Token]) -> None:
+        self.run = run
+        self.tokens = tokens
+        self.at = 0
+
+    def whole(self) -> Truth:
+        truth = self.chain()
+        return truth if self.at == len(self.tokens) else Truth(UNKNOWN)
+
+    def keyword(self, ahead: int = 0) -> str:
+        """Return the token at hand if it can be a keyword, else ""."""
+        at = self.at + ahead
+        if at >= len(self.tokens) or self.tokens[at].quoted:
+            return ""
+        return self.tokens[at].text
+
+    def chain(self) -> Truth:
+        truths = [self.negation()]
+        signs: list[str] = []
+        while self.keyword() in ("AND", "OR"):
+            signs.append(self.keyword())
+            self.at += 1
+            truths.append(self.negation())
+        first = _from_left(truths, signs)
+        if len(set(signs)) > 1:
+            # Older versions bind AND more tightly, and newer ones have taken the operands two by two.
+            others = (_and_first(truths, signs), _in_pairs(truths, signs))
+            if any(other.value != first.value for other in others):
+                return first._replace(value=UNKNOWN)
+        return first
+
+    def negation(self) -> Truth:
+        if self.keyword() == "NOT" and self.at + 1 < len(self.tokens):
+            self.at += 1
+            return negated(self.negation())
+        return self.test()
+
+    def test(self) -> Truth:
+        if self.at >= len(self.tokens):
+            return Truth(UNKNOWN)
+        word = self.keyword()
+        if word == "(":
+            self.at += 1
+            truth = self.chain()
+            if self.keyword() != ")":
+                self.at = len(self.tokens) + 1
+                return Truth(UNKNOWN)
+            self.at += 1
+            return self.binary_after(truth)
+        unary = UNARY.get(word)
+        if unary is not None and self.at + 1 < len(self.tokens) and self.keyword(1) not in (")", "AND", "OR"):
+            operand = self.tokens[self.at + 1]
+            self.at += 2
+            if operand.text.startswith("CMAKE_MATCH_") and any(token.text == "MATCHES" for token in self.tokens):
+                return Truth(UNKNOWN)  # it is asked before anything is matched
+            return unary(self.run, operand)
+        left = self.tokens[self.at]
+        self.at += 1
+        binary = BINARY.get(self.keyword())
+        if binary is not None and self.at + 1 < len(self.tokens):
+            right = self.tokens[self.at + 1]
+            self.at += 2
+            return softened_by(binary(self.run, left, right), self.run, left, right)
+        return _word(self.run, left)
+
+    def binary_after(self, truth: Truth) -> Truth:
+        """A parenthesis may be the left side of a comparison; nobody writes that."""
+        if self.keyword() in BINARY:
+            self.at = len(self.tokens) + 1
+            return Truth(UNKNOWN)
+        return truth
+
+
+def _from_left(truths: Sequence[Truth], signs: Sequence[str]) -> Truth:
+    truth = truths[0]
+    for sign, other in zip(signs, truths[1:], strict=True):
+        truth = both(truth, other) if sign == "AND" else either(truth, other)
+    return truth
+
+
+def _and_first(truths: Sequence[Truth], signs: Sequence[str]) -> Truth:
+    found = [truths[0]]
+    for sign, other in zip(signs, truths[1:], strict=True):
+        if sign == "AND":
+            found[-1] = both(found[-1], other)
+        else:
+            found.append(other)
+    return _from_left(found, ["OR"] * (len(found) - 1))
+
+
+def _in_pairs(truths: Sequence[Truth], signs: Sequence[str]) -> Truth:
+    while len(truths) > 1:
+        truths, signs = (
+            [
+                _from_left(truths[at : at + 2], signs[at : at + 1]) if at + 1 < len(truths) else truths[at]
+                for at in range(0, len(truths), 2)
+            ],
+            signs[1::2],
+        )
+    return truths[0]
+
+
+def _word(run: Run, token: Token) -> Truth:
+    """A constant, a variable or a string."""
+    text = token.text
+    if text == "BUILD_TESTING" and not token.quoted:
+        return _tests_wanted(run)
+    if not is_fixed(text):
+        return Truth(UNKNOWN)
+    known = constant(text)
+    if known is not None:
+        return Truth(softened(TRUE if known else FALSE) if token.soft else (TRUE if known else FALSE))
+    if token.quoted:
+        return Truth(UNLIKELY if token.soft else FALSE)
+    if _asks_for_tests(text):
+        return _tests_enabled(run, text)
+    value = run.get(text)
+    if text.endswith("_FOUND"):
+        run.tested.add(text)
+    if value is None:
+        soft = token.soft or run.may_be_set(text)
+        return Truth(UNLIKELY if soft else FALSE)
+    # A function may have a variable of the same name, with another value.
+    for_tests = text in run.for_tests and (value == run.for_tests[text] or not is_fixed(value))
+    if not is_fixed(value):
+        return Truth(UNKNOWN, for_tests)
+    answer = FALSE if is_off(value) else TRUE
+    return Truth(softened(answer) if token.soft or run.is_soft(text) else answer, for_tests)
+
+
+@kept(1024)
+def _asks_for_tests(name: str) -> bool:
+    return _TEST_VARIABLE.search(name) is not None
+
+
+def _tests_wanted(run: Run) -> Truth:
+    """Tests are built, unless the script itself has them off before anything else asks: option() keeps what is set."""
+    value = run.get("BUILD_TESTING")
+    return _NO_TESTS if value and is_fixed(value) and is_off(value) else _TESTS_WANTED
+
+
+def _tests_enabled(run: Run, name: str) -> Truth:
+    """Tests are enabled unless the user says otherwise (ament_cmake_test; reference, section C1.5)."""
+    value = run.get(name)
+    if value is None or not is_fixed(value):
+        return Truth(UNLIKELY, test_if_true=True)
+    return Truth(UNLIKELY if is_off(value) else LIKELY, test_if_true=True)

@@ -1,0 +1,91 @@
+"""function(), macro() and block()."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any, Final
+
+from ros_lint.collectors.cmake.evaluator.blocks import Body, Definition, If, Scope, rewritten
+from ros_lint.collectors.cmake.evaluator.expansion import substituted
+from ros_lint.collectors.cmake.evaluator.flow import run_body
+from ros_lint.collectors.cmake.evaluator.run import Run
+from ros_lint.collectors.cmake.evaluator.state import NEXT, BlockVariables, Exit, Procedure
+from ros_lint.collectors.cmake.evaluator.values import HOLE
+from ros_lint.collectors.cmake.syntax import QUOTED, UNQUOTED, Argument, Command
+from ros_lint.facts.visibility import Facet
+
+
+def _define(run: Run, node: Definition) -> Exit:
+    run.frames[-1].command = node.command
+    args = run.arguments(node.command)
+    if not args or HOLE in args[0]:
+        run.hide(Facet.USES, "the name of a function is not known")
+        return NEXT
+    frame = run.frames[-1]
+    body = node.body
+    if frame.given is not None:
+        body = rewritten(body, partial(_substituted, frame.given))
+    file = next(frame for frame in reversed(run.frames) if frame.procedure is None)
+    procedure = Procedure(
+        args[0],
+        node.command.name == "macro",
+        tuple(args[1:]),
+        body,
+        frame.own,
+        frame.path,
+        file.folder,
+        frame.procedure.provider if frame.procedure else frame.provider,
+        counts(body),
+    )
+    run.put(run.procedures, args[0].lower(), procedure)
+    return NEXT
+
+
+def counts(body: Body) -> bool:
+    """Return whether a body may ask for the arguments of its function by number."""
+    for node in body:
+        commands: list[Command | None]
+        bodies: list[Body]
+        if isinstance(node, Command):
+            commands, bodies = [node], []
+        elif isinstance(node, If):
+            commands, bodies = [command for command, _ in node.branches], [inner for _, inner in node.branches]
+        else:
+            commands, bodies = [node.command], [node.body]
+        if any(command is not None and _counts(command) for command in commands) or any(map(counts, bodies)):
+            return True
+    return False
+
+
+def _counts(command: Command) -> bool:
+    return command.name == "include" or any("ARGV" in text or "ARGC" in text for text, *_ in command.args)
+
+
+def _substituted(given: dict[str, str], args: tuple[Argument, ...]) -> tuple[Argument, ...]:
+    found = []
+    for text, kind, start, end in args:
+        changed = substituted(text, given) if kind in (UNQUOTED, QUOTED) else text
+        found.append((changed, kind, start, end))
+    return tuple(found)
+
+
+def _run_scope(run: Run, node: Scope) -> Exit:
+    """Run block(): what it sets is gone after it, unless it is propagated."""
+    run.frames[-1].command = node.command
+    args = run.arguments(node.command)
+    if "SCOPE_FOR" in args and "VARIABLES" not in args:
+        return run_body(run, node.body)
+    names = args[args.index("PROPAGATE") + 1 :] if "PROPAGATE" in args else []
+    run.scopes.append(BlockVariables())
+    try:
+        ended = run_body(run, node.body)
+        kept = {name: run.scopes[-1][name] for name in names if name in run.scopes[-1]}
+    finally:
+        run.scopes.pop()
+    for name, value in kept.items():
+        run.set(name, value)
+    return ended
+
+
+BLOCKS: Final[dict[type, Callable[[Run, Any], Exit]]] = {Definition: _define, Scope: _run_scope}

@@ -1,0 +1,85 @@
+"""Globbing as CMake does it, against the files of the package (KWSys Glob): ``*`` and ``?`` stop at a slash."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from functools import lru_cache
+from itertools import count
+
+from ros_lint.base.text import octets
+from ros_lint.base.wildcards import LONGEST, letters, spaced
+
+
+def of_paths(parts: Sequence[str], *, recurse: bool) -> re.Pattern[str]:
+    """Return what a whole path must match, as :func:`~ros_lint.base.text.octets`, given a pattern for each of its names.
+
+    With ``recurse`` any folders may stand before the last name. No name matches an invalid pattern.
+    """
+    numbers = count()
+    *heads, last = (_expression(part, numbers) or "(?!)" for part in parts)
+    return re.compile("".join(f"{head}/" for head in heads) + ("(?:[^/]+/)*" if recurse else "") + last)
+
+
+def of_ends(pattern: str) -> re.Pattern[str] | None:
+    """Return what the end of a path must match as :func:`~ros_lint.base.text.octets`, None where CMake refuses the pattern."""
+    expression = _expression(pattern, count())
+    return None if expression is None else re.compile(rf"/{expression}\Z")
+
+
+def _expression(pattern: str, numbers: Iterator[int]) -> str | None:
+    pieces = _pieces(octets(pattern))
+    if pieces is None:
+        return None
+    return spaced(pieces, "[^/]*", numbers)
+
+
+@lru_cache(maxsize=256)
+def _pieces(pattern: str) -> tuple[str, ...] | None:
+    """Return expressions for what stands between the stars of a pattern, None where there is none for a range."""
+    if len(pattern) > LONGEST:
+        return None
+    found = [""]
+    at = 0
+    while at < len(pattern):
+        letter = pattern[at]
+        at += 1
+        if letter == "*":
+            if found[-1] or len(found) == 1:
+                found.append("")
+        elif letter == "?":
+            found[-1] += "[^/]"
+        elif letter == "[" and (end := _end(pattern, at)) >= 0:
+            one = _letter(pattern[at:end])
+            if one is None:
+                return None
+            found[-1] += one
+            at = end + 1
+        else:
+            found[-1] += re.escape(letter)
+    return tuple(found)
+
+
+def _end(pattern: str, at: int) -> int:
+    """Return where the bracket closes that is open at an offset, -1 where none does."""
+    at += pattern[at : at + 1] in ("!", "^")
+    return pattern.find("]", at + 1)
+
+
+def _letter(inside: str) -> str | None:
+    """Return an expression for what stands in brackets, None when a range in it ends before it begins."""
+    negated = inside[:1] in ("!", "^")
+    body = inside[negated:].replace("\\", "\\\\")  # as KWSys writes it, and reads it as two backslashes
+    ranges = [(ord(letter), ord(letter)) for letter in body[:1]]
+    at = 1
+    while at < len(body):
+        if body[at] == "-" and at + 1 < len(body):
+            low, high = ord(body[at - 1]), ord(body[at + 1])
+            if low > high:
+                return None
+            ranges.append((low, high))
+            at += 2
+        else:
+            ranges.append((ord(body[at]), ord(body[at])))
+            at += 1
+    return letters(ranges, negated=negated)

@@ -1,0 +1,185 @@
+"""foreach() and while(), also when nobody knows how often they run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any, Final
+
+from ros_lint.collectors.cmake.evaluator.blocks import Body, Loop
+from ros_lint.collectors.cmake.evaluator.conditions import condition
+from ros_lint.collectors.cmake.evaluator.flow import count_step, perhaps, run_body
+from ros_lint.collectors.cmake.evaluator.run import MOST_STEPS, Run
+from ros_lint.collectors.cmake.evaluator.state import BREAK, CONTINUE, NEXT, RETURN, STOP, Exit
+from ros_lint.collectors.cmake.evaluator.truth import FALSE, LIKELY, UNKNOWN, UNLIKELY
+from ros_lint.collectors.cmake.evaluator.values import ELEMENT, HOLE, MAYBE, WILD, effort, elements, split, sure
+from ros_lint.collectors.cmake.syntax import UNQUOTED, Command
+
+
+def _run_loop(run: Run, node: Loop) -> Exit:
+    run.frames[-1].command = node.command
+    return _run_foreach(run, node) if node.command.name == "foreach" else _run_while(run, node)
+
+
+def _run_foreach(run: Run, node: Loop) -> Exit:
+    args = run.arguments(node.command)
+    if not args:
+        return NEXT
+    rounds = _rounds(run, node.command, args)
+    if not rounds:
+        return NEXT
+    run.charge(ELEMENT * len(rounds))
+    names = _loop_names(args)
+    kept = [(name, run.scopes[-1].get(name, _ABSENT)) for name in names]
+    seen = {name: run.get(name) or "" for name in names}
+    ended = _run_rounds(run, node.body, names, rounds)
+    for name, value in kept:
+        if value in (_ABSENT, None) and run.versions < (3, 21):  # policy CMP0124
+            run.set(name, seen[name])
+        elif value is _ABSENT:
+            run.remove(run.scopes[-1], name)
+        else:
+            run.put(run.scopes[-1], name, value)
+    return ended
+
+
+_ABSENT: Final = object()
+
+
+def _loop_names(args: list[str]) -> list[str]:
+    if "ZIP_LISTS" in args:
+        names = args[: args.index("IN")]
+        lists = args[args.index("ZIP_LISTS") + 1 :]
+        return names if len(names) > 1 else [f"{names[0]}_{index}" for index in range(len(lists))]
+    return [args[0]]
+
+
+def _rounds(run: Run, command: Command, args: list[str]) -> list[tuple[str, ...]]:
+    """Return what the loop variables hold in each round. A single HOLE stands for any number of rounds."""
+    if any(HOLE in arg for arg in args):
+        # What is quoted is one round even if it is not known; other unknown words may be several.
+        args = [HOLE if HOLE in arg and not quoted else arg for arg, quoted in zip(args, _quoted(run, command), strict=True)]
+    rest = args[1:]
+    if "IN" in args and "ZIP_LISTS" in args:
+        lists = [_elements(run, name) for name in args[args.index("ZIP_LISTS") + 1 :]]
+        if any(HOLE in item or item.startswith(MAYBE) for items in lists for item in items):
+            return [(HOLE,)]
+        longest = max(map(len, lists), default=0)
+        return [tuple(items[index] if index < len(items) else "" for items in lists) for index in range(longest)]
+    if rest[:1] == ["IN"]:
+        values: list[str] = []
+        mode = ""
+        for word in rest[1:]:
+            if word in ("LISTS", "ITEMS") and mode != "ITEMS":
+                mode = word
+            elif mode == "LISTS":
+                values += _unknown_whole(_elements(run, word)) if HOLE not in word else [HOLE]
+            else:
+                values.append(word)
+        return [(value,) for value in values]
+    if rest[:1] == ["RANGE"]:
+        return [(value,) for value in _range(rest[1:])]
+    return [(value,) for value in rest]
+
+
+def _elements(run: Run, name: str) -> list[str]:
+    value = run.get(name) or ""
+    run.charge(effort(value))
+    return elements(value)
+
+
+def _unknown_whole(items: list[str]) -> list[str]:
+    """Return list elements; those with an unknown piece may be several."""
+    return [WILD if WILD in item else HOLE if HOLE in item else item for item in items]
+
+
+def _quoted(run: Run, command: Command) -> list[bool]:
+    """Return which of the evaluated arguments were quoted."""
+    found: list[bool] = []
+    for text, kind, _, _ in command.args:
+        found += [False] * len(split(run.evaluated(text))) if kind == UNQUOTED else [True]
+    return found
+
+
+def _range(args: list[str]) -> list[str]:
+    try:
+        numbers = [int(arg) for arg in args]
+    except ValueError:
+        return [HOLE]
+    start, stop, step = 0, 0, 0
+    match numbers:
+        case [stop]:
+            step = 1
+        case [start, stop]:
+            step = 1 if start <= stop else -1
+        case [start, stop, step]:
+            pass
+        case _:
+            return [HOLE]
+    if step == 0 or (step > 0) != (stop >= start) or abs(stop - start) // abs(step) > MOST_STEPS:
+        return [HOLE]
+    return [str(number) for number in range(start, stop + (1 if step > 0 else -1), step)]
+
+
+def _run_rounds(run: Run, body: Body, names: list[str], rounds: list[tuple[str, ...]], start: int = 0) -> Exit:
+    for index in range(start, len(rounds)):
+        items = rounds[index]
+        if items[0] in (HOLE, WILD):
+            ended = _run_any_number(run, partial(_run_round, run, body, names, items[:1] * len(names)))
+        else:
+            plain = tuple(sure(item)[0] for item in items)
+            if plain == items:
+                ended = _run_round(run, body, names, items)
+            else:
+                ended, changes = perhaps(run, partial(_run_round, run, body, names, plain))
+                run.join([{}, changes])
+                ended |= NEXT
+        if ended & (RETURN | BREAK | STOP) and not ended & (NEXT | CONTINUE):
+            return NEXT if ended & BREAK and not ended & RETURN else (ended & ~BREAK) | (NEXT if ended & BREAK else 0)
+        leaves = ended & (RETURN | BREAK)
+        if leaves:
+            rest, changes = perhaps(run, partial(_run_rounds, run, body, names, rounds, index + 1))
+            run.join([{}, changes])
+            return (ended & RETURN) | (NEXT if ended & BREAK else 0) | rest
+    return NEXT
+
+
+def _run_round(run: Run, body: Body, names: list[str], items: Sequence[str]) -> Exit:
+    for name, item in zip(names, items, strict=True):
+        run.set(name, item)
+    return run_body(run, body)
+
+
+def _run_any_number(run: Run, round_: partial[Exit]) -> Exit:
+    """Run the body of a loop that runs an unknown number of times."""
+    run.muted += 1
+    try:
+        _, changes = perhaps(run, round_)
+    finally:
+        run.muted -= 1
+    run.forget(changes)
+    ended, changes = perhaps(run, round_)
+    run.join([{}, changes])
+    return ended | NEXT
+
+
+def _run_while(run: Run, node: Loop) -> Exit:
+    while True:
+        count_step(run)
+        run.frames[-1].command = node.command
+        truth = condition(run, node.command)
+        if truth.value in (FALSE, UNLIKELY):
+            return NEXT
+        if truth.value in (LIKELY, UNKNOWN):
+            ended = _run_any_number(run, partial(run_body, run, node.body))
+            return (ended & RETURN) | NEXT
+        ended = run_body(run, node.body)
+        if not ended & (NEXT | CONTINUE):
+            return NEXT if ended == BREAK else (ended & ~BREAK) | (NEXT if ended & BREAK else 0)
+        if ended & (BREAK | RETURN):
+            rest, changes = perhaps(run, partial(_run_while, run, node))
+            run.join([{}, changes])
+            return (ended & RETURN) | NEXT | rest
+
+
+BLOCKS: Final[dict[type, Callable[[Run, Any], Exit]]] = {Loop: _run_loop}

@@ -1,0 +1,196 @@
+"""Where a CMake run is, and what paths mean there."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from bisect import bisect_left
+from collections.abc import Sequence
+from functools import lru_cache
+
+from ros_lint.base.tree import is_outside, seen_from, towards, within
+from ros_lint.base.tree import join as join_path
+from ros_lint.base.wildcards import LONGEST
+from ros_lint.collectors.cmake.evaluator.sources import AROUND, Sources
+from ros_lint.collectors.cmake.evaluator.state import Frame, State
+from ros_lint.collectors.cmake.evaluator.values import ATOM, BINARY, HOLE, MAYBE, PREFIX, TREE
+from ros_lint.collectors.cmake.released_macros import VARIABLES
+from ros_lint.collectors.cmake.syntax import Parsed
+
+_OF_BUILD = "$<BUILD_INTERFACE:"
+
+
+class Paths(State):
+    """A state that knows the files of the package, and which folder and which file is being run."""
+
+    def __init__(self, sources: Sources) -> None:
+        super().__init__()
+        self.sources = sources
+        self.files = frozenset(sources.files)
+        self.frames: list[Frame] = []
+        self.directories: list[tuple[str, str]] = [("", BINARY)]
+        """The folder whose CMakeLists.txt runs, relative to the package, and where it is built; outer ones before it."""
+        self.places.update(dict.fromkeys(("CMAKE_SOURCE_DIR", "PROJECT_SOURCE_DIR"), self.named("")))
+        self._place_directory()
+
+    def at_home(self) -> bool:
+        """Return whether the current command stands in a file of the package, or in one around it that is run as if it were."""
+        frame = self.frames[-1]
+        return frame.own or (frame.procedure.provider if frame.procedure else frame.provider) == AROUND
+
+    @property
+    def directory(self) -> str:
+        return self.directories[-1][0]
+
+    def named(self, path: str) -> str:
+        """Return a path that is relative to the package as CMake would name it."""
+        place = self.place(path)
+        return f"{TREE}/{place}" if place else TREE
+
+    def place(self, path: str) -> str:
+        """Return where in the tree a path leads that is relative to the package."""
+        if is_outside(path):
+            path = seen_from(self.sources.path, path)
+            return "" if path == "." else path
+        return join_path(self.sources.path, path) if path else self.sources.path
+
+    def relative(self, value: str) -> str | None:
+        """Return a path relative to the package, wherever it leads, None for one on the machine or one that is not known."""
+        return _seen(self.sources.path, self.directories[-1][0], value) if len(value) <= LONGEST else None
+
+    def source(self, value: str) -> str | None:
+        """Return a path relative to the package, or None for one that lies elsewhere or is not known."""
+        path = self.relative(value)
+        return None if path is None or is_outside(path) else path
+
+    def beside(self, value: str) -> str | None:
+        """Return the path of a file or folder around the package, relative to it, or None where none is in sight."""
+        path = self.relative(value)
+        return path if path is not None and is_outside(path) and self.sources.around.kind(self.place(path)) else None
+
+    def reached(self, value: str) -> str | None:
+        """Return what :meth:`source` does, and else what :meth:`beside` does."""
+        path = self.source(value)
+        return self.beside(value) if path is None else path
+
+    def script(self, path: str) -> Parsed | None:
+        """Return the commands of a CMake file, given by its path relative to the package, None where there is none in sight."""
+        return self.sources.around.script(self.place(path)) if is_outside(path) else self.sources.scripts.get(path)
+
+    def leads_out(self, value: str) -> bool:
+        """Return whether a path that may be given to a build lies among the sources, but outside of the package."""
+        plain = value.lstrip(MAYBE).removeprefix(_OF_BUILD)
+        if HOLE in plain or plain.startswith("$<") or (plain[:1] == "/" and not plain.startswith(TREE)):
+            return False
+        path = self.relative(plain)
+        return ".." in plain if path is None else is_outside(path)
+
+    def destination(self, value: str) -> str | None:
+        """Return an install destination relative to the prefix, or None when it is not known or lies elsewhere."""
+        return _destination(value) if len(value) <= LONGEST else None
+
+    def build(self, value: str) -> str | None:
+        """Return a path relative to the build folder of the package, None for one that lies elsewhere or is not known."""
+        if HOLE in value or len(value) > LONGEST or not (value.startswith(f"{BINARY}/") or value == BINARY):
+            return None
+        path = posixpath.normpath(value[len(BINARY) :].lstrip("/"))
+        return None if path.startswith("..") or ATOM in path else path.removeprefix(".")
+
+    def listed(self, path: str) -> str:
+        """Return where a file lies, "" if it is none that the package has or that lies around it. What leads up may lead back."""
+        path = towards(self.sources.path, self.place(path)) if is_outside(path) else path
+        return path if path in self.files or is_outside(path) else ""
+
+    def is_folder(self, path: str) -> bool:
+        """Return whether there is such a folder; of the package itself, with a file in it."""
+        if is_outside(path):
+            return self.sources.around.kind(self.place(path)) == "directory"
+        return not path or bool(self.below(path)) or self.is_unseen(path)
+
+    def is_file(self, path: str) -> bool:
+        """Return whether there is such a file."""
+        return self.sources.around.kind(self.place(path)) == "file" if is_outside(path) else path in self.files
+
+    def is_unseen(self, path: str) -> bool:
+        """Return whether a path lies in a folder of the package whose files are not listed."""
+        return any(path == folder or path.startswith(f"{folder}/") for folder in self.sources.unseen)
+
+    def below(self, path: str) -> Sequence[str]:
+        """Return the files below a folder, sorted; of one around the package none where not all of them are in sight."""
+        if is_outside(path):
+            place = self.place(path)
+            return [f"{path}/{within(place, file)}" for file in self.sources.around.below(place)]
+        files = self.sources.files
+        if not path:
+            return files
+        start = bisect_left(files, f"{path}/")
+        return files[start : bisect_left(files, f"{path}0", start)]  # the character after the slash is the zero
+
+    def enter_directory(self, path: str, build: str) -> None:
+        """Make a folder the current one, given its path relative to the package and the folder that it is built in."""
+        self.directories.append((path, build))
+        self._place_directory()
+
+    def leave_directory(self) -> None:
+        self.directories.pop()
+        self._place_directory()
+
+    def _place_directory(self) -> None:
+        directory, build = self.directories[-1]
+        self.places["CMAKE_CURRENT_SOURCE_DIR"] = self.named(directory)
+        self.places["CMAKE_CURRENT_BINARY_DIR"] = build
+
+    def enter_file(self, frame: Frame) -> None:
+        """Run a file from now on."""
+        self.frames.append(frame)
+        self.place_file()
+
+    def place_file(self) -> None:
+        """Set the variables that name the file that is being run."""
+        for frame in reversed(self.frames):
+            if frame.procedure is None:
+                self.places["CMAKE_CURRENT_LIST_FILE"] = frame.file
+                self.places["CMAKE_CURRENT_LIST_DIR"] = frame.folder
+                break
+
+
+@lru_cache(maxsize=4096)
+def _seen(package: str, directory: str, value: str) -> str | None:
+    """Return a path relative to a package of the tree, given the folder whose script names it, which is relative to it too.
+
+    None for one that lies elsewhere on the machine or is not known.
+    """
+    if HOLE in value:
+        return None
+    if value.startswith(TREE):
+        rest = value[len(TREE) :]
+        if rest and not rest.startswith("/"):
+            return None
+        path = rest.lstrip("/")
+    elif value.startswith(("/", "$<")) or not value:
+        return None
+    else:
+        path = join_path(package, join_path(directory, value))
+    if ATOM in path:
+        return None  # before ".." is followed: what is not known may be several folders, or lie elsewhere
+    path = posixpath.normpath(path)
+    if is_outside(path) and package:
+        return f"{'../' * (package.count('/') + 1)}{path}"
+    path = towards(package, path) if package and not path.startswith(f"{package}/") else within(package, path)
+    return "" if path == "." else path
+
+
+@lru_cache(maxsize=1024)
+def _destination(value: str) -> str | None:
+    """Return an install destination relative to the prefix."""
+    if value.startswith(PREFIX):
+        value = value[len(PREFIX) :].lstrip("/")
+    value = _MODULES.sub(VARIABLES["PYTHON_INSTALL_DIR"], value)
+    if HOLE in value or MAYBE in value or "\1" in value or value.startswith("/") or "$<" in value:
+        return None
+    path = posixpath.normpath(value) if value else ""
+    return "" if path == "." else path
+
+
+_MODULES = re.compile(rf"\Alib/python(?=[^/]*[{HOLE}{ATOM}])[^/]*/(?:site|dist)-packages(?=/|\Z)")
+"""Where Python looks for modules, of a version that is not known."""

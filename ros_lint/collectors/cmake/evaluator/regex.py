@@ -1,0 +1,249 @@
+"""CMake's regular expressions (KWSys): simpler than Python's, and matched byte by byte."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from functools import lru_cache
+from typing import TYPE_CHECKING, Final
+
+from ros_lint.base.text import from_raw, octets
+from ros_lint.collectors.cmake.evaluator.values import BINARY, HOLE, PREFIX, TREE, is_fixed, is_known, natural
+
+if TYPE_CHECKING:
+    from ros_lint.collectors.cmake.evaluator.run import Run
+
+
+class RegexError(Exception):
+    """CMake refuses the expression, does something else with it in other versions, or takes for ever with it, as we would."""
+
+
+@lru_cache(maxsize=512)
+def _compiled(text: str) -> re.Pattern[str]:
+    return re.compile(_Translator(octets(text)).whole(), re.DOTALL)
+
+
+def translated(text: str) -> re.Pattern[str] | None:
+    """Return an expression for Python's re, to be used on the bytes of a text (:func:`is_in`); None when CMake refuses it."""
+    try:
+        return _compiled(text) if len(text) <= _LONGEST else None
+    except RegexError:
+        return None
+
+
+_LONGEST: Final = 4096
+"""Characters of an expression. A longer one is taken for unknown, because it takes long to compile."""
+
+
+def is_in(pattern: re.Pattern[str], text: str) -> bool:
+    """Return whether a translated expression matches somewhere in a text."""
+    return pattern.search(octets(text)) is not None
+
+
+def _text(text: str) -> str:
+    return text if text.isascii() else from_raw(text.encode("latin-1"))
+
+
+_MOST_MATCHES: Final = 10_000
+"""Of one expression in a text. More are taken for unknown."""
+
+
+class _Translator:
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.at = 0
+        self.repeats = 0
+        """How many pieces so far may be there any number of times."""
+
+    def whole(self) -> str:
+        found = self.branches()
+        if self.at != len(self.text):
+            raise RegexError(self.text)
+        return found[0]
+
+    def branches(self) -> tuple[str, bool]:
+        """Return an expression up to the end or a closing parenthesis, and whether it can match nothing."""
+        pieces, empty = self.branch()
+        while self.text[self.at : self.at + 1] == "|":
+            self.at += 1
+            more, also = self.branch()
+            pieces, empty = f"{pieces}|{more}", empty or also
+        return pieces, empty
+
+    def branch(self) -> tuple[str, bool]:
+        pieces: list[str] = []
+        empty = True
+        while self.at < len(self.text) and self.text[self.at] not in "|)":
+            piece, also = self.piece()
+            pieces.append(piece)
+            empty = empty and also
+        return "".join(pieces), empty
+
+    def piece(self) -> tuple[str, bool]:
+        before = self.repeats
+        atom, empty = self.atom()
+        sign = self.text[self.at : self.at + 1]
+        if sign not in ("*", "+", "?"):
+            return atom, empty
+        if empty and sign != "?":
+            raise RegexError(self.text)
+        self.at += 1
+        if self.text[self.at : self.at + 1] in ("*", "+", "?"):
+            raise RegexError(self.text)
+        if sign != "?":
+            if self.repeats > before:
+                raise RegexError(self.text)  # (a+)+ tries every way to part a text
+            self.repeats += 1
+        return f"{atom}{sign}", empty or sign != "+"
+
+    def atom(self) -> tuple[str, bool]:
+        letter = self.text[self.at]
+        self.at += 1
+        if letter == "^":
+            return r"(?:\A)", True
+        if letter == "$":
+            return r"(?:\Z)", True
+        if letter == ".":
+            return ".", False
+        if letter == "[":
+            return self.letters(), False
+        if letter == "(":
+            inner, empty = self.branches()
+            if self.text[self.at : self.at + 1] != ")":
+                raise RegexError(self.text)
+            self.at += 1
+            return f"({inner})", empty
+        if letter in "*+?" or (letter == "\\" and self.at == len(self.text)):
+            raise RegexError(self.text)
+        if letter == "\\":
+            letter = self.text[self.at]
+            self.at += 1
+        return re.escape(letter), False
+
+    def letters(self) -> str:
+        end = self.at + (self.text[self.at : self.at + 1] == "^")
+        end = self.text.find("]", end + 1)
+        if end < 0:
+            raise RegexError(self.text)
+        body = self.text[self.at : end]
+        self.at = end + 1
+        negated = body.startswith("^")
+        body = body[negated:]
+        found: list[str] = []
+        index = 0
+        while index < len(body):
+            if body[index + 1 : index + 2] == "-" and index + 2 < len(body):
+                low, high = body[index], body[index + 2]
+                if low > high:
+                    raise RegexError(self.text)
+                found.append(f"{re.escape(low)}-{re.escape(high)}")
+                index += 3
+            else:
+                found.append(re.escape(body[index]))
+                index += 1
+        return f"[{'^' if negated else ''}{''.join(found)}]"
+
+
+# --- use -----------------------------------------------------------------------------------------------------------
+
+
+def clear(run: Run) -> None:
+    """Empty the variables that hold the last match, as every use of an expression does first."""
+    last = run.get("CMAKE_MATCH_COUNT")
+    if last is None:
+        return
+    highest = 0 if not last else natural(last)
+    for index in range(10 if highest is None else min(highest + 1, 10)):
+        if run.get(f"CMAKE_MATCH_{index}"):
+            run.set(f"CMAKE_MATCH_{index}", "")
+    # Where it is empty it may also be unset, and then it stays so.
+    run.set("CMAKE_MATCH_COUNT", "0" if last and is_known(last) else HOLE)
+
+
+def store(run: Run, groups: tuple[str, ...]) -> None:
+    """Set CMAKE_MATCH_0 and so on; the first of the groups is the whole match."""
+    highest = ""
+    for index, group in enumerate(groups[:10]):
+        if group:
+            run.set(f"CMAKE_MATCH_{index}", group)
+            highest = str(index)
+    run.set("CMAKE_MATCH_COUNT", highest)
+
+
+def forget(run: Run) -> None:
+    """Take what the last match was for unknown."""
+    for index in range(10):
+        run.set(f"CMAKE_MATCH_{index}", HOLE)
+    run.set("CMAKE_MATCH_COUNT", HOLE)
+
+
+def find(run: Run, regex: str, text: str) -> bool | None:
+    """Return whether an expression matches somewhere, and set the match variables. None: CMake refuses it."""
+    pattern = translated(regex)
+    if pattern is None:
+        forget(run)
+        return None
+    clear(run)
+    match = pattern.search(octets(text))
+    if match is None:
+        return False
+    store(run, _groups(match))
+    return True
+
+
+def _groups(match: re.Match[str]) -> tuple[str, ...]:
+    return tuple(_text(group or "") for group in (match[0], *match.groups()))
+
+
+def every(regex: str, text: str) -> list[tuple[str, str, tuple[str, ...]]]:
+    """Return all matches from left to right: what stands before each, the match, and the groups.
+
+    A last entry holds what stands after them, and no groups. Raises RegexError where CMake has an error or its versions
+    differ: empty matches, and ``^`` with more than one match (policy CMP0186).
+    """
+    pattern = translated(regex)
+    if pattern is None:
+        raise RegexError(regex)
+    whole = octets(text)
+    anchored = "^" in regex.replace("[^", "")
+    at = 0
+    found: list[tuple[str, str, tuple[str, ...]]] = []
+    while match := pattern.search(whole, at):
+        if not match[0] or len(found) > _MOST_MATCHES:
+            raise RegexError(regex)
+        found.append((_text(whole[at : match.start()]), _text(match[0]), _groups(match)))
+        at = match.end()
+        if anchored and pattern.search(whole[at:]):
+            raise RegexError(regex)
+    found.append((_text(whole[at:]), "", ()))
+    return found
+
+
+_STAND_INS: Final = ("/zq7x/wk", "/vj9/pq-5yz/hb_w")
+"""Two places where a workspace could lie. What comes out the same for both does not depend on the place."""
+
+
+def anywhere(compute: Callable[..., str], *values: str) -> str:
+    """Return what a computation on texts gives, if it is the same wherever the package lies; else HOLE.
+
+    Raises what the computation raises.
+    """
+    if not any("\1" in value for value in values):
+        return compute(*values)
+    if not all(map(is_fixed, values)):
+        return HOLE
+    results = []
+    for number, stand_in in enumerate(_STAND_INS):
+        pairs = [(root, f"{stand_in}{number}{name}") for root, name in ((TREE, "s"), (BINARY, "b"), (PREFIX, "p"))]
+        placed = list(values)
+        for root, place in pairs:
+            placed = [value.replace(root, place) for value in placed]
+        if any("\1" in value for value in placed):
+            return HOLE
+        result = compute(*placed)
+        for root, place in pairs:
+            result = result.replace(place, root)
+        if any(part in result for part in stand_in.split("/") if part):
+            return HOLE
+        results.append(result)
+    return results[0] if results[0] == results[1] else HOLE

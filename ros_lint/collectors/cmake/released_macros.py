@@ -1,0 +1,132 @@
+"""What the released CMake code of ROS 2 provides: variables, and macros with what they do.
+
+The macros are written in CMake themselves, reduced to their effects, in ``data/ros_macros.cmake``; the evaluator runs them
+in place of the real ones. See the head of that file.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Mapping
+from functools import cache
+from typing import Final, NamedTuple
+
+from ros_lint.knowledge.store import SHIPPED
+
+INSTALL_ARTIFACTS: Final = (
+    "ARCHIVE", "LIBRARY", "RUNTIME", "OBJECTS", "FRAMEWORK", "BUNDLE", "PRIVATE_HEADER", "PUBLIC_HEADER", "RESOURCE",
+    "INCLUDES", "CXX_MODULES_BMI",
+)  # fmt: skip
+"""Kinds of files of which install(TARGETS) can say for themselves where they go."""
+
+INSTALL_TARGETS_WORDS: Final[Mapping[str, int]] = {
+    "EXPORT": 1, "DESTINATION": 1, "PERMISSIONS": -1, "CONFIGURATIONS": -1, "COMPONENT": 1, "NAMELINK_COMPONENT": 1,
+    "OPTIONAL": 0, "EXCLUDE_FROM_ALL": 0, "NAMELINK_ONLY": 0, "NAMELINK_SKIP": 0, "RUNTIME_DEPENDENCIES": -1,
+    "RUNTIME_DEPENDENCY_SET": 1, "FILE_SET": 1,
+}  # fmt: skip
+"""The other words of install(TARGETS), with how many arguments each takes, -1 for any number."""
+
+VISIBILITY: Final = frozenset({"INTERFACE", "PRIVATE", "PUBLIC"})
+"""Words of the commands for targets that say whom a thing is for."""
+
+VARIABLES: Final[Mapping[str, str]] = {
+    "CMAKE_BINARY_DIR": "/\1build",
+    "CMAKE_CURRENT_BINARY_DIR": "/\1build",
+    "PROJECT_BINARY_DIR": "/\1build",
+    "CMAKE_INSTALL_PREFIX": "/\1prefix",
+    "CMAKE_INSTALL_BINDIR": "bin",
+    "CMAKE_INSTALL_SBINDIR": "sbin",
+    "CMAKE_INSTALL_LIBEXECDIR": "libexec",
+    "CMAKE_INSTALL_LIBDIR": "lib",
+    "CMAKE_INSTALL_INCLUDEDIR": "include",
+    "CMAKE_INSTALL_DATAROOTDIR": "share",
+    "CMAKE_INSTALL_DATADIR": "share",
+    "CMAKE_INSTALL_MANDIR": "share/man",
+    "CMAKE_INSTALL_SYSCONFDIR": "etc",
+    "CMAKE_INSTALL_FULL_BINDIR": "/\1prefix/bin",
+    "CMAKE_INSTALL_FULL_LIBDIR": "/\1prefix/lib",
+    "CMAKE_INSTALL_FULL_INCLUDEDIR": "/\1prefix/include",
+    "CMAKE_INSTALL_FULL_DATADIR": "/\1prefix/share",
+    "PYTHON_INSTALL_DIR": "lib/python/site-packages",
+    "PYTHON_MODULE_EXTENSION": ".so",
+    "UNIX": "1",
+    "LINUX": "1",
+    "CMAKE_SYSTEM_NAME": "Linux",
+    "CMAKE_HOST_SYSTEM_NAME": "Linux",
+    "CMAKE_HOST_UNIX": "1",
+    "CMAKE_COMPILER_IS_GNUCXX": "1",
+    "CMAKE_COMPILER_IS_GNUCC": "1",
+    "CMAKE_CXX_COMPILER_ID": "GNU",
+    "CMAKE_C_COMPILER_ID": "GNU",
+    "CMAKE_SHARED_LIBRARY_PREFIX": "lib",
+    "CMAKE_SHARED_LIBRARY_SUFFIX": ".so",
+    "CMAKE_STATIC_LIBRARY_PREFIX": "lib",
+    "CMAKE_STATIC_LIBRARY_SUFFIX": ".a",
+    "CMAKE_SIZEOF_VOID_P": "8",
+    "CMAKE_FILES_DIRECTORY": "/CMakeFiles",
+}
+"""What variables hold in a build by colcon on Linux, as far as it is the same on every machine. GNUInstallDirs gives
+``lib`` on Debian and its kin, and PYTHON_INSTALL_DIR stands for ``lib/pythonX.Y/site-packages``,
+PYTHON_MODULE_EXTENSION for ``.cpython-XY-<machine>.so``. Of the marked folders see
+:mod:`ros_lint.collectors.cmake.evaluator.values`."""
+
+SOFT_VARIABLES: Final = frozenset({
+    "ANDROID", "APPLE", "BUILD_SHARED_LIBS", "CMAKE_BUILD_TYPE", "CMAKE_CROSSCOMPILING", "CMAKE_C_COMPILER_ID",
+    "CMAKE_COMPILER_IS_GNUCC", "CMAKE_COMPILER_IS_GNUCXX", "CMAKE_CXX_COMPILER_ID", "CMAKE_CXX_STANDARD",
+    "CMAKE_C_STANDARD", "CMAKE_HOST_APPLE", "CMAKE_HOST_SYSTEM_NAME", "CMAKE_HOST_UNIX", "CMAKE_HOST_WIN32",
+    "CMAKE_SYSTEM_NAME", "CYGWIN", "EMSCRIPTEN", "IOS", "LINUX", "MINGW", "MSVC", "QNX", "QNXNTO", "UNIX", "WIN32",
+    "XCODE", "CMAKE_SIZEOF_VOID_P", "CMAKE_COMPILER_IS_CLANG", "VXWORKS", "BORLAND", "MSYS", "COVERAGE",
+})  # fmt: skip
+"""Variables that another platform, another compiler or the user gives another value."""
+
+UNKNOWN_VARIABLES: Final = frozenset({
+    "CMAKE_COMMAND", "CMAKE_CTEST_COMMAND", "CMAKE_CXX_COMPILER", "CMAKE_CXX_COMPILER_VERSION", "CMAKE_CXX_FLAGS",
+    "CMAKE_CXX_FLAGS_DEBUG", "CMAKE_CXX_FLAGS_RELEASE", "CMAKE_C_COMPILER", "CMAKE_C_COMPILER_VERSION", "CMAKE_C_FLAGS",
+    "CMAKE_EXE_LINKER_FLAGS", "CMAKE_GENERATOR", "CMAKE_HOST_SYSTEM_PROCESSOR", "CMAKE_HOST_SYSTEM_VERSION",
+    "CMAKE_INSTALL_RPATH", "CMAKE_LIBRARY_ARCHITECTURE", "CMAKE_MAJOR_VERSION", "CMAKE_MINOR_VERSION",
+    "CMAKE_MODULE_PATH", "CMAKE_PATCH_VERSION", "CMAKE_PREFIX_PATH", "CMAKE_ROOT", "CMAKE_SHARED_LINKER_FLAGS",
+    "CMAKE_SYSTEM", "CMAKE_SYSTEM_PROCESSOR", "CMAKE_SYSTEM_VERSION", "CMAKE_VERSION", "CMAKE_CXX_BYTE_ORDER",
+    "CMAKE_C_BYTE_ORDER", "CMAKE_MAKE_PROGRAM", "CMAKE_PROJECT_VERSION", "CMAKE_CXX_COMPILE_FEATURES",
+    "CMAKE_CXX_IMPLICIT_INCLUDE_DIRECTORIES", "CMAKE_CXX_IMPLICIT_LINK_DIRECTORIES", "CMAKE_THREAD_LIBS_INIT",
+    "CMAKE_DL_LIBS", "CMAKE_SYSROOT", "CMAKE_TOOLCHAIN_FILE", "PYTHON_EXECUTABLE", "Python3_EXECUTABLE",
+    "PYTHON_VERSION_MAJOR", "PYTHON_VERSION_MINOR", "PYTHON_VERSION_STRING",
+})  # fmt: skip
+"""Variables that hold something else on each machine."""
+
+
+class Macro(NamedTuple):
+    """A released function or macro: its definition, reduced to its effects, and the package that brings it."""
+
+    package: str
+    text: str
+    """From function() or macro() to its end."""
+
+
+@cache
+def macros() -> Mapping[str, Macro]:
+    """Return the released macros that are known, by name in lower case."""
+    found: dict[str, Macro] = {}
+    package = ""
+    for match in _PIECE.finditer(_written()):
+        if match[4]:
+            found[match[4].lower()] = Macro(package, match[0])
+        else:
+            package = match[1]
+    return found
+
+
+@cache
+def opaque_packages() -> frozenset[str]:
+    """Return the packages whose CMake code does not say what it does, and whose macros are all known."""
+    return frozenset([match[1] for match in _PIECE.finditer(_written()) if match[2]])
+
+
+@cache
+def _written() -> str:
+    with open(os.path.join(SHIPPED, "ros_macros.cmake"), encoding="utf-8") as file:
+        return file.read()
+
+
+# Few of the definitions are wanted in a run, so these are not taken apart before.
+_PIECE = re.compile(r'^package\("?([^" )\n]*)"?( OPAQUE)?\)$|^(function|macro)\((\w+)[^\n]*\n(?s:.*?)^end\3\(\)$', re.MULTILINE)

@@ -1,0 +1,251 @@
+"""CMake files as lists of commands: CMakeLists.txt, ``*.cmake`` and their templates (``*.cmake.in``, ``*.in.cmake``).
+
+The syntax is that of cmake-language(7) as CMake 3.25 reads it, the legacy unquoted arguments (``-Da="b c"``) included.
+Nothing is evaluated here; :mod:`ros_lint.collectors.cmake.evaluate` does that.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+from ros_lint.base.text import Span, Text
+from ros_lint.facts.cmake import position
+from ros_lint.facts.visibility import Problem
+
+PLAIN = 0
+"""An unquoted argument that stands for itself: no reference, escape, semicolon or bracket in it."""
+UNQUOTED = 1
+"""An unquoted argument to evaluate and to split into list elements."""
+QUOTED = 2
+"""A quoted argument to evaluate."""
+LITERAL = 3
+"""A quoted argument that stands for itself."""
+BRACKET = 4
+"""A bracket argument: nothing in it is ever evaluated."""
+OPEN = 5
+"""A parenthesis within the arguments."""
+CLOSE = 6
+
+Argument = tuple[str, int, int, int]
+"""Text without quotes or brackets, kind, and the offsets of the whole argument: plain, for there are so many."""
+
+
+class Command(NamedTuple):
+    """A command invocation."""
+
+    name: str
+    """In lower case: CMake's command names are case-insensitive."""
+    written: str
+    args: tuple[Argument, ...]
+    start: int
+    """Offset of the name."""
+    end: int
+    """Offset after the closing parenthesis."""
+    line: int
+    """Of the name; lines and columns count from 1."""
+    column: int
+    breaks: tuple[int, ...]
+    """Offsets at which further lines of the command begin."""
+
+    def span(self, path: str, start: int, end: int) -> Span:
+        """Return the span between two offsets within the command, in the file of that path."""
+        if not self.breaks:
+            shift = self.column - self.start
+            # As Span(...), in half the time: there are ten thousands of them.
+            return tuple.__new__(Span, (path, self.line, start + shift, self.line, end + shift))
+        return Span(path, *self._position(start), *self._position(end))
+
+    def place(self, path: str) -> Span:
+        """Return the span of the name."""
+        return tuple.__new__(Span, (path, self.line, self.column, self.line, self.column + len(self.written)))
+
+    def _position(self, offset: int) -> tuple[int, int]:
+        return position(offset, self.start, self.line, self.column, self.breaks)
+
+
+class Parsed(NamedTuple):
+    """What a file says. With a problem, CMake runs none of it; the commands before the first problem are kept."""
+
+    commands: tuple[Command, ...]
+    problems: tuple[Problem, ...]
+    set_aside: tuple[str, ...] = ()
+    """Interfaces that stand in comments where a list of them had an element, as ``msg/Name``."""
+
+
+_SET_ASIDE = re.compile(r"""^[ \t]*\#[ \t\#"]*((?:msg|srv|action)/\w+)\.(?:msg|srv|action|idl)\b""", re.MULTILINE)
+
+_TOKEN = re.compile(
+    r"""[ \t\r\n]*(?:\#(?!\[=*\[)[^\n]*(?:\n[ \t\r\n]*|\Z))*       # spaces and line comments
+    (?:([^ \t\r\n()\#"\\$;\[\0]+(?=[ \t\r\n()\#]))                 # 1: plain
+    |([()])                                                         # 2: parenthesis
+    |"([^"\\\0]*(?:\\[^\0][^"\\\0]*)*)"                             # 3: quoted
+    |\[(=*)\[((?s:.*?))\]\4\]                                       # 4, 5: bracket argument
+    |\#\[(=*)\[(?s:.*?)\]\6\]                                       # 6: bracket comment
+    |(?!\[=*\[)((?:\$\([A-Za-z0-9_]*\)|[^ \t\r\n()\#"\\\0]|\\[^\0\n])      # 7: unquoted
+      (?:\$\([A-Za-z0-9_]*\)|[^ \t\r\n()\#"\\\0]|\\[^\0\n]               #    with quotes inside (legacy)
+        |"(?:\$\([A-Za-z0-9_]*\)|[^()\#"\\\r\n\0]|\\[^\0\n])*")*)
+    |\Z
+    |((?s:.)))                                                      # 8: nothing begins so
+    """,
+    re.VERBOSE,
+)
+_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
+_PLACEHOLDER = re.compile(r"@\w+@\Z")
+_NEW_LINE = re.compile(r"\n")
+_OPENING = re.compile(r"(?:[ \t\r]|#\[(=*)\[(?s:(?!\]\1\]).)*\]\1\])*\(")
+"""What leads to the parenthesis of a command: spaces and bracket comments."""
+_MARKS = dict.fromkeys((1, 2, 3), "\ufffd")
+
+
+def is_template(path: str) -> bool:
+    """Return whether a file is called like one that CMake makes another file of, and does not read itself."""
+    return path.endswith((".in", ".in.cmake")) or _OTHER.search(path) is not None
+
+
+_OTHER = re.compile(r"\.(?:c|cc|cpp|cxx|h|hh|hpp|hxx|json|md|pc|py|sh|txt|xml|yaml|yml)\.cmake\Z")
+"""What is made of it is no CMake file: ``config.h.cmake``."""
+
+
+def parse(source: Text) -> Parsed:
+    """Return the commands of a CMake file, and the syntax error that makes CMake refuse it, if there is one."""
+    return _Reader(source).read()
+
+
+class _SyntaxError(Exception):
+    def __init__(self, message: str, start: int, end: int) -> None:
+        super().__init__(message)
+        self.start = start
+        self.end = end
+
+
+class _Reader:
+    def __init__(self, source: Text) -> None:
+        self.source = source
+        self.text = source.text
+        self.commands: list[Command] = []
+
+    def read(self) -> Parsed:
+        problems: tuple[Problem, ...] = ()
+        try:
+            self._commands()
+        except _SyntaxError as error:
+            span = self.source.span(error.start, error.end)
+            problems = (Problem("cmake-syntax", str(error), span),)
+        text = self.text
+        comments = "#" in text and (".msg" in text or ".srv" in text or ".action" in text or ".idl" in text)
+        return Parsed(tuple(self.commands), problems, tuple(_SET_ASIDE.findall(text)) if comments else ())
+
+    def _commands(self) -> None:
+        text = self.text
+        add = self.commands.append
+        args: list[Argument] = []
+        name = ""
+        begin = end = depth = counted = position = 0
+        last = glued = -1
+        line, column = 1, 0
+        template = is_template(self.source.path)
+        strange = "\r" in text or "\1" in text or "\2" in text or "\3" in text
+        for match in _TOKEN.finditer(text):
+            position = match.end()
+            group = match.lastindex
+            if glued >= 0:  # after a bracket
+                if group not in (None, 2, 8) and text[glued] not in " \t\r\n":
+                    raise _SyntaxError("an argument is not separated from the one before it", glued, position)
+                glued = -1
+            if depth:
+                if group == 1:
+                    args.append((match[1], PLAIN, match.start(1), position))
+                elif group == 3:
+                    value = match[3]
+                    kind = QUOTED if "$" in value or "\\" in value else LITERAL
+                    args.append((value, kind, match.start(3) - 1, position))
+                elif group == 7:
+                    args.append((match[7], UNQUOTED, match.start(7), position))
+                elif group == 2:
+                    at = position - 1
+                    if text[at] == "(":
+                        depth += 1
+                        args.append(("(", OPEN, at, position))
+                        continue
+                    depth -= 1
+                    if depth:
+                        args.append((")", CLOSE, at, position))
+                        continue
+                    breaks: tuple[int, ...] = ()
+                    if text.find("\n", begin, position) >= 0:
+                        breaks = tuple([found.end() for found in _NEW_LINE.finditer(text, begin, position)])
+                    if strange:
+                        args = [(_cleaned(value), kind, start, stop) for value, kind, start, stop in args]
+                    add(Command(name.lower(), name, tuple(args), begin, position, line, column, breaks))
+                    name = ""
+                    last = position
+                elif group == 5:
+                    value = match[5]
+                    if value.startswith("\n"):
+                        value = value[1:]
+                    elif value.startswith("\r\n"):
+                        value = value[2:]
+                    start = match.start(4) - 1
+                    args.append((value, BRACKET, start, position))
+                    if text[start - 1] not in " \t\r\n()":
+                        raise _SyntaxError("an argument is not separated from the one before it", start, position)
+                    glued = position
+                elif group == 6:
+                    glued = position
+                elif group == 8:
+                    raise self._wrong(position - 1)
+            elif group == 1 or group == 7:  # noqa: PLR1714  (a tuple test is slower, and this runs for every command)
+                name = match[group]
+                end, begin = position, match.start(group)
+                passed = text.count("\n", counted, begin)
+                if last >= 0 and text.find("\n", last, begin) < 0:
+                    raise _SyntaxError("a command must start on a new line", begin, end)
+                if not _NAME.match(name):
+                    if template and _PLACEHOLDER.match(name):
+                        continue
+                    raise _SyntaxError(f"'{name}' is not a valid command name", begin, end)
+                line += passed
+                column = begin - text.rfind("\n", 0, begin)
+                counted = begin
+                following = text[end : end + 1]
+                if following != "(" and not self._opens(end):
+                    raise _SyntaxError(f"'(' is missing after '{name}'", begin, end)
+            elif group == 2 and text[position - 1] == "(" and name:
+                depth = 1
+                args = []
+            elif group == 8:
+                raise self._wrong(position - 1)
+            elif group is not None and group != 6:
+                raise _SyntaxError("a command is expected here", match.start(group) - (group in (3, 5)), position)
+        if depth:
+            raise _SyntaxError(f"')' is missing at the end of {name}()", begin, end)
+        if "\r" in text:
+            self._count_lines()
+
+    def _opens(self, offset: int) -> bool:
+        """Return whether only spaces and bracket comments stand between a name and its parenthesis."""
+        return _OPENING.match(self.text, offset) is not None
+
+    def _wrong(self, at: int) -> _SyntaxError:
+        """Return the error at an offset where no token begins."""
+        what = self.text[at]
+        reasons = {
+            '"': "a string is not closed",
+            "[": "a bracket argument is not closed",
+            "#": "a comment is not closed",
+        }
+        return _SyntaxError(reasons.get(what, f"{what!r} cannot stand here"), at, at + 1)
+
+    def _count_lines(self) -> None:
+        """Take lines from the text, which also ends them at a carriage return."""
+        for number, command in enumerate(self.commands):
+            line, column = self.source.position(command.start)
+            last = self.source.position(command.end)[0]
+            breaks = tuple(self.source.offset(further, 1) for further in range(line + 1, last + 1))
+            self.commands[number] = command._replace(line=line, column=column, breaks=breaks)
+
+
+def _cleaned(value: str) -> str:
+    """Return an argument as CMake reads it, and free of the characters that evaluation marks unknown pieces with."""
+    return value.replace("\r\n", "\n").translate(_MARKS)

@@ -1,0 +1,115 @@
+"""A ``CMakeLists.txt`` read as colcon reads it where there is no usable manifest: by pattern, not by meaning.
+
+What CMake makes of the file is another collector's business; here only counts what can be seen while packages are looked
+for. That is what colcon sees, its oversights included, since it decides which packages there are and in which order.
+Source: colcon-cmake, package identification (reference, section A6.10).
+"""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.facts.manifest import ColconDepend, Role
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from ros_lint.base.text import Span, Text
+
+# colcon looks for these words anywhere, so my_project(x) counts as project(x).
+_PROJECT = re.compile(r"""project\s*\(\s*("?)([a-zA-Z0-9_-]+)\1(?:\s[^)]*)?\)""", re.IGNORECASE)
+_FIND_PACKAGE = re.compile(r"""find_package\s*\(\s*("?)([a-zA-Z0-9_-]+)\1(?:\s[^)]*)?\)""", re.IGNORECASE)
+_PKG_CONFIG = re.compile(
+    r"""pkg_(?:check_modules|search_module)\s*\(\s*("?)[a-zA-Z0-9_]+\1"""
+    r"""(?:\s+(?:(?-i:REQUIRED|QUIET|NO_CMAKE_PATH|NO_CMAKE_ENVIRONMENT_PATH)))*([^)]+)\)""",
+    re.IGNORECASE,
+)
+_SUBDIRECTORY = re.compile(
+    r"""\badd_(?:\w+_)?subdirectory\s*\(\s*"?(?:\$\{(?:CMAKE_CURRENT|PROJECT|CMAKE)_(?:SOURCE|LIST)_DIR\}/)?(?:\./)*"""
+    r"""(/*[^\s"$)/]+(?:/+[^\s"$)/]+)*|/)/*["\s)]""",
+    re.IGNORECASE,
+)
+_WORD = re.compile(r"\S+")
+_PIECE = re.compile(r"""("[^"]*")|(#.*)|([^#"]*)""")
+_VERSION = re.compile(r"[<>=]")
+
+
+class Project(NamedTuple):
+    """What colcon takes from a ``CMakeLists.txt``."""
+
+    name: str
+    """Of the first literal project(), or "" when there is none."""
+    toplevel: bool
+    """Whether it is the file that catkin_make puts into src/, which makes no package."""
+
+
+def project(text: Text) -> Project:
+    """Return the name that colcon gives to the folder of a ``CMakeLists.txt``."""
+    match = _PROJECT.search(_Bare(text).closed())
+    name = match[2] if match else ""
+    toplevel = name == "Project" and "catkin_workspace()" in text.text.splitlines()
+    return Project(name, toplevel)
+
+
+def depends(text: Text) -> tuple[ColconDepend, ...]:
+    """Return what colcon orders before a plain CMake package, from one of its ``CMakeLists.txt`` and ``*.cmake``.
+
+    Names that the package itself has are in it too.
+    """
+    if "find_package" not in (lower := text.text.lower()) and "pkg_" not in lower:
+        return ()
+    bare = _Bare(text)
+    content = bare.closed()
+    found = [(match[2], *match.span(2)) for match in _FIND_PACKAGE.finditer(content)]
+    found += list(_modules(content))
+    return tuple(ColconDepend(name, Role.BUILD | Role.EXEC, bare.span(start, end)) for name, start, end in found)
+
+
+def subdirectories(text: Text) -> frozenset[str]:
+    """Return the folders that a ``CMakeLists.txt`` takes into its build, as literally written, relative to it.
+
+    Functions that wrap add_subdirectory() are called like it, with a word put in.
+    """
+    return frozenset(match[1] for match in _SUBDIRECTORY.finditer(_Bare(text).content))
+
+
+def _modules(content: str) -> Iterator[tuple[str, int, int]]:
+    for match in _PKG_CONFIG.finditer(content):
+        for word in _WORD.finditer(content, *match.span(2)):
+            yield _VERSION.split(word[0], 1)[0], *word.span()
+
+
+class _Bare:
+    """A text without its comments and without quotes that do not close on their line."""
+
+    def __init__(self, text: Text) -> None:
+        self._text = text
+        self._kept: list[int] = []
+        self._from: list[int] = []
+        pieces: list[str] = []
+        size = offset = 0
+        for line in text.text.splitlines(keepends=True):
+            body = line.splitlines()[0]
+            for piece in _PIECE.finditer(body):
+                if kept := piece[1] or piece[3]:
+                    self._kept.append(size)
+                    self._from.append(offset + piece.start())
+                    pieces.append(kept)
+                    size += len(kept)
+            pieces.append("\n")
+            size += 1
+            offset += len(line)
+        self.content = "".join(pieces)
+
+    def closed(self) -> str:
+        """Return the content up to its last closing parenthesis: without one behind it, each opening one costs a search."""
+        return self.content[: self.content.rfind(")") + 1]
+
+    def span(self, start: int, end: int) -> Span:
+        return self._text.span(self._origin(start), self._origin(end - 1) + 1)
+
+    def _origin(self, at: int) -> int:
+        index = bisect_right(self._kept, at) - 1
+        return self._from[index] + at - self._kept[index]

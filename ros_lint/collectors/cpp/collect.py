@@ -1,0 +1,65 @@
+"""Read C and C++ sources: which headers they include, and which packages they look up by name."""
+
+from __future__ import annotations
+
+import operator
+from typing import TYPE_CHECKING
+
+from ros_lint.collectors.cpp.includes import Include, mentions
+from ros_lint.collectors.cpp.lookups import loaders, look_ups
+from ros_lint.collectors.cpp.registrations import registrations, wrapped
+from ros_lint.collectors.cpp.symbols import symbols
+from ros_lint.collectors.suffixes import SOURCES
+from ros_lint.facts.sources import FileFacts, Mention
+from ros_lint.facts.visibility import Facet, Opaque
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from ros_lint.base.text import Text
+
+_LOADERS = ("pluginlib", "class_loader")
+_place = operator.itemgetter(Mention._fields.index("span"))
+
+
+def collect(source: Text) -> FileFacts:
+    """Return the includes, look-ups and registered classes of a C or C++ file, standard headers left out.
+
+    An include is a mention ``via="include"`` whose ``what`` tells ``#include "a"`` from ``#include <a>``.
+    Types of messages whose package is not included are ``via="symbol"``.
+    Look-ups by ament_index_cpp and pluginlib with a literal are ``via="package"`` (reference, section E2, rows 23 and 24).
+    """
+    found = mentions(source)
+    included, code = found.mentions, found.code
+    known = {mention[0].partition("/")[0] for mention in included}  # by index: there are ten thousands
+    packages, files = look_ups(source, code)
+    loading = loaders(source, code) if not known.isdisjoint(_LOADERS) or _implements(source.path, included) else ()
+    packages += [
+        Mention(loader.package, "package", loader.span, f'"{loader.package}", "{loader.base}"')
+        for loader in loading
+        if loader.base.startswith(f"{loader.package}::")  # else it may be any pair of words
+    ]
+    packages += symbols(source, known, found)
+    if packages:
+        included += packages
+        included.sort(key=_place)
+    opaque = (_opaque(source, found.computed) if found.computed else ()) + wrapped(source)
+    return FileFacts(tuple(included), opaque, registrations(source, code), files, loaders=loading)
+
+
+def _implements(path: str, included: Iterable[Mention]) -> bool:
+    """Whether a source includes the header of its own name, which may declare what the source loads plugins with."""
+    name = path.rpartition("/")[2]
+    stem = name[: name.rfind(".") + 1]
+    return name.endswith(SOURCES) and any(header[header.rfind("/") + 1 :].startswith(stem) for header, *_ in included)
+
+
+def _opaque(source: Text, computed: list[Include]) -> tuple[Opaque, ...]:
+    return tuple(
+        Opaque(
+            Facet.USES,
+            f"only the preprocessor knows which header #include {item.name} names",
+            source.span(item.start, item.start + len(item.name)),
+        )
+        for item in computed
+    )

@@ -1,0 +1,398 @@
+"""The include directives of C and C++, and which of them depend on how the source is compiled.
+
+Exact with respect to comments, raw strings, line continuations and ``#if 0`` without lexing every file: a scan for
+directives is trusted as long as none of them lies where a comment or a raw string might be. Otherwise comments and
+raw strings are blanked out first, and the same scan is run again.
+"""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_left, bisect_right
+from functools import cache
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.base.text import Span
+from ros_lint.facts.sources import Mention
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence, Set
+
+    from ros_lint.base.text import Text
+
+# "#" first: the regular expression engine looks for a literal much faster than for the start of a line.
+# Groups: 1 an empty one if "#" is not just the first of a line that continues none; 2 quote and 3 name of an include,
+# 4 the macro that gives the name; 5 word and 6 condition of a conditional.
+_DIRECTIVE = re.compile(
+    r"""\#(?:(?<=[^\\\r]\n\#)|())[ \t]*
+    (?:(?:include(?:_next)?|import)\b[ \t]*(?:([<"])([^<>"\n]+)[>"]|([A-Za-z_][^\n]*))
+    |(if(?:n?def)?|el(?:if(?:n?def)?|se)|endif)\b([^\n]*))""",
+    re.VERBOSE,
+)
+_NAMED, _COMPUTED, _CONDITIONAL = 3, 4, 6  # the last group that takes part
+
+_HIDING = re.compile(
+    r"""//(?:[^\\\n]|\\(?:\r\n|.))*
+    |/\*.*?(?:\*/|\Z)
+    |(?P<raw>\b(?:u8|[uUL])?R"(?P<mark>[^()\\\s]{0,16})\(.*?\)(?P=mark)")
+    |"(?:[^"\\\n]|\\(?:\r\n|.))*"
+    |(?<![0-9a-fA-F])'(?:[^'\\\n]|\\(?:\r\n|.))*'
+    |^[ \t]*\#[ \t]*(?:include(?:_next)?|import)[ \t]*<[^>\n]+>
+    |\\\r?\n""",
+    re.VERBOSE | re.DOTALL | re.MULTILINE,
+)
+# The rarer character first, for the same reason.
+_RAW = re.compile(r'"(?<=R")([^()\\\s]{0,16})\(')
+_COMMENT = re.compile(r"\*(?<=/\*)")
+_DEFINE = re.compile(r"#[ \t]*define[ \t]+(\w+)")
+_DEFINED = re.compile(r"(!?)\s*defined\s*\(?\s*(\w+)\s*\)?")
+
+# What every C++ compiler takes the same way, whatever the build defines. Only Qt's moc, no compiler, has Q_MOC_RUN.
+_ALWAYS_DEFINED = frozenset({"__cplusplus"})
+_NEVER_DEFINED = frozenset({"Q_MOC_RUN"})
+
+_STANDARD = (
+    "algorithm any array atomic barrier bit bitset cassert cctype cerrno cfenv cfloat charconv chrono cinttypes "
+    "climits clocale cmath codecvt compare complex concepts condition_variable coroutine csetjmp csignal cstdarg "
+    "cstdbool cstddef cstdint cstdio cstdlib cstring ctime cuchar cwchar cwctype deque exception execution "
+    "expected filesystem format forward_list fstream functional future generator initializer_list iomanip ios "
+    "iosfwd iostream istream iterator latch limits list locale map mdspan memory memory_resource mutex new "
+    "numbers numeric optional ostream print queue random ranges ratio regex scoped_allocator semaphore set "
+    "shared_mutex source_location span spanstream sstream stack stacktrace stdexcept stdfloat stop_token "
+    "streambuf string string_view strstream syncstream system_error thread tuple type_traits typeindex typeinfo "
+    "unordered_map unordered_set utility valarray variant vector version "
+    "assert.h complex.h ctype.h errno.h fenv.h float.h inttypes.h iso646.h limits.h locale.h math.h setjmp.h "
+    "signal.h stdalign.h stdarg.h stdatomic.h stdbool.h stddef.h stdint.h stdio.h stdlib.h stdnoreturn.h "
+    "string.h tgmath.h threads.h time.h uchar.h wchar.h wctype.h"
+)
+STANDARD = frozenset(_STANDARD.split())
+"""Headers of the C and C++ standard libraries: they belong to no package, and half of all includes name them."""
+
+
+_NONE: frozenset[int] = frozenset()
+_make = tuple.__new__
+
+
+class Include(NamedTuple):
+    """An include directive that the preprocessor can meet."""
+
+    start: int
+    """Offset of the name."""
+    name: str
+    """As written, without quotes or brackets; the macro when that gives it."""
+    quote: str
+    """``"`` or ``<``, "" when a macro gives the name."""
+    optional: bool
+
+
+class Found(NamedTuple):
+    """What the directives of a source say."""
+
+    mentions: list[Mention]
+    """Its includes in order."""
+    code: list[int]
+    """Their offsets: places that no comment and no string hides."""
+    computed: list[Include]
+    """Includes that a macro names."""
+    directives: list[re.Match[str]]
+    """All that :func:`branches` needs, empty when nothing but a guard is conditional."""
+
+
+def mentions(source: Text) -> Found:
+    """Return the includes of a C or C++ source.
+
+    Those of standard headers and those in ``#if 0`` are left out. Optional are those in a conditional, unless each of
+    its branches includes the same folder; conditions that hold in every build, include guards above all, are none.
+    Reference, section E3.9.
+    """
+    return _plain(source) or exact(source)
+
+
+def exact(source: Text) -> Found:
+    """Return what :func:`mentions` does, in the way that is right for every text."""
+    text = blanked(source.text)
+    directives = [match for match in _DIRECTIVE.finditer(text) if not _before(text, match.start()).strip()]
+    guarded = _is_guarded(text, directives)
+    found = _includes(text, directives, guarded)
+    named = [item for item in found if item.quote]
+    spans = source.spans([(item.start, item.start + len(item.name)) for item in named])
+    return Found(
+        [_mention(item.name, span, item.quote, item.optional) for item, span in zip(named, spans, strict=True)],
+        [item.start for item in named],
+        [item for item in found if not item.quote],
+        [] if guarded else directives,
+    )
+
+
+def _mention(name: str, span: Span, quote: str, optional: bool) -> Mention:
+    what = f"#include <{name}>" if quote == "<" else f'#include "{name}"'
+    return _make(Mention, (name, "include", span, what, optional, False, ""))
+
+
+def _plain(source: Text) -> Found | None:
+    """Return what is found in one go, None where something may hide one or a macro names one."""
+    text, path = source.text, source.path
+    if "\r" in text and text.count("\r") != text.count("\r\n"):
+        return None
+    count = text.count
+    found: list[Mention] = []
+    starts: list[int] = []
+    directives: list[re.Match[str]] = []
+    conditional = False
+    line, at = 1, 0
+    for match in _DIRECTIVE.finditer(text):
+        sharp = match.start()
+        odd = match[1] is not None
+        if odd and not (stands := _stands(text, sharp)):
+            if stands is None:
+                return None
+            continue
+        directives.append(match)
+        if match.lastindex == _NAMED:
+            name, what, lead, width = _told(match[0])
+            if name:
+                line += count("\n", at, sharp)
+                at = sharp
+                column = lead + (len(_before(text, sharp)) if odd else 0)
+                span = _make(Span, (path, line, column, line, column + width))
+                found.append(_make(Mention, (name, "include", span, what, False, False, "")))
+                starts.append(sharp)
+        elif match.lastindex == _CONDITIONAL:
+            conditional = True
+        else:
+            return None
+    guarded = not conditional or _is_guarded(text, directives)
+    if starts and not guarded:
+        if _may_hide(text, [match.start() for match in directives]):
+            return None
+        return Found(*_sorted_out(text, directives, found, starts), [], directives)
+    if _may_hide(text, starts):
+        return None
+    return Found(found, starts, [], [] if guarded else directives)
+
+
+@cache
+def _told(directive: str) -> tuple[str, str, int, int]:
+    """Return the name in an include directive, how to quote it, its column and its length; no name for standard headers.
+
+    Packages include the same headers again and again: their names are held once.
+    """
+    match = _DIRECTIVE.match(directive)
+    assert match is not None
+    name = match[_NAMED]
+    if name in STANDARD:
+        return "", "", 0, 0
+    what = f"#include <{name}>" if match[2] == "<" else f'#include "{name}"'
+    return name, what, match.start(_NAMED) + 1, len(name)
+
+
+def _sorted_out(
+    text: str, directives: list[re.Match[str]], found: list[Mention], starts: list[int]
+) -> tuple[list[Mention], list[int]]:
+    """Return the includes, and their offsets, that are reached at all, with those marked that are optional."""
+    skipped, optional = _conditional(text, directives)
+    rows = [
+        (mention._replace(optional=True) if start in optional else mention, start)
+        for mention, start in zip(found, starts, strict=True)
+        if start not in skipped
+    ]
+    return [mention for mention, _ in rows], [start for _, start in rows]
+
+
+def _includes(text: str, directives: list[re.Match[str]], guarded: bool) -> list[Include]:
+    skipped, optional = (_NONE, _NONE) if guarded else _conditional(text, directives)
+    found = []
+    for match in directives:
+        at = match.start()
+        if match[_NAMED]:
+            start, name, quote = match.start(_NAMED), match[_NAMED], match[2]
+        elif match[_COMPUTED]:
+            start, name, quote = match.start(_COMPUTED), _bare(match[_COMPUTED]), ""
+        else:
+            continue
+        if name not in STANDARD and at not in skipped:
+            found.append(Include(start, name, quote, at in optional))
+    return found
+
+
+def blanked(text: str) -> str:
+    """Return the text with blanks for comments and raw strings, and with continued lines joined. Offsets stay."""
+    return _HIDING.sub(_blank, text)
+
+
+def in_doubt(text: str, at: int, code: Sequence[int] = ()) -> bool:
+    """Return whether a comment or a raw string may hide an offset. ``code`` are offsets known to be code, sorted."""
+    before = bisect_left(code, at)
+    clear = code[before - 1] if before else 0
+    return (
+        text.find("//", text.rfind("\n", 0, at) + 1, at) >= 0
+        or _RAW.search(text, clear, at) is not None
+        or (_COMMENT.search(text, clear, at) is not None and text.rfind("/*", clear, at) > text.rfind("*/", clear, at))
+    )
+
+
+def _blank(match: re.Match[str]) -> str:
+    token = match[0]
+    if match["raw"]:
+        return '"' * len(token)
+    # A block comment is one space to the preprocessor, its line ends included.
+    return " " * len(token) if token[0] in "/\\" else token.replace("\n", " ")
+
+
+def _before(text: str, at: int) -> str:
+    """Return what stands before an offset in its line."""
+    return text[text.rfind("\n", 0, at) + 1 : at]
+
+
+def _bare(line: str) -> str:
+    """Return the rest of a directive's line without comments."""
+    return line.partition("//")[0].partition("/*")[0].strip()
+
+
+def _stands(text: str, at: int) -> bool | None:
+    """Return whether a directive can be at an offset, None when a comment before it or a continued line is in the way."""
+    before = _before(text, at)
+    if before and not before.isspace():
+        return None if before.rstrip().endswith("*/") else False
+    line = at - len(before)
+    continued = line > 1 and text[line - 2] in "\\\r" and text[line - 3 : line - 1].endswith(("\\", "\\\r"))
+    return None if continued else True
+
+
+def _is_guarded(text: str, directives: list[re.Match[str]]) -> bool:
+    """Return whether there are no conditionals but an include guard."""
+    conditionals = [match for match in directives if match.lastindex == _CONDITIONAL]
+    if len(conditionals) != 2:
+        return not conditionals
+    begin, end = conditionals
+    return end[5] == "endif" and (text.startswith(f"\n#define{begin[6]}", begin.end()) or _value(text, begin, first=True) is True)
+
+
+def _may_hide(text: str, starts: Sequence[int]) -> bool:
+    """Return whether a comment or a raw string may hide one of the offsets."""
+    if not starts:
+        return False
+    last = starts[-1]
+    raw = _RAW.search(text, 0, last)
+    while raw:
+        if _any_between(starts, raw.start(), text.find(f'){raw[1]}"', raw.end())):
+            return True
+        # Not past the end, here and below: what looks like a string or a comment may be none, and hide no other.
+        raw = _RAW.search(text, raw.start() + 1, last)
+    opened = _COMMENT.search(text, 0, last)
+    while opened:
+        if _any_between(starts, opened.start(), text.find("*/", opened.end())):
+            return True
+        opened = _COMMENT.search(text, opened.end(), last)
+    return False
+
+
+def _any_between(starts: Sequence[int], begin: int, end: int) -> bool:
+    """Return whether one of the starts, which are sorted, lies behind ``begin`` and before ``end``, -1 for no end."""
+    at = bisect_right(starts, begin)
+    return at < len(starts) and (end < 0 or starts[at] < end)
+
+
+class _Conditional:
+    """A conditional that is open, and what its branches include so far."""
+
+    __slots__ = ("common", "complete", "folders", "includes", "live")
+
+    def __init__(self, value: bool | None) -> None:
+        self.includes: list[tuple[int, str]] = []  # start and folder
+        self.folders: set[str] = set()  # that the present branch includes whenever it is taken
+        self.common: set[str] | None = None  # that every branch before does
+        self.live = value is not False  # whether the present branch can be taken
+        self.complete = value is True  # whether some branch is always taken
+
+    def branch(self, value: bool | None) -> None:
+        """Go to the next branch. The value of its condition is None when it depends on the build."""
+        self._close()
+        self.live = value is not False and not self.complete
+        self.complete |= value is True
+
+    def end(self) -> set[str]:
+        """Return the folders that are included whatever the build."""
+        self._close()
+        return self.common if self.common and self.complete else set()
+
+    def _close(self) -> None:
+        if self.live:
+            self.common = self.folders if self.common is None else self.common & self.folders
+        self.folders = set()
+
+
+def _conditional(text: str, directives: list[re.Match[str]]) -> tuple[Set[int], Set[int]]:
+    """Return the starts of those include directives that are never reached, and of those that depend on the build."""
+    skipped: set[int] = set()
+    optional: set[int] = set()
+    stack: list[_Conditional] = []
+
+    def end() -> None:
+        ended = stack.pop()
+        sure = ended.end()
+        optional.update(start for start, folder in ended.includes if folder not in sure)
+        if stack:
+            stack[-1].includes += ended.includes
+            stack[-1].folders |= sure
+
+    for match in directives:
+        if match.lastindex != _CONDITIONAL:
+            start = match.start()
+            if not all(conditional.live for conditional in stack):
+                skipped.add(start)
+            elif stack:
+                folder = (match[_NAMED] or "").partition("/")[0]
+                stack[-1].includes.append((start, folder))
+                stack[-1].folders.add(folder)
+        elif match[5].startswith("if"):
+            stack.append(_Conditional(_value(text, match, first=match is directives[0])))
+        elif stack and match[5] == "endif":
+            end()
+        elif stack:
+            stack[-1].branch(True if match[5] == "else" else _value(text, match, first=False))
+    while stack:
+        end()
+    return skipped, optional
+
+
+def branches(text: str, directives: list[re.Match[str]]) -> list[range]:
+    """Return the offsets that are compiled in some builds only, or in none."""
+    found = []
+    stack: list[tuple[bool, int]] = []  # whether the branch is always taken, and where it begins
+    for match in directives:
+        if match.lastindex != _CONDITIONAL:
+            continue
+        if match[5].startswith("if"):
+            stack.append((_value(text, match, first=match is directives[0]) is True, match.end()))
+        elif stack:
+            always, begin = stack.pop()
+            if not always:
+                found.append(range(begin, match.start()))
+            if match[5] != "endif":
+                stack.append((False, match.end()))
+    return [*found, *(range(begin, len(text)) for always, begin in stack if not always)]
+
+
+def _value(text: str, match: re.Match[str], *, first: bool) -> bool | None:
+    """Return whether a condition is true, None when that depends on the build. ``first``: no directive before it."""
+    word, condition = match[5], _bare(match[6])
+    if word in ("if", "elif"):
+        bare = condition.strip("() ")
+        if bare in ("0", "false"):
+            return False
+        if bare.isdigit() or bare == "true":
+            return True
+        tested = _DEFINED.fullmatch(condition)
+        if tested is None:
+            return None
+        negated, macro = bool(tested[1]), tested[2]
+    else:
+        negated, macro = "ndef" in word, condition
+    if macro in _ALWAYS_DEFINED:
+        return not negated
+    if macro in _NEVER_DEFINED:
+        return negated
+    # An include guard: what it holds is compiled once whatever the build, also when the two names differ by a slip.
+    defined = _DEFINE.search(text, match.end(), match.end() + 400) if negated else None
+    return True if defined and (first or defined[1] == macro) else None

@@ -1,0 +1,147 @@
+"""Packages that a C++ source looks up with ament_index_cpp, files in their share folders that it makes paths of, and plugins."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from ros_lint.collectors.cpp.includes import blanked, in_doubt
+from ros_lint.collectors.cpp.registrations import class_name
+from ros_lint.facts.sources import LookUp, Mention, PluginLoader
+
+if TYPE_CHECKING:
+    from ros_lint.base.text import Text
+
+_LOOK_UP = re.compile(r'(get_package_(?:share_directory|share_path|prefix))\s*\(\s*"([^"\\\n]+)"')
+_LOADER = re.compile(r'oader\w*(?:<[^;{}()"]*>)?\s*\w*\s*[({]\s*"([\w.-]+)"\s*,\s*"([\w:]*\w::\w[^"\\\n]*)"')
+# What is added to a path: only literals count, and only when nothing else is added behind them.
+_ADDED = re.compile(r'((?:\s*[/+]\s*"[^"\\\n]*")+)(?!\s*[/+]\s*[\w("])')
+_PIECE = re.compile(r'([/+])\s*"([^"]*)"')
+_CLOSED = re.compile(r"\s*\)+")
+_MAY_CLOSE = re.compile(r"\s*\)?")
+_ASSIGNED = re.compile(r"\b([A-Za-z_]\w*)\s*[=({]\s*(?:[\w:]+\s*[({]\s*)?(?:\w+::)*\Z")
+_FARTHEST = 200
+"""How far before a look-up the variable is looked for that gets what it gives."""
+
+
+def look_ups(source: Text, code: Sequence[int] = ()) -> tuple[list[Mention], tuple[LookUp, ...]]:
+    """Return the packages that a source names in look-ups, and the files that it looks up.
+
+    ``code`` are offsets known to be code, sorted. Reference, section E2, row 23.
+    """
+    text = source.text
+    if "get_package_" not in text:
+        return [], ()
+    if any(in_doubt(text, match.start(), code) for match in _LOOK_UP.finditer(text)):
+        text = blanked(text)
+    calls = list(_LOOK_UP.finditer(text))
+    spans = source.spans([match.span(2) for match in calls])
+    tried = _tried(text) if "PackageNotFoundError" in text else []
+    mentions = [
+        Mention(match[2], "package", span, f'{match[1]}("{match[2]}")', any(match.start(2) in block for block in tried))
+        for match, span in zip(calls, spans, strict=True)
+    ]
+    files = sorted(_files(text, calls))
+    spans = source.spans([place for place, _, _ in files])
+    return mentions, tuple(LookUp(package, path, span) for (_, package, path), span in zip(files, spans, strict=True))
+
+
+def loaders(source: Text, code: Sequence[int] = ()) -> tuple[PluginLoader, ...]:
+    """Return the plugin loaders of a source that includes what declares them, or may. Reference, section E2, row 24."""
+    if "oader" not in source.text:
+        return ()
+    matches = list(_LOADER.finditer(source.text))
+    if any(in_doubt(source.text, match.start(), code) for match in matches):
+        matches = list(_LOADER.finditer(blanked(source.text)))
+    spans = source.spans([match.span(1) for match in matches])
+    return tuple(PluginLoader(match[1], class_name(match[2]), span) for match, span in zip(matches, spans, strict=True))
+
+
+def _tried(text: str) -> list[range]:
+    """Return the blocks after which somebody goes on who has caught that a package is not there."""
+    found = []
+    for catch in _CATCH.finditer(text):
+        handler = text[catch.end() : _closing(text, catch.end())]
+        begin = _opening(text, catch.start())
+        if begin >= 0 and not _GIVES_UP.search(handler):
+            found.append(range(begin, catch.start()))
+    return found
+
+
+_CATCH = re.compile(r"\}\s*catch\s*\([^()]*\bPackageNotFoundError\b[^()]*\)\s*\{")
+_GIVES_UP = re.compile(r"\b(?:throw|abort|exit|_Exit|quick_exit|terminate|FAIL|GTEST_FAIL|FATAL|RCLCPP_FATAL\w*)\b")
+_BRACE = re.compile(r"[{}]")
+
+
+def _closing(text: str, at: int) -> int:
+    """Return where the block ends that is open at an offset."""
+    depth = 1
+    for brace in _BRACE.finditer(text, at):
+        depth += 1 if brace[0] == "{" else -1
+        if not depth:
+            return brace.start()
+    return len(text)
+
+
+def _opening(text: str, end: int) -> int:
+    """Return where the block begins that a closing brace ends, -1 if it is not one of try."""
+    depth = 0
+    at = end + 1
+    while (at := max(text.rfind("{", 0, at), text.rfind("}", 0, at))) >= 0:
+        depth += 1 if text[at] == "}" else -1
+        if not depth:
+            return at if text[:at].rstrip().endswith("try") else -1
+    return -1
+
+
+def _files(text: str, calls: list[re.Match[str]]) -> Iterator[tuple[tuple[int, int], str, str]]:
+    """Yield the place of the first literal, the package and the path of files that are looked up."""
+    variables: dict[str, set[str]] = {}
+    for call in calls:
+        if call[1] == "get_package_prefix":
+            continue
+        closed = _CLOSED.match(text, call.end())
+        if closed is None:
+            continue
+        added = _ADDED.match(text, closed.end())
+        if added:
+            yield from _path(added, call[2])
+        elif assigned := _ASSIGNED.search(text, _statement(text, call.start()), call.start()):
+            variables.setdefault(assigned[1], set()).add(call[2])
+    for name, packages in variables.items():
+        if len(packages) == 1:
+            for end in _uses(text, name):
+                if added := _ADDED.match(text, end):
+                    yield from _path(added, *packages)
+
+
+def _statement(text: str, at: int) -> int:
+    """Return where the statement begins, or where to stop looking for that."""
+    farthest = max(0, at - _FARTHEST)
+    return max(farthest, text.rfind(";", farthest, at) + 1)
+
+
+def _uses(text: str, name: str) -> Iterator[int]:
+    """Yield the ends of the places where a variable is used, closing brackets included."""
+    start = text.find(name)
+    while start >= 0:
+        end = start + len(name)
+        before, after = text[start - 1 : start], text[end : end + 1]
+        if not (before.isalnum() or before == "_" or after.isalnum() or after == "_"):
+            closed = _MAY_CLOSE.match(text, end)
+            assert closed is not None
+            yield closed.end()
+        start = text.find(name, end)
+
+
+def _path(added: re.Match[str], package: str) -> Iterator[tuple[tuple[int, int], str, str]]:
+    pieces = list(_PIECE.finditer(added[1]))
+    text = ""
+    for piece in pieces:
+        text = f"{text}/{piece[2]}" if piece[1] == "/" else text + piece[2]
+    path = posixpath.normpath(text.lstrip("/")) if text.startswith("/") else ""
+    if path and path != "." and not path.startswith(".."):
+        start = added.start(1) + pieces[0].start(2)
+        yield (start, start + len(pieces[0][2])), package, path

@@ -1,0 +1,80 @@
+"""Macros in C++ that make classes loadable: components (rclcpp_components) and plugins (pluginlib, class_loader)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Literal
+
+from ros_lint.collectors.cpp.includes import blanked, in_doubt
+from ros_lint.facts.sources import Registration
+from ros_lint.facts.visibility import Facet, Opaque
+
+if TYPE_CHECKING:
+    from ros_lint.base.text import Text
+
+_OF_COMPONENTS = "RCLCPP_COMPONENTS_REGISTER_NODE"
+_NAMES = (_OF_COMPONENTS, "PLUGINLIB_EXPORT_CLASS", "CLASS_LOADER_REGISTER_CLASS")
+_MACRO = re.compile(rf"({'|'.join(_NAMES)})\s*\(([^;{{}}()#]*)\)")
+_CONTINUED = re.compile(r"\\\r?\n")
+
+
+def registrations(source: Text, code: Sequence[int] = ()) -> tuple[Registration, ...]:
+    """Return the classes that a C++ file makes loadable, in order. ``code`` are offsets known to be code, sorted."""
+    text = source.text
+    if not ("_REGISTER_" in text or "PLUGINLIB_EXPORT_CLASS" in text):
+        return ()
+    matches = list(_matches(text))
+    if any(in_doubt(text, match.start(), code) for match in matches):
+        matches = list(_matches(blanked(text)))
+    spans = source.spans([match.span(1) for match in matches])
+    found = []
+    for match, span in zip(matches, spans, strict=True):
+        name, _, base = (part.strip() for part in _CONTINUED.sub("", match[2]).partition(","))
+        kind: Literal["component", "plugin"] = "component" if match[1] == _OF_COMPONENTS else "plugin"
+        if name and (base or kind == "component"):
+            found.append(Registration(kind, class_name(name), span, class_name(base) if kind == "plugin" else ""))
+    return tuple(found)
+
+
+_DEFINITION = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)((?:[^\\\n]|\\\r?\n|\\.)*)", re.MULTILINE)
+
+
+def wrapped(source: Text) -> tuple[Opaque, ...]:
+    """Return where a C++ file defines a macro of its own that makes components loadable: which ones, its calls say.
+
+    Plugins are looked for by the names in their descriptions, see :func:`ros_lint.workspace.usage.textual_mentions.unwritten`.
+    """
+    text = source.text
+    if "define" not in text or _OF_COMPONENTS not in text:
+        return ()
+    return tuple(
+        Opaque(Facet.COMPONENTS, f"which classes {macro[1]}() makes loadable is not followed", source.span(*macro.span(1)))
+        for macro in _DEFINITION.finditer(text)
+        if macro[1] != _OF_COMPONENTS and _OF_COMPONENTS in macro[2]
+    )
+
+
+def _matches(text: str) -> Iterator[re.Match[str]]:
+    """Yield the calls at the beginning of a line, those in the definition of a macro left out.
+
+    Literal searches are many times faster than one of the pattern.
+    """
+    places = sorted(place for name in _NAMES for place in _places(text, name))
+    for place in places:
+        match = _MACRO.match(text, place)
+        start = text.rfind("\n", 0, place) + 1
+        if match and not text[start:place].strip(" \t") and not text.endswith(("\\\n", "\\\r\n"), 0, start):
+            yield match
+
+
+def _places(text: str, name: str) -> Iterator[int]:
+    place = text.find(name)
+    while place >= 0:
+        yield place
+        place = text.find(name, place + 1)
+
+
+def class_name(written: str) -> str:
+    """Return the name of a class in the one form in which names of classes are compared: no blanks, no leading ``::``."""
+    return "".join(written.split()).removeprefix("::")

@@ -1,0 +1,97 @@
+"""Names of types in C++ code: which it declares, which of messages it makes known, and where a bare name stands for one."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from ros_lint.base.text import Span, span_in
+
+if TYPE_CHECKING:
+    from collections.abc import Container, Iterable, Iterator, Mapping
+
+_BEFORE_TYPE = rb"\b(?:class|struct|union|enum(?:\s+(?:class|struct))?)\s+(?:[A-Z][A-Z0-9_]*\s+)?"
+_AFTER_TYPE = rb"\s*(?:final\b|\{|:(?!:))"
+_TYPE = re.compile(_BEFORE_TYPE + rb"([A-Za-z_]\w+)(?=" + _AFTER_TYPE + rb")")
+_NAMESPACE = re.compile(rb"\bnamespace\s+([\w:]+)\s*\{")
+_OWN = (
+    (re.compile(_BEFORE_TYPE + rb"\Z"), re.compile(_AFTER_TYPE)),
+    (re.compile(rb"\busing\s+\Z"), re.compile(rb"\s*=")),
+    (re.compile(rb"\bnamespace\s+(?:\w+::)*\Z"), re.compile(rb"\s*\{")),
+    (re.compile(rb"\btypedef\s[^;{}]*\Z"), re.compile(rb"\s*;")),
+)
+"""What stands before and after a name where code gives it a meaning of its own."""
+_MESSAGE = rb"(?:::)?(\w+)::(?:msg|srv|action)::"
+_USING = re.compile(rb"\busing\s+" + _MESSAGE + rb"(\w+)\s*;")
+_ALIAS = re.compile(rb"\busing\s+(\w+)\s*=\s*(?:typename\s+)?" + _MESSAGE + rb"\w+")
+_CHAIN = re.compile(rb"(?:\w+\s*::\s*)+\Z")
+_NEAR = 120
+"""How many bytes before a name are looked at."""
+_NO_CODE = re.compile(rb'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
+_SHORTEST = 4
+"""Of shorter names too many mean something else."""
+
+
+def declared(text: bytes) -> frozenset[bytes]:
+    """Return the names of the types that C++ code declares, forward declarations left out."""
+    return frozenset(name for name in _TYPE.findall(text) if len(name) >= _SHORTEST)
+
+
+def introduced(text: bytes) -> Mapping[str, set[bytes]]:
+    """Return the names under which C++ code makes messages known, by package: ``using pkg::msg::T;``, ``using X = ...``."""
+    found: dict[str, set[bytes]] = {}
+    if b"using " in text:
+        alias = [(package, name) for name, package in _ALIAS.findall(text)]
+        for package, name in (*_USING.findall(text), *alias):
+            if len(name) >= _SHORTEST:
+                found.setdefault(package.decode(), set()).add(name)
+    return found
+
+
+def namespaces(text: bytes) -> frozenset[bytes]:
+    """Return the parts of the names of the namespaces that C++ code opens."""
+    return frozenset(part for name in _NAMESPACE.findall(text) for part in name.split(b"::"))
+
+
+def code(text: bytes) -> bytes:
+    """Return C++ code with blanks for comments and strings, each character at its offset."""
+    return _NO_CODE.sub(_blank, text)
+
+
+def _blank(match: re.Match[bytes]) -> bytes:
+    return b"\n".join([b" " * len(line) for line in match[0].split(b"\n")])
+
+
+def first(texts: Iterable[tuple[str, bytes]], name: bytes, spaces: Container[bytes]) -> Span | None:
+    """Return the first place where a name stands for what is in some namespaces: alone or behind them.
+
+    None where the code means something else by it, or takes it from elsewhere as well. Of a namespace itself it is the first
+    place where something is taken from it.
+    """
+    found: Span | None = None
+    for path, text in texts:
+        for start in _places(text, name):
+            end = start + len(name)
+            before = text[max(start - _NEAR, 0) : start]
+            if any(left.search(before) and right.match(text, end) for left, right in _OWN):
+                return None
+            chain = _CHAIN.search(before)
+            if chain and not any(part.strip() in spaces for part in chain[0].split(b"::")):
+                return None
+            if not found and (name not in spaces or text.startswith(b"::", end)):
+                found = span_in(path, text, start, end)
+    return found
+
+
+def _places(text: bytes, name: bytes) -> Iterator[int]:
+    """Yield where a word stands that is no member of something."""
+    start = text.find(name)
+    while start >= 0:
+        before, after = text[max(start - 1, 0) : start], text[start + len(name) : start + len(name) + 1]
+        if not (before.isalnum() or before in _JOINED or after.isalnum() or after == b"_"):
+            yield start
+        start = text.find(name, start + 1)
+
+
+_JOINED = (b"_", b".", b">")
+"""What joins a name to what stands before it."""

@@ -1,0 +1,138 @@
+"""Sources in other languages that have ROS 2 bindings: Java, Rust and MATLAB.
+
+Their generators give every package of interfaces a name space of its own, as those of C++ do: ``std_msgs.msg.String``
+in Java, ``std_msgs::msg::String`` in Rust (reference, section C7). All mentions are ``via="symbol"``.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping
+from typing import TYPE_CHECKING
+
+from ros_lint.collectors.cpp.includes import blanked
+from ros_lint.facts.sources import FileFacts, Mention
+
+if TYPE_CHECKING:
+    from ros_lint.base.text import Text
+
+_STRING = re.compile(r'"(?:[^"\\\n]|\\.)*"')
+_JAVA_TYPE = re.compile(r"(?<![\w.])([a-z]\w*)\.(?:msg|srv|action)\.[A-Z*]\w*")
+_RCLJAVA = re.compile(r"^[ \t]*import[ \t]+(?:static[ \t]+)?(org\.ros2\.rcljava(?:\.(\w+))?)\b", re.MULTILINE)
+_OF_JAVA = (".msg.", ".srv.", ".action.", "org.ros2.rcljava")
+"""Something of this a Java source has that is of any interest: to look for it is much faster than to blank out comments."""
+_RCLJAVA_COMMON = frozenset({"common", "exceptions", "interfaces"})
+"""Parts of org.ros2.rcljava that the package rcljava_common has."""
+
+_CRATE = re.compile(r"(?<![\w:])(?:use\s+|extern\s+crate\s+)(rclrs|rosidl_runtime_rs)\b")
+_RUST_TYPE = re.compile(r"(?<![\w:])(?:::)?(?P<type>(?P<package>[a-z]\w*)::(?:msg|srv|action)::\w*)")
+_OF_RUST = ("::msg::", "::srv::", "::action::", "rclrs", "rosidl_runtime_rs")
+"""The same of a Rust source."""
+_OF_CRATE = re.compile(r"\buse\s[^;]*::\s*\{[^;]*\Z")
+"""Before a name that is one of another crate: ``use ros_env::{std_msgs::msg::String}``."""
+_SECTION = re.compile(r"^[ \t]*\[+([^\]\n]+)\]+", re.MULTILINE)
+_ENTRY = re.compile(r"^[ \t]*([\w-]+)(?:\.\w+)?[ \t]*=[ \t]*([^\n#]*)", re.MULTILINE)
+_FROM_WORKSPACE = re.compile(r'"\*"|\bpath[ \t]*=')
+
+_ROS_CALL = re.compile(r"\bros2(?:publisher|subscriber|message|svcclient|svcserver|actionclient|actionserver)[ \t]*\(([^%;\n]*)")
+_ROS_TYPE = re.compile(r"""["']([a-z]\w*)/(?:(?:msg|srv|action)/)?[A-Z]\w*["']""")
+_CONTINUED = re.compile(r"\.\.\.[^\n]*\n")
+
+
+def java(source: Text) -> FileFacts:
+    """Return the packages of the interfaces that a Java source names, and those of the client library."""
+    if not any(word in source.text for word in _OF_JAVA):
+        return FileFacts()
+    text = _STRING.sub(_spaces, blanked(source.text))
+    found = [(match.span(), match[1]) for match in _JAVA_TYPE.finditer(text)]
+    found += [
+        (match.span(1), "rcljava_common" if match[2] in _RCLJAVA_COMMON else "rcljava") for match in _RCLJAVA.finditer(text)
+    ]
+    return _facts(source, found)
+
+
+def rust(source: Text) -> FileFacts:
+    """Return the packages of the interfaces that a Rust source names, and those of the client library.
+
+    What stands in the unit tests of the source serves tests.
+    """
+    if not any(word in source.text for word in _OF_RUST):
+        return FileFacts()
+    text = _STRING.sub(_spaces, blanked(source.text))
+    found = [(match.span(1), match[1]) for match in _CRATE.finditer(text)]
+    found += [
+        (match.span("type"), match["package"])
+        for match in _RUST_TYPE.finditer(text)
+        if not _OF_CRATE.search(text, text.rfind(";", 0, match.start()) + 1, match.start())
+    ]
+    facts = _facts(source, found)
+    tests = source.text.find("#[cfg(test)]")
+    if tests < 0:
+        return facts
+    begin = source.span(tests, tests)  # they stand at the end
+    return facts._replace(mentions=tuple(mention._replace(test=mention.span > begin) for mention in facts.mentions))
+
+
+def cargo(source: Text) -> FileFacts:
+    """Return what a Cargo.toml depends on.
+
+    Crates of the workspace have the version ``*`` or a path, for which colcon-ros-cargo puts the installed package;
+    those with another version may come from elsewhere and are optional.
+    """
+    return FileFacts(tuple(_crates(source)))
+
+
+def _crates(source: Text) -> Iterator[Mention]:
+    text = source.text
+    sections = list(_SECTION.finditer(text))
+    for section, following in zip(sections, [*sections[1:], None], strict=True):
+        path = section[1].strip().split(".")
+        end = following.start() if following else len(text)
+        if path[-1].endswith("dependencies"):
+            entries = [(match.span(1), match[2]) for match in _ENTRY.finditer(text, section.end(), end)]
+        elif len(path) > 1 and path[-2].endswith("dependencies"):
+            start = section.end(1) - len(path[-1])
+            entries = [((start, section.end(1)), text[section.end() : end])]
+        else:
+            continue
+        test = "dev-dependencies" in path
+        for (start, stop), value in entries:
+            name = text[start:stop]
+            optional = not _FROM_WORKSPACE.search(value)
+            yield Mention(name, "symbol", source.span(start, stop), f"crate {name}", optional, test)
+
+
+def matlab(source: Text) -> FileFacts:
+    """Return the packages of the interfaces for which a MATLAB script makes publishers, clients and the like.
+
+    They are optional: MATLAB builds its own copy of them, and the script runs outside of the workspace.
+    """
+    text = _CONTINUED.sub(_spaces, source.text)
+    found = [
+        ((call.start(1) + kind.start(1), call.start(1) + kind.end() - 1), kind[1])
+        for call in _ROS_CALL.finditer(text)
+        if "%" not in text[text.rfind("\n", 0, call.start()) + 1 : call.start()]
+        for kind in _ROS_TYPE.finditer(call[1])
+    ]
+    return _facts(source, found, optional=True)
+
+
+COLLECTORS: Mapping[str, Callable[[Text], FileFacts]] = {"java": java, "rust": rust, "cargo": cargo, "matlab": matlab}
+"""By the kind of file, see :mod:`ros_lint.workspace.collect`."""
+
+
+def _spaces(match: re.Match[str]) -> str:
+    return " " * len(match[0])
+
+
+def _facts(source: Text, found: list[tuple[tuple[int, int], str]], *, optional: bool = False) -> FileFacts:
+    """Return mentions of packages, each at its first place."""
+    first: dict[str, tuple[int, int]] = {}
+    for place, package in sorted(found):
+        first.setdefault(package, place)
+    return FileFacts(
+        tuple(
+            Mention(package, "symbol", source.span(*place), source.text[place[0] : place[1]], optional)
+            for package, place in first.items()
+        ),
+    )

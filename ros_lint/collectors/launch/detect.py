@@ -1,0 +1,134 @@
+"""Which files are launch files, and in which of the three languages.
+
+Names decide little: ``.launch`` is XML of ROS 1 or ROS 2 or YAML, and one Python launch file in forty is called
+something else. So the content decides (reference, section G1; the loaders of ``launch.frontend`` and
+``python_launch_file_utilities`` do likewise).
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Literal
+
+from ros_lint.base.text import Text
+from ros_lint.facts.launch import LaunchFile
+
+Language = Literal["python", "xml", "yaml"]
+
+NAMES = ("launch.py", "launch.xml", "launch.yaml", "launch.yml", ".launch")
+"""How the names of files end that ``ros2 launch`` takes for launch files when it is given a name alone."""
+
+_PYTHON = re.compile(r"generate_(launch|test)_description\b")
+_DEFINED = re.compile(r"(?:async[ \t]+)?def[ \t]+\Z")
+_HELPER = re.compile(r"^[ \t]*(?:from|import)[ \t]+launch(?:_ros)?\b", re.MULTILINE)
+_ACTION = re.compile(r"\b(?:\w*Node|\w*LaunchDescription|ComposableNodeContainer)\(")
+_SPACE = re.compile(r"\s*")
+_ROOT = re.compile(r"<launch(?=[\s/>])")
+# What only ROS 1 understands, and what only ROS 2 does. A file with both is ROS 2 with leftovers.
+_ROS1 = re.compile(
+    r"<(?:rosparam|machine)\b|<(?:node|test)\b[^>]*?\stype\s*=|\$\((?:arg|find|optenv)\s"
+    r"|\spass_all_args\s*=|\sclear_params\s*=|<arg\b[^>]*?\sdoc\s*="
+    r"|<(?:launch|group\b[^>]*)>\s*(?:<!--(?:[^-]|-(?!->))*-->\s*)*<param\b"
+    r"|<param\b[^>]*?\s(?:command|textfile|binfile)\s*="
+)
+_ROS2 = re.compile(
+    r"\sexec\s*=|\$\((?:var|find-pkg-share|find-pkg-prefix|exec-in-pkg|command)\s"
+    r"|<(?:let|executable|node_container|load_composable_node|push[-_]ros[-_]namespace|set_parameter|set_env)\b"
+)
+_STARTED = re.compile(r"pkg|exec|\stype\s*=")
+_ROS2_WORDS = ("$(var ", "$(find-pkg-share ", " exec=")
+_YAML_ROOT = re.compile(r"^(?:launch|'launch'|\"launch\")[ \t]*:", re.MULTILINE)
+_YAML_OTHER = re.compile(r"^(?=[^\n])(?![ \t\r#%-]|launch[ \t]*:|['\"]launch['\"][ \t]*:|\.\.\.)", re.MULTILINE)
+
+
+def is_launch_file(path: str, text: str) -> Language | None:
+    """Return the language of a launch file of ROS 2, or None when it is no such file.
+
+    Python modules that only build launch actions for others count too, see :attr:`LaunchFile.helper`.
+    Launch files of ROS 1 do not: this tool has nothing to say about them.
+    """
+    if path.endswith(".py"):
+        if "launch" not in text and "generate_test" not in text:
+            return None
+        return "python" if entries(text) or (_HELPER.search(text) and _ACTION.search(text)) else None
+    if path.endswith((".yaml", ".yml")):
+        return "yaml" if _is_yaml(text) else None
+    if "<launch" in text and _is_xml(text):
+        return None if _is_of_others(path, text) else "xml"
+    if path.endswith(".launch") and _is_yaml(text):
+        return "yaml"
+    return None
+
+
+def entries(text: str) -> frozenset[str]:
+    """Return what a Python source defines for launch: ``launch``, ``test`` or both, by generate_*_description()."""
+    found = set()
+    for match in _PYTHON.finditer(text):
+        line = text.rfind("\n", 0, match.start()) + 1
+        if _DEFINED.match(text, line, match.start()):
+            found.add(match[1])
+    return frozenset(found)
+
+
+def collect(source: Text, language: Language) -> LaunchFile:
+    """Return what a launch file says. Never raises: what is wrong with the file is among its problems."""
+    found = _collect(source, language)
+    return found._replace(fills=True) if "allow_substs" in source.text else found
+
+
+def _collect(source: Text, language: Language) -> LaunchFile:
+    if language == "python":
+        from ros_lint.collectors.launch.python import collect as launch_py  # noqa: PLC0415  (most workspaces have files of one language)
+
+        return launch_py.collect(source)
+    if language == "xml":
+        from ros_lint.collectors.launch.markup import xml as launch_xml  # noqa: PLC0415
+
+        return launch_xml.collect(source)
+    from ros_lint.collectors.launch.markup import yaml as launch_yaml  # noqa: PLC0415
+
+    return launch_yaml.collect(source)
+
+
+def is_of_ros_1(text: str) -> bool:
+    """Return whether a text is a launch file of ROS 1, which nothing of ROS 2 reads."""
+    return "<launch" in text and _is_launch(text) and not _is_xml(text)
+
+
+def _is_launch(text: str) -> bool:
+    return _ROOT.match(text, _after_prolog(text)) is not None
+
+
+def _is_xml(text: str) -> bool:
+    if not _is_launch(text):
+        return False
+    # The plain words first: to search for the others takes as long as to read the file.
+    return any(word in text for word in _ROS2_WORDS) or not _ROS1.search(text) or bool(_ROS2.search(text))
+
+
+def _is_of_others(path: str, text: str) -> bool:
+    """Whether another program reads a format of its own that looks like this one: its nodes have neither package nor program."""
+    return "<node" in text and not path.endswith((".launch", ".launch.xml")) and not _STARTED.search(text)
+
+
+def _after_prolog(text: str) -> int:
+    """Return the offset of the first element: behind declaration, comments and document type."""
+    at = 0
+    while True:
+        at = _SPACE.match(text, at).end()  # type: ignore[union-attr]
+        for opening, closing in (("<?", "?>"), ("<!--", "-->"), ("<!", ">")):
+            if text.startswith(opening, at):
+                end = text.find(closing, at + len(opening))
+                subset = text.find("[", at, end) if opening == "<!" else -1
+                if subset >= 0:
+                    end = text.find(closing, text.find("]", subset))
+                if end < 0:
+                    return len(text)
+                at = end + len(closing)
+                break
+        else:
+            return at
+
+
+def _is_yaml(text: str) -> bool:
+    return bool(_YAML_ROOT.search(text)) and not _YAML_OTHER.search(text)

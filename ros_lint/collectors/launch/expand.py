@@ -1,0 +1,376 @@
+"""What a launch file starts when it is launched with some arguments (reference, section G1; ``launch`` and ``launch_ros``).
+
+A launch file is followed once, into actions whose texts still have marks for what is not known; here the marks are
+filled in. Conditions have three values: what is taken only perhaps is kept, and said to be so.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.collectors.launch.scope import Filling, Scope, Texts
+from ros_lint.collectors.symbolic_text import UNKNOWN, is_settled, joined
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+
+    from ros_lint.base.text import Span
+    from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchFile
+
+_DEEPEST = 20
+_MOST = 5_000
+_MOST_ACTIONS = 100_000
+
+
+class Started(NamedTuple):
+    """A node, a component, a process or an included file, as it is when the launch file runs."""
+
+    kind: str
+    """``node``, ``component``, ``process`` or ``include``."""
+    package: Texts
+    """Alternatives; UNKNOWN in a text for what is not known; empty when there is none."""
+    target: Texts
+    """The executable, the class, the command line, or the path of the file."""
+    name: Texts
+    namespace: Texts
+    parameters: tuple[tuple[str, Texts], ...]
+    remappings: tuple[tuple[Texts, Texts], ...]
+    arguments: tuple[tuple[str, Texts], ...]
+    certain: bool
+    """False when it depends on something that is not known."""
+    span: Span
+    depth: int
+    """How many includes lie between."""
+    container: Texts = ()
+    """The full name of the container that a component is loaded into."""
+    environment: tuple[tuple[str, Texts], ...] = ()
+    """Variables that the launch file sets for it."""
+    file: str = ""
+    """The path of an included file that was followed, as :attr:`LaunchFile.path`; "" when it could not be."""
+    unknown: tuple[str, ...] = ()
+    """Why something in the texts is not known."""
+    when: tuple[LaunchCondition, ...] = ()
+    """The conditions that it depends on and that are not known; empty when ``certain``."""
+    later: bool = False
+    """Whether it starts only when a timer or an event comes."""
+    words: tuple[Texts, ...] = ()
+    """What a node is given on its command line."""
+    via: Span | None = None
+    """The include in the file that is launched by which it comes, None for what stands in that file itself."""
+
+
+class Argument(NamedTuple):
+    """A launch argument that a file declares, with what it is in this run."""
+
+    name: str
+    texts: Texts
+    span: Span
+    depth: int
+    given: bool
+    """Whether it has its value from whoever launches or includes the file, and not from its default."""
+
+
+class Missing(NamedTuple):
+    """An argument that a file requires and nobody gives."""
+
+    name: str
+    span: Span
+    """Of the declaration."""
+    include: Span | None = None
+    """Of the include that does not give it, None for the file that is launched."""
+
+
+class Refused(NamedTuple):
+    """A value that is not among the choices of its argument."""
+
+    name: str
+    value: str
+    choices: tuple[str, ...]
+    span: Span
+    """Of the declaration."""
+
+
+class Circle(NamedTuple):
+    """An include that leads back to a file which is being included, with the same values: it never ends."""
+
+    path: str
+    """Of the file, as :attr:`LaunchFile.path`."""
+    span: Span
+    """Of the include."""
+
+
+class Expansion(NamedTuple):
+    """Everything that a launch file starts, in order."""
+
+    started: tuple[Started, ...]
+    missing: tuple[Missing, ...]
+    complete: bool
+    """False when it was cut short, because includes go in a circle or there is too much."""
+    arguments: tuple[Argument, ...] = ()
+    """In the order in which they are declared."""
+    refused: tuple[Refused, ...] = ()
+    circles: tuple[Circle, ...] = ()
+
+
+def expand(
+    file: LaunchFile,
+    given: Mapping[str, str],
+    files: Callable[[str], LaunchFile | None] = lambda path: None,
+    distro: str = "",
+    *,
+    brief: bool = False,
+) -> Expansion:
+    """Return what a launch file starts with the arguments given.
+
+    ``files`` finds an included file by its path, which may begin with the mark of an install prefix; the path of ``file``
+    itself says where it lies, too. ``brief`` leaves out parameters, but for files of them, remappings and what is passed to
+    included files, which are most of the work.
+    """
+    run = _Run(files, brief, {f"${name}": (value,) for name, value in (("ROS_DISTRO", distro),) if value})
+    run.file(file, {name: (value,) for name, value in given.items()})
+    return Expansion(
+        tuple(run.started),
+        tuple(run.missing),
+        run.complete,
+        tuple(run.arguments),
+        tuple(run.refused),
+        tuple(run.circles),
+    )
+
+
+class _Waiting(NamedTuple):
+    """What a timer or an event starts."""
+
+    place: int
+    """How much has been started before."""
+    actions: tuple[LaunchAction, ...]
+    scope: Scope
+    open: tuple[tuple[str, dict[str, Texts]], ...]
+    """The files that are being included."""
+    via: Span | None
+
+
+class _Run:
+    def __init__(self, files: Callable[[str], LaunchFile | None], brief: bool, environment: Mapping[str, Texts]) -> None:
+        self._files = files
+        self._brief = brief
+        self._filling = Filling(environment)
+        self._texts = self._filling.texts
+        self._open: list[tuple[str, dict[str, Texts]]] = []
+        self.started: list[Started] = []
+        self.missing: list[Missing] = []
+        self.arguments: list[Argument] = []
+        self.refused: list[Refused] = []
+        self.circles: list[Circle] = []
+        self.complete = True
+        self._left = _MOST_ACTIONS
+        self._via: Span | None = None
+        self._waiting: list[_Waiting] = []
+        self._values: dict[str, Texts] = {}
+        """What is set where no group puts it back."""
+
+    def file(self, file: LaunchFile, given: dict[str, Texts]) -> None:
+        folder = file.path.rpartition("/")[0]
+        self._open.append((file.path, dict(given)))
+        self._values = given
+        self._actions(file.actions, Scope(given, (folder or ".",)))
+        self._wake()
+
+    def _wake(self) -> None:
+        """Do what timers and events start, and put it where they stand.
+
+        By then all files have been gone through: what is declared or set after a timer counts, too. What was set before is
+        taken to be as it was there, since a function may have asked for it by then.
+        """
+        waiting, self._waiting = self._waiting, []
+        for one in reversed(waiting):  # so that the places of those before it stay what they are
+            end = len(self.started)
+            self._open, self._via = list(one.open), one.via
+            self._actions(one.actions, one.scope._replace(values={**self._values, **one.scope.values}, later=True))
+            self._wake()
+            new = self.started[end:]
+            del self.started[end:]
+            self.started[one.place : one.place] = new
+
+    def _actions(self, actions: Iterable[LaunchAction], scope: Scope) -> Scope:
+        for action in actions:
+            scope = self._action(action, scope)
+        return scope
+
+    def _action(self, action: LaunchAction, scope: Scope) -> Scope:
+        self._left -= 1
+        if len(self.started) > _MOST or self._left < 0:
+            self.complete = False
+            return scope
+        truth, when = self._filling.truth(action.conditions, scope)
+        if truth is False:
+            return scope
+        outer = scope
+        if truth is None:
+            scope = scope._replace(certain=False, when=(*scope.when, *when))
+        match action.kind:
+            case "argument":
+                self._declare(action, scope)
+            case "set":
+                for name in self._texts(action.target, scope):
+                    self._set(scope, name, self._texts(action.value, scope), scope.certain)
+            case "namespace" | "parameter" | "remap" | "environment":
+                return outer.after(self._pushed(action, scope))
+            case "group":
+                return outer.after(self._group(action, scope))
+            case "later":
+                seen = scope._replace(values=dict(scope.values))
+                self._waiting.append(_Waiting(len(self.started), action.children, seen, tuple(self._open), self._via))
+            case "include":
+                return outer.after(self._include(action, scope))
+            case "node" | "component" | "process":
+                started = self._start(action, scope)
+                container = _joined_namespaces(started.namespace, started.name) if started.name else (UNKNOWN,)
+                self._actions(action.children, scope._replace(container=container))
+            case _:
+                self._actions(action.children, scope)
+        return outer
+
+    def _declare(self, action: LaunchAction, scope: Scope) -> None:
+        for name in self._texts(action.target, scope):
+            given = name in scope.values
+            if not given and action.value is None:
+                if scope.certain:
+                    self.missing.append(Missing(name, action.span, scope.include))
+                scope.values[name] = (UNKNOWN,)
+            elif not given:
+                self._set(scope, name, self._texts(action.value, scope), scope.certain)
+            texts = scope.values[name]
+            self.arguments.append(Argument(name, texts, action.span, self._depth, given))
+            if scope.certain and len(texts) == 1 and is_settled(texts[0]) and self._is_refused(texts[0], action):
+                self.refused.append(Refused(name, texts[0], action.choices, action.span))
+
+    @staticmethod
+    def _is_refused(value: str, action: LaunchAction) -> bool:
+        return bool(action.choices) and all(map(is_settled, action.choices)) and value not in action.choices
+
+    def _set(self, scope: Scope, name: str, texts: Texts, certain: bool) -> None:
+        before = scope.values.get(name)
+        if certain or before is None:
+            scope.values[name] = texts
+        else:
+            scope.values[name] = tuple(dict.fromkeys((*before, *texts)))
+
+    def _pushed(self, action: LaunchAction, scope: Scope) -> Scope:
+        """Return a scope with what an action sets for everything that comes after it."""
+        texts = self._texts(action.value, scope)
+        if action.kind == "namespace":
+            return scope._replace(namespace=_joined_namespaces(scope.namespace, texts if scope.certain else (*texts, "")))
+        if not scope.certain:
+            texts = (*texts, UNKNOWN)
+        names = self._texts(action.target, scope) or ("",)
+        if action.kind == "remap":
+            return scope._replace(remappings=(*scope.remappings, (names, texts)))
+        if action.kind == "parameter":
+            return scope._replace(parameters=(*scope.parameters, *((name, texts) for name in names)))
+        before = dict(scope.environment)
+        if action.name is None:
+            pairs = tuple((name, texts) for name in names)
+        else:
+            separators = self._texts(dict(action.arguments).get("separator"), scope) or (":",)
+            order = -1 if action.name.texts == ("prepend",) else 1
+            rows = [(before.get(name, (UNKNOWN,)), separators, texts)[::order] for name in names]
+            pairs = tuple((name, joined(row, "".join)) for name, row in zip(names, rows, strict=True))
+        return scope._replace(environment=(*(one for one in scope.environment if one[0] not in names), *pairs))
+
+    def _group(self, action: LaunchAction, scope: Scope) -> Scope:
+        """Do what a group does, and return what holds after it."""
+        name = self._texts(action.name, scope)
+        inner = scope._replace(values=dict(scope.values)) if action.has_scope else scope
+        if action.has_scope and name:
+            inner = inner._replace(container=name)
+        for given, value in action.arguments:
+            self._set(inner, given, self._texts(value, scope), certain=True)
+        after = self._actions(action.children, inner)
+        return scope if action.has_scope else after
+
+    def _include(self, action: LaunchAction, scope: Scope) -> Scope:
+        started = self._start(action, scope)
+        for name, value in action.arguments:
+            if name:
+                self._set(scope, name, self._texts(value, scope), scope.certain)
+        path = started.target[0] if len(started.target) == 1 else UNKNOWN
+        file = self._files(path) if is_settled(path) else None
+        if file is None:
+            return scope
+        self.started[-1] = started._replace(file=file.path)
+        again = (path, scope.values) in self._open
+        if again and scope.certain:
+            self.circles.append(Circle(file.path, action.span))
+        if again or self.circles or len(self._open) > _DEEPEST:
+            self.complete = False
+            return scope
+        self._via = self._via if self._depth else action.span
+        self._open.append((path, dict(scope.values)))
+        # What is included shares the configurations and the namespace, but not the place that it stands in.
+        after = self._actions(file.actions, scope._replace(folder=(path.rpartition("/")[0],), include=action.span, container=()))
+        self._open.pop()
+        self._via = self._via if self._depth else None
+        return after
+
+    @property
+    def _depth(self) -> int:
+        return len(self._open) - 1
+
+    def _start(self, action: LaunchAction, scope: Scope) -> Started:
+        is_process = action.kind == "process"
+        self._filling.unknown.clear()
+        if self._brief:
+            words_only = tuple([one for one in action.arguments if not one[0]])
+            files_only = tuple([one for one in action.parameters if not one[0]])
+            action = action._replace(parameters=files_only, remappings=(), arguments=words_only)
+        is_node = action.kind in ("node", "component")
+        words = tuple([self._texts(value, scope) for name, value in action.arguments if not name])
+        named = [(name, self._texts(value, scope)) for name, value in action.arguments if name]
+        started = Started(
+            action.kind,
+            self._texts(action.package, scope),
+            joined(words, " ".join) if words and is_process else self._texts(action.target, scope),
+            self._texts(action.name, scope),
+            _joined_namespaces(scope.namespace, self._texts(action.namespace, scope) or ("",)),
+            (
+                *(scope.parameters if is_node else ()),
+                *(
+                    (name, self._texts(value, scope))
+                    for name, value in action.parameters
+                    if not value.conditions or self._filling.truth(value.conditions, scope)[0] is not False
+                ),
+            ),
+            (
+                *(scope.remappings if is_node else ()),
+                *((self._texts(a, scope), self._texts(b, scope)) for a, b in action.remappings),
+            ),
+            tuple(one for one in named if not one[0].startswith("$")),
+            scope.certain,
+            action.span,
+            self._depth,
+            scope.container if action.kind == "component" else (),
+            (
+                *(scope.environment if action.kind in ("node", "process") else ()),
+                *((name[1:], texts) for name, texts in named if name.startswith("$")),
+            ),
+            unknown=tuple(self._filling.unknown),
+            when=scope.when,
+            later=scope.later,
+            words=() if is_process else words,
+            via=self._via,
+        )
+        self.started.append(started)
+        return started
+
+
+def _joined_namespaces(outer: Texts, inner: Texts) -> Texts:
+    """Return namespaces under others; an absolute one stands for itself (``make_namespace_absolute``)."""
+    return joined([outer, inner], _joined_namespace)
+
+
+def _joined_namespace(row: Texts) -> str:
+    outer, inner = row
+    if inner.startswith("/") or not outer:
+        return inner
+    return f"{outer.rstrip('/')}/{inner}" if inner else outer

@@ -1,0 +1,193 @@
+"""Python expressions in launch files, ``$(eval ...)`` and PythonExpression: their value, when nothing in them can surprise."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Callable, Mapping
+from functools import lru_cache
+from typing import Any
+
+from ros_lint.collectors.python.operators import ARITHMETIC, COMPARISONS
+from ros_lint.collectors.python.syntax import NotPythonError, read_expression
+from ros_lint.collectors.python.versions import BUILTINS, MATH
+from ros_lint.collectors.symbolic_text import UNKNOWN
+
+_LONGEST = 2_000
+_MOST = 10_000
+"""How many letters and items a value may have, those of its items included."""
+_WIDE = re.compile(r"%[^%a-zA-Z]*(?:\*|\d{4})")
+"""A conversion that makes a text of any length."""
+
+
+class _Unknown(Exception):  # noqa: N818
+    """The value is not known."""
+
+
+@lru_cache(maxsize=1_024)
+def evaluate(text: str) -> str:
+    """Return str() of the value of an expression, UNKNOWN if it has none or needs more than constants."""
+    if len(text) > _LONGEST:
+        return UNKNOWN
+    try:
+        return str(_value(read_expression(text.strip())))
+    except (_Unknown, NotPythonError, ValueError, TypeError, ArithmeticError, LookupError, RecursionError, MemoryError):
+        return UNKNOWN
+
+
+@lru_cache(maxsize=1_024)
+def refused(text: str) -> tuple[str, ...] | None:
+    """Return the names in an expression that Python does not know where launch evaluates it, None if it is no expression."""
+    try:
+        tree = read_expression(text.lstrip())
+    except NotPythonError:
+        return None
+    names = [node for node in ast.walk(tree) if isinstance(node, ast.Name)]
+    bound = {node.id for node in names if not isinstance(node.ctx, ast.Load)}
+    bound.update(node.arg for node in ast.walk(tree) if isinstance(node, ast.arg))
+    return tuple(dict.fromkeys([node.id for node in names if node.id not in bound and node.id not in _KNOWN]))
+
+
+_KNOWN = BUILTINS | MATH | {"math"}
+"""PythonExpression knows what Python does, and what is in math."""
+
+
+def means_true(text: str) -> bool | None:
+    """Return what a condition takes a text for: None when it is neither true nor false (``evaluate_condition_expression``)."""
+    word = text.strip().lower()
+    if word in ("true", "1"):
+        return True
+    return False if word in ("false", "0") else None
+
+
+_COMPARE: Mapping[type[ast.cmpop], Callable[[Any, Any], Any]] = {
+    **COMPARISONS,
+    ast.Is: lambda a, b: a is b or a == b,
+    ast.IsNot: lambda a, b: not (a is b or a == b),
+    ast.In: lambda a, b: a in b,
+    ast.NotIn: lambda a, b: a not in b,
+}
+EVALUATED = frozenset({"capitalize", "casefold", "endswith", "lower", "startswith", "title", "upper"})
+"""Methods of texts that an expression may call, and that are no longer than these."""
+_METHODS = EVALUATED | {"strip", "lstrip", "rstrip", "replace", "split", "find", "count"}
+
+
+def _value(node: ast.expr) -> Any:
+    match node:
+        case ast.Constant(value=value):
+            return value
+        case ast.Name(id=name) if name in ("true", "false"):
+            return name == "true"
+        case ast.UnaryOp(op=op, operand=operand):
+            value = _value(operand)
+            return not value if isinstance(op, ast.Not) else -value if isinstance(op, ast.USub) else _refuse()
+        case ast.BoolOp(op=op, values=values):
+            result: Any = None
+            for part in values:
+                result = _value(part)
+                if bool(result) is isinstance(op, ast.Or):
+                    return result
+            return result
+        case ast.BinOp(left=left, op=op, right=right) if type(op) in ARITHMETIC:
+            return _arithmetic(op, _value(left), _value(right))
+        case ast.Compare(left=left, ops=ops, comparators=comparators):
+            before = _value(left)
+            for comparison, comparator in zip(ops, comparators, strict=True):
+                after = _value(comparator)
+                if not _COMPARE[type(comparison)](before, after):
+                    return False
+                before = after
+            return True
+        case ast.IfExp(test=test, body=body, orelse=orelse):
+            return _value(body) if _value(test) else _value(orelse)
+        case ast.List(elts=elts):
+            return _small([_value(element) for element in elts])
+        case ast.Tuple(elts=elts):
+            return _small(tuple([_value(element) for element in elts]))
+        case ast.Dict(keys=keys, values=values):
+            return _small({_value(key): _value(value) for key, value in zip(keys, values, strict=True) if key is not None})
+        case ast.Subscript(value=owner, slice=ast.Slice(lower=lower, upper=upper, step=step)):
+            return _value(owner)[slice(*[None if part is None else _value(part) for part in (lower, upper, step)])]
+        case ast.Subscript(value=owner, slice=key):
+            return _value(owner)[_value(key)]
+        case ast.Call():
+            return _call(node)
+    return _refuse()
+
+
+def _call(node: ast.Call) -> Any:
+    arguments = [_value(argument) for argument in node.args]
+    if isinstance(node.func, ast.Attribute) and node.func.attr in _METHODS:
+        owner = _value(node.func.value)
+        if not isinstance(owner, str):
+            return _refuse()
+        if node.func.attr == "replace" and len(owner) * sum(map(len, arguments[1:2])) > _MOST:
+            return _refuse()
+        return _small(getattr(owner, node.func.attr)(*arguments))
+    name = node.func.id if isinstance(node.func, ast.Name) else ""
+    if name in _FUNCTIONS:
+        return _FUNCTIONS[name](*arguments)
+    return _refuse()
+
+
+def _truth(text: Any) -> bool:
+    found = means_true(str(text))
+    return _refuse() if found is None else found
+
+
+def _equals(left: Any, right: Any) -> bool:
+    """EqualsSubstitution compares truths and numbers by their value."""
+    one, other = means_true(str(left)), means_true(str(right))
+    return one == other if one is not None and other is not None else str(left) == str(right)
+
+
+_FUNCTIONS: Mapping[str, Callable[..., Any]] = {
+    "str": str,
+    "int": int,
+    "float": float,
+    "bool": bool,
+    "len": len,
+    "_equals": _equals,
+    "_not_equals": lambda left, right: not _equals(left, right),
+    "_if": lambda condition, one, other: one if _truth(condition) else other,
+    "_not": lambda value: not _truth(value),
+    "_and": lambda *values: all(_truth(value) for value in values),
+    "_or": lambda *values: any(_truth(value) for value in values),
+}
+
+
+def _arithmetic(op: ast.operator, left: Any, right: Any) -> Any:
+    if isinstance(op, ast.Mult):
+        for one, times in ((left, right), (right, left)):
+            if isinstance(one, (str, list, tuple)) and isinstance(times, int) and _size(one) * times > _MOST:
+                raise _Unknown
+    if isinstance(op, ast.Mod) and isinstance(left, str) and _WIDE.search(left):
+        raise _Unknown
+    return _small(ARITHMETIC[type(op)](left, right))
+
+
+def _small(value: Any) -> Any:
+    """Return a value that is not large, or raise."""
+    if isinstance(value, int) and abs(value) > 1 << 64:
+        raise _Unknown
+    if isinstance(value, (str, list, tuple, dict)) and _size(value) > _MOST:
+        raise _Unknown
+    return value
+
+
+def _size(value: Any) -> int:
+    """Return the letters and items in a value, those in its items included; at most a little more than is allowed."""
+    found = 0
+    waiting = [value]
+    while waiting and found <= _MOST:
+        one = waiting.pop()
+        found += len(one) if isinstance(one, (str, list, tuple, dict)) else 1
+        if isinstance(one, dict):
+            waiting += [*one.keys(), *one.values()]
+        elif isinstance(one, (list, tuple)):
+            waiting += one
+    return found
+
+
+def _refuse() -> Any:
+    raise _Unknown

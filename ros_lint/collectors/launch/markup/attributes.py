@@ -1,0 +1,297 @@
+"""How the attributes of XML and YAML launch files are read, and where the front end refuses them.
+
+This follows the ``parse`` methods of ``launch`` and ``launch_ros`` one by one (reference, section G3.4), so that a file is
+refused here exactly when the real front end refuses it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Mapping
+from functools import lru_cache
+from typing import Any, NamedTuple, NoReturn
+
+from ros_lint.base.text import Span, Text
+from ros_lint.collectors.launch.markup.entity import Entity, Rejected, Type
+from ros_lint.collectors.launch.markup.substitution_syntax import Literal, Substitution, SubstitutionError, parse
+from ros_lint.collectors.launch.markup.substitutions import Pieces, package_of, simple_text, texts
+from ros_lint.collectors.launch.markup.tags import EXTENSIONS, ROS_1, SINCE, SUBSTITUTIONS
+from ros_lint.collectors.symbolic_text import joined
+from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchValue
+from ros_lint.facts.visibility import Problem
+
+_make = tuple.__new__  # half of what the constructor takes
+
+
+class Reader:
+    """Reads entities by rules, one to a tag, and notes what is refused."""
+
+    def __init__(self, source: Text, rules: Mapping[str, Rule]) -> None:
+        self._source = source
+        self._rules = rules
+        self.problems: list[Problem] = []
+        self.newer: dict[Problem, None] = {}
+        """What not every distribution takes; ``kind`` is the first that does."""
+
+    def note_newer(self, what: str, span: Span) -> None:
+        """Note something that not every distribution takes."""
+        self.newer[Problem(SINCE[what], what, span)] = None
+
+    def refuse(self, error: Rejected) -> None:
+        """Note that the front end refuses something."""
+        self.problems.append(error.problem)
+
+    def actions(self, entities: Iterable[Entity]) -> list[LaunchAction]:
+        """Return what entities do. One that is refused is noted, and does nothing."""
+        found: list[LaunchAction] = []
+        for entity in entities:
+            try:
+                found += self._action(entity)
+            except Rejected as error:
+                self.refuse(error)
+        return found
+
+    def _action(self, entity: Entity) -> list[LaunchAction]:
+        rule = self._rules.get(entity.tag)
+        if rule is None:
+            if entity.tag in EXTENSIONS:
+                return []  # its package says what it takes
+            raise Rejected("unknown-tag", f"there is no tag <{entity.tag}>", entity.span, ROS_1.get(f"<{entity.tag}>", ""))
+        if entity.tag in _NEWER_TAGS:
+            self.note_newer(f"<{entity.tag}>", entity.span)
+        action = rule(self, entity)
+        entity.finish()
+        return [action]
+
+    # --- attributes -----------------------------------------------------------------------------------------------
+
+    def _texts(self, entity: Entity, name: str, value: str) -> tuple[str, ...]:
+        """Return what a value with substitutions becomes. Raises Rejected."""
+        found = reading(value)
+        if _NEWER.search(value):
+            self._note_substitutions(entity, name, value)
+        return self._refused(entity, name, value, found) if isinstance(found, Mistake) else found
+
+    def _pieces(self, entity: Entity, name: str, value: str) -> Pieces:
+        """Return a value as text and substitutions. Raises Rejected."""
+        found = _pieces(value)
+        if _NEWER.search(value):
+            self._note_substitutions(entity, name, value)
+        return self._refused(entity, name, value, found) if isinstance(found, Mistake) else found
+
+    def _note_substitutions(self, entity: Entity, name: str, value: str) -> None:
+        pieces = _pieces(value)
+        for piece in () if isinstance(pieces, Mistake) else _substitutions(pieces):
+            what = "$(eval) with modules" if piece.name == "eval" and len(piece.arguments) > 1 else f"$({piece.name})"
+            if what in SINCE:
+                self.note_newer(what, self._inner(entity, name, value, piece.start, piece.end))
+
+    def _refused(self, entity: Entity, name: str, value: str, found: Mistake) -> NoReturn:
+        raise Rejected(found.kind, found.message, self._inner(entity, name, value, found.start, found.end), found.instead)
+
+    def _inner(self, entity: Entity, name: str, value: str, start: int, end: int) -> Span:
+        """Return the place of a part of a value, of all of it where it is not written as it is meant."""
+        span, plain = entity.written(name)
+        if not plain or entity.attributes[name] != value:
+            return span
+        if span.line == span.end_line:
+            return Span(span.path, span.line, span.column + start, span.line, span.column + end)
+        first = self._source.offset(span.line, span.column)
+        return self._source.span(first + start, first + end)
+
+    def text(self, entity: Entity, name: str) -> LaunchValue:
+        """Return an attribute that must be there as a text. Raises Rejected."""
+        return self.optional(entity, name) or self._value(entity, name, entity.need(name))
+
+    def optional(self, entity: Entity, name: str) -> LaunchValue | None:
+        """Return an attribute as a text, None when it is not there. Raises Rejected."""
+        if entity.simple:
+            value = entity.attributes.get(name)
+            if value is None:
+                return None
+            entity.read.add(name)
+        else:
+            value = entity.get(name)
+        return None if value is None else self._value(entity, name, value)
+
+    def _value(self, entity: Entity, name: str, value: str) -> LaunchValue:
+        texts = (value,) if "$" not in value and "\\" not in value else self._texts(entity, name, value)
+        span, plain = entity.written(name)
+        return _make(LaunchValue, (texts, span, plain and len(texts) == 1 and texts[0] == value, ()))
+
+    def typed(self, entity: Entity, name: str, kind: Type) -> Any:
+        """Return an attribute that may be a substitution instead of what is asked for, None when it is not there."""
+        value = entity.get(name, kind)
+        if isinstance(value, list):
+            kinds = {self._kind(entity, name, one) for one in value} - {None}
+            if len(kinds) > 1:
+                raise Rejected("wrong-type", f"'{name}' of <{entity.tag}> mixes types in a list", entity.place(name))
+            return value
+        if isinstance(value, str) and self._kind(entity, name, value) is None:
+            return self._value(entity, name, value)
+        return value
+
+    def listed(self, entity: Entity, name: str, values: list[Any]) -> LaunchValue:
+        """Return a list that an attribute holds as one text, as YAML has it."""
+        rows = [self._texts(entity, name, one) if isinstance(one, str) else (str(one),) for one in values]
+        return LaunchValue(joined(rows, _as_yaml), entity.place(name))
+
+    def _kind(self, entity: Entity, name: str, value: Any) -> type | None:
+        """Return the type of a value, None for a text with substitutions."""
+        if not isinstance(value, str):
+            return type(value)
+        pieces = self._pieces(entity, name, value)
+        return str if len(pieces) == 1 and isinstance(pieces[0], Literal) else None
+
+    def package_span(self, entity: Entity, *names: str) -> Span | None:
+        """Return where the package is written that the path in an attribute lies in."""
+        for name in names:
+            value = entity.attributes.get(name)
+            if not isinstance(value, str) or "-pkg" not in value:
+                continue
+            self._texts(entity, name, value)
+            place = _package_place(value)
+            if place is not None:
+                return self._inner(entity, name, value, *place)
+        return None
+
+    def words(self, entity: Entity, name: str, value: str) -> tuple[tuple[str, LaunchValue], ...]:
+        """Return the words of a command line, as the front end splits it: texts in it by the rules of a shell."""
+        row: list[list[Literal | Substitution]] = [[]]
+        for piece in self._pieces(entity, name, value):
+            if isinstance(piece, Substitution):
+                row[-1].append(piece)
+                continue
+            try:
+                import shlex  # noqa: PLC0415  (few files have command lines)
+
+                tokens = shlex.split(piece.text)
+            except ValueError:
+                raise Rejected("quotes", f"'{name}' of <{entity.tag}> has an unclosed quote", entity.place(name)) from None
+            if piece.text[:1].isspace() and row[-1]:
+                row.append([])
+            for number, token in enumerate(tokens):
+                if number:
+                    row.append([])
+                row[-1].append(Literal(token, piece.start, piece.end))
+            if piece.text[-1:].isspace() and row[-1]:
+                row.append([])
+        span = entity.place(name)
+        return tuple(("", LaunchValue(texts(tuple(word)), span)) for word in row if word)
+
+    def need_truth(self, entity: Entity, name: str) -> None:
+        """Refuse an attribute that is there and neither true nor false."""
+        value = self.typed(entity, name, "bool")
+        if isinstance(value, str):
+            raise Rejected("wrong-type", f"'{name}' of <{entity.tag}> is neither true nor false", entity.place(name))
+
+    def named(self, entity: Entity, tag: str) -> tuple[tuple[str, LaunchValue], ...]:
+        """Return children that give a value to a name."""
+        found: list[tuple[str, LaunchValue]] = []
+        children = entity.entities(tag)
+        for child in children:
+            if not child.simple or "name" not in child.attributes:
+                child.need("name")
+            given = self.text(child, "value")
+            found += [(one, given) for one in self.text(child, "name").texts]
+        for child in children:
+            child.finish()
+        return tuple(found)
+
+    def conditions(self, entity: Entity) -> tuple[LaunchCondition, ...]:
+        """Return what ``if`` and ``unless`` ask for. Raises Rejected."""
+        if entity.simple and "if" not in entity.attributes and "unless" not in entity.attributes:
+            return ()
+        wanted, unwanted = entity.get("if"), entity.get("unless")
+        if wanted is not None and unwanted is not None:
+            raise Rejected("conditions", f"<{entity.tag}> has both 'if' and 'unless'", entity.place("unless"))
+        if wanted is not None:
+            return (LaunchCondition(self._texts(entity, "if", wanted), None),)
+        if unwanted is not None:
+            return (LaunchCondition(self._texts(entity, "unless", unwanted), None, wanted=False),)
+        return ()
+
+
+class Mistake(NamedTuple):
+    """Why a value is refused, and the offsets of what is wrong in it."""
+
+    kind: str
+    message: str
+    start: int
+    end: int
+    instead: str = ""
+    """As :attr:`Problem.instead`."""
+
+
+def _as_yaml(row: tuple[str, ...]) -> str:
+    return f"[{', '.join(repr(one) if ',' in one else one for one in row)}]"
+
+
+@lru_cache(maxsize=4_096)
+def reading(value: str) -> tuple[str, ...] | Mistake:
+    """Return what a value becomes, or why the front end refuses it. Few values are written in one place only."""
+    found = simple_text(value)
+    if found is not None:
+        return (found,)
+    pieces = _pieces(value)
+    return pieces if isinstance(pieces, Mistake) else texts(pieces)
+
+
+@lru_cache(maxsize=4_096)
+def _pieces(value: str) -> Pieces | Mistake:
+    try:
+        pieces = parse(value) if value else (Literal("", 0, 0),)
+    except SubstitutionError as error:
+        return Mistake("substitution", error.message, error.offset, len(value))
+    for piece in _substitutions(pieces):
+        wrong = _wrong(piece)
+        if wrong is not None:
+            return Mistake(*wrong, piece.start, piece.end, ROS_1.get(f"$({piece.name})", ""))
+    return pieces
+
+
+@lru_cache(maxsize=4_096)
+def _package_place(value: str) -> tuple[int, int] | None:
+    """Return the offsets of the package in the first look-up of one, None if a value that is right has none."""
+    if "exec-in-pkg" not in value and simple_text(value) is not None:
+        match = _LOOK_UP.search(value)
+        return match.span(1) if match else None
+    argument = package_of(parse(value))
+    return (argument[0].start, argument[-1].end) if argument else None
+
+
+_NEWER_TAGS = frozenset([what[1:-1] for what in SINCE if re.fullmatch(r"<\w+>", what)])
+_NEWER = re.compile(r"\$\((?:eval|" + "|".join([what[2:-1] for what in SINCE if re.fullmatch(r"\$\(.*\)", what)]) + r")[ )]")
+"""Substitutions that not every distribution takes, or not with everything."""
+_LOOK_UP = re.compile(r"\$\(find-pkg-(?:share|prefix) ([^)]*)\)")
+
+
+def _wrong(piece: Substitution) -> tuple[str, str] | None:
+    """Return kind and message of what is wrong with the number of arguments of a substitution."""
+    limits = SUBSTITUTIONS.get(piece.name)
+    if limits is None:
+        return "unknown-substitution", f"there is no substitution $({piece.name})"
+    least, most = limits
+    if not least <= len(piece.arguments) <= most:
+        wanted = str(least) if least == most else f"{least} to {most}"
+        given = len(piece.arguments)
+        message = f"$({piece.name}) takes {wanted} argument{'' if wanted == '1' else 's'}, not {given}"
+        return "substitution-arguments", message
+    if (
+        piece.name == "eval"
+        and len(piece.arguments) == 2
+        and any(isinstance(one, Substitution) for one in piece.arguments[1][:1])
+    ):
+        return "substitution-arguments", "the modules of $(eval) must be written out"
+    return None
+
+
+def _substitutions(pieces: Pieces) -> Iterable[Substitution]:
+    for piece in pieces:
+        if isinstance(piece, Substitution):
+            yield piece
+            for argument in piece.arguments:
+                yield from _substitutions(argument)
+
+
+Rule = Callable[[Reader, Entity], LaunchAction]

@@ -1,0 +1,70 @@
+"""What XML and YAML launch files do, tag by tag.
+
+This follows the ``parse`` methods of ``launch`` and ``launch_ros`` one by one (reference, section G3.4), so that a file is
+refused here exactly when the real front end refuses it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from ros_lint.base.text import Text
+from ros_lint.collectors.launch.markup import actions as launch_markup_actions
+from ros_lint.collectors.launch.markup import nodes as launch_markup_nodes
+from ros_lint.collectors.launch.markup.attributes import Reader, Rule
+from ros_lint.collectors.launch.markup.entity import Entity, Rejected
+from ros_lint.collectors.launch.references import References
+from ros_lint.collectors.symbolic_text import UNKNOWN
+from ros_lint.facts.launch import LaunchAction, LaunchReference
+from ros_lint.facts.visibility import Opaque, Problem
+
+
+class Found(NamedTuple):
+    """What a launch file refers to, what hides more, what is wrong with it, and what it does."""
+
+    references: tuple[LaunchReference, ...]
+    opaque: tuple[Opaque, ...]
+    problems: tuple[Problem, ...]
+    actions: tuple[LaunchAction, ...]
+    newer: tuple[Problem, ...]
+    """What not every distribution takes; ``kind`` is the first that does."""
+
+
+def read(source: Text, root: Entity) -> Found:
+    """Return what the entities of a launch file say."""
+    reader = Reader(source, _RULES)
+    actions: list[LaunchAction] = []
+    try:
+        if root.tag != "launch":
+            raise Rejected("root", "the root must be <launch>", root.span)
+        root.get("deprecated")
+        children = root.actions()
+    except Rejected as error:
+        reader.refuse(error)
+    else:
+        actions = reader.actions(children)
+    references = References(actions)
+    return Found(
+        references.all(),
+        tuple(references.opaque),
+        (*reader.problems, *references.problems),
+        tuple(actions),
+        tuple(reader.newer),
+    )
+
+
+_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+_ASKED = re.compile(r"\$\(var[ ]+[\"']?(\$\(|[^\s()\"']+)")
+
+
+def asks(text: str) -> tuple[str, ...]:
+    """Return the launch configurations that a text asks for anywhere, sorted, UNKNOWN among them if a name is computed."""
+    if "$(var" not in text:
+        return ()
+    names = set(_ASKED.findall(_COMMENT.sub("", text) if "<!--" in text else text))
+    return tuple(sorted(UNKNOWN if name == "$(" else name for name in names))
+
+
+_RULES: Mapping[str, Rule] = {**launch_markup_actions.RULES, **launch_markup_nodes.RULES}

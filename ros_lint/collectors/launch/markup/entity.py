@@ -1,0 +1,355 @@
+"""Entities of launch files in XML and YAML, and what their attributes can hold (``launch.frontend.Entity``).
+
+The two front ends differ in one thing: XML has text and turns it into the type that is asked for, YAML has types and
+checks them (reference, section G3.2).
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any, Final, Literal
+
+from ros_lint.base.text import Span
+from ros_lint.base.xml_tree import Element, attribute_places
+from ros_lint.collectors.launch.markup.tags import ROS_1
+from ros_lint.facts.visibility import Problem
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from ros_lint.base.text import Text
+
+Type = Literal["str", "int", "float", "bool", "any", "strs", "ints", "floats", "bools"]
+"""What an attribute is asked to be; ``any`` is what YAML's rules make of it."""
+
+_make = tuple.__new__  # half of what the constructor takes
+
+_SCALARS: Mapping[str, type] = {"str": str, "int": int, "float": float, "bool": bool}
+_LISTS: Mapping[str, type] = {"strs": str, "ints": int, "floats": float, "bools": bool}
+
+
+class Rejected(Exception):  # noqa: N818
+    """The real front end refuses the file here, see :class:`Problem`."""
+
+    def __init__(self, kind: str, message: str, span: Span, instead: str = "") -> None:
+        super().__init__(message)
+        self.problem: Final = Problem(kind, message, span, instead)
+
+
+NO_VALUE: Final = object()
+"""A value of YAML that no attribute takes: a mapping, a date, nested lists."""
+
+
+class Entity:
+    """An element with attributes and children. ``start`` and ``end`` are the offsets of its tag."""
+
+    __slots__ = (
+        "_read_children",
+        "_source",
+        "_spots",
+        "_written",
+        "attributes",
+        "children",
+        "end",
+        "form",
+        "read",
+        "simple",
+        "start",
+        "tag",
+    )
+
+    def __init__(
+        self,
+        source: Text,
+        tag: str,
+        attributes: Mapping[str, Any],
+        children: list[Entity],
+        start: int,
+        end: int,
+        form: Literal["element", "mapping", "list", "other"],
+        spots: dict[str, tuple[int, int]] | None,
+        simple: bool,
+    ) -> None:
+        """Make an entity. ``spots`` are the offsets of the values of its attributes; in XML they are found when wanted."""
+        self._source = source
+        self.tag = tag
+        self.attributes = attributes
+        """In XML texts; in YAML texts, numbers, truths, None, lists of these, or :data:`NO_VALUE` for anything else."""
+        self.children = children
+        """In YAML those below ``children`` and those of lists of mappings under other keys, which are their tags."""
+        self.start = start
+        self.end = end
+        self.form = form
+        """``element`` in XML; in YAML what stands behind the key."""
+        self._spots = spots
+        self._written: dict[str, tuple[Span, bool]] | None = None
+        self.simple = simple
+        """Whether each attribute is the text that is written: in XML, and without separators."""
+        self.read: set[str] = set()
+        """The attributes that were asked for."""
+        self._read_children: set[str] | None = set()
+
+    @property
+    def span(self) -> Span:
+        """The place of the tag."""
+        return self._source.span(self.start, self.end)
+
+    def written(self, name: str) -> tuple[Span, bool]:
+        """Return the place of the value of an attribute that is there, and whether it stands there letter by letter."""
+        found = self._written
+        if found is None:
+            found = self._written = self._find_written()
+        return found.get(name) or (self._source.span(self.start - 1, self.start - 1), False)
+
+    def _find_written(self) -> dict[str, tuple[Span, bool]]:
+        source, text = self._source, self._source.text
+        if self._spots is not None:
+            return self._from_spots(self._spots)
+        # Nearly all are written plainly, in the order in which the parser reports them: a pass from line to line.
+        found: dict[str, tuple[Span, bool]] = {}
+        at = self.end
+        path, line, column, _, _ = source.span(at, at)
+        before = at - column
+        for name, value in self.attributes.items():
+            plain = f'{name}="{value}"'
+            start = at + 1
+            if not (text.startswith(plain, start) and text[at] == " "):
+                start = text.find(name, at)
+                gap = text[at:start]
+                if not (text.startswith(plain, start) and gap.isspace()):
+                    return self._from_spots(attribute_places(text, Element(self.tag, {}, self.start - 1)))
+                if not gap.isascii() or "\r" in gap:
+                    _, line, column, _, _ = source.span(start, start)
+                    before = start - column
+                elif "\n" in gap:
+                    line += gap.count("\n")
+                    before = at + gap.rindex("\n")
+            start += len(name) + 2
+            end = start + len(value)
+            found[name] = (_make(Span, (path, line, start - before, line, end - before)), True)
+            at = end + 1
+        return found
+
+    def _from_spots(self, spots: dict[str, tuple[int, int]]) -> dict[str, tuple[Span, bool]]:
+        text, span = self._source.text, self._source.span
+        return {name: (span(start, end), text[start:end] == self.attributes.get(name)) for name, (start, end) in spots.items()}
+
+    def place(self, name: str) -> Span:
+        """Return the place of the value of an attribute."""
+        return self.written(name)[0] if name in self.attributes else self.span
+
+    def lacks(self, names: Iterable[str]) -> bool:
+        """Return whether none of some names is an attribute, and asking for them could not raise."""
+        return self.form == "element" and self.attributes.keys().isdisjoint(names)
+
+    def get(self, name: str, kind: Type = "str") -> Any:
+        """Return the value of an attribute, None when it is not there. Raises Rejected when it is of another type."""
+        attributes = self.attributes
+        if self.form == "element":
+            if name not in attributes:
+                return None
+            self.read.add(name)
+            if kind == "str" and (self.simple or f"{name}-sep" not in attributes):
+                return attributes[name]
+            return self._converted(name, kind)
+        if self.form == "other":
+            raise Rejected("wrong-type", f"<{self.tag}> is neither a mapping nor a list", self.span)
+        if name not in attributes:
+            if self.form == "mapping" and any(child.tag == name for child in self.children):
+                raise Rejected("wrong-type", f"{name} of <{self.tag}> is a list", self.span)
+            return None
+        self.read.add(name)
+        if not _is_instance(attributes[name], kind):
+            raise Rejected("wrong-type", f"'{name}' of <{self.tag}> is not {_NAMES[kind]}", self.place(name))
+        return attributes[name]
+
+    def _converted(self, name: str, kind: Type) -> Any:
+        """Return a text of XML as what is asked for, split first if there is a separator for it."""
+        value: str | list[str] = self.attributes[name]
+        separator = self.attributes.get(f"{name}-sep")
+        if separator is not None:
+            self.read.add(f"{name}-sep")
+            if not separator:
+                raise Rejected("wrong-type", f"'{name}-sep' of <{self.tag}> is empty", self.place(name))
+            value = self.attributes[name].split(separator)
+        try:
+            return _coerced(value, kind)
+        except ValueError:
+            raise Rejected("wrong-type", f"'{name}' of <{self.tag}> is not {_NAMES[kind]}", self.place(name)) from None
+
+    def need(self, name: str, kind: Type = "str") -> Any:
+        """Return the value of an attribute. Raises Rejected when it is not there, or of another type."""
+        value = self.get(name, kind)
+        if value is None:
+            raise Rejected("missing-attribute", f"<{self.tag}> requires the attribute '{name}'", self.span)
+        return value
+
+    def entities(self, tag: str) -> list[Entity]:
+        """Return the children with a tag. Raises Rejected when in YAML they are no list of mappings."""
+        if self.form == "other":
+            raise Rejected("wrong-type", f"<{self.tag}> is neither a mapping nor a list", self.span)
+        if self.form == "list":
+            return []
+        if self.form == "mapping" and tag in self.attributes:
+            raise Rejected("wrong-type", f"'{tag}' of <{self.tag}> is not a list of mappings", self.place(tag))
+        if not self.children:
+            return []
+        if self._read_children is not None:
+            self._read_children.add(tag)
+        return [child for child in self.children if child.tag == tag]
+
+    def actions(self) -> list[Entity]:
+        """Return the children that are actions. Raises Rejected when in YAML there is no list of them."""
+        if self.form == "element":
+            self._read_children = None
+            return self.children
+        if self.form == "mapping":
+            if self.attributes.get("children") == "":
+                self.read.add("children")
+                return []  # a text without letters is gone through as well
+            if "children" in self.attributes:
+                raise Rejected("wrong-type", f"'children' of <{self.tag}> is not a list of mappings", self.place("children"))
+            self._read_children = (self._read_children or set()) | {CHILDREN}
+            for child in self.children:
+                if child.tag == CHILDREN:
+                    return [_only(inner) for inner in child.children]
+            raise Rejected("missing-attribute", f"<{self.tag}> requires 'children'", self.span)
+        if self.form == "list":
+            self._read_children = None
+            return [_only(inner) for inner in self.children]
+        raise Rejected("wrong-type", f"<{self.tag}> is neither a mapping nor a list", self.span)
+
+    def finish(self) -> None:
+        """Raise Rejected when there is an attribute or a child that nobody asked for."""
+        known = self._read_children
+        if self.form == "list":
+            if known is not None:
+                raise Rejected("unexpected-child", f"<{self.tag}> cannot contain a list", self.span)
+            return
+        for child in self.children:
+            if known is not None and child.tag not in known:
+                name = "children" if child.tag == CHILDREN else child.tag
+                raise Rejected("unexpected-child", f"<{self.tag}> cannot contain <{name}>", child.span)
+        if len(self.read) != len(self.attributes):
+            for name in self.attributes:
+                if name not in self.read:
+                    instead = ROS_1.get(f"{name} of <{self.tag}>", "")
+                    raise Rejected("unexpected-attribute", f"<{self.tag}> has no attribute '{name}'", self.place(name), instead)
+
+
+CHILDREN: Final = "\0children"
+"""The tag that stands for the key ``children`` of YAML, and for an item of a list that is no entity by itself."""
+
+
+def _only(item: Entity) -> Entity:
+    """Return the entity of an item of a list, which has one key."""
+    if item.tag != CHILDREN:
+        return item
+    raise Rejected("wrong-type", "each item must have one key, the tag", item.span)
+
+
+_NAMES: Mapping[Type, str] = {
+    "str": "a string",
+    "int": "an integer",
+    "float": "a number with a decimal point",
+    "bool": "a boolean",
+    "any": "a string, number, boolean or list of these",
+    "strs": "a list of strings",
+    "ints": "a list of integers",
+    "floats": "a list of numbers",
+    "bools": "a list of booleans",
+}
+
+
+def _is_valid(value: Any) -> bool:
+    """Whether a value is a scalar, or a list of one type with texts in between (``is_instance_of_valid_type``)."""
+    if not isinstance(value, list):
+        return isinstance(value, (int, float, bool, str))
+    kind = next((type(one) for one in value if type(one) is not str), str)
+    return kind in (int, float, bool, str) and all(isinstance(one, (kind, str)) for one in value)
+
+
+def _is_instance(value: Any, kind: Type) -> bool:
+    """Whether a value of YAML is what is asked for; a text always is, since it may be a substitution (``is_instance_of``)."""
+    if kind == "any":
+        return _is_valid(value)
+    if kind in _SCALARS:
+        return isinstance(value, (str, _SCALARS[kind]))
+    return isinstance(value, list) and all(isinstance(one, (str, _LISTS[kind])) for one in value)
+
+
+def _coerced(value: str | list[str], kind: Type) -> Any:
+    """Return a text of XML as what is asked for; it stays a text where it does not fit. Raises ValueError."""
+    if isinstance(value, list):
+        if kind in _SCALARS:
+            raise ValueError(kind)
+        inner: Type = "any" if kind == "any" else kind[:-1]  # type: ignore[assignment]
+        found = [_coerced(one, inner) for one in value]
+        if not _is_valid(found):
+            raise ValueError(kind)
+        return found
+    if kind == "str":
+        return value
+    if kind in ("int", "float"):
+        try:
+            return _SCALARS[kind](value)
+        except ValueError:
+            return value
+    if kind == "bool":
+        value = {"1": "true", "0": "false"}.get(value, value)
+    output = _as_yaml(value)
+    if kind == "bool":
+        if not isinstance(output, (str, bool)):
+            raise ValueError(kind)
+    elif kind != "any" and not (isinstance(output, list) and all(isinstance(one, (str, _LISTS[kind])) for one in output)):
+        raise ValueError(kind)
+    return output
+
+
+def _as_yaml(value: str) -> Any:
+    """Return what YAML makes of a text, the text itself where that is none. Raises ValueError for what has no place here."""
+    if value in _WORDS:
+        return _WORDS[value]
+    if value in ("null", "Null", "NULL"):
+        raise ValueError(value)
+    if not value or not _is_suspicious(value):
+        return value
+    if _INTEGER.fullmatch(value):
+        return int(value)
+    if _DECIMAL.fullmatch(value):
+        return float(value)
+    if _SIMPLE_LIST.fullmatch(value):
+        found = [_as_yaml(one.strip(" ")) for one in value[1:-1].split(",")]
+        if not _is_valid(found):
+            raise ValueError(value)
+        return found
+    from ros_lint.base.safe_yaml import YamlError, load  # noqa: PLC0415  (few values are of YAML)
+
+    try:
+        output = load(value)
+    except YamlError:  # the front end takes any failure for "not YAML"
+        return value
+    if not _is_valid(output):
+        raise ValueError(value)
+    return output
+
+
+_WORDS: Mapping[str, bool] = {
+    word: truth
+    for truth, words in ((True, ("true", "yes", "on")), (False, ("false", "no", "off")))
+    for plain in words
+    for word in (plain, plain.capitalize(), plain.upper())
+}
+
+# What YAML makes of these is plain, and it takes 20 ms to import.
+_INTEGER = re.compile(r"[-+]?(?:0|[1-9][0-9]{0,17})", re.ASCII)
+_DECIMAL = re.compile(r"[-+]?[0-9]+\.[0-9]*", re.ASCII)
+_ITEM = r" *(?:[-+]?(?:0|[1-9][0-9]{0,17})|[-+]?[0-9]+\.[0-9]*|[A-Za-z/$][\w/.$()-]*(?: [\w/.$()-]+)*) *"
+_SIMPLE_LIST = re.compile(rf"\[{_ITEM}(?:,{_ITEM})*\]", re.ASCII)
+
+
+def _is_suspicious(value: str) -> bool:
+    """Whether YAML could make something else than a text of a value that is not empty."""
+    if not (value[0].isalpha() or value[0] in "$/") or value[-1] in ": \t":
+        return True
+    return ": " in value or " #" in value or "\n" in value

@@ -1,0 +1,39 @@
+"""Launch files in XML."""
+
+from __future__ import annotations
+
+from ros_lint.base import xml_tree
+from ros_lint.base.text import Text
+from ros_lint.collectors.launch.markup import collect as launch_markup
+from ros_lint.collectors.launch.markup.entity import Entity
+from ros_lint.facts.launch import LaunchFile
+from ros_lint.facts.visibility import Facet, Opaque, Problem
+
+
+def collect(source: Text) -> LaunchFile:
+    """Return what a launch file in XML says. Never raises."""
+    try:
+        root = entities(source)
+    except xml_tree.XmlError as error:
+        span = source.span(error.offset, error.offset)
+        return LaunchFile(
+            source.path,
+            "xml",
+            opaque=(Opaque(Facet.USES, "the file is no XML that can be read", span),),
+            problems=(Problem("syntax", error.message, span),),
+        )
+    found = launch_markup.read(source, root)
+    asks = launch_markup.asks(source.text)
+    return LaunchFile(
+        source.path, "xml", found.references, found.opaque, found.problems, actions=found.actions, asks=asks, newer=found.newer
+    )
+
+
+def entities(source: Text) -> Entity:
+    """Return the elements as entities. Raises XmlError."""
+    simple = "-sep" not in source.text
+
+    def entity(tag: str, attributes: dict[str, str], start: int) -> Entity:
+        return Entity(source, tag, attributes, [], start + 1, start + 1 + len(tag), "element", None, simple)
+
+    return xml_tree.parse_as(source.text, entity)

@@ -1,0 +1,41 @@
+"""What launch files ask for before they do something: whether it is there, and which distribution runs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from ros_lint.collectors.launch.expressions import evaluate, means_true
+from ros_lint.collectors.symbolic_text import asked_for, fill, is_settled, named_in
+from ros_lint.facts.launch import LaunchCondition
+
+
+def asks_first(conditions: Iterable[LaunchCondition]) -> bool:
+    """Return whether conditions ask if something is installed: what is under them is done without, whatever its name."""
+    return any(condition.wanted and asked_for(text) for condition in conditions for text in condition.texts)
+
+
+DISTRIBUTIONS = ("humble", "jazzy", "kilted", "lyrical", "rolling")
+"""The distributions that are still maintained: what a launch file does for older ones alone is none of our business. Those that
+there are data of, as a test says: facts of a file must not hang on data that the user may have renewed."""
+_ASKED = "$ROS_DISTRO"
+
+
+EVERYWHERE = frozenset(DISTRIBUTIONS)
+
+
+def distributions_under(conditions: Iterable[LaunchCondition]) -> frozenset[str]:
+    """Return the distributions that come to what is under conditions, as far as these ask for one."""
+    asking = [condition for condition in conditions if any(_ASKED in text for text in condition.texts)]
+    return frozenset([distro for distro in DISTRIBUTIONS if _holds_in(distro, asking)]) if asking else EVERYWHERE
+
+
+def _holds_in(distro: str, conditions: Iterable[LaunchCondition]) -> bool:
+    """Return whether conditions can hold in a distribution, as far as they ask for nothing but which one runs."""
+    for (text, *others), equals, wanted in conditions:
+        if others or set(named_in(text) or ()) != {_ASKED}:
+            continue
+        texts = fill(text, lambda _: (distro,), evaluate)
+        answers = {means_true(one) if equals is None else one == equals for one in texts if is_settled(one)}
+        if answers == {not wanted}:
+            return False
+    return True

@@ -1,0 +1,242 @@
+"""What objects of the launch libraries do when they are launched, class by class (reference, section G2)."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple
+
+from ros_lint.base.text import Span
+from ros_lint.collectors import symbolic_text as launch_text
+from ros_lint.collectors.launch.expressions import means_true
+from ros_lint.collectors.launch.python import events as launch_py_events
+from ros_lint.collectors.launch.python import nodes as launch_py_nodes
+from ros_lint.collectors.launch.python.nodes import nested, started_node
+from ros_lint.collectors.launch.python.substitutions import SUBSTITUTIONS, is_text, texts
+from ros_lint.collectors.launch.python.walker import Rule, Walker, place_of
+from ros_lint.collectors.python.interpreter.machine import Machine
+from ros_lint.collectors.python.interpreter.methods import items
+from ros_lint.collectors.python.interpreter.values import Conditions, Made, Source, Value, alternatives, plain
+from ros_lint.collectors.symbolic_text import UNKNOWN
+from ros_lint.facts.launch import UNSCOPED, LaunchAction, LaunchValue
+
+_MOST_TEXTS = 2_000
+
+
+def walker(machine: Machine, source: Source) -> Walker:
+    """Return what turns the objects of a launch file into actions."""
+    return Walker(machine, source, _RULES, _other)
+
+
+def _include(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    given = made.get(0, "launch_description_source")
+    node, where = made.written(0, "launch_description_source"), made.source
+    while isinstance(source := plain(given), Made) and source.name.endswith("LaunchDescriptionSource"):
+        node, where = source.written(0, "launch_file_path", "location", "launch_description"), source.source
+        given = source.get(0, "launch_file_path", "location", "launch_description")
+    if isinstance(source, Made) and source.name == "LaunchDescription":
+        return walker.actions(source, conditions)
+    target = walker.text(source, node, where)
+    passed = list(_pairs(walker, made.get(1, "launch_arguments"), made))
+    include = LaunchAction(
+        "include",
+        place_of(made),
+        target=target,
+        package_span=walker.package_span(target),
+        conditions=conditions,
+        lent=made.source.lent,
+    )
+    return [_given(one, passed) for one in walker.apart(include, given)]
+
+
+def _given(include: LaunchAction, passed: Sequence[_Passed]) -> LaunchAction:
+    """Return an include with what is passed to it: nothing that another branch passes to another file."""
+    together = [one for one in passed if launch_text.agree((*include.conditions, *one.conditions))]
+    return include._replace(
+        arguments=tuple([(one.name, one.value) for one in together]),
+        argument_spans=tuple([one.span for one in together]),
+        perhaps=_perhaps(together),
+    )
+
+
+class _Passed(NamedTuple):
+    """What is passed to an included file."""
+
+    name: str
+    span: Span
+    """Where the name stands."""
+    value: LaunchValue
+    conditions: Conditions
+    """Under which it is passed, as far as that is one way."""
+    perhaps: bool
+    """Whether nobody knows if it is passed."""
+
+
+def _pairs(walker: Walker, value: Value, made: Made) -> Iterator[_Passed]:
+    node = made.written(1, "launch_arguments")
+    given = plain(value)
+    if isinstance(given, dict):
+        given = list(given.items())
+    pairs = items(walker.machine, given) if given is not None else []
+    for pair in pairs if pairs is not None else [given]:
+        parts = items(walker.machine, pair)
+        if parts is None or len(parts) != 2:
+            unknown = walker.text(UNKNOWN, node, made.source)
+            yield _Passed(UNKNOWN, unknown.span, unknown, (), perhaps=True)
+            continue
+        place = walker.text(parts[0], node, made.source).span
+        ways = [one.conditions for one in alternatives(pair)]
+        perhaps = any(UNKNOWN in text for way in ways for condition in way for text in condition.texts)
+        for name in texts(parts[0]):
+            what = walker.text(parts[1], node, made.source)
+            yield _Passed(str(name), place, what, ways[0] if len(ways) == 1 else (), perhaps)
+
+
+def _perhaps(passed: Sequence[_Passed]) -> tuple[str, ...]:
+    """Return what nobody knows to be passed; what either side of a branch passes is."""
+    sides = Counter([one.name for one in passed])
+    return tuple([one.name for one in passed if one.perhaps and sides[one.name] == 1])
+
+
+def _declare(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    given = made.get(-1, "choices")
+    # In a text, launch looks for the value as a part of it.
+    choices = items(walker.machine, given) if given is not None and not isinstance(plain(given), str) else None
+    default = walker.value(made, 1, "default_value")
+    return [
+        LaunchAction(
+            "argument",
+            place_of(made),
+            target=walker.value(made, 0, "name"),
+            value=default,
+            package_span=walker.package_span(default),
+            choices=tuple(str(text) for choice in choices or () for text in texts(choice)),
+            conditions=conditions,
+        )
+    ]
+
+
+def _assigns(kind: str, *names: tuple[str, ...]) -> Rule:
+    def rule(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+        value = walker.value(made, 1, *names[1])
+        target = walker.value(made, 0, *names[0])
+        span = walker.package_span(value)
+        return [LaunchAction(kind, place_of(made), target=target, value=value, package_span=span, conditions=conditions)]
+
+    return rule
+
+
+def _append(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    (action,) = _assigns("environment", ("name",), ("value",))(walker, made, conditions)
+    first = made.get(2, "prepend")
+    before = plain(first) is True or (isinstance(first, str) and means_true(first) is True)
+    separator = walker.value(made, 3, "separator")
+    return [
+        action._replace(
+            name=LaunchValue(("prepend" if before else "append",), place_of(made)),
+            arguments=(("separator", separator),) if separator else (),
+        )
+    ]
+
+
+def _one_value(kind: str, *names: str) -> Rule:
+    def rule(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+        value = walker.value(made, 0, *names)
+        return [LaunchAction(kind, place_of(made), value=value, package_span=walker.package_span(value), conditions=conditions)]
+
+    return rule
+
+
+def _group(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    children = walker.actions(made.get(0, "actions"), (), place_of(made))
+    scoped = plain(made.get(-1, "scoped")) is not False
+    passed = tuple(_group_configurations(walker, made))
+    name = None if scoped else LaunchValue((UNSCOPED,), place_of(made))
+    return [LaunchAction("group", place_of(made), name=name, arguments=passed, conditions=conditions, children=tuple(children))]
+
+
+def _group_configurations(walker: Walker, made: Made) -> Iterator[tuple[str, LaunchValue]]:
+    given = plain(made.get(-1, "launch_configurations"))
+    if isinstance(given, dict):
+        for name, value in given.items():
+            yield str(name), walker.text(value, made.written(-1, "launch_configurations"), made.source)
+
+
+def _other(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    if "package" in made.keywords and ("executable" in made.keywords or "node_executable" in made.keywords):
+        return started_node(walker, made, conditions)
+    if made.name in SUBSTITUTIONS:
+        return []
+    if made.name.endswith("LaunchDescription"):  # by its name a function that makes one
+        walker.blind.append((f"{made.name}() cannot be followed", place_of(made)))
+    if _DECLARES.match(made.name):
+        (action,) = _declare(walker, made, conditions)
+        unknown = LaunchValue((UNKNOWN,), place_of(made))  # it has a default of its own, for all that can be seen
+        return [action._replace(value=action.value or unknown)] if action.target else []
+    given: list[tuple[str, LaunchValue]] = []
+    for position, value in enumerate(made.arguments):
+        given += [("", walker.text(one, made.written(position), made.source)) for one in _texts_in(value)]
+    for name, value in made.keywords.items():
+        given += [("", walker.text(one, made.written(-1, name), made.source)) for one in _texts_in(value)]
+    return [
+        LaunchAction(
+            "other",
+            place_of(made),
+            name=LaunchValue((made.name,), place_of(made)),
+            arguments=tuple(given),
+            conditions=conditions,
+            children=tuple(nested(walker, made)),
+        )
+    ]
+
+
+def _texts_in(value: Value) -> list[Value]:
+    """Return the texts in a value: itself, or those in a list or dictionary."""
+    found: list[Value] = []
+    waiting = [value]
+    for _ in range(_MOST_TEXTS):
+        if not waiting:
+            break
+        one = plain(waiting.pop(0))
+        if isinstance(one, dict):
+            waiting += one.values()
+        elif isinstance(one, (list, tuple)):
+            waiting += one
+        elif isinstance(one, str) or is_text(one):
+            found.append(one)
+    return found
+
+
+def _silent(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:  # noqa: ARG001
+    return []
+
+
+_DECLARES = re.compile(r"Declare\w*Arg(?:ument)?\Z")
+"""What packages call actions of their own that declare a launch argument: ``DeclareBooleanLaunchArg`` (moveit_configs_utils)."""
+
+_RULES: Mapping[str, Rule] = {
+    **launch_py_nodes.RULES,
+    **launch_py_events.RULES,
+    "IncludeLaunchDescription": _include,
+    "DeclareLaunchArgument": _declare,
+    "SetLaunchConfiguration": _assigns("set", ("name",), ("value",)),
+    "SetEnvironmentVariable": _assigns("environment", ("name",), ("value",)),
+    "AppendEnvironmentVariable": _append,
+    "SetParameter": _assigns("parameter", ("name",), ("value",)),
+    "SetRemap": _assigns("remap", ("src",), ("dst",)),
+    "SetParametersFromFile": _one_value("parameter", "filename"),
+    "PushRosNamespace": _one_value("namespace", "namespace"),
+    "PushROSNamespace": _one_value("namespace", "namespace"),
+    "GroupAction": _group,
+    "LogInfo": _silent,
+    "Shutdown": _silent,
+    "EmitEvent": _silent,
+    "UnsetEnvironmentVariable": _silent,
+    "UnsetLaunchConfiguration": _silent,
+    "SetUseSimTime": _silent,
+    "ReadyToTest": _silent,
+}
+
+LAUNCHED = frozenset(_RULES) - {"LaunchDescription"}
+"""Classes whose objects do something when they are launched."""

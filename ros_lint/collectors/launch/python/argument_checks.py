@@ -1,0 +1,141 @@
+"""What the classes of the launch libraries are given in a launch file, and do not take: Python or launch stops there.
+
+Keywords that they do not know, arguments that want their keyword, a file in another format than the one that is read, and
+paths that are joined to what they replace.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from typing import TYPE_CHECKING
+
+from ros_lint.base.suggestions import is_meant, similar
+from ros_lint.collectors.launch.python.import_checks import is_from_launch
+from ros_lint.collectors.launch.python.substitution_misuse import are_unknown
+from ros_lint.collectors.launch.python.substitutions import texts
+from ros_lint.collectors.launch.python.walker import span_of
+from ros_lint.collectors.python.string_values import callee, dotted
+from ros_lint.collectors.python.unbound_names import tried
+from ros_lint.collectors.symbolic_text import UNKNOWN
+from ros_lint.facts.visibility import Problem
+
+if TYPE_CHECKING:
+    from ros_lint.collectors.python.interpreter.values import Made, Source
+
+_TAKES: Mapping[str, tuple[int, frozenset[str]]] = {
+    name: (int(words.split()[0]), frozenset(words.split()[1:]))
+    for name, words in {
+        "AnyLaunchDescriptionSource": "1 launch_file_path",
+        "AppendEnvironmentVariable": "4 name value prepend separator condition",
+        "Command": "1 command on_stderr",
+        "DeclareLaunchArgument": "1 name default_value description choices condition",
+        "EmitEvent": "0 event condition",
+        "EnvironmentVariable": "1 name default_value",
+        "FindExecutable": "0 name",
+        "FindPackageShare": "1 package",
+        "GroupAction": "1 actions scoped forwarding launch_configurations condition",
+        "IfCondition": "1 predicate_expression",
+        "IncludeLaunchDescription": "1 launch_description_source launch_arguments condition",
+        "LaunchConfiguration": "1 variable_name default",
+        "LoadComposableNodes": "0 composable_node_descriptions target_container condition",
+        "LogInfo": "0 msg condition",
+        "OnExecutionComplete": "0 target_action on_completion handle_once",
+        "OnProcessExit": "0 target_action on_exit handle_once",
+        "OnProcessStart": "0 target_action on_start handle_once",
+        "OnShutdown": "0 on_shutdown handle_once",
+        "OpaqueFunction": "0 function args kwargs condition",
+        "ParameterFile": "1 param_file allow_substs",
+        "PathJoinSubstitution": "1 substitutions",
+        "PushRosNamespace": "1 namespace condition",
+        "PythonExpression": "2 expression python_modules",
+        "PythonLaunchDescriptionSource": "1 launch_file_path",
+        "RegisterEventHandler": "1 event_handler condition",
+        "SetEnvironmentVariable": "2 name value condition",
+        "SetLaunchConfiguration": "2 name value condition",
+        "SetParameter": "2 name value condition",
+        "SetRemap": "2 src dst condition",
+        "TextSubstitution": "0 text",
+        "TimerAction": "0 period actions cancel_on_shutdown condition",
+        "UnlessCondition": "1 predicate_expression",
+        "UnsetEnvironmentVariable": "1 name condition",
+        "UnsetLaunchConfiguration": "1 name condition",
+    }.items()
+}
+"""How many arguments go without their keyword, and all keywords, in any distribution (launch 3.7.1, launch_ros 0.28)."""
+
+_READS: Mapping[str, tuple[str, ...]] = {
+    "PythonLaunchDescriptionSource": (".xml", ".yaml", ".yml"),
+    "XMLLaunchDescriptionSource": (".py", ".yaml", ".yml"),
+    "YAMLLaunchDescriptionSource": (".py", ".xml"),
+}
+"""How files end that a source of launch descriptions cannot read."""
+
+
+def not_taken(tree: ast.Module, source: Source, made: Iterable[Made]) -> Iterator[Problem]:
+    """Yield the arguments that classes of the launch libraries are given and refuse."""
+    found = [(node, problem) for one in made if one.source is source for node, problem in _refused(one)]
+    caught = {inner for node in ast.walk(tree) if isinstance(node, ast.Try) for inner in tried(node)} if found else set()
+    for node, problem in found:
+        if node not in caught and is_from_launch(tree, node.func):
+            yield problem
+
+
+def _refused(made: Made) -> Iterator[tuple[ast.Call, Problem]]:
+    node = made.node
+    if callee(node) != made.name or are_unknown(made.conditions):
+        return
+    most, known = _TAKES.get(made.name, (len(node.args), None))
+    if known is not None:
+        for keyword in node.keywords:
+            if keyword.arg is not None and keyword.arg not in known:
+                yield node, _keyword(keyword, keyword.arg, known, made)
+    if len(node.args) > most and not any(isinstance(argument, ast.Starred) for argument in node.args):
+        accepted = "keyword arguments only" if not most else f"at most {most} positional argument{'s' if most > 1 else ''}"
+        yield node, Problem("too-many-arguments", f"{made.name} accepts {accepted}", span_of(node.args[most], made.source))
+    if made.name in _READS:
+        paths = [text for text in texts(made.get(0, "launch_file_path")) if text]
+        if paths and all(path.endswith(_READS[made.name]) and not path.endswith(UNKNOWN) for path in paths):
+            end = "." + paths[0].rpartition(".")[2]
+            message = f"{made.name} does not read {end} files; use AnyLaunchDescriptionSource(...)"
+            yield node, Problem("other-format", message, span_of(made.written(0, "launch_file_path"), made.source))
+
+
+def _keyword(keyword: ast.keyword, name: str, known: frozenset[str], made: Made) -> Problem:
+    begun = sorted(other for other in known if other.startswith(f"{name}_"))
+    near = begun[:1] or similar(name, sorted(known), 1, 0.75)
+    kind = "misspelt-keyword" if near else "unexpected-keyword"
+    meant = is_meant([f"{one}=" for one in near])
+    return Problem(kind, f"{made.name} has no keyword argument '{name}='{meant}", span_of(keyword, made.source))
+
+
+def dropped(tree: ast.Module, source: Source) -> Iterator[Problem]:
+    """Yield the absolute paths that are joined to a path: the path before them is dropped."""
+    if not _SLASH.search(source.text.text):
+        return  # to walk the whole tree takes longer
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Call):
+            continue
+        parts = _joined(node)
+        place = next((part for part in parts[1:] if _is_absolute(part)), None)
+        if isinstance(place, ast.Constant) and not _is_absolute(parts[0]):
+            said = str(place.value)
+            remedy = f"write {said.lstrip('/')!r}" if said.strip("/") else "remove it"
+            message = f"the path before {said!r} is dropped, because {said!r} begins with a slash; {remedy}"
+            yield Problem("forgotten-path", message, span_of(place, source))
+
+
+_SLASH = re.compile(r",\s*['\"]/")
+"""A text that begins with a slash and is not the first of several things."""
+
+
+def _joined(node: ast.Call) -> list[ast.expr]:
+    """Return what a call joins to a path."""
+    if callee(node) == "PathJoinSubstitution" and node.args and isinstance(node.args[0], (ast.List, ast.Tuple)):
+        return node.args[0].elts
+    return node.args if dotted(node.func) in ("os.path.join", "path.join") else []
+
+
+def _is_absolute(node: ast.expr) -> bool:
+    return isinstance(node, ast.Constant) and isinstance(node.value, str) and node.value.startswith("/")

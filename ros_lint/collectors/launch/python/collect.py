@@ -1,0 +1,210 @@
+"""Launch files in Python. They are followed, never run.
+
+What a launch file makes counts only if it is part of what is launched: an action that is made and neither returned nor
+added starts nothing.
+"""
+
+from __future__ import annotations
+
+import ast
+from contextlib import suppress
+from typing import TYPE_CHECKING
+
+from ros_lint.base.python_parser import compiled
+from ros_lint.base.text import Span, Text
+from ros_lint.collectors.launch.detect import entries
+from ros_lint.collectors.launch.presence_checks import asks_first
+from ros_lint.collectors.launch.python.actions import LAUNCHED, walker
+from ros_lint.collectors.launch.python.argument_checks import dropped, not_taken
+from ros_lint.collectors.launch.python.import_checks import strays
+from ros_lint.collectors.launch.python.runtime_errors import misused, no_conditions, no_texts, undefined
+from ros_lint.collectors.launch.python.substitutions import Within, texts
+from ros_lint.collectors.launch.references import References
+from ros_lint.collectors.python.interpreter.machine import Machine
+from ros_lint.collectors.python.interpreter.values import PERHAPS, Frame, Function, Modules, OutOfBudget, Raised, Source
+from ros_lint.collectors.python.syntax import NotPythonError, read, refusal, span_of
+from ros_lint.collectors.symbolic_text import UNKNOWN
+from ros_lint.facts.launch import LaunchAction, LaunchFile
+from ros_lint.facts.visibility import Facet, Opaque, Problem
+
+_LONGEST = 250_000
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+
+def collect(
+    source: Text, modules: Modules = lambda name, importer: None, files: Callable[[str], str | None] = lambda path: None
+) -> LaunchFile:
+    """Return what a launch file in Python says. Never raises.
+
+    ``modules`` finds the modules of the workspace that it imports, ``files`` the text of a file by its installed path.
+    """
+    defined = entries(source.text)
+    if len(source.text) > _LONGEST:
+        opaque = Opaque(Facet.USES, "the file is too long to be followed", source.span(0, 0))
+        return LaunchFile(source.path, "python", opaque=(opaque,), test="launch" not in defined, helper=not defined)
+    test, helper = "launch" not in defined and "test" in defined, not defined
+    try:
+        tree, newer = read(source)
+    except NotPythonError as error:
+        why = refusal(source, error)
+        problems = (why.problem(),) if why.known else ()
+        return LaunchFile(source.path, "python", (), (why.opaque(Facet.USES),), problems, test, helper)
+    helper = helper or any(_asks_for_arguments(node) for node in tree.body)
+    reading = _Reading(source, Machine(modules, files))
+    try:
+        reading.read(tree, helper)
+    except (OutOfBudget, RecursionError, MemoryError):
+        reading.stopped("following the file takes too many steps")
+    reading.problems.extend(reading.refused(tree))
+    references = References(reading.actions, reading.places())
+    reading.add_to(references)
+    return LaunchFile(
+        source.path,
+        "python",
+        references.all(),
+        tuple(references.opaque),
+        tuple(dict.fromkeys([*_misplaced(tree, source)] or [*reading.problems, *references.problems])),
+        test,
+        helper,
+        tuple(reading.actions),
+        tuple(_imports(source, tree)),
+        reading.asks(),
+        tuple(sorted(map(str, reading.wants))),  # the cache takes none but plain texts
+        syntax=newer,
+    )
+
+
+def _misplaced(tree: ast.Module, source: Text) -> Iterator[Problem]:
+    """Yield what the compiler of Python refuses, such as a keyword that is given twice."""
+    if (error := compiled(tree)) is not None:
+        from ros_lint.collectors.python.compile_errors import misplaced  # noqa: PLC0415  (few launch files have any)
+
+        yield from misplaced(error, tree, source)
+
+
+def _asks_for_arguments(node: ast.stmt) -> bool:
+    """Whether this makes a launch description only for who gives it something: launch calls the function with nothing."""
+    if not isinstance(node, ast.FunctionDef) or node.name != "generate_launch_description" or node.decorator_list:
+        return False
+    given = node.args
+    return len(given.posonlyargs) + len(given.args) > len(given.defaults) or None in given.kw_defaults
+
+
+def _imports(text: Text, tree: ast.Module) -> Iterator[tuple[str, Span]]:
+    """Yield the modules that are imported first of all, under no condition."""
+    if "sys.path" in text.text:
+        return
+    for statement in tree.body:
+        if isinstance(statement, ast.Import):
+            yield from ((alias.name, span_of(text, alias)) for alias in statement.names)
+        elif isinstance(statement, ast.ImportFrom):
+            yield "." * statement.level + (statement.module or ""), span_of(text, statement)
+
+
+class _Reading:
+    """One launch file on its way from syntax to actions."""
+
+    def __init__(self, text: Text, machine: Machine) -> None:
+        self._machine = machine
+        self._source = Source(text)
+        self._walker = walker(machine, self._source)
+        self.actions: list[LaunchAction] = []
+        self._blind: list[Opaque] = []
+
+    @property
+    def wants(self) -> set[str]:
+        return self._machine.wanted
+
+    @property
+    def problems(self) -> list[Problem]:
+        return self._walker.problems
+
+    def refused(self, tree: ast.Module) -> Iterator[Problem]:
+        yield from undefined(tree, self._source, self._machine.unbound)
+        yield from misused(tree, self._source, self._machine.misused)
+        yield from no_texts(tree, self._source, self._machine.made)
+        yield from no_conditions(tree, self._source, self._machine.made)
+        yield from not_taken(tree, self._source, self._machine.made)
+        yield from dropped(tree, self._source)
+        yield from strays(tree, self._source)
+
+    def read(self, tree: ast.Module, helper: bool) -> None:
+        frame = self._machine.run(tree, self._source)
+        for name in ("generate_launch_description", "generate_test_description"):
+            function = frame.names.get(name)
+            if isinstance(function, Function):
+                started = self._walker.actions(self._call(function, name, frame))
+                self.actions += [*self._walker.actions(self._machine.variables), *started]
+                if function.changed:
+                    place = span_of(self._source.text, function.node)
+                    self._blind.append(Opaque(Facet.USES, f"what a decorator makes of {name}() is not followed", place))
+        if helper:
+            for name, function in list(frame.names.items()):
+                if isinstance(function, Function) and function.frame is frame:
+                    self._call(function, name, frame)
+        self._leftovers(everything=helper)
+
+    def _call(self, function: Function, name: str, frame: Frame) -> object:
+        call = ast.Call(ast.Name(name), [], [])
+        ast.copy_location(call, function.node)
+        try:
+            return self._machine.call(function, [], {}, call, frame)
+        except Raised:
+            self.stopped(f"{name}() raises an exception")
+            return None
+
+    def asks(self) -> tuple[str, ...]:
+        """Return the launch configurations that are asked for, UNKNOWN among them when others may be."""
+        within = Within()
+        found = {
+            str(name)
+            for made in self._machine.made
+            if made.name.startswith("LaunchConfig")  # LaunchConfigAsBool of nav2_common among them
+            for name in texts(made.get(0, "variable_name", "launch_configuration_name"), within)
+        }
+        if self._machine.borrows or ".launch_configurations" in self._source.text.text:
+            found.add(UNKNOWN)
+        return tuple(sorted(found))
+
+    def _spare(self, references: References) -> None:
+        """What is looked up at once stops the file if it is missing, unless that is caught or asked for before."""
+        asked = {package: True for package, *_ in self._machine.looked_up if package not in self._machine.lazily}
+        for package, _, _, conditions in self._machine.looked_up:
+            if not asks_first(conditions):
+                asked.pop(package, None)
+        references.spare(asked)
+
+    def places(self) -> dict[str, Span]:
+        """Return where packages are looked up that paths lie in, or that have a command that is run."""
+        return {package: self._walker.look_up_span(package) for package in self._machine.named}
+
+    def stopped(self, reason: str) -> None:
+        """Note that the file could not be followed to its end: anything that it makes may be launched."""
+        self._blind.append(Opaque(Facet.USES, reason, self._source.text.span(0, 0)))
+        self._machine.grant()
+        with suppress(OutOfBudget, RecursionError, MemoryError):
+            self._leftovers(everything=True)
+
+    def _leftovers(self, everything: bool) -> None:
+        """Take what went where it cannot be followed for launched, perhaps."""
+        for made in self._machine.made:
+            if not made.seen and (made.lost or everything) and made.name in LAUNCHED:
+                self.actions += self._walker.actions(made, (PERHAPS,))
+
+    def add_to(self, references: References) -> None:
+        """Add what is opened or looked up at once, and what is hidden."""
+        for path, node, source, conditions in self._machine.opened:
+            if source is self._source:
+                references.opens(self._walker.text(path, node, source), conditions)
+        self._spare(references)
+        references.do_without(path for paths in self._machine.asked.values() for path in paths)
+        for package, node, source, conditions in self._machine.looked_up:
+            value = self._walker.text(package, node, source)
+            if value.texts == (package,):
+                references.look_up(package, value, conditions)
+        for reason, span in self._walker.blind:
+            references.hide(f"what is launched is not known: {reason}", span)
+        for opaque in self._blind:
+            references.opaque[opaque] = None

@@ -1,0 +1,107 @@
+"""What Python launch files do when something happens, and what their functions make them do (reference, section G2)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ros_lint.collectors.launch.python.walker import Rule, Walker, place_of
+from ros_lint.collectors.python.interpreter.methods import items
+from ros_lint.collectors.python.interpreter.values import (
+    PERHAPS,
+    Bound,
+    Conditions,
+    Context,
+    Function,
+    Instance,
+    Made,
+    Unknown,
+    alternatives,
+    plain,
+)
+from ros_lint.collectors.symbolic_text import UNKNOWN
+from ros_lint.facts.launch import LaunchAction
+
+
+def _timer(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    children = walker.actions(made.get(-1, "actions"), (), place_of(made))
+    return [LaunchAction("later", place_of(made), conditions=conditions, children=tuple(children))]
+
+
+def _event(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    """What a handler does when its event comes: actions, or what its function returns."""
+    found: list[LaunchAction] = []
+    for one in alternatives(made.get(0, "event_handler")):
+        handler = one.value
+        if isinstance(handler, Instance):
+            handler = handler.made
+        if isinstance(handler, Made):
+            found += _handled(walker, handler)
+    return [LaunchAction("later", place_of(made), conditions=conditions, children=tuple(found))] if found else []
+
+
+def _handled(walker: Walker, handler: Made) -> list[LaunchAction]:
+    handler.seen = True
+    found: list[LaunchAction] = []
+    targets = {"target_action", "matcher", "handle_once", "target_lifecycle_node", "start_state", "goal_state", "transition"}
+    for name, given in [*[("", one) for one in handler.arguments[1:]], *handler.keywords.items()]:
+        if name in targets:
+            continue
+        for one in alternatives(given):
+            value = one.value
+            if isinstance(value, (Function, Bound)):
+                value = walker.run(value, [Unknown("an event"), Context()], {}, handler)
+            found += walker.actions(value, one.conditions, place_of(handler))
+    return found
+
+
+def later(walker: Walker, made: Made, *names: str) -> list[LaunchAction]:
+    """Return what is done when something comes that arguments of these names wait for."""
+    found: list[LaunchAction] = []
+    for name in names:
+        for one in alternatives(made.get(-1, name)) if name in made.keywords else ():
+            value = one.value
+            if isinstance(value, (Function, Bound)):
+                value = walker.run(value, [Unknown("an event"), Context()], {}, made)
+            if value is not None and not isinstance(value, Unknown):
+                found += walker.actions(value, one.conditions, place_of(made))
+    return [LaunchAction("later", place_of(made), children=tuple(found))] if found else []
+
+
+def _opaque_function(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    arguments = items(walker.machine, made.get(-1, "args")) if made.get(-1, "args") is not None else []
+    keywords = plain(made.get(-1, "kwargs"))
+    before, variables = walker.machine.conditions, walker.machine.variables
+    walker.machine.conditions, walker.machine.variables = (), []
+    try:
+        result = walker.run(
+            made.get(0, "function"),
+            [Context(), *(arguments or [])],
+            {str(k): v for k, v in keywords.items()} if isinstance(keywords, dict) else {},
+            made,
+        )
+    finally:
+        walker.machine.conditions, its_own = before, walker.machine.variables
+        walker.machine.variables = variables
+    # What it sets may hang on arguments that are declared by then, and on none that come later.
+    found = walker.actions(its_own, conditions, place_of(made))
+    return [*found, *walker.actions(result, conditions, place_of(made))] if result is not None else found
+
+
+def _for_each(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    """Return what a function makes that launch calls with keywords, once for each set of values; any keyword may be given."""
+    function = plain(made.get(1, "function"))
+    spec = function.node.args if isinstance(function, Function) else None
+    names = [argument.arg for argument in (*spec.args, *spec.kwonlyargs)] if spec else []
+    result = walker.run(function, [], dict.fromkeys([*names, UNKNOWN], Unknown(f"a value of {made.name}")), made)
+    return walker.actions(result, (*conditions, PERHAPS), place_of(made))
+
+
+RULES: Mapping[str, Rule] = {
+    "TimerAction": _timer,
+    "ROSTimer": _timer,
+    "RosTimer": _timer,
+    "RegisterEventHandler": _event,
+    "OpaqueFunction": _opaque_function,
+    "ForEach": _for_each,
+    "ForLoop": _for_each,
+}

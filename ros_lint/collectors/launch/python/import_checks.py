@@ -1,0 +1,113 @@
+"""Which module of the launch libraries has which name: what a launch file in Python takes from the wrong one stops it."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
+
+from ros_lint.collectors.launch.python.walker import span_of
+from ros_lint.facts.visibility import Problem
+
+if TYPE_CHECKING:
+    from ros_lint.collectors.python.interpreter.values import Source
+    from ros_lint.collectors.python.syntax import Node
+
+_MODULES: Mapping[str, frozenset[str]] = {
+    module: frozenset(names.split())
+    for module, names in {
+        "launch.action": "Action",
+        "launch.actions": """AppendEnvironmentVariable DeclareLaunchArgument EmitEvent ExecuteLocal ExecuteProcess ForEach ForLoop
+            GroupAction IncludeLaunchDescription LogInfo OpaqueCoroutine OpaqueFunction PopEnvironment PopLaunchConfigurations
+            PushEnvironment PushLaunchConfigurations RegisterEventHandler ResetEnvironment ResetLaunchConfigurations
+            SetEnvironmentVariable SetLaunchConfiguration Shutdown TimerAction UnregisterEventHandler UnsetEnvironmentVariable
+            UnsetLaunchConfiguration""",
+        "launch.conditions": "IfCondition LaunchConfigurationEquals LaunchConfigurationNotEquals UnlessCondition",
+        "launch.event_handlers": """OnActionEventBase OnExecutionComplete OnIncludeLaunchDescription OnProcessExit OnProcessIO
+            OnProcessStart OnShutdown""",
+        "launch.launch_description_sources": """AnyLaunchDescriptionSource FrontendLaunchDescriptionSource
+            PythonLaunchDescriptionSource""",
+        "launch.substitution": "Substitution",
+        "launch.substitutions": """AllSubstitution AndSubstitution AnonName AnySubstitution Command EnvironmentVariable
+            EqualsSubstitution FileContent FindExecutable ForLoopIndex IfElseSubstitution LaunchConfiguration LaunchLogDir
+            LocalSubstitution NotEqualsSubstitution NotSubstitution OrSubstitution PathJoinSubstitution PathSubstitution
+            PythonExpression StringJoinSubstitution TextSubstitution ThisLaunchFile ThisLaunchFileDir""",
+        "launch_ros.actions": """ComposableNodeContainer LifecycleNode LifecycleTransition LoadComposableNodes Node
+            PushROSNamespace PushRosNamespace RosTimer ROSTimer SetParameter SetParametersFromFile SetROSLogDir SetRemap
+            SetUseSimTime""",
+        "launch_ros.descriptions": "ComposableLifecycleNode ComposableNode ParameterFile ParameterValue",
+        "launch_ros.substitutions": "ExecutableInPackage FindPackage FindPackagePrefix FindPackageShare",
+    }.items()
+}
+"""What the modules offer in any distribution, as far as launch files ask for it (launch 3.7.1, launch_ros 0.28 and later)."""
+ACTIONS = _MODULES["launch.actions"] | _MODULES["launch_ros.actions"]
+_HOMES: Mapping[str, tuple[str, ...]] = {
+    name: tuple(module for module, names in _MODULES.items() if name in names) for names in _MODULES.values() for name in names
+}
+
+
+# A word that begins with letters is looked for fast, and what stands before them only where they are.
+_ASKED = re.compile(r"launch(?<!\wlaunch)((?:_ros)?\.[a-z_]+)\.([A-Z]\w+)")
+
+
+def strays(tree: ast.Module, source: Source) -> Iterator[Problem]:
+    """Yield the names that are taken from a module of the launch libraries which has none, while another one has it."""
+    for node in tree.body:
+        if isinstance(node, ast.ImportFrom) and node.module is not None and not node.level:
+            for alias in node.names:
+                yield from _stray(node.module, alias.name, alias, source)
+    if not any(_is_stray(f"launch{module}", name) for module, name in _ASKED.findall(source.text.text)):
+        return  # to walk the whole tree takes longer than all the rest
+    imported = _imported(tree)
+    for one in ast.walk(tree):
+        if isinstance(one, ast.Attribute) and one.attr in _HOMES and isinstance(one.value, ast.Attribute):
+            root = one.value.value
+            if isinstance(root, ast.Name) and root.id in imported:
+                yield from _stray(f"{root.id}.{one.value.attr}", one.attr, one, source)
+
+
+def _stray(module: str, name: str, node: Node, source: Source) -> Iterator[Problem]:
+    if _is_stray(module, name):
+        yield Problem(
+            "stray-name", f"'{module}' has no {name}; import it from {' or '.join(_HOMES[name])}", span_of(node, source)
+        )
+
+
+def _is_stray(module: str, name: str) -> bool:
+    return name in _HOMES and module in _MODULES and module not in _HOMES[name]
+
+
+def _imported(tree: ast.Module) -> frozenset[str]:
+    """Return which of the launch libraries are imported as what they are called, and nothing else of these names."""
+    found: set[str] = set()
+    other: set[str] = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            found.update(alias.name.partition(".")[0] for alias in node.names if alias.asname is None)
+        elif isinstance(node, ast.arg):
+            other.add(node.arg)
+        elif isinstance(node, ast.Name) and not isinstance(node.ctx, ast.Load):
+            other.add(node.id)
+    return frozenset({"launch", "launch_ros"} & found - other)
+
+
+def is_from_launch(tree: ast.Module, function: ast.expr) -> bool:
+    """Whether what is called is a name of a launch library: taken from one, or written out with its module."""
+    root = function
+    while isinstance(root, ast.Attribute):
+        root = root.value
+    if not isinstance(root, ast.Name):
+        return False
+    if root is not function:
+        return root.id.startswith("launch")
+    return any(
+        isinstance(node, ast.ImportFrom)
+        and not node.level
+        and (node.module or "").partition(".")[0] in _LIBRARIES
+        and any(root.id == (alias.asname or alias.name) for alias in node.names)
+        for node in ast.walk(tree)
+    )
+
+
+_LIBRARIES = frozenset({"launch", "launch_ros", "launch_xml", "launch_yaml"})

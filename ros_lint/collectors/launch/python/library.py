@@ -1,0 +1,353 @@
+"""What the classes and functions of the launch libraries make, and paths, as far as launch files need it."""
+
+from __future__ import annotations
+
+import ast
+import posixpath
+import re
+from collections.abc import Callable, Mapping
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+from ros_lint.collectors import symbolic_text as launch_text
+from ros_lint.collectors.launch.python.substitution_misuse import note
+from ros_lint.collectors.launch.python.substitutions import conditions_of
+from ros_lint.collectors.python.interpreter import path_functions as launch_py_paths
+from ros_lint.collectors.python.interpreter.builtins import FUNCTIONS
+from ros_lint.collectors.python.interpreter.calls import Call, Rule, nothing, unknown, unknown_text
+from ros_lint.collectors.python.interpreter.methods import built_for, items
+from ros_lint.collectors.python.interpreter.operations import INSTALLED, text_of
+from ros_lint.collectors.python.interpreter.values import (
+    Api,
+    FilePath,
+    Guarded,
+    Made,
+    Method,
+    Unknown,
+    Value,
+    alternatives,
+    argument_of,
+    environment,
+    guarded_text,
+    union,
+)
+from ros_lint.collectors.symbolic_text import UNKNOWN, joined, presence
+from ros_lint.facts.launch import LaunchCondition
+
+if TYPE_CHECKING:
+    from ros_lint.collectors.python.interpreter.machine import Machine
+    from ros_lint.collectors.python.interpreter.values import Frame
+
+
+def call_library(
+    machine: Machine,
+    what: str | Method,
+    arguments: list[Value],
+    keywords: dict[str, Value],
+    node: ast.Call,
+    frame: Frame,
+) -> Value:
+    """Return what a function of a library returns, or a method of what one made."""
+    if isinstance(what, Method):
+        return _method(Call(machine, what.name, arguments, keywords, node, frame), what.owner)
+    call = Call(machine, what, arguments, keywords, node, frame)
+    last = what.rpartition(".")[2]
+    rule = _BY_NAME.get(what) or (_BY_LAST.get(last) if not what.startswith(("os.", "builtins.")) else None)
+    if rule is not None:
+        return rule(call)
+    if last[:1].isupper():
+        return _make(call, last)
+    machine.lose([arguments, keywords])
+    if "package" in keywords and "executable" in keywords:
+        _make(call, "Node").lost = True  # by its name a function that makes one
+    return Unknown("" if what.partition(".")[0] in _STANDARD else f"{last}() cannot be followed")
+
+
+def _make(call: Call, name: str) -> Made:
+    made = Made(name, call.arguments, call.keywords, call.node, call.frame.source)
+    made.conditions = call.machine.conditions
+    call.machine.made.append(made)
+    if name == "LaunchDescription":
+        entities = made.get(0, "initial_entities")
+        found = items(call.machine, entities) if entities is not None else []
+        made.entities = found if found is not None else [entities]
+    elif name in ("FindPackageShare", "FindPackagePrefix", "FindPackage"):
+        _note(call, made.get(0, "package"), made.written(0, "package"), eager=False)
+    elif name == "ExecutableInPackage":
+        _note(call, made.get(1, "package"), made.written(1, "package"), eager=False)
+    elif name == "Command":
+        _note_command(call, made)
+    elif name in ("MoveItConfigsBuilder", "ParameterBuilder"):
+        _note_builder(call, made)
+    return made
+
+
+def _note_command(call: Call, made: Made) -> None:
+    """Note where a command that belongs to a package is run first."""
+    given, at = made.get(0, "command"), made.written(0, "command")
+    if any(text.partition(" ")[0] == "xacro" for text in call.machine.texts(given)):
+        first = at.elts[0] if isinstance(at, (ast.List, ast.Tuple)) and at.elts else at
+        call.machine.named.setdefault("xacro", (first, call.frame.source))
+
+
+def _note_builder(call: Call, made: Made) -> None:
+    """MoveIt's builders look a package up at once (reference, section G2.7): one of them by the name of a robot, unless told."""
+    position = 2 if made.name == "MoveItConfigsBuilder" else 0
+    given = made.get(position, "package_name")
+    if given is not None:
+        _note(call, given, made.written(position, "package_name"), eager=True)
+    elif position:
+        robots = made.get(0, "robot_name")
+        names = tuple(f"{one.value}_moveit_config" for one in alternatives(robots) if isinstance(one.value, str))
+        for name in names:
+            _note(call, name, made.written(0, "robot_name"), eager=True)
+
+
+_READ_BY_BUILDERS: Mapping[str, int] = {
+    "file_parameter": 1,
+    "joint_limits": 0,
+    "moveit_cpp": 0,
+    "pilz_cartesian_limits": 0,
+    "robot_description": 0,
+    "robot_description_kinematics": 0,
+    "robot_description_semantic": 0,
+    "trajectory_execution": 0,
+    "xacro_parameter": 1,
+    "yaml": 0,
+}
+"""Which argument names the file that a method of MoveIt's builders reads; sensors_3d asks first if it is there."""
+
+
+def _note_built(call: Call, owner: Made) -> None:
+    """Note the file that MoveIt's builders read at once: its path is from the share folder of their package on."""
+    position = _READ_BY_BUILDERS.get(call.name)
+    if position is None or call.machine.guarded or owner.name not in ("MoveItConfigsBuilder", "ParameterBuilder"):
+        return
+    package, given = built_for(owner), call.get(position, "file_path")
+    if not package or not isinstance(given, (str, FilePath)):
+        return
+    at = argument_of(call.node, position, "file_path")
+    for path in text_of(given):
+        whole = posixpath.join(launch_text.share(package), path)
+        call.machine.opened.append((whole, at, call.frame.source, call.machine.conditions))
+
+
+def _note(call: Call, package: Value, at: ast.expr, eager: bool) -> None:
+    source = call.frame.source
+    for one in alternatives(package):
+        node, where = getattr(one.value, "node", at), getattr(one.value, "source", source)
+        if isinstance(one.value, str):
+            call.machine.look_up(str(one.value), node, where, eager, one.conditions)
+        elif isinstance(one.value, Made):
+            for text in call.machine.texts(one.value):
+                call.machine.named.setdefault(text, (at, source))
+
+
+_ADDS = frozenset({"add_action", "add_entity", "append"})
+
+
+def _method(call: Call, owner: Made) -> Value:
+    machine, name = call.machine, call.name
+    if name in _ADDS and owner.name == "LaunchDescription":
+        machine.spend(1)
+        owner.entities.append(machine.guard(call.get(0, "action", "entity")))
+        return None
+    if name == "extend" and owner.name == "LaunchDescription":
+        owner.entities += [machine.guard(one) for one in call.items(0) or [call.get(0)]]
+        return None
+    if name in ("perform", "toxml", "toprettyxml"):
+        return call.result(machine.texts(owner))
+    if name == "find" and owner.name in ("FindPackageShare", "FindPackagePrefix", "FindPackage"):
+        return (_share if owner.name == "FindPackageShare" else _prefix)(call)
+    if name == "evaluate":
+        found = conditions_of(owner)
+        return Unknown("a condition", found[0] if len(found) == 1 else None)
+    if owner.name.endswith("Builder"):
+        _note_built(call, owner)
+        owner.keywords.update({f"{name}.{key}": value for key, value in call.keywords.items()})
+        owner.keywords.update({f"{name}.{index}": value for index, value in enumerate(call.arguments)})
+        return owner
+    machine.lose([owner, call.arguments, call.keywords])
+    return Unknown(f"{name}() of {owner.name}")
+
+
+def _share(call: Call) -> Value:
+    given = call.get(0, "package_name", "package")
+    _note(call, given, call.node.args[0] if call.node.args else call.node, eager=True)
+    return call.result(joined([call.texts(0, "package_name", "package")], lambda row: launch_text.share(row[0])))
+
+
+def _share_path(call: Call) -> Value:
+    found = _share(call)
+    return union(Guarded(FilePath(str(one.value)), one.conditions) for one in alternatives(found))
+
+
+def _prefix(call: Call) -> Value:
+    given = call.get(0, "package_name", "package")
+    _note(call, given, call.node.args[0] if call.node.args else call.node, eager=True)
+    return call.result(joined([call.texts(0, "package_name", "package")], lambda row: launch_text.prefix(row[0])))
+
+
+def _join(call: Call) -> Value:
+    for argument in call.arguments:
+        note(call.machine, argument, "joined", call.node, call.frame)
+    rows = [call.texts(position) for position in range(len(call.arguments))]
+    return call.result(joined(rows, lambda row: posixpath.join("", *row)))
+
+
+def _on_path(function: Callable[[str], str]) -> Rule:
+    return lambda call: call.result(joined([call.texts(0)], lambda row: function(row[0])))
+
+
+def _split(function: Callable[[str], tuple[str, ...]]) -> Rule:
+    return lambda call: union(guarded_text(text, function(text)) for text in call.texts(0))
+
+
+def _path(call: Call) -> Value:
+    rows = [call.texts(position) for position in range(len(call.arguments))]
+    found = joined(rows, lambda row: posixpath.join("", *row)) if rows else (".",)
+    return union(guarded_text(text, FilePath(text)) for text in found)
+
+
+def _variable(call: Call) -> Value:
+    default = call.get(1, "default")
+    names = call.texts(0, "key")
+    if call.machine.sets(names):
+        return union(call.machine.variable(name) for name in names)
+    # ROS sets its distribution wherever something is launched; any other variable may be missing.
+    if default is None and call.name != "os.environ" and names != ("ROS_DISTRO",):
+        return Unknown("an environment variable")
+    defaults = call.texts(1, "default") if default is not None else (None,)
+    return call.result(tuple(environment(name, one) for name in names for one in defaults))
+
+
+def _has_resource(call: Call) -> Value:
+    return _is_there(call.texts(1, "resource_name"))
+
+
+def _is_there(names: tuple[str, ...]) -> Value:
+    asked = presence(names[0] if len(names) == 1 else UNKNOWN)
+    return Unknown("whether something is installed", LaunchCondition((asked,), None))
+
+
+def _exists(call: Call) -> Value:
+    return call.machine.ask(call.texts(0, "path"))
+
+
+def _first(call: Call) -> Value:
+    return call.get(0)
+
+
+def _perform(position: int) -> Rule:
+    return lambda call: call.result(call.machine.texts(call.get(position)))
+
+
+def _configured(call: Call) -> Value:
+    default = call.get(1)
+    defaults = call.texts(1) if default is not None else (None,)
+    return call.result(tuple(launch_text.configuration(name, one) for name in call.texts(0) for one in defaults))
+
+
+def _expanded(call: Call) -> Value:
+    """``xacro.process_file`` and its like read a file."""
+    return _make(call, "Command") if call.arguments else unknown(call)
+
+
+def _makes(position: int) -> Rule:
+    """What writes a file, which need not be there before."""
+
+    def rule(call: Call) -> Value:
+        call.machine.ask(call.texts(position))
+        return unknown(call)
+
+    return rule
+
+
+_OUTPUT = re.compile(r"(?:>|\s-o\s)\s*(\S+)")
+
+
+def _runs(call: Call) -> Value:
+    """A command makes what it is told to write to, by ``>`` of the shell or by ``-o``: this need not be there before."""
+    words = call.items(0)
+    if words is None:
+        call.machine.ask(tuple([path for command in call.texts(0) for path in _OUTPUT.findall(command)]))
+    else:
+        for option, path in pairwise(words):
+            if "-o" in call.machine.texts(option):
+                call.machine.ask(call.machine.texts(path))
+    call.machine.lose([call.arguments, call.keywords])
+    return Unknown("")
+
+
+def subscript_library(machine: Machine, owner: Value, key: Value) -> Value:
+    """Return an element of something that a library has."""
+    if isinstance(owner, Api):
+        if owner.name == "os.environ":
+            return union(machine.variable(name) for name in text_of(key))
+        if owner.name == "context.launch_configurations":
+            return union(launch_text.configuration(name) for name in text_of(key))
+    if isinstance(owner, (Unknown, Api)):
+        return Unknown("element of what is not known")
+    machine.lose(owner)
+    return Unknown("element of what is not known")
+
+
+_STANDARD = frozenset(
+    {
+        "os", "sys", "shutil", "subprocess", "time", "random", "math", "json", "re", "tempfile", "datetime", "socket",
+        "logging", "builtins", "platform", "getpass", "glob", "collections", "itertools", "functools", "string", "yaml",
+        "numpy", "psutil", "argparse", "hashlib", "uuid", "stat", "signal", "threading", "warnings", "inspect", "ast",
+    }
+)  # fmt: skip
+"""Modules whose functions return nothing that can be launched."""
+
+
+_BY_NAME: Mapping[str, Rule] = {
+    **FUNCTIONS,
+    "os.path.join": _join,
+    "os.path.basename": _on_path(lambda path: launch_py_paths.split(path)[1]),
+    "os.path.dirname": _on_path(lambda path: launch_py_paths.split(path)[0]),
+    "os.path.normpath": _on_path(posixpath.normpath),
+    "os.path.split": _split(launch_py_paths.split),
+    "os.path.splitext": _split(launch_py_paths.split_suffix),
+    "os.path.abspath": _on_path(str),
+    "os.path.realpath": _on_path(str),
+    "os.path.expanduser": _on_path(str),
+    "os.path.expandvars": _on_path(str),
+    "os.path.exists": _exists,
+    "os.path.isfile": _exists,
+    "os.fspath": _on_path(str),
+    "os.getenv": _variable,
+    "os.environ.get": _variable,
+    "os.getcwd": unknown_text,
+    "os.makedirs": nothing,
+    "pathlib.Path": _path,
+    "pathlib.PurePath": _path,
+    "pathlib.PosixPath": _path,
+    "pathlib.PurePosixPath": _path,
+    "pathlib.Path.cwd": lambda call: FilePath(UNKNOWN),
+    "pathlib.Path.home": lambda call: FilePath(UNKNOWN),
+    "context.launch_configurations.get": _configured,
+    "context.perform_substitution": _perform(0),
+    f"{INSTALLED}.keys": lambda call: Api(INSTALLED),
+    f"{INSTALLED}.get": lambda call: _is_there(call.texts(0)),
+    "xacro.process_file": _expanded,
+    "xacro.process": _expanded,
+    "xacro.open_output": _makes(0),
+    **dict.fromkeys(("shutil.copy", "shutil.copy2", "shutil.copyfile"), _makes(1)),
+    **{f"subprocess.{name}": _runs for name in ("Popen", "call", "check_call", "check_output", "getoutput", "run")},
+    "os.system": _runs,
+}
+
+_BY_LAST: Mapping[str, Rule] = {
+    "get_package_share_directory": _share,
+    "get_package_share_path": _share_path,
+    "get_package_prefix": _prefix,
+    "get_packages_with_prefixes": lambda call: Api(INSTALLED),
+    "get_resources": lambda call: Api(INSTALLED),
+    "get_search_paths": lambda call: Api(INSTALLED),
+    "has_resource": _has_resource,
+    "perform_substitutions": _perform(1),
+    "normalize_to_list_of_substitutions": _first,
+    "Path": _path,
+}

@@ -1,0 +1,234 @@
+"""From what a Python launch file makes to what it does: only what is returned or added counts."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from ros_lint.base.text import Span, beginning
+from ros_lint.collectors import symbolic_text as launch_text
+from ros_lint.collectors.launch.python.substitutions import Within, conditions_of, texts
+from ros_lint.collectors.python import syntax as python_syntax
+from ros_lint.collectors.python.interpreter.values import (
+    Conditions,
+    Context,
+    Frame,
+    Function,
+    Guarded,
+    Instance,
+    Made,
+    Raised,
+    Union,
+    Unknown,
+    Value,
+    Written,
+    alternatives,
+    plain,
+)
+from ros_lint.collectors.symbolic_text import UNKNOWN, installed
+from ros_lint.facts.launch import LaunchAction, LaunchValue
+from ros_lint.facts.visibility import Problem
+
+if TYPE_CHECKING:
+    from ros_lint.collectors.python.interpreter.machine import Machine
+    from ros_lint.collectors.python.interpreter.values import Source
+
+_DEEPEST = 60
+_MOST = 5_000
+
+
+def span_of(node: python_syntax.Node, source: Source) -> Span:
+    """Return the span of an expression."""
+    if not source.ascii:
+        return python_syntax.span_of(source.text, node)
+    # The columns of the syntax tree count bytes, which are characters here: most files are so, and this is fast.
+    end = node.end_lineno or node.lineno, (node.end_col_offset or node.col_offset) + 1
+    return Span(source.text.path, node.lineno, node.col_offset + 1, *end)
+
+
+def place_of(made: Made) -> Span:
+    """Return where an object is made."""
+    return span_of(made.node, made.source)
+
+
+class Walker:
+    """Turns values into actions."""
+
+    def __init__(self, machine: Machine, source: Source, rules: Mapping[str, Rule], otherwise: Rule) -> None:
+        """Make a walker. ``rules`` say what objects of a class do, ``otherwise`` what those of any other class do."""
+        self.machine = machine
+        self._rules = rules
+        self._otherwise = otherwise
+        self._source = source
+        self.problems: list[Problem] = []
+        self.blind: list[tuple[str, Span]] = []
+        """Where something is launched that is not known."""
+        self._depth = 0
+        self._open: set[int] = set()
+        self._left = _MOST
+        self._stopped = False
+
+    def actions(self, value: Value, conditions: Conditions = (), at: Span | None = None) -> list[LaunchAction]:
+        """Return what a value does when it is launched."""
+        found: list[LaunchAction] = []
+        if self._depth > _DEEPEST or self._left <= 0:
+            self._stop("there is too much of it" if self._left <= 0 else "it is nested too deeply", at)
+            return found
+        self._left -= 1
+        self._depth += 1
+        try:
+            if not isinstance(value, (Union, Guarded)):
+                return self._one(value, conditions, at)
+            for one in alternatives(value, conditions):
+                found += self._one(one.value, one.conditions, at)
+        finally:
+            self._depth -= 1
+        return found
+
+    def _one(self, value: Value, conditions: Conditions, at: Span | None) -> list[LaunchAction]:
+        if isinstance(value, Instance) and value.made is not None:
+            value = value.made
+        if isinstance(value, Made):
+            if id(value) in self._open:
+                return []
+            value.seen = True
+            self._open.add(id(value))
+            try:
+                return self._made(value, conditions)
+            finally:
+                self._open.discard(id(value))
+        if isinstance(value, (list, tuple)):
+            return [action for one in value for action in self.actions(one, conditions, at)]
+        if isinstance(value, Unknown) and value.reason:
+            self.blind.append((value.reason, at or beginning(self._source.text.path)))
+        return []
+
+    def _made(self, made: Made, conditions: Conditions) -> list[LaunchAction]:
+        conditions = _merged(conditions, made.conditions)
+        condition = made.get(-1, "condition")
+        if condition is not None:
+            conditions = (*conditions, *conditions_of(condition, Within(self.machine.spend)))
+        if isinstance(condition, Function):  # launch refuses it, but what it asks for is meant to be asked for
+            self.run(condition, [Context()], {}, made)
+        if made.name == "LaunchDescription":
+            return self._description(made, conditions)
+        return self._rules.get(made.name, self._otherwise)(self, made, conditions)
+
+    def apart(self, action: LaunchAction, target: Value, package: Value = None) -> list[LaunchAction]:
+        """Return an action once for each target, where it is known what each depends on."""
+        if action.target is None or len(action.target.texts) == 1:
+            return [action]
+        targets = self._alternatives(target)
+        if not all(_depends(text) for text in targets):
+            return [action]
+        packages = self._alternatives(package)
+        found: list[LaunchAction] = []
+        for text in targets:
+            held = launch_text.conditions_of(text)
+            together = tuple(str(one) for one in packages if launch_text.agree((*held, *launch_text.conditions_of(one))))
+            found.append(
+                action._replace(
+                    target=LaunchValue((str(text),), action.target.span),
+                    package=action.package._replace(texts=together or action.package.texts) if action.package else None,
+                    conditions=_merged(action.conditions, held),
+                )
+            )
+        return found
+
+    def _alternatives(self, value: Value) -> tuple[str, ...]:
+        return texts(value, Within(self.machine.spend)) if value is not None else ()
+
+    def _description(self, made: Made, conditions: Conditions) -> list[LaunchAction]:
+        found: list[LaunchAction] = []
+        index = 0
+        # Functions that are called on the way may add to it.
+        at = span_of(made.node, made.source)
+        while index < len(made.entities) and self._left > 0:
+            found += self.actions(made.entities[index], conditions, at)
+            index += 1
+        if index < len(made.entities):
+            self._stop("there is too much of it", at)
+        return found
+
+    def _stop(self, reason: str, at: Span | None) -> None:
+        """Note once that not everything is followed."""
+        if not self._stopped:
+            self._stopped = True
+            self.blind.append((reason, at or beginning(self._source.text.path)))
+
+    def value(self, made: Made, position: int, *names: str) -> LaunchValue | None:
+        """Return an argument as a text, None when it is not there."""
+        given = made.get(position, *names)
+        return None if given is None else self.text(given, made.written(position, *names), made.source)
+
+    def text(self, given: Value, node: ast.expr, source: Source) -> LaunchValue:
+        """Return a value as a text with the place where it is written."""
+        found = (str(given),) if isinstance(given, str) else _plain(texts(given, Within(self.machine.spend)))
+        origin = plain(given)
+        while isinstance(origin, Made) and origin.name in ("TextSubstitution", "ParameterFile", "ParameterValue"):
+            origin = plain(origin.get(0, "text", "param_file", "value"))
+        if isinstance(origin, (list, tuple)) and len(origin) == 1:
+            origin = plain(origin[0])
+        if isinstance(origin, Written):
+            node, source = origin.node, origin.source
+        span = span_of(node, source)
+        if not isinstance(node, ast.Constant) or len(found) != 1 or not found[0] or node.value != found[0]:
+            return LaunchValue(found, span)
+        path, line, column, last, end = span
+        if line == last and end - column == len(found[0]) + 2:  # between quotes as it is meant
+            return LaunchValue(found, Span(path, line, column + 1, last, end - 1), exact=True)
+        at = source.text.text.find(found[0], *python_syntax.range_of(source.text, node))
+        if at < 0:
+            return LaunchValue(found, span)
+        return LaunchValue(found, source.text.span(at, at + len(found[0])), exact=True)
+
+    def each_text(self, given: Value, node: ast.expr, source: Source) -> list[LaunchValue]:
+        """Return a value as a text; as one for each alternative, with what it depends on, where there is something."""
+        value = self.text(given, node, source)
+        if len(value.texts) == 1:
+            return [value]
+        found = [(text, launch_text.conditions_of(text)) for text in self._alternatives(given)]
+        if not all(conditions for _, conditions in found):
+            return [value]
+        return [value._replace(texts=(str(text),), conditions=conditions) for text, conditions in found]
+
+    def package_span(self, value: LaunchValue | None) -> Span | None:
+        """Return where the package is written that a path lies in."""
+        for text in value.texts if value is not None else ():
+            if text.isascii():
+                continue
+            for found in installed(text):
+                if found.package in self.machine.named:
+                    return self.look_up_span(found.package)
+        return None
+
+    def look_up_span(self, package: str) -> Span:
+        """Return where a package is looked up first; it is looked up somewhere."""
+        node, source = self.machine.named[package]
+        return self.text(package, node, source).span if isinstance(node, ast.Constant) else span_of(node, source)
+
+    def run(self, function: Value, arguments: Sequence[Value], keywords: Mapping[str, Value], made: Made) -> Value:
+        """Return what a function returns that launch calls."""
+        frame = Frame(made.source, None, {})
+        try:
+            return self.machine.call(plain(function), list(arguments), dict(keywords), made.node, frame)
+        except Raised:
+            return Unknown("a function that raises")
+
+
+def _plain(texts: Iterable[str]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys([str(text) for text in texts]))
+
+
+def _merged(left: Conditions, right: Conditions) -> Conditions:
+    return (*left, *(one for one in right if one not in left))
+
+
+def _depends(text: str) -> bool:
+    """Whether a text holds under conditions, all of which can be worked out once arguments have values."""
+    conditions = launch_text.conditions_of(text)
+    return bool(conditions) and not any(UNKNOWN in one for condition in conditions for one in condition.texts)
+
+
+Rule = Callable[[Walker, Made, Conditions], list[LaunchAction]]

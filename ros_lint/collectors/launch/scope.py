@@ -1,0 +1,131 @@
+"""What the texts and conditions of a launch file are at one place of a run, where the marks in them can be filled in."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.collectors.launch.expressions import evaluate, means_true
+from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, asked_for, configurations, fill, is_settled, named_in
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Mapping
+
+    from ros_lint.base.text import Span
+    from ros_lint.facts.launch import LaunchCondition, LaunchValue
+
+Texts = tuple[str, ...]
+
+
+class Scope(NamedTuple):
+    """What actions see and change. ``values`` lives on while actions of one scope run; the rest is passed on."""
+
+    values: dict[str, Texts]
+    folder: Texts
+    namespace: Texts = ("",)
+    certain: bool = True
+    parameters: tuple[tuple[str, Texts], ...] = ()
+    remappings: tuple[tuple[Texts, Texts], ...] = ()
+    environment: tuple[tuple[str, Texts], ...] = ()
+    container: Texts = ()
+    when: tuple[LaunchCondition, ...] = ()
+    later: bool = False
+    include: Span | None = None
+    """By which the file came that is being followed."""
+
+    def after(self, inner: Scope) -> Scope:
+        """Return what holds after actions that ran in another scope but were not to be kept apart."""
+        return self._replace(
+            namespace=inner.namespace,
+            parameters=inner.parameters,
+            remappings=inner.remappings,
+            environment=inner.environment,
+        )
+
+
+class Filling:
+    """Fills in texts. ``environment`` has variables that are the same everywhere, by name with a dollar sign before it."""
+
+    def __init__(self, environment: Mapping[str, Texts]) -> None:
+        self._environment = environment
+        self.unknown: dict[str, None] = {}
+        """Why something in the texts was not known since this was cleared."""
+
+    def texts(self, value: LaunchValue | None, scope: Scope) -> Texts:
+        """Return what a value is in a scope, () for none."""
+        return () if value is None else self._filled(value.texts, scope)
+
+    def _filled(self, texts: Texts, scope: Scope) -> Texts:
+        if len(texts) == 1 and is_settled(texts[0]) and OWN_FOLDER not in texts[0]:
+            return texts
+        found: dict[str, None] = {}
+        for text in texts:
+            if is_settled(text) and OWN_FOLDER not in text:
+                found[text] = None
+                continue
+            for one in self._put(text, scope):
+                if OWN_FOLDER in one:
+                    found.update(dict.fromkeys([one.replace(OWN_FOLDER, folder) for folder in scope.folder]))
+                else:
+                    found[one] = None
+                if UNKNOWN in one:
+                    self.unknown.update(dict.fromkeys(self._reasons(text, scope)))
+        return tuple(found)
+
+    def _put(self, text: str, scope: Scope) -> Texts:
+        names = named_in(text)
+        if names is None:
+            return fill(text, lambda name: self._value(name, scope), evaluate)
+        return _filled_with(text, names, tuple([self._value(name, scope) for name in names]))
+
+    def _value(self, name: str, scope: Scope) -> Texts | None:
+        if not name.startswith("$"):
+            return scope.values.get(name)
+        return dict(scope.environment).get(name[1:]) or self._environment.get(name)
+
+    def _reasons(self, text: str, scope: Scope) -> Iterator[str]:
+        """Yield why a text is not known."""
+        for name, has_default, _ in configurations(text):
+            value = self._value(name, scope)
+            if name.startswith("$"):
+                if value is None and not has_default:
+                    yield f"the environment variable {name[1:]} is not known here"
+            elif value == (UNKNOWN,):
+                yield f"the argument {name} is not known"
+            elif value is None and not has_default:
+                yield f"nothing sets the launch configuration {name}"
+        if UNKNOWN in text:
+            yield "it is computed in a way that cannot be followed"
+
+    def truth(self, conditions: Iterable[LaunchCondition], scope: Scope) -> tuple[bool | None, tuple[LaunchCondition, ...]]:
+        """Return whether all conditions hold, and those of which that is not known."""
+        open_: list[LaunchCondition] = []
+        for condition in conditions:
+            truth = self._holds(condition, scope)
+            if truth is False:
+                return False, ()
+            if truth is None:
+                open_.append(condition)
+        return (None if open_ else True), tuple(open_)
+
+    def _holds(self, condition: LaunchCondition, scope: Scope) -> bool | None:
+        answers: set[bool | None] = set()
+        for text in self._filled(condition.texts, scope):
+            if asked_for(text):
+                answers.add(True)  # the launch file is asked what it does where everything is installed
+            elif not is_settled(text):
+                answers.add(None)
+            elif condition.equals is None:
+                answers.add(means_true(text))
+            else:
+                answers.add(text == condition.equals)
+        if len(answers) != 1:
+            return None
+        answer = answers.pop()
+        return None if answer is None else answer is condition.wanted
+
+
+@lru_cache(maxsize=8_192)
+def _filled_with(text: str, names: Texts, values: tuple[Texts | None, ...]) -> Texts:
+    """Return what a text becomes with some values. A file that many include says the same many times over."""
+    return fill(text, dict(zip(names, values, strict=True)).get, evaluate)

@@ -1,0 +1,218 @@
+"""Read ``package.xml``: what it says, and why catkin_pkg would not take it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Mapping
+from typing import Final
+
+from ros_lint.base.text import Span, Text
+from ros_lint.collectors.manifest.problems import ALLOWED, VERSIONS, find_problems, read_format, surely_accepted
+from ros_lint.collectors.manifest.xml import BLANK, Document, Fault, Node, attribute, child, markup, read, value
+from ros_lint.facts.manifest import ROLES, Depend, Element, Manifest
+from ros_lint.facts.visibility import Problem
+
+DEPENDENCY_TAGS: Final = frozenset((*ROLES, "doc_depend", "conflict", "replace", "group_depend", "member_of_group"))
+"""The tags that become a :class:`Depend`, whatever the format of the manifest (reference, section A1.4)."""
+
+_NEWEST_FORMAT = 3
+"""Taken for a manifest whose format is not known: it has the most tags."""
+
+_ASIDE = re.compile(r"<!--.*?-->|<\?.*?\?>|<!\[CDATA\[.*?\]\]>|[^\s<]+(?:[^\S\r\n]+[^\s<]+)*", re.DOTALL)
+
+_PLAIN = re.compile(r"[^<&\s](?:[^<&\n]*[^<&\s])?").fullmatch
+
+_NONE: frozenset[str] = frozenset()
+
+_Place = Callable[[int, int], Span]
+
+_new = tuple.__new__  # half the time of calling a named tuple
+
+
+def collect(source: Text) -> Manifest:
+    """Return what a ``package.xml`` says. Never raises.
+
+    ``problems`` holds everything for which ``catkin_pkg.package.parse_package`` rejects the file, and is empty when it takes
+    it (reference, sections A1 and A2); a rejected file gives the facts that can be read all the same. For safety two things
+    are refused that catkin_pkg would take: entity declarations, and elements nested more than 200 levels deep.
+    """
+    document = read(source)
+    text = Text(source.path, document.text)  # as the tools read it, should the declared encoding have led astray
+    root = document.root
+    if root is None or root.tag != "package":
+        return _no_package(text, document)
+    form = read_format(root)
+    place = _placer(text)
+    format_span = None
+    if "format" in root.attributes:
+        _, start, end = attribute(text.text, root, "format")
+        format_span = place(start, end)
+    begin = place(root.inner, root.inner)
+    found = _read_children(text.path, document, root, ALLOWED.get(form, {}), place)
+    end = root.close if root.end >= 0 else document.read
+    faults = document.faults
+    if faults or found.doubtful or not surely_accepted(root, form, found.elements, found.depends):
+        faults = (*faults, *find_problems(document, root, form, found.elements, found.depends))
+    name = next((element for element in found.elements if element.tag == "name"), None)
+    return Manifest(
+        text.path,
+        form or _NEWEST_FORMAT,
+        name.text if name else "",
+        next((element.text for element in found.elements if element.tag == "version"), ""),
+        tuple(found.elements),
+        tuple(found.depends),
+        tuple(found.exports),
+        _problems(text, faults) if faults else (),
+        name.text_span if name else text.span(root.start + 1, root.start + 1 + len(root.tag)),
+        place(end, end),
+        begin,
+        format_span,
+        tuple(found.asides),
+        tuple(found.strays),
+        _indent(text.text, document),
+        text.newline,
+    )
+
+
+class _Found:
+    """What stands in ``<package>``. ``doubtful``: some element has attributes or children that it may not have."""
+
+    __slots__ = ("asides", "depends", "doubtful", "elements", "exports", "strays")
+
+    def __init__(self) -> None:
+        self.elements: list[Element] = []
+        self.depends: list[Depend] = []
+        self.exports: list[Element] = []
+        self.asides: list[Span] = []
+        self.strays: list[Span] = []
+        self.doubtful = False
+
+
+def _read_children(path: str, document: Document, root: Node, allowed: Mapping[str, frozenset[str]], place: _Place) -> _Found:
+    found = _Found()
+    text, events = document.text, document.events
+    count, rfind, add_depend, add_element = text.count, text.rfind, found.depends.append, found.elements.append
+    plain_lines = "\r" not in text
+    at, last = 1, len(events)
+    line, begin, counted = 1, -1, 0
+    done = root.inner
+    while at < last and not isinstance(event := events[at], int):
+        tag, attributes, start = event
+        if start != done and not (gap := text[done:start]).isspace():
+            _read_asides(gap, done, found, place)
+        if plain_lines and not attributes and at + 1 < last and isinstance(close := events[at + 1], int):
+            # Most elements have nothing but text in them, on one line. They are read here, at a third of the cost.
+            inner = start + len(tag) + 2
+            done = close + len(tag) + 3
+            raw = text[inner:close]
+            if text[inner - 1] == ">" == text[done - 1] and " " not in tag and (raw.isidentifier() or _PLAIN(raw)):
+                at += 2
+                if passed := count("\n", counted, start):
+                    line += passed
+                    begin = rfind("\n", counted, start)
+                counted = start
+                left = inner - begin
+                span = _new(Span, (path, line, start - begin, line, done - begin))
+                name_span = _new(Span, (path, line, left, line, left + len(raw)))
+                if tag in DEPENDENCY_TAGS:
+                    add_depend(_new(Depend, (raw, tag, "", (), span, name_span, done - close)))
+                else:
+                    add_element(_new(Element, (tag, raw, (), span, name_span)))
+                continue
+        node, at = child(document, at)
+        done = node.end if node.end >= 0 else len(text)  # else the file breaks off in it
+        rich = node.tag in ("description", "export")
+        if (node.children and not rich) or not allowed.get(node.tag, _NONE).issuperset(node.attributes):
+            found.doubtful = True
+        if node.end >= 0 and node.tag in DEPENDENCY_TAGS:
+            found.depends.append(_depend(text, node, place))
+        elif node.end >= 0:
+            found.elements.append(_element(text, node, place, rich=rich))
+        if node.tag == "export":
+            found.exports += [_element(text, inside, place, rich=True) for inside in node.children if inside.end >= 0]
+    if root.end >= 0 and done < root.close and not (gap := text[done : root.close]).isspace():
+        _read_asides(gap, done, found, place)
+    return found
+
+
+def _read_asides(gap: str, start: int, found: _Found, place: _Place) -> None:
+    for aside in _ASIDE.finditer(gap):
+        span = place(start + aside.start(), start + aside.end())
+        found.asides.append(span)
+        if not aside[0].startswith(("<!--", "<?")):
+            found.strays.append(span)
+
+
+def _depend(text: str, node: Node, place: _Place) -> Depend:
+    span = place(node.start, node.end)
+    name, start, end = value(text, node)
+    name_span = place(start, end)
+    close = node.end - node.close
+    if close > len(node.tag) + 3 and not text[node.close : node.end].isprintable():
+        close = 0
+    attributes = node.attributes
+    versions = tuple([(key, text) for key, text in attributes.items() if key in VERSIONS])
+    condition = (attributes["condition"] or " ") if "condition" in attributes else ""
+    return Depend(name, node.tag, condition, versions, span, name_span, close)
+
+
+def _element(text: str, node: Node, place: _Place, *, rich: bool = False) -> Element:
+    """``rich`` elements have their markup as text, as catkin_pkg has it."""
+    span = place(node.start, node.end)
+    if rich:
+        found = markup(text, node) if node.tag != "export" else ""
+        inner = text[node.inner : node.close]
+        start = node.inner + len(inner) - len(inner.lstrip(BLANK))
+        end = max(start, node.close - len(inner) + len(inner.rstrip(BLANK)))
+    else:
+        found, start, end = value(text, node)
+    return _new(Element, (node.tag, found, tuple(node.attributes.items()), span, place(start, end)))
+
+
+def _placer(source: Text) -> _Place:
+    """Return :meth:`Text.span` for places whose starts come in order, which then costs a third."""
+    path, text = source.path, source.text
+    if "\r" in text:
+        return source.span
+    count, rfind = text.count, text.rfind
+    line, begin, at = 1, 0, 0
+
+    def place(start: int, end: int) -> Span:
+        nonlocal line, begin, at
+        if passed := count("\n", at, start):
+            line += passed
+            begin = rfind("\n", at, start) + 1
+        at = start
+        if lines := count("\n", start, end):
+            return _new(Span, (path, line, start - begin + 1, line + lines, end - rfind("\n", start, end)))
+        return _new(Span, (path, line, start - begin + 1, line, end - begin + 1))
+
+    return place
+
+
+def _no_package(text: Text, document: Document) -> Manifest:
+    """Return the manifest of a file that has no ``<package>``."""
+    faults = list(document.faults)
+    root = document.root
+    start = root.start + 1 if root else 0
+    place = text.span(start, start + len(root.tag) if root else 0)
+    if root is not None and not faults:
+        message = f"the root element is <{root.tag}>, but a manifest has <package>"
+        faults.append(Fault("no-package", message, start, start + len(root.tag)))
+    end = text.span(document.read, document.read)
+    return Manifest(text.path, _NEWEST_FORMAT, "", "", (), (), (), _problems(text, faults), place, end)
+
+
+def _problems(text: Text, faults: Iterable[Fault]) -> tuple[Problem, ...]:
+    found = [Problem(kind, message, text.span(start, end), subject=subject) for kind, message, start, end, subject in faults]
+    return tuple(sorted(found, key=lambda problem: problem.span))
+
+
+def _indent(text: str, document: Document) -> str:
+    """Return the white space before the first child that begins its line."""
+    for event in document.events[1:]:
+        if not isinstance(event, int):
+            begin = max(text.rfind("\n", 0, event[2]), text.rfind("\r", 0, event[2])) + 1
+            if begin and not text[begin : event[2]].strip(" \t"):
+                return text[begin : event[2]]
+    return "  "

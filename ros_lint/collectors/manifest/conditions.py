@@ -1,0 +1,229 @@
+"""Conditions of package.xml elements: parse, and evaluate with three truth values (REP 149; reference, section A3).
+
+The grammar is the one that catkin_pkg accepts, its looseness included: ``and`` and ``or`` need no space after them, and
+quoted strings may be empty.
+"""
+
+from __future__ import annotations
+
+import operator
+import re
+from collections.abc import Callable, Iterator, Mapping
+from functools import lru_cache
+from typing import Final, NamedTuple
+
+from ros_lint.facts.environment import ROS_2
+from ros_lint.facts.manifest import Element, Manifest
+from ros_lint.facts.visibility import Problem
+
+MOST_DEPTH = 20
+"""Parentheses nested deeper are refused: catkin_pkg needs time exponential in their depth."""
+
+
+class ConditionError(ValueError):
+    """A condition that does not parse. ``offset`` counts code points, from 0 to the length of the condition."""
+
+    def __init__(self, message: str, offset: int) -> None:
+        super().__init__(message)
+        self.message: Final = message
+        self.offset: Final = offset
+
+
+class Operand(NamedTuple):
+    """A side of a comparison: the value of a variable, or a text."""
+
+    text: str
+    variable: bool
+
+
+class Comparison(NamedTuple):
+    """Two strings, compared as strings: "10" is less than "9"."""
+
+    left: Operand
+    operator: str
+    right: Operand
+
+
+class Junction(NamedTuple):
+    """Conditions joined by ``and`` (every) or by ``or``."""
+
+    every: bool
+    parts: tuple[Condition, ...]
+
+
+Condition = Comparison | Junction
+
+_OPERATORS: dict[str, Callable[[str, str], bool]] = {
+    "==": operator.eq,
+    "!=": operator.ne,
+    "<=": operator.le,
+    "<": operator.lt,
+    ">=": operator.ge,
+    ">": operator.gt,
+}
+_BLANK = re.compile(r"[ \n\r]*")
+_OPERATOR = re.compile("==|!=|>=|>|<=|<")
+_OPERAND = re.compile(
+    r"""\$(?P<variable>[A-Za-z0-9_]+)|(?P<word>[A-Za-z0-9_-]+)|"(?P<double>[^"\n\r]*)"|'(?P<single>[^'\n\r]*)'"""
+)
+_ESCAPES = re.compile(r"\\(?:([tnfr])|([0-7]3|0|x[0-9a-fA-F]2|u[0-9a-fA-F]4))")
+"""What pyparsing takes for escapes, since 3.1 also of numbers: one digit and how many it means to take."""
+_BLANKS = {"t": "\t", "n": "\n", "f": "\f", "r": "\r"}
+
+
+@lru_cache(maxsize=1024)
+def parse(text: str) -> Condition:
+    """Return a condition. Raises ConditionError where catkin_pkg.condition does not parse, too."""
+    expanded = text.expandtabs()  # as pyparsing does first of all
+    try:
+        condition, at = _junction(expanded, 0, 0)
+        if at < len(expanded):
+            raise ConditionError('expected "and", "or" or the end', at)
+    except ConditionError as error:
+        if expanded == text:
+            raise
+        # Tabs have moved the place.
+        offset = next((i for i in range(len(text)) if len(text[: i + 1].expandtabs()) > error.offset), len(text))
+        raise ConditionError(error.message, offset) from None
+    return condition
+
+
+def evaluate(condition: Condition, context: Mapping[str, str]) -> bool | None:
+    """Return whether a condition holds, None if that depends on a variable that the context has not."""
+    if isinstance(condition, Junction):
+        found = [evaluate(part, context) for part in condition.parts]
+        if condition.every:
+            return False if False in found else None if None in found else True
+        return True if True in found else None if None in found else False
+    left, right = _value(condition.left, context), _value(condition.right, context)
+    if left is None or right is None:
+        return None
+    return _OPERATORS[condition.operator](left, right)
+
+
+def always(text: str) -> bool:
+    """Return whether an element with this condition, or without one, counts in every environment of ROS 2."""
+    return truth(text, ROS_2) is True
+
+
+def truth(text: str, context: Mapping[str, str]) -> bool | None:
+    """Return whether an element with this condition counts: True without a condition, None if that cannot be known.
+
+    A text that does not parse gives None, too; see :func:`problems`.
+    """
+    if not text:
+        return True
+    try:
+        return evaluate(parse(text), context)
+    except ConditionError:
+        return None
+
+
+def variables(condition: Condition) -> frozenset[str]:
+    """Return the names of the variables in a condition, without the dollar sign."""
+    if isinstance(condition, Junction):
+        return frozenset().union(*(variables(part) for part in condition.parts))
+    return frozenset(side.text for side in (condition.left, condition.right) if side.variable)
+
+
+def of(element: Element) -> str:
+    """Return the condition of a child of ``<export>``: "" when there is none, " " when it is empty."""
+    for name, text in element.attributes:
+        if name == "condition":
+            return text or " "
+    return ""
+
+
+def build_types(manifest: Manifest, context: Mapping[str, str]) -> tuple[tuple[str, bool | None], ...]:
+    """Return the build types that are not switched off, each with its truth: True, or None when that cannot be known.
+
+    None at all means "catkin"; with two that are true, colcon takes the folder for no ROS package (reference, section A5.4).
+    """
+    found = [(element.text, truth(of(element), context)) for element in manifest.exports if element.tag == "build_type"]
+    return tuple([(name, active) for name, active in found if active is not False])
+
+
+def problems(manifest: Manifest) -> tuple[Problem, ...]:
+    """Return the conditions that do not parse: colcon takes a folder with one for no ROS package (reference, section A3.5)."""
+    return tuple(_unparsable(manifest))
+
+
+def _unparsable(manifest: Manifest) -> Iterator[Problem]:
+    conditional = [(depend.condition, depend.tag, depend.span) for depend in manifest.depends if depend.condition]
+    conditional += [(text, element.tag, element.span) for element in manifest.exports if (text := of(element))]
+    for text, tag, span in conditional:
+        try:
+            parse(text)
+        except ConditionError as error:
+            message = f"condition {text} of <{tag}> does not parse: at character {error.offset + 1}, {error.message}"
+            if not text.strip():
+                message = f"condition of <{tag}> is empty; remove the attribute"
+            yield Problem("invalid-condition", message, span)
+
+
+def _value(operand: Operand, context: Mapping[str, str]) -> str | None:
+    return context.get(operand.text) if operand.variable else operand.text
+
+
+def _junction(text: str, at: int, depth: int) -> tuple[Condition, int]:
+    """``or`` binds less than ``and``."""
+    alternatives: list[Condition] = []
+    while True:
+        parts, at = _conjunction(text, at, depth)
+        alternatives.append(parts[0] if len(parts) == 1 else Junction(True, tuple(parts)))
+        if not text.startswith("or", at):
+            return (alternatives[0] if len(alternatives) == 1 else Junction(False, tuple(alternatives))), at
+        at += 2
+
+
+def _conjunction(text: str, at: int, depth: int) -> tuple[list[Condition], int]:
+    parts: list[Condition] = []
+    while True:
+        part, at = _comparison(text, at, depth)
+        parts.append(part)
+        at = _skip(text, at)
+        if not text.startswith("and", at):
+            return parts, at
+        at += 3
+
+
+def _comparison(text: str, at: int, depth: int) -> tuple[Condition, int]:
+    at = _skip(text, at)
+    if text.startswith("(", at):
+        if depth == MOST_DEPTH:
+            raise ConditionError("too many parentheses", at)
+        inside, at = _junction(text, at + 1, depth + 1)
+        if not text.startswith(")", at):
+            raise ConditionError('expected "and", "or" or ")"', at)
+        return inside, at + 1
+    left, at = _operand(text, at)
+    sign = _OPERATOR.match(text, at := _skip(text, at))
+    if not sign:
+        raise ConditionError("expected a comparison such as ==", at)
+    right, at = _operand(text, _skip(text, sign.end()))
+    return Comparison(left, sign[0], right), at
+
+
+def _operand(text: str, at: int) -> tuple[Operand, int]:
+    found = _OPERAND.match(text, at)
+    if not found:
+        raise ConditionError("expected a $variable, a word or a quoted string", at)
+    kind = found.lastgroup or ""
+    written = found[kind]
+    if kind in ("double", "single"):
+        written = _ESCAPES.sub(_escaped, written)
+    return Operand(written, kind == "variable"), found.end()
+
+
+def _escaped(escape: re.Match[str]) -> str:
+    if escape[1]:
+        return _BLANKS[escape[1]]
+    number: str = escape[2]
+    if number == "0":
+        return "\0"
+    return chr(int(number[1:], 16)) if number[0] in "xu" else number
+
+
+def _skip(text: str, at: int) -> int:
+    blank = _BLANK.match(text, at)
+    return blank.end() if blank else at

@@ -1,0 +1,295 @@
+"""What makes catkin_pkg reject a manifest that is well-formed XML (reference, sections A1 and A2)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Sequence
+from typing import Final
+
+from ros_lint.base.suggestions import did_you_mean, similar
+from ros_lint.collectors.manifest.xml import Document, Fault, Node, attribute, children, value
+from ros_lint.facts.manifest import Depend, Element
+
+_Elements = Sequence[tuple[Node, Element]]
+_Depends = Sequence[tuple[Node, Depend]]
+"""Children of ``<package>``, each with what it says."""
+
+VERSIONS: Final = frozenset(("version_lt", "version_lte", "version_eq", "version_gte", "version_gt"))
+"""The attributes that ask for a version of the dependency (reference, section A4)."""
+
+_NAME = re.compile(r"^[a-zA-Z0-9][a-zA-Z0-9_-]*$")
+_VERSION = re.compile(r"^[0-9]+\.[0-9]+\.[0-9]+$")
+_EMAIL = re.compile(r"^[-a-zA-Z0-9_%+]+(\.[-a-zA-Z0-9_%+]+)*@[-a-zA-Z0-9%]+(\.[-a-zA-Z0-9%]+)*\.[a-zA-Z]{2,}$")
+
+_BASE = ("build_depend", "buildtool_depend", "test_depend", "conflict", "replace")
+_SINCE_2 = ("build_export_depend", "buildtool_export_depend", "depend", "exec_depend", "doc_depend")
+_ALIKE = {
+    "name": (),
+    "version": ("compatibility",),
+    "description": (),
+    "maintainer": ("email",),
+    "license": (),
+    "url": ("type",),
+    "author": ("email",),
+    "export": (),
+}
+
+
+def _allowed(form: int) -> dict[str, frozenset[str]]:
+    """Return the attributes of each tag of a format."""
+    tags = {tag: frozenset(names) for tag, names in _ALIKE.items()}
+    condition = ("condition",) if form > 2 else ()
+    of_format = ("run_depend",) if form == 1 else _SINCE_2
+    tags.update(dict.fromkeys((*_BASE, *of_format), VERSIONS.union(condition)))
+    if form > 2:
+        tags.update(dict.fromkeys(("group_depend", "member_of_group"), frozenset(condition)))
+        tags["license"] = frozenset(("file",))
+    return tags
+
+
+ALLOWED: Final = {form: _allowed(form) for form in (1, 2, 3)}
+"""By format, the tags that may stand in ``<package>``, each with its attributes."""
+
+_GENERIC = frozenset(("depend", "build_depend", "build_export_depend", "exec_depend"))
+"""A <depend>, and the tags that it stands for."""
+
+_OF_EXPORT = frozenset(("build_type", "metapackage", "architecture_independent", "deprecated", "message_generator"))
+"""Tags that have a meaning, but in <export> (reference, section A5.6)."""
+
+_NOT_ON_ITSELF = frozenset((*_SINCE_2, "build_depend", "buildtool_depend", "test_depend", "run_depend"))
+
+
+def read_format(root: Node) -> int:
+    """Return the format of a manifest, 0 when it is none that exists."""
+    try:
+        form = int(root.attributes.get("format", "1"))
+    except ValueError:
+        return 0
+    return form if form in ALLOWED else 0
+
+
+def surely_accepted(root: Node, form: int, elements: Sequence[Element], depends: Sequence[Depend]) -> bool:
+    """Return True if :func:`find_problems` has nothing to say, but perhaps about attributes and children. Costs a fifth."""
+    if not form or not root.attributes.keys() <= {"format"}:
+        return False
+    tags = [element.tag for element in elements]
+    kinds = [depend.tag for depend in depends]
+    if not ALLOWED[form].keys() >= {*tags, *kinds} or "group_depend" in kinds or tags.count("export") > 1:
+        return False
+    if not tags.count("name") == tags.count("version") == tags.count("description") == 1:
+        return False
+    if "maintainer" not in tags or "license" not in tags or not all(map(_sound, elements)):
+        return False
+    names = [depend.name for depend in depends]
+    if elements[tags.index("name")].text in names:
+        return False
+    if form == 1:
+        return "test_depend" not in kinds
+    if "depend" in kinds:
+        names = [depend.name for depend in depends if depend.tag in _GENERIC]
+        return len(set(names)) == len(names)
+    return True
+
+
+def _sound(element: Element) -> bool:
+    """Return whether the content of an element, and what :func:`find_problems` asks of its attributes, is surely right."""
+    tag = element.tag
+    if tag == "name":
+        return bool(_NAME.match(element.text))
+    if tag == "version":
+        return bool(_VERSION.match(element.text)) and not element.attributes
+    if tag == "license":
+        return bool(element.text.strip())
+    if tag == "description":
+        return bool(element.text)
+    if tag in ("maintainer", "author"):
+        for name, text in element.attributes:
+            if name == "email":
+                return bool(_EMAIL.match(text))
+        return tag == "author"
+    return True
+
+
+def find_problems(
+    document: Document, root: Node, form: int, elements: Sequence[Element], depends: Sequence[Depend]
+) -> Iterator[Fault]:
+    """Yield what is wrong with the content of a manifest, in no order. ``form`` is 0 when the format is unknown.
+
+    ``elements`` and ``depends`` are what was made of the closed children of the root. Of a file that could not be read to
+    its end, nothing is said to be missing.
+    """
+    nodes = [node for node in children(document) if node.end >= 0]
+    dependency_tags = {depend.tag for depend in depends}
+    of_elements = list(zip([node for node in nodes if node.tag not in dependency_tags], elements, strict=True))
+    of_depends = list(zip([node for node in nodes if node.tag in dependency_tags], depends, strict=True))
+    for name in root.attributes:
+        if name != "format" and ":" not in name:
+            yield _unknown_attribute(document.text, root, name, form)
+    if form:
+        for node in nodes:
+            yield from _content(document, node, form)
+    else:
+        _, start, end = attribute(document.text, root, "format")
+        written = root.attributes["format"]
+        yield Fault("format", f'there is no format "{written}" of package.xml; write format="3"', start, end)
+    yield from _presence(document, root, of_elements)
+    own_name = ""
+    for node, element in of_elements:
+        if node.tag == "name":
+            own_name = own_name or element.text
+        if check := _CHECKS.get(node.tag):
+            yield from check(document.text, node, element)
+    yield from _alone(of_depends, own_name)
+    if form == 1:
+        yield from _duplicate_tests(of_depends)
+    else:
+        yield from _duplicates(of_depends)
+
+
+def _content(document: Document, node: Node, form: int) -> Iterator[Fault]:
+    """Yield the element itself when its format has none of its name, or the attributes and children that it must not have."""
+    allowed = ALLOWED[form].get(node.tag)
+    if allowed is None:
+        yield _unknown_tag(node, form)
+        return
+    for name in node.attributes:
+        if name not in allowed and ":" not in name:
+            yield _unknown_attribute(document.text, node, name, form)
+    if node.tag not in ("description", "export"):
+        for inside in node.children:
+            message = f"<{node.tag}> may contain only text; remove <{inside.tag}>"
+            yield Fault("nested-tag", message, inside.start, inside.end if inside.end >= 0 else document.read)
+
+
+def _unknown_tag(node: Node, form: int) -> Fault:
+    tag = node.tag
+    newer = next((str(other) for other, tags in ALLOWED.items() if other > form and tag in tags), "")
+    if tag == "run_depend":
+        way_out = "write <exec_depend>"
+    elif tag == "exec_depend":
+        way_out = 'write <run_depend>, or raise the format to "2" or "3"'
+    elif tag in _OF_EXPORT:
+        way_out = "move it into <export>"
+    elif newer:
+        way_out = f'raise the format to "{newer}"'
+    else:
+        near = [f"<{known}>" for known in similar(tag, ALLOWED[form], 1, 0.75)]
+        way_out = did_you_mean(near, "") or "remove it, or move it into <export>"
+    return Fault("unknown-tag", f"there is no <{tag}> in format {form} of package.xml; {way_out}", node.start, node.end, newer)
+
+
+def _unknown_attribute(text: str, node: Node, name: str, form: int) -> Fault:
+    start, _, end = attribute(text, node, name)
+    newer = next((str(other) for other, tags in ALLOWED.items() if other > form and name in tags.get(node.tag, ())), "")
+    if newer:
+        message = f'the attribute {name} of <{node.tag}> needs format {newer}; write <package format="{newer}">'
+    else:
+        message = f"<{node.tag}> has no attribute {name}; remove it"
+    return Fault("unknown-attribute", message, start, min(end + 1, node.inner), newer)
+
+
+def _presence(document: Document, root: Node, elements: _Elements) -> Iterator[Fault]:
+    """Yield what is missing, and what is there more than once."""
+    tags = [node.tag for node, _ in elements]
+    for tag in ("name", "version", "description", "export"):
+        if tags.count(tag) > 1:
+            first = tags.index(tag)
+            for node, _ in elements[first + 1 :]:
+                if node.tag == tag:
+                    yield Fault("repeated-tag", f"only one <{tag}> is allowed; remove the others", node.start, node.end)
+    if not document.faults:
+        for tag in ("name", "version", "description", "maintainer", "license"):
+            if tag not in tags:
+                message = f"<package> has no <{tag}>; add it"
+                yield Fault("missing-tag", message, root.start + 1, root.start + 1 + len(root.tag))
+
+
+def _name(text: str, node: Node, element: Element) -> Iterator[Fault]:
+    if not element.text:
+        yield Fault("empty-tag", "<name> is empty; write the name of the package", node.start, node.end)
+    elif not _NAME.match(element.text):
+        message = f'"{element.text}" is no package name; use letters, digits and underscores only'
+        _, start, end = value(text, node)
+        yield Fault("invalid-name", message, start, end)
+
+
+def _version(text: str, node: Node, element: Element) -> Iterator[Fault]:
+    compatibility = node.attributes.get("compatibility")
+    if compatibility and not _VERSION.match(compatibility):
+        _, start, end = attribute(text, node, "compatibility")
+        message = f'compatibility "{compatibility}" is not of the form 1.2.3; write three numbers'
+        yield Fault("invalid-version", message, start, end)
+    if not element.text:
+        yield Fault("empty-tag", "<version> is empty; write one of the form 1.2.3", node.start, node.end)
+    elif not _VERSION.match(element.text):
+        message = f'version "{element.text}" is not of the form 1.2.3; write three numbers'
+        _, start, end = value(text, node)
+        yield Fault("invalid-version", message, start, end)
+
+
+def _description(_: str, node: Node, element: Element) -> Iterator[Fault]:
+    if not element.text:
+        yield Fault("empty-tag", "<description> is empty; describe the package", node.start, node.end)
+
+
+def _person(text: str, node: Node, element: Element) -> Iterator[Fault]:
+    email = node.attributes.get("email")
+    if email is None:
+        if node.tag == "maintainer":
+            message = f'maintainer "{element.text}" has no email; add the attribute email'
+            yield Fault("missing-attribute", message, node.start, node.inner)
+    elif not _EMAIL.match(email):
+        _, start, end = attribute(text, node, "email")
+        yield Fault("invalid-email", f'"{email}" is not an e-mail address; write name@example.org', start, end)
+
+
+def _license(_: str, node: Node, element: Element) -> Iterator[Fault]:
+    if not element.text.strip():
+        yield Fault("empty-tag", "<license> is empty; name the licence, e.g. Apache-2.0", node.start, node.end)
+
+
+_CHECKS: dict[str, Callable[[str, Node, Element], Iterator[Fault]]] = {
+    "name": _name,
+    "version": _version,
+    "description": _description,
+    "maintainer": _person,
+    "author": _person,
+    "license": _license,
+}
+
+
+def _alone(depends: _Depends, own_name: str) -> Iterator[Fault]:
+    """Yield dependencies of the package on itself, or on a group of which it is a member."""
+    for node, depend in depends:
+        if depend.name == own_name and own_name and node.tag in _NOT_ON_ITSELF:
+            message = f"the package depends on itself; remove this <{node.tag}>"
+            yield Fault("self-dependency", message, node.start, node.end)
+        elif node.tag == "group_depend" and any(
+            other.tag == "member_of_group" and other.name == depend.name for _, other in depends
+        ):
+            message = f"the package depends on group {depend.name}, of which it is itself a member; remove one of the two"
+            yield Fault("own-group", message, node.start, node.end)
+
+
+def _duplicates(depends: _Depends) -> Iterator[Fault]:
+    """Yield the dependencies that an equal <depend> holds already: equal in name, versions and condition, letter by letter."""
+    kept = {_equality(node, depend): node for node, depend in reversed(depends) if node.tag == "depend"}
+    if not kept:
+        return
+    for node, depend in depends:
+        first = kept.get(_equality(node, depend)) if node.tag in _GENERIC else None
+        if first is not None and first is not node:
+            message = f"<depend>{depend.name}</depend> is declared already; remove this <{node.tag}>"
+            yield Fault("duplicate-dependency", message, node.start, node.end)
+
+
+def _duplicate_tests(depends: _Depends) -> Iterator[Fault]:
+    others = {_equality(node, depend): node.tag for node, depend in depends if node.tag in ("build_depend", "run_depend")}
+    for node, depend in depends:
+        if node.tag == "test_depend" and (tag := others.get(_equality(node, depend))):
+            message = f"<{tag}>{depend.name}</{tag}> covers tests too in format 1; remove this <test_depend>"
+            yield Fault("duplicate-dependency", message, node.start, node.end)
+
+
+def _equality(node: Node, depend: Depend) -> tuple[object, ...]:
+    return (depend.name, node.attributes.get("condition"), frozenset(depend.versions)) if node.attributes else (depend.name,)

@@ -1,0 +1,398 @@
+"""The XML of a manifest: elements with offsets, read by expat as catkin_pkg reads them and hardened against bombs.
+
+catkin_pkg reads the file as UTF-8 whatever its declaration says, and resolves namespaces (reference, section A1).
+Offsets count code points of the text. Nothing outside the file is looked up.
+"""
+
+from __future__ import annotations
+
+import re
+from contextlib import suppress
+from typing import Final, NamedTuple
+from xml.parsers import expat
+
+from ros_lint.base.text import Text
+from ros_lint.base.xml_tree import unmarked
+
+_new = tuple.__new__  # half the time of calling a named tuple
+
+MOST_DEPTH = 200
+"""Deeper nesting is refused; tools that walk such a file recursively fail sooner or later."""
+
+BLANK: Final = " \n\r\t"
+"""What counts as white space around a value."""
+
+_CONFLICT = re.compile(r"^(?:<{7}|\|{7}|={7}|>{7})(?![<|=>])[^\r\n]*", re.MULTILINE)
+_OPEN_TAG = re.compile(r"""<([^\s/>"'=]+)(?:\s+[^\s=/>"']+\s*=\s*(?:"[^"]*"|'[^']*'))*\s*(/?)>""")
+_ATTRIBUTE = re.compile(r"""\s+([^\s=/>"']+)\s*=\s*(?:"([^"]*)"|'([^']*)')""")
+_PIECE = re.compile(
+    r"(?P<aside><!--.*?-->|<\?.*?\?>)|<!\[CDATA\[(?P<cdata>.*?)\]\]>|(?P<close></[^>]*>)"
+    r"""|(?P<open><(?:[^>"']|"[^"]*"|'[^']*')*>)|&(?P<entity>[^;]*);|(?P<text>[^<&]+)""",
+    re.DOTALL,
+)
+_ENTITIES = {"lt": "<", "gt": ">", "amp": "&", "apos": "'", "quot": '"'}
+
+
+class Fault(NamedTuple):
+    """Something wrong with the file: kind, message, the offsets of the place, and what it is about."""
+
+    kind: str
+    message: str
+    start: int
+    end: int
+    subject: str = ""
+
+
+Start = tuple[str, dict[str, str], int]
+"""A start tag as expat sees it: name and attributes, namespaces resolved, and offset."""
+
+Event = Start | int
+"""A start tag, or where an element ends as expat sees it: at its end tag, or after ``<a/>``."""
+
+
+class Node(NamedTuple):
+    """An element. ``end`` is -1 when it is never closed; content is from ``inner`` to ``close``, equal in ``<a/>``."""
+
+    tag: str
+    attributes: dict[str, str]
+    start: int
+    inner: int
+    close: int
+    end: int
+    children: tuple[Node, ...] = ()
+    """Grandchildren are not kept."""
+
+
+class Document(NamedTuple):
+    """A file as XML. Without a root, nothing was read."""
+
+    text: str
+    """As expat read it. Offsets are good for the text that was given, too."""
+    events: list[Event]
+    """All tags in order. The first is the root's."""
+    root: Node | None
+    """Without its children, see :func:`children`."""
+    faults: tuple[Fault, ...]
+    read: int
+    """How far the file could be read: its length, or the offset where it breaks off."""
+
+
+def read(source: Text) -> Document:
+    """Return a file as XML. Never raises."""
+    text, faults = _as_utf8(source)
+    document = _parse(text)
+    if document.faults and (conflicts := _conflicts(text, document.faults[0].start)):
+        # What both sides declare is the best that can be known; what else is wrong follows from the conflict.
+        document = _parse(_CONFLICT.sub(lambda marker: " " * len(marker[0]), text))
+        return document._replace(text=text, faults=(*faults, *conflicts))
+    return document._replace(faults=(*faults, *document.faults))
+
+
+_START = re.compile(r"<[^\s/>]+")
+
+
+def attribute(text: str, node: Node, name: str) -> tuple[int, int, int]:
+    """Return the offsets of an attribute's name, of its value, and of the value's end."""
+    opened = _START.match(text, node.start)
+    at = opened.end() if opened else node.start
+    while match := _ATTRIBUTE.match(text, at):
+        if match[1] == name:
+            group = 3 if match[2] is None else 2
+            return match.start(1), match.start(group), match.end(group)
+        at = match.end()
+    return node.start, node.start, node.start
+
+
+def value(text: str, node: Node) -> tuple[str, int, int]:
+    """Return the text directly in an element as catkin_pkg takes it, and the offsets of where it stands.
+
+    Comments, CDATA sections and the text of children do not count.
+    """
+    raw = text[node.inner : node.close]
+    found = raw.strip(BLANK)
+    if "<" not in raw and "&" not in raw:
+        start = node.inner + (len(raw) - len(raw.lstrip(BLANK)) if found else 0)
+        return _one_newline(found) if "\r" in found else found, start, start + len(found)
+    parts: list[str] = []
+    places: list[int] = []
+    depth = 0
+    for piece in _PIECE.finditer(raw):
+        if piece["open"]:
+            depth += not piece["open"].endswith("/>")
+        elif piece["close"]:
+            depth -= 1
+        elif depth == 0 and piece.lastgroup in ("text", "entity"):
+            parts.append(_resolve(piece))
+            if written := piece[0].strip(BLANK):
+                start = node.inner + piece.start() + piece[0].index(written)
+                places += (start, start + len(written))
+    return "".join(parts).strip(BLANK), *((places[0], places[-1]) if places else (node.inner, node.inner))
+
+
+def markup(text: str, node: Node) -> str:
+    """Return the content of an element with its markup, as catkin_pkg takes description and export: "" when nothing is there."""
+    raw = text[node.inner : node.close].replace("<![CDATA[]]>", "").strip(BLANK)  # xml.dom.minidom drops empty ones, too
+    if "<" not in raw:
+        return value(text, node)[0]
+    pieces = list(_PIECE.finditer(raw))
+    if not any(_counts(piece) for piece in pieces):
+        return ""
+    return "".join([escaped(_resolve(p)) if p.lastgroup in ("text", "entity") else _one_newline(p[0]) for p in pieces])
+
+
+def escaped(text: str) -> str:
+    """Return a text as the content of an element."""
+    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+
+
+def _one_newline(text: str) -> str:
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def _counts(piece: re.Match[str]) -> bool:
+    """Whether a piece of content is something: neither blank text nor an empty CDATA section."""
+    if piece.lastgroup in ("text", "entity"):
+        return bool(_resolve(piece).strip(BLANK))
+    return piece.lastgroup != "cdata" or bool(piece["cdata"])
+
+
+def _resolve(piece: re.Match[str]) -> str:
+    entity = piece["entity"]
+    if entity is None:
+        return _one_newline(piece[0])
+    if entity.startswith("#x"):
+        return chr(int(f"0{entity[1:]}", 0))
+    if entity.startswith("#"):
+        return chr(int(entity[1:]))
+    return _ENTITIES.get(entity, "")  # others come from a document type elsewhere, which nobody fetches
+
+
+def _as_utf8(source: Text) -> tuple[str, tuple[Fault, ...]]:
+    """Return the text as the tools read it, and a fault if they cannot."""
+    text = source.text
+    if source.codec not in ("utf-8", "utf-8-sig"):
+        data = text.encode(source.codec)
+        try:
+            read_as = data.decode("utf-8")
+        except UnicodeDecodeError as error:
+            at = len(data[: error.start].decode(source.codec, "ignore"))
+            message = f"the file is {source.codec}, but manifests are read as utf-8; save it as utf-8"
+            return text, (Fault("encoding", message, at, min(at + 1, len(text))),)
+        if "\0" not in read_as:  # else expat sees for itself that it is UTF-16
+            text = read_as
+    if not text.isascii() and (bad := re.search("[\ud800-\udfff]+", text)):
+        message = "not utf-8, the encoding of manifests; save the file as utf-8"
+        return re.sub("[\ud800-\udfff]", "?", text), (Fault("encoding", message, bad.start(), bad.end()),)
+    return text, ()
+
+
+def _parse(text: str) -> Document:
+    data = unmarked(text.encode())
+    events, fault, stopped = _events(text, data)
+    if len(data) != len(text):
+        events = _in_code_points(events, data)
+    faults = (fault,) if fault else ()
+    if not events or isinstance(first := events[0], int):
+        return Document(text, [], None, faults, stopped)
+    if len(events) > MOST_DEPTH and (start := _too_deep(events)) >= 0:
+        message = f"nested more than {MOST_DEPTH} levels deep; manifests do not need that"
+        faults = (*faults, Fault("too-deep", message, start, start + 1))
+    if fault is None and isinstance(last := events[-1], int):
+        root = _closed(text, first, last, ())
+    else:
+        root = _unclosed(text, first, stopped, ())
+    return Document(text, events, root, faults, stopped)
+
+
+def children(document: Document) -> list[Node]:
+    """Return the children of the root with their children."""
+    found = []
+    at, last = 1, len(document.events)
+    while at < last and not isinstance(document.events[at], int):
+        node, at = child(document, at)
+        found.append(node)
+    return found
+
+
+def child(document: Document, at: int) -> tuple[Node, int]:
+    """Return the element that starts at an event, and the next event after its end."""
+    text, events, last = document.text, document.events, len(document.events)
+    opened: list[tuple[Start, list[Node]]] = []
+    while at < last:
+        event = events[at]
+        at += 1
+        if not isinstance(event, int):
+            opened.append((event, []))
+            continue
+        begun, inside = opened.pop()
+        if not opened:
+            return _closed(text, begun, event, tuple(inside)), at
+        if len(opened) == 1:
+            opened[0][1].append(_closed(text, begun, event, ()))
+    begun, inside = opened[0]
+    return _unclosed(text, begun, document.read, tuple(inside)), at
+
+
+def _events(text: str, data: bytes) -> tuple[list[Event], Fault | None, int]:
+    """Return start and end tags with offsets in bytes, what stopped the parser, and the offset in the text where it did."""
+    # Namespaces as in xml.dom.minidom, through which catkin_pkg reads.
+    parser = expat.ParserCreate("utf-8", " ")
+    parser.namespace_prefixes = True
+    parser.specified_attributes = True
+    events: list[Event] = []
+    push = events.append
+    parser.StartElementHandler = lambda tag, attributes: push((tag, attributes, parser.CurrentByteIndex))
+    parser.EndElementHandler = lambda _: push(parser.CurrentByteIndex)
+    parser.EntityDeclHandler = _refuse_entity
+    fault = None
+    stopped = len(text)
+    try:
+        parser.Parse(data, True)
+    except expat.ExpatError as error:
+        stopped = len(data[: max(parser.ErrorByteIndex, 0)].decode("utf-8", "ignore"))
+        fault = _explain(text, error.code, stopped)
+    except _EntityDeclaredError:
+        stopped = len(data[: parser.CurrentByteIndex].decode("utf-8", "ignore"))
+        message = "declares an entity, which is not resolved here; write its text where it is used"
+        fault = Fault("entity", message, stopped, text.find(">", stopped) + 1 or len(text))
+    finally:
+        # Parser and handlers hold each other, and the garbage collector may be off: parsers that stay cost more than all else.
+        parser.StartElementHandler = parser.EndElementHandler = parser.EntityDeclHandler = None
+    return events, fault, stopped
+
+
+class _EntityDeclaredError(Exception):
+    """A manifest declares an entity: it could be a bomb, or read other files."""
+
+
+def _refuse_entity(*_: object) -> None:
+    raise _EntityDeclaredError
+
+
+def _in_code_points(events: list[Event], data: bytes) -> list[Event]:
+    """Return events whose offsets, which come in order, count code points instead of bytes."""
+    done = count = 0
+    result: list[Event] = []
+    for event in events:
+        index = event if isinstance(event, int) else event[2]
+        count += len(data[done:index].decode("utf-8", "ignore"))
+        done = index
+        result.append(count if isinstance(event, int) else (event[0], event[1], count))
+    return result
+
+
+def _too_deep(events: list[Event]) -> int:
+    """Return the offset of the first element that is nested too deep, or -1."""
+    depth = 0
+    for event in events:
+        depth += -1 if isinstance(event, int) else 1
+        if depth > MOST_DEPTH and not isinstance(event, int):
+            return event[2]
+    return -1
+
+
+def _closed(text: str, event: Start, after: int, children: tuple[Node, ...]) -> Node:
+    """Return a closed element. ``after`` is where it ends as expat sees it."""
+    tag, inner = _start_tag(text, event)
+    if text[inner - 2] == "/":
+        after = end = inner
+    else:
+        end = text.index(">", after) + 1
+    return _new(Node, (tag, _names(event[1]), event[2], inner, after, end, children))
+
+
+def _unclosed(text: str, event: Start, read: int, children: tuple[Node, ...]) -> Node:
+    tag, inner = _start_tag(text, event)
+    return Node(tag, _names(event[1]), event[2], inner, max(inner, read), -1, children)
+
+
+def _start_tag(text: str, event: Start) -> tuple[str, int]:
+    """Return the name of a tag as written, and the offset after the tag. expat says only where it starts."""
+    name, _, start = event
+    inner = start + len(name) + 2
+    if text[inner - 1 : inner] == ">" and " " not in name:
+        return name, inner
+    opened = _OPEN_TAG.match(text, start)
+    return (opened[1], opened.end()) if opened else (name, len(text))
+
+
+def _names(attributes: dict[str, str]) -> dict[str, str]:
+    """Return attributes under their names as written. expat gives ``uri name prefix``."""
+    if not attributes or " " not in "".join(attributes):
+        return attributes
+    return {_qualified(name): value for name, value in attributes.items()}
+
+
+def _qualified(name: str) -> str:
+    """Return a name as written, from what expat makes of it: ``uri name`` or ``uri name prefix``."""
+    parts = name.split(" ")
+    return f"{parts[2]}:{parts[1]}" if len(parts) == 3 else parts[-1]
+
+
+def _conflicts(text: str, fault: int) -> tuple[Fault, ...]:
+    """Return the merge conflicts that nobody resolved, if the first of them is what broke the file."""
+    starts = [marker for marker in _CONFLICT.finditer(text) if marker[0].startswith("<")]
+    if not starts or starts[0].start() > fault:
+        return ()
+    message = "unresolved merge conflict; keep one side and remove the marker lines"
+    return tuple(Fault("merge-conflict", message, marker.start(), marker.end()) for marker in starts)
+
+
+_MARKUP = re.compile(r"<!--.*?-->|<\?.*?\?>|<!.*?>|<([^\s>/!?]+)[^>]*>?", re.DOTALL)
+"""Group 1 is the name of an element."""
+
+
+_OPENED = re.compile(r"<!--|<!\[CDATA\[|<\?|</?[^\s>]*|")
+_NAME = re.compile(r"[^\s>]*")
+
+
+def _explain(text: str, code: int, at: int) -> Fault:
+    """Return an expat error in words that say how to get out of it. ``at`` is the offset that expat gives."""
+    start, end = at, min(at + 1, len(text))
+    errors = expat.errors.codes
+    if code == errors[expat.errors.XML_ERROR_NO_ELEMENTS]:
+        if not text.strip():
+            return Fault("invalid-xml", "the file is empty", 0, 0)
+        message = f"the file ends inside {_still_open(text)}" if "<" in text else "no element found"
+    elif code in (errors[expat.errors.XML_ERROR_UNCLOSED_TOKEN], errors[expat.errors.XML_ERROR_UNCLOSED_CDATA_SECTION]):
+        if not text.startswith("<", at):
+            start = max(text.rfind("<![CDATA[", 0, at), 0)
+        opened = _OPENED.match(text, start)
+        end = len(text)
+        message = f"{opened[0] if opened else ''} is never closed"
+    elif code == errors[expat.errors.XML_ERROR_TAG_MISMATCH]:
+        name = _NAME.match(text, at)
+        end = name.end() if name else end
+        message = f"</{text[start:end]}> closes {_still_open(text)}; one of the two is misspelt or missing"
+    elif code == errors[expat.errors.XML_ERROR_UNDEFINED_ENTITY]:
+        end = text.index(";", at) + 1
+        message = f"{text[at:end]} is not defined in xml; write the character itself"
+    elif code == errors[expat.errors.XML_ERROR_JUNK_AFTER_DOC_ELEMENT]:
+        message = "the file continues after the end of its root element; remove the rest, because only one <package> is allowed"
+        first = next(found for found in _MARKUP.finditer(text) if found[1])
+        if first[1] != "package" and text.find("<package", at) >= 0:
+            message = f"<{first[1]}> comes before <package>; remove it, because only one root element is allowed"
+            start, end = first.span()
+    elif code == errors[expat.errors.XML_ERROR_DUPLICATE_ATTRIBUTE]:
+        message = f"the attribute {re.split('[ =]', text[at:], maxsplit=1)[0]} is repeated; remove one"
+    elif code == errors[expat.errors.XML_ERROR_UNBOUND_PREFIX]:
+        message = "the prefix before ':' belongs to no namespace; remove it"
+    elif code == errors[expat.errors.XML_ERROR_INVALID_TOKEN] and text[at - 1 : at] in ("&", "<"):
+        start, end = at - 1, at
+        if text[start] == "&":
+            return Fault("bare-ampersand", "a bare & is not valid in xml; write &amp;", start, end)
+        message = "a bare < is not valid in xml; write &lt;"
+    else:
+        message = f"invalid xml: {(expat.ErrorString(code) or 'not well-formed').lower()}"
+    return Fault("invalid-xml", message, start, end)
+
+
+def _still_open(text: str) -> str:
+    """Return the start tag, without its attributes, that is open where the text stops to be well-formed."""
+    names: list[str] = []
+    parser = expat.ParserCreate("utf-8")
+    parser.StartElementHandler = lambda name, _: names.append(name)
+    parser.EndElementHandler = lambda _: names.pop()
+    with suppress(expat.ExpatError):
+        parser.Parse(text, True)
+    return f"<{names[-1]}>" if names else "the file"

@@ -1,0 +1,135 @@
+"""Read Python sources: what they import, and which packages they look up by name."""
+
+from __future__ import annotations
+
+import re
+from contextlib import suppress
+from typing import TYPE_CHECKING
+
+from ros_lint.collectors.python.import_tree import Import, walk
+from ros_lint.collectors.python.imports import added_folders, scan
+from ros_lint.collectors.python.lookups import Found, in_excerpt, literals, look_ups
+from ros_lint.collectors.python.syntax import NotPythonError, TooDeepError, parse, refusal
+from ros_lint.facts.sources import FileFacts, ImportedType, Mention
+from ros_lint.facts.visibility import Facet, Opaque
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Sequence
+
+    from ros_lint.base.text import Span, Text
+
+_IMPORT_LINE = re.compile(r"^[ \t]*(?:from|import)[ \t]+([A-Za-z_][\w.]*)", re.MULTILINE)
+_TYPES = re.compile(r"[^\W\d]\w*\.(?:msg|srv|action)")
+_IMPORTED = re.compile(r"[ \t]+import[ \t]*(?:\(([^()]*)\)|((?:[^\n#;\\(]|\\\r?\n)*))")
+_ONE = re.compile(r"(?:\A|,)[\s\\]*([^\W\d]\w*)(?:[\s\\]+as[\s\\]+\w+)?[\s\\]*(?=,|\Z)")
+_COMMENT = re.compile("#[^\n]*")
+_PROGRAM = re.compile(r"""\.py['"]""")
+_NAME = re.compile(r"[\w.-]+\Z")
+_LONGEST_NAME = 100
+
+
+def collect(source: Text, *, launch: bool = False) -> FileFacts:
+    """Return the imports and look-ups of a Python file.
+
+    Imports are mentions ``via="import"`` of dotted modules, relative ones left out (reference, section D6). Look-ups
+    such as ``get_package_share_directory("p")`` are ``via="package"``; one whose package is computed is opaque. Files
+    in the share folder of a package of which the source makes a path are ``look_ups``. With ``launch``, only imports
+    are of interest: the rest is better known to who reads launch files.
+
+    Of a file that the interpreter cannot parse, what its lines seem to import counts as optional.
+    """
+    try:
+        found, looked_up = _found(source, launch)
+    except NotPythonError as error:
+        return _unreadable(source, error)
+    named = [item for item in found if item.module and item.module[0] != "."]
+    spans = list(source.spans([(item.start, item.start + len(item.module)) for item in named]))
+    folders = added_folders(source.text) if "sys.path" in source.text else ()
+    added = tuple([span for item, span in zip(named, spans, strict=True) if not item.caught and _is_added(item, folders)])
+    mentions = [
+        Mention(item.module, "import", span, f"import of {item.module}{_remark(item, span in added)}", item.optional)
+        for item, span in zip(named, spans, strict=True)
+    ]
+    opaque = [
+        Opaque(Facet.USES, "which module is imported here is computed", source.span(item.start, item.start))
+        for item in found
+        if not item.module
+    ]
+    if launch and "moveit_controller_manager" in source.text:
+        from ros_lint.collectors.resources import collect as resources  # noqa: PLC0415
+
+        mentions += resources.loaded(source)
+    if looked_up.mentions:
+        mentions = sorted([*mentions, *looked_up.mentions], key=lambda mention: mention.span)
+    return FileFacts(
+        tuple(mentions),
+        (*opaque, *looked_up.opaque),
+        look_ups=looked_up.files,
+        caught=tuple([item.module for item in found if item.caught]),
+        added=added,
+        sets_path="sys.path" in source.text,
+        programs=_programs(source.text),
+        types=tuple(_types(source, zip(named, spans, strict=True))),
+    )
+
+
+def _found(source: Text, launch: bool) -> tuple[list[Import], Found]:
+    """Return imports and look-ups, by scans and, where these cannot tell, by the parser. Raises NotPythonError."""
+    found = scan(source.text)
+    looked_up = Found() if launch else literals(source)
+    if found is not None and looked_up is None:
+        with suppress(NotPythonError):
+            looked_up = in_excerpt(source)
+    if found is not None and looked_up is not None:
+        return found, looked_up
+    tree = parse(source)
+    return walk(source, tree) if found is None else found, look_ups(source, tree) if looked_up is None else looked_up
+
+
+def _types(source: Text, imports: Iterable[tuple[Import, Span]]) -> Iterator[ImportedType]:
+    """Yield what is imported by name from modules of generated interfaces."""
+    for item, module in imports:
+        match = _IMPORTED.match(source.text, item.start + len(item.module)) if _TYPES.fullmatch(item.module) else None
+        if match is None:
+            continue
+        group = 1 if match[1] is not None else 2
+        found = list(_ONE.finditer(_COMMENT.sub(lambda comment: " " * len(comment[0]), match[group])))
+        start = match.start(group)
+        for one, span in zip(found, source.spans([(start + one.start(1), start + one.end(1)) for one in found]), strict=True):
+            yield ImportedType(f"{item.module.replace('.', '/')}/{one[1]}", span, module)
+
+
+def _programs(text: str) -> tuple[str, ...]:
+    """Return the names of Python files that literals end with. To look back from their ends takes no time in strange files."""
+    starts = [match.start() for match in _PROGRAM.finditer(text)]
+    names = [_NAME.search(text, max(0, start - _LONGEST_NAME), start) for start in starts]
+    return tuple(dict.fromkeys([f"{name[0]}.py" for name in names if name is not None]))
+
+
+def _is_added(item: Import, folders: Sequence[tuple[int, frozenset[str]]]) -> bool:
+    """Whether a folder of the module's name was added before to those in which modules are sought."""
+    top = item.module.partition(".")[0]
+    return any(at < item.start and top in parts for at, parts in folders)
+
+
+def _remark(item: Import, added: bool) -> str:
+    """Return what is to be said of an import, besides its name."""
+    return ", with the error caught" if item.caught else ", from a folder added to sys.path" if added else ""
+
+
+def _why(source: Text, error: NotPythonError) -> Opaque:
+    if isinstance(error, TooDeepError):
+        return refusal(source, error).opaque(Facet.USES)
+    return Opaque(Facet.USES, "no Python that can be read", source.span(0, 0))
+
+
+def _unreadable(source: Text, error: NotPythonError) -> FileFacts:
+    spans = source.spans([match.span(1) for match in _IMPORT_LINE.finditer(source.text)])
+    return FileFacts(
+        tuple(
+            Mention(module, "import", span, f"import of {module}", optional=True)
+            for span in spans
+            for module in [source.slice(span)]
+        ),
+        (_why(source, error),),
+    )

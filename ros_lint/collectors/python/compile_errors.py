@@ -1,0 +1,44 @@
+"""What the parser of Python takes and its compiler does not."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from ros_lint.base.text import Span
+from ros_lint.facts.visibility import Problem
+
+if TYPE_CHECKING:
+    from ros_lint.base.text import Text
+
+_OF_SOME_PYTHONS = ("asynchronous comprehension outside", "cannot assign to __debug__")
+"""What Python 3.10 refuses and 3.11 does not, or in another place."""
+_DEFINITIONS = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
+_LOOPS = (ast.For, ast.AsyncFor, ast.While)
+
+
+def misplaced(error: SyntaxError, tree: ast.Module, source: Text) -> Iterator[Problem]:
+    """Yield what the compiler refuses in a tree, in the words and at the place that all Pythons give."""
+    if error.msg.startswith(_OF_SOME_PYTHONS):
+        return
+    line, column = error.lineno or 1, error.offset or 1
+    if error.msg.startswith(("'break'", "'continue'")) and (jump := _stray_jump(tree)) is not None:
+        line, column = jump.lineno, jump.col_offset + 1  # Python 3.10 names the statement around it
+    line = min(line, source.line_count)
+    column = min(column, len(source.line(line)) + 1)
+    yield Problem("syntax", f"not valid Python: {error.msg}", Span(source.path, line, column, line, column))
+
+
+def _stray_jump(tree: ast.Module) -> ast.Break | ast.Continue | None:
+    """Return the first break or continue outside of loops."""
+    waiting: list[tuple[ast.AST, bool]] = [(statement, False) for statement in reversed(tree.body)]
+    while waiting:
+        node, looped = waiting.pop()
+        if isinstance(node, (ast.Break, ast.Continue)) and not looped:
+            return node
+        looped = looped and not isinstance(node, _DEFINITIONS)
+        inner: list[tuple[ast.AST, bool]] = [(each, looped or isinstance(node, _LOOPS)) for each in getattr(node, "body", ())]
+        inner += [(each, looped) for name in ("handlers", "cases", "orelse", "finalbody") for each in getattr(node, name, ())]
+        waiting += reversed(inner)
+    return None

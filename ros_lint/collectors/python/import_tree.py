@@ -1,0 +1,264 @@
+"""The import statements of a Python source, found in its syntax tree: the exact way."""
+
+from __future__ import annotations
+
+import ast
+import re
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.base.text import Text
+from ros_lint.collectors.python.string_values import callee
+from ros_lint.collectors.python.syntax import start_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+
+class Import(NamedTuple):
+    """An absolute import, or a relative one that the program does without."""
+
+    start: int
+    """Offset of the module as written."""
+    module: str
+    """Dotted, "" when it is computed. A relative one begins with its dots: ``.a`` for ``from . import a``, too."""
+    optional: bool
+    """Whether the program does without: for type checkers only, never as it is written, or with the error caught."""
+    caught: bool = False
+    """Whether it is optional because just that error is caught."""
+    skips: bool = False
+    """Whether it is a call that skips the test without the module."""
+
+
+_SKIPS = "importorskip"
+_DYNAMIC = frozenset({"import_module", _SKIPS, "__import__"})
+GUARD = re.compile(r"TYPE_CHECKING|version_info|platform|DISTRO|distro|suppress|(?i:ros_?version)")
+"""What a test, or a with statement, has that may decide about the imports in it."""
+_MISSING = frozenset({"ImportError", "ModuleNotFoundError"})
+_IMPORT_ERRORS = _MISSING | {"Exception", "BaseException"}
+_EXITS = frozenset({"exit", "quit", "_exit", "fail"})
+
+
+def walk(source: Text, tree: ast.Module) -> list[Import]:
+    """Return the imports of a source in order.
+
+    Optional are those under TYPE_CHECKING, those for ROS 1, and those in a try statement that goes on when the import fails or
+    under a test of the platform, unless every branch imports from the same package (reference, section D6). A try statement
+    inside of others that raises another error instead, which says what is missing, makes them optional, too. Calls of
+    ``importlib.import_module()`` and the like are imports, too; whoever calls one is taken to be able to go without.
+    A test that is skipped without a module goes without whatever it imports of it afterwards.
+    """
+    walker = _Walker(tree)
+    found = [
+        Import(start, module, bool(optional), optional == _CAUGHT)
+        for statement, optional in walker.imports(tree.body, inside=False)
+        if optional == _CAUGHT or not _is_relative(statement)
+        for start, module in _modules(source, statement)
+    ]
+    if any(name in source.text for name in _DYNAMIC):
+        found += _calls(source, tree)
+    found.sort()
+    return _after_skips(found) if _SKIPS in source.text else found
+
+
+def _off(tree: ast.Module) -> frozenset[str]:
+    """Return the names of a module that are false and stay so: nothing else binds them anywhere."""
+    bound: dict[str, int] = {}
+    off: set[str] = set()
+    for statement in tree.body:
+        target = statement.targets[0] if isinstance(statement, ast.Assign) else getattr(statement, "target", None)
+        value = getattr(statement, "value", None)
+        if isinstance(target, ast.Name) and isinstance(value, ast.Constant) and not value.value:
+            off.add(target.id)
+    if not off:
+        return frozenset()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name) and not isinstance(node.ctx, ast.Load):
+            bound[node.id] = bound.get(node.id, 0) + 1
+        elif isinstance(node, (ast.Import, ast.ImportFrom)):
+            bound.update({alias.asname or alias.name: 2 for alias in node.names})
+        elif isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+            bound[node.name] = 2
+        elif isinstance(node, ast.arg):
+            bound[node.arg] = 2
+    return frozenset(name for name in off if bound.get(name) == 1)
+
+
+def _calls(source: Text, tree: ast.Module) -> Iterator[Import]:
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call) and node.args:
+            given = node.args[0]
+            name = callee(node)
+            if name not in _DYNAMIC:
+                continue
+            if not isinstance(given, ast.Constant) or not isinstance(given.value, str):
+                yield Import(start_of(source, given), "", True)
+            elif not given.value.startswith("."):
+                start = source.text.find(given.value, start_of(source, given))
+                yield Import(max(start, 0), given.value, True, skips=name == _SKIPS)
+
+
+def _after_skips(imports: Iterable[Import]) -> list[Import]:
+    """Return imports with those optional that come after a test would have been skipped without the module."""
+    found: list[Import] = []
+    skips: tuple[str, ...] = ()
+    for item in imports:
+        if item.skips:
+            skips += (f"{item.module}.",)
+        found.append(item._replace(optional=item.optional or f"{item.module}.".startswith(skips)))
+    return found
+
+
+_Found = tuple["ast.Import | ast.ImportFrom", int]
+"""A statement, and whether it is optional: 0, 1, or _CAUGHT."""
+_CAUGHT = 2
+"""How an import is optional whose error is caught, and not just any error of the block."""
+
+
+class _Walker:
+    """Walks through the statements of a module."""
+
+    def __init__(self, tree: ast.Module) -> None:
+        self._tree = tree
+
+    @cached_property
+    def _off(self) -> frozenset[str]:
+        return _off(self._tree)
+
+    def imports(self, body: Iterable[ast.stmt], inside: bool = True) -> Iterator[_Found]:
+        for statement in body:
+            if isinstance(statement, (ast.Import, ast.ImportFrom)):
+                yield statement, 0
+            elif isinstance(statement, ast.If):
+                yield from self._conditional(statement)
+            elif isinstance(statement, ast.Try) or type(statement).__name__ == "TryStar":
+                yield from self._try(statement, inside)  # type: ignore[arg-type]  # of the same fields
+            elif isinstance(statement, (ast.With, ast.AsyncWith)) and any(_suppresses(item) for item in statement.items):
+                yield from ((found, _CAUGHT) for found, _ in self.imports(statement.body))
+            else:
+                for block in ("body", "orelse"):
+                    yield from self.imports(getattr(statement, block, ()))
+                for case in getattr(statement, "cases", ()):
+                    yield from self.imports(case.body)
+
+    def _conditional(self, statement: ast.If) -> Iterator[_Found]:
+        body, orelse = list(self.imports(statement.body)), list(self.imports(statement.orelse))
+        if not body and not orelse:
+            return
+        test = statement.test
+        words = {
+            str(getattr(node, "id", None) or getattr(node, "attr", None) or getattr(node, "value", "")) for node in ast.walk(test)
+        }
+        if _is_off(test, self._off) or (isinstance(test, (ast.Name, ast.Attribute)) and "TYPE_CHECKING" in words):
+            yield from ((found, optional or 1) for found, optional in body)
+            yield from orelse
+        elif (of_ros_2 := _tells_ros_2(test, words)) is not None:
+            for branch, runs in ((body, of_ros_2), (orelse, not of_ros_2)):
+                yield from ((found, optional or (0 if runs else 1)) for found, optional in branch)
+        elif not GUARD.search(" ".join(words)):
+            yield from body
+            yield from orelse
+        else:
+            yield from _alternatives([body, orelse], 1)
+
+    def _try(self, statement: ast.Try, inside: bool) -> Iterator[_Found]:
+        branches = [[*self.imports(statement.body), *self.imports(statement.orelse)]]
+        others: list[_Found] = []
+        for handler in statement.handlers:
+            if _catches_import_error(handler) and (not _gives_up(handler) or (inside and _explains(handler))):
+                branches.append(list(self.imports(handler.body)))
+            else:
+                others += self.imports(handler.body)
+        kind = _CAUGHT if any(_catches_import_error(handler, _MISSING) for handler in statement.handlers) else 1
+        yield from _alternatives(branches, kind) if len(branches) > 1 else branches[0]
+        yield from others
+        yield from self.imports(statement.finalbody)
+
+
+def _is_off(test: ast.expr, off: frozenset[str]) -> bool:
+    """Whether a test is never true: a name that is always false, alone or with more."""
+    if isinstance(test, ast.BoolOp):
+        return (any if isinstance(test.op, ast.And) else all)(_is_off(part, off) for part in test.values)
+    return isinstance(test, ast.Name) and test.id in off
+
+
+_OF_ROS = re.compile(r"ros_?version", re.IGNORECASE)
+
+
+def _tells_ros_2(test: ast.expr, words: Iterable[str]) -> bool | None:
+    """Return what a comparison of the version of ROS with 1 or 2 comes to in ROS 2, None of any other test."""
+    if not (isinstance(test, ast.Compare) and isinstance(test.ops[0], (ast.Eq, ast.NotEq)) and any(map(_OF_ROS.search, words))):
+        return None
+    numbers = [str(side.value) for side in (test.left, *test.comparators) if isinstance(side, ast.Constant)]
+    if len(test.ops) > 1 or numbers not in (["1"], ["2"]):
+        return None
+    return (numbers == ["2"]) == isinstance(test.ops[0], ast.Eq)
+
+
+def _alternatives(branches: list[list[_Found]], kind: int) -> Iterator[_Found]:
+    """Yield the imports of branches one of which runs; not optional is what each needs, of that kind everything else.
+
+    A file of the package for which another branch imports something may be just what that is, by another way.
+    """
+    needed = [{root for found, optional in branch if not optional for root in _roots(found)} for branch in branches]
+    always = set.intersection(*needed)
+    replaced = sum(map(bool, branches)) > 1
+    for branch in branches:
+        for found, optional in branch:
+            yield found, optional or (0 if always.issuperset(_roots(found)) or (replaced and _is_relative(found)) else kind)
+
+
+def _is_relative(statement: ast.Import | ast.ImportFrom) -> bool:
+    return isinstance(statement, ast.ImportFrom) and bool(statement.level)
+
+
+def _roots(statement: ast.Import | ast.ImportFrom) -> set[str]:
+    """Return what an import needs. A neighbour by its own name and the same one by a relative import are two things."""
+    if _is_relative(statement):
+        return {"."}
+    names = [alias.name for alias in statement.names] if isinstance(statement, ast.Import) else [statement.module or ""]
+    return {name.partition(".")[0] for name in names}
+
+
+def _catches_import_error(handler: ast.ExceptHandler, errors: frozenset[str] = _IMPORT_ERRORS) -> bool:
+    kind = handler.type
+    kinds = kind.elts if isinstance(kind, ast.Tuple) else [kind]
+    return any(
+        (kind is None and errors is _IMPORT_ERRORS)
+        or (isinstance(kind, ast.Name) and kind.id in errors)
+        or (isinstance(kind, ast.Attribute) and kind.attr in errors)
+        for kind in kinds
+    )
+
+
+def _gives_up(handler: ast.ExceptHandler) -> bool:
+    last = handler.body[-1]
+    if isinstance(last, ast.Expr) and isinstance(last.value, ast.Call):
+        return callee(last.value) in _EXITS
+    return isinstance(last, ast.Raise)
+
+
+def _explains(handler: ast.ExceptHandler) -> bool:
+    """Whether another error is raised. Where not everyone comes by, that tells those who do what they have to install."""
+    last = handler.body[-1]
+    return isinstance(last, ast.Raise) and isinstance(last.exc, ast.Call)
+
+
+def _suppresses(item: ast.withitem) -> bool:
+    nodes = list(ast.walk(item.context_expr))
+    words = [str(getattr(node, "id", None) or getattr(node, "attr", "")) for node in nodes]
+    return any("suppress" in word for word in words) and not _IMPORT_ERRORS.isdisjoint(words)
+
+
+_FROM_AT = re.compile(r"from(?:\s|\\)*")
+
+
+def _modules(source: Text, statement: ast.Import | ast.ImportFrom) -> Iterator[tuple[int, str]]:
+    if isinstance(statement, ast.Import):
+        for alias in statement.names:
+            yield start_of(source, alias), alias.name
+    else:
+        word = _FROM_AT.match(source.text, start_of(source, statement))
+        assert word is not None
+        names = [statement.module] if statement.module else [alias.name for alias in statement.names]
+        yield from ((word.end(), f"{'.' * statement.level}{name}") for name in names)

@@ -1,0 +1,212 @@
+"""The import statements of a Python source, found without parsing it where that is safe.
+
+Nine files of ten have only imports that a look at their own line settles. :func:`scan` reads these and refuses the
+others, which the syntax tree then tells. Both ways give the same on what both read.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+from ros_lint.base.text import Text
+from ros_lint.collectors.python.excerpt import block_end, is_whole
+from ros_lint.collectors.python.import_tree import GUARD, Import, walk
+from ros_lint.collectors.python.syntax import NotPythonError, parse
+
+_IMPORT = re.compile(r"import(?=[ \t(*\\]|_module\(|orskip\(|__\()")
+_MODULE = re.compile(r"[ \t]*([^\W\d]\w*(?:\.[^\W\d]\w*)*)(?:[ \t]+as[ \t]+[^\W\d]\w*)?[ \t\r]*(,|\Z)")
+_FROM = re.compile(r"from[ \t]+([^\W\d]\w*(?:\.[^\W\d]\w*)*)[ \t]+\Z")
+_RELATIVE = re.compile(r"from[ \t]*\.[ \t.\w]*\Z")
+_TRIPLE = re.compile(r'"""|\'\'\'')
+_CONTINUED = re.compile(r"\\\r?\n[ \t\f]*(?:import|from)\b")
+_HEAD = re.compile(
+    r"^([ \t]*)(?:(try|except|elif|else|finally)|(?:async[ \t]+)?(?:def|for|with)|class|while|match|case|if)\b[^\n]*",
+    re.MULTILINE,
+)
+_DECIDES = re.compile(
+    rf"{GUARD.pattern}"
+    r"|except(?:[ \t]*:|\b[^\n]*(?:\b(?:ImportError|ModuleNotFoundError|Exception|BaseException)\b|\())"
+)
+
+
+# The sign is looked for fast, and what it gives a value to only where it gives this one.
+_OFF = re.compile(r"=[ \t]*(?:False|None|0|''|\"\")[ \t]*(?:#.*)?\r?$", re.MULTILINE)
+_NAMED = re.compile(r"([^\W\d]\w*)[ \t]*(?::[^=\n]*)?")
+
+
+def scan(text: str) -> list[Import] | None:
+    """Return the imports of a source, or None when only a parser can tell."""
+    if "\r" in text and text.count("\r") != text.count("\r\n"):
+        return None
+    off = [match.start() for match in _OFF.finditer(text)]
+    named = [_NAMED.fullmatch(text, text.rfind("\n", 0, start) + 1, start) for start in off]
+    switches = {match[1] for match in named if match}
+    if switches and re.search(rf"^[ \t]*(?:el)?if\b[^\n]*\b(?:{'|'.join(switches)})\b", text, re.MULTILINE):
+        return None
+    found: list[Import] = []
+    places: list[int] = []  # none of which may lie in a string
+    blocks: _Blocks | None = None
+    done = 0
+    for match in _IMPORT.finditer(text):
+        start = match.start()
+        if start < done:
+            continue
+        line = text.rfind("\n", 0, start) + 1
+        before = text[line:start].lstrip()
+        names = _imported(text, match, before)
+        if names is None:
+            return None
+        if not names and not (text[line] in " \t\f" and _RELATIVE.match(before)):
+            continue
+        places.append(line)
+        if text[line] in " \t\f":
+            blocks = blocks or _Blocks(text)
+            around = blocks.around(line, start - len(before) - line)
+            if not around or around[0].width:
+                return None
+            places += [block.head for block in around]
+            guard = next((block for block in around if block.guards), None)
+            if guard:
+                statement = text[guard.start : block_end(text, guard.width, guard.head)]
+                if not is_whole(statement):
+                    return None
+                if _DECIDES.search(statement):
+                    done = guard.start + len(statement)
+                    names = _fragment(statement, guard.start)
+                    if names is None:
+                        return None
+                    while found and found[-1].start > guard.start:
+                        found.pop()
+        found += names
+    if not places or (outside_strings(text, places) and not _CONTINUED.search(text)):
+        return found
+    return None
+
+
+def _imported(text: str, match: re.Match[str], before: str) -> list[Import] | None:
+    """Return what an import imports, nothing for a relative one or a mere word, None when only a parser can tell.
+
+    ``before`` is what stands before the word in its line.
+    """
+    if not before:
+        return _names(text, match.end())
+    if before.startswith(("from ", "from\t", "from.")):
+        if named := _FROM.match(before):
+            return [Import(match.start() - len(before) + named.start(1), named[1], False)]
+        return [] if _RELATIVE.match(before) else None
+    if before[0] == "#" or (text[match.end()] in " \t(*\\" and not _may_follow(before)):
+        return []
+    return None
+
+
+def _may_follow(before: str) -> bool:
+    """Return whether an import statement may come after this part of its line."""
+    return before.rstrip()[-1] in ";:" or ("from" in before and (";" in before or ":" in before))
+
+
+def _names(text: str, start: int) -> list[Import] | None:
+    """Return what ``import a.b as c, d`` imports; None when that is not all of the line."""
+    end = text.find("\n", start)
+    line = text[start : end if end >= 0 else len(text)].partition("#")[0]
+    found = []
+    at = 0
+    while True:
+        match = _MODULE.match(line, at)
+        if match is None:
+            return None
+        found.append(Import(start + match.start(1), match[1], False))
+        if not match[2]:
+            return found
+        at = match.end()
+
+
+class _Block(NamedTuple):
+    width: int
+    """Of its head's indentation."""
+    head: int
+    """The line of its head."""
+    start: int
+    """The first line of the statement: ``try`` for ``except``."""
+    guards: bool
+    """Whether it may decide about the imports in it."""
+
+
+class _Blocks:
+    """The blocks around lines of a text. Lines are asked for in order."""
+
+    def __init__(self, text: str) -> None:
+        self._heads = _HEAD.finditer(text)
+        self._next = next(self._heads, None)
+        self._stack: list[_Block] = []
+
+    def around(self, line: int, width: int) -> list[_Block]:
+        """Return the blocks around a line of an indentation, outermost first."""
+        while self._next and self._next.start() < line:
+            self._enter(self._next)
+            self._next = next(self._heads, None)
+        self._leave(width)
+        return self._stack
+
+    def _leave(self, width: int) -> _Block | None:
+        """Leave the blocks whose heads are not further left than that. Return the last one."""
+        left = None
+        while self._stack and self._stack[-1].width >= width:
+            left = self._stack.pop()
+        return left
+
+    def _enter(self, head: re.Match[str]) -> None:
+        width, line = len(head[1]), head.start()
+        left = self._leave(width)
+        continues = left is not None and left.width == width and head[2] not in (None, "try")
+        start = left.start if left and continues else line
+        guards = head[2] is not None or ":" not in head[0] or GUARD.search(head[0]) is not None
+        self._stack.append(_Block(width, line, start, guards))
+
+
+def _fragment(text: str, start: int) -> list[Import] | None:
+    """Return the imports of a statement, which may be indented, or None when it does not parse by itself."""
+    head = "if 1:\n" if text[0] in " \t\f" else ""
+    source = Text("", head + text)
+    try:
+        found = walk(source, parse(source))
+    except NotPythonError:
+        return None
+    return [item._replace(start=item.start + start - len(head)) for item in found]
+
+
+_EXTENDS = re.compile(r"\bsys\.path(?:\.(?:append|insert|extend)[ \t]*\(|[ \t]*\+?=|\[)([^\n]*(?:\n[^\n()]*\)?)?)")
+_WRITTEN = re.compile(r"""["']([^"'\n]*)["']""")
+
+
+def added_folders(text: str) -> list[tuple[int, frozenset[str]]]:
+    """Return where a source adds folders to those in which modules are sought, each with the parts of their names."""
+    found = []
+    for match in _EXTENDS.finditer(text):
+        given = match[1]
+        for name in re.findall(r"\b[^\W\d]\w*\b", _WRITTEN.sub("", given)):
+            given += "\n".join(re.findall(rf"^[ \t]*{name}[ \t]*=([^=\n].*)$", text, re.MULTILINE))
+        parts = [part for written in _WRITTEN.findall(given) for part in written.split("/")]
+        found.append((match.start(), frozenset(parts) - {""}))
+    return found
+
+
+def outside_strings(text: str, places: list[int]) -> bool:
+    """Return whether it is sure that none of the places, one at least, lies in a string of several lines."""
+    places = sorted(places)
+    quote = _TRIPLE.search(text, 0, places[-1])
+    waiting = iter(places)
+    place = next(waiting)
+    while quote:
+        line = text[text.rfind("\n", 0, quote.start()) + 1 : quote.start()]
+        if "#" in line or "'" in line or '"' in line:
+            return False  # perhaps the quotes start nothing
+        closing = text.find(quote[0], quote.end())
+        if closing < 0 or text[closing - 1] == "\\":
+            return False
+        while place < quote.start():
+            place = next(waiting)
+        if place < closing:
+            return False
+        quote = _TRIPLE.search(text, closing + 3, places[-1])
+    return True

@@ -1,0 +1,237 @@
+"""Statements of Python launch files that give names their values: assignments, imports, and what says whose a name is."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
+
+from ros_lint.collectors.launch.python.substitutions import SUBSTITUTIONS
+from ros_lint.collectors.python.interpreter.methods import items
+from ros_lint.collectors.python.interpreter.operations import hashable, may_have_more, operation
+from ros_lint.collectors.python.interpreter.values import (
+    PERHAPS,
+    Api,
+    Frame,
+    Guarded,
+    Instance,
+    Made,
+    Raised,
+    Unknown,
+    Value,
+    Written,
+    alternatives,
+    plain,
+    union,
+)
+from ros_lint.collectors.symbolic_text import UNKNOWN, is_plain
+
+if TYPE_CHECKING:
+    from ros_lint.collectors.python.interpreter.machine import Machine
+
+
+def _assign(machine: Machine, node: ast.Assign, frame: Frame) -> None:
+    value = machine.evaluate(node.value, frame)
+    for target in node.targets:
+        bind(machine, target, value, frame)
+
+
+def _annotated(machine: Machine, node: ast.AnnAssign, frame: Frame) -> None:
+    if node.value is not None:
+        bind(machine, node.target, machine.evaluate(node.value, frame), frame)
+
+
+def _augmented(machine: Machine, node: ast.AugAssign, frame: Frame) -> None:
+    value = machine.evaluate(node.value, frame)
+    load: ast.expr = node.target
+    before = machine.evaluate(load, frame)
+    one = plain(before)
+    if isinstance(one, list) and isinstance(node.op, ast.Add):
+        found = items(machine, value)
+        if found is None:
+            machine.lose(value)
+            found = [Unknown("elements that are not known")]
+        machine.spend(len(found))
+        one += [machine.guard(element) for element in found]
+        return
+    # A text that is added to is still the one that was written before.
+    where = one.node if isinstance(one, Written) and one.source is frame.source else node.value
+    bind(machine, node.target, operation(machine, node.op, before, value, where, frame), frame)
+
+
+def bind(machine: Machine, target: ast.expr, value: Value, frame: Frame) -> None:
+    """Give a value to a target of an assignment."""
+    if isinstance(target, ast.Name):
+        around = frame.declared.get(target.id)
+        if around is not None and machine.conditions and target.id in around.names:
+            value = machine.joined([Guarded(around.names[target.id], ()), Guarded(value, machine.conditions)])
+        (around or frame).names[target.id] = value
+    elif isinstance(target, (ast.Tuple, ast.List)):
+        _unpack(machine, target.elts, value, frame)
+    elif isinstance(target, ast.Attribute):
+        for one in alternatives(machine.evaluate(target.value, frame)):
+            if isinstance(one.value, Instance):
+                one.value.attributes[target.attr] = value
+            elif isinstance(one.value, Made):
+                one.value.keywords[target.attr] = value
+            else:
+                machine.lose(value)
+    elif isinstance(target, ast.Subscript):
+        _store(machine, target, value, frame)
+    elif isinstance(target, ast.Starred):
+        bind(machine, target.value, value, frame)
+
+
+def _unpack(machine: Machine, targets: Sequence[ast.expr], value: Value, frame: Frame) -> None:
+    values = items(machine, value)
+    star = next((index for index, target in enumerate(targets) if isinstance(target, ast.Starred)), -1)
+    if values is None or (star < 0 and len(values) != len(targets)) or len(values) < len(targets) - 1:
+        machine.lose(value)
+        for target in targets:
+            bind(machine, target, Unknown("part of what is not known"), frame)
+        return
+    if star >= 0:
+        after = len(targets) - star - 1
+        values = [*values[:star], values[star : len(values) - after], *values[len(values) - after :]]
+    for target, one in zip(targets, values, strict=True):
+        bind(machine, target, plain(one), frame)
+
+
+def _store(machine: Machine, target: ast.Subscript, value: Value, frame: Frame) -> None:
+    key = _key(machine, target.slice, frame)
+    for one in alternatives(machine.evaluate(target.value, frame)):
+        owner = one.value
+        if isinstance(owner, list) and isinstance(key, slice) and not machine.conditions:
+            _store_slice(machine, owner, key, value)
+        elif isinstance(owner, dict):
+            name = hashable(key)
+            if machine.conditions and name in owner:
+                owner[name] = union([owner[name], machine.guard(value)])
+            else:
+                owner[name] = value
+        elif isinstance(owner, list) and isinstance(key, int) and -len(owner) <= key < len(owner):
+            owner[key] = value
+        elif isinstance(owner, Api) and owner.name == "os.environ":
+            _set_variable(machine, target, key, value, frame)
+        else:
+            machine.lose(value)
+
+
+def _key(machine: Machine, node: ast.expr, frame: Frame) -> Value:
+    """Return what stands between brackets: a value, or a slice if it is one whose ends are known."""
+    if not isinstance(node, ast.Slice):
+        return plain(machine.evaluate(node, frame))
+    ends = [plain(machine.evaluate(end, frame)) if end is not None else None for end in (node.lower, node.upper, node.step)]
+    return slice(*ends) if all(end is None or isinstance(end, int) for end in ends) else Unknown("a slice")
+
+
+def _store_slice(machine: Machine, owner: list[Value], key: slice, value: Value) -> None:
+    given = items(machine, value)
+    if given is None:
+        machine.lose(value)
+        given = [Unknown("elements that are not known")]
+    try:
+        owner[key] = given
+    except ValueError:
+        raise Raised("ValueError") from None
+
+
+def _set_variable(machine: Machine, target: ast.Subscript, name: Value, value: Value, frame: Frame) -> None:
+    if isinstance(name, str) and is_plain(name):
+        call = ast.copy_location(ast.Call(target, [target.slice, target], []), target)
+        machine.set_variable(name, value, call, frame.source)
+
+
+def _import(machine: Machine, node: ast.Import, frame: Frame) -> None:
+    for alias in node.names:
+        found = machine.module(alias.name, frame.source, node)
+        top = alias.name.partition(".")[0]
+        if alias.asname:
+            frame.names[alias.asname] = found or Api(alias.name)
+        elif found is None or "." not in alias.name:
+            frame.names[top] = found or Api(top)
+
+
+def _import_from(machine: Machine, node: ast.ImportFrom, frame: Frame) -> None:
+    name = "." * node.level + (node.module or "")
+    found = machine.module(name, frame.source, node)
+    for alias in node.names:
+        if alias.name == "*":
+            frame.names.update(found.names if found is not None else {})
+            continue
+        if alias.name in SUBSTITUTIONS:
+            frame.names[alias.asname or alias.name] = Api(f"{name}.{alias.name}")
+            continue
+        inner = found.names.get(alias.name) if found is not None else None
+        if inner is None:
+            full = f"{name}.{alias.name}" if node.module else f"{name}{alias.name}"
+            inner = machine.module(full, frame.source, node)
+        frame.names[alias.asname or alias.name] = inner if inner is not None else Api(f"{name}.{alias.name}")
+
+
+def _global(_machine: Machine, node: ast.Global, frame: Frame) -> None:
+    outermost = frame
+    while outermost.outer is not None:
+        outermost = outermost.outer
+    frame.declared.update(dict.fromkeys(node.names, outermost))
+
+
+def _nonlocal(_machine: Machine, node: ast.Nonlocal, frame: Frame) -> None:
+    for name in node.names:
+        around = frame.outer
+        while around is not None and name not in around.names:
+            around = around.outer
+        if around is not None:
+            frame.declared[name] = around
+
+
+def _delete(machine: Machine, node: ast.Delete, frame: Frame) -> None:
+    waiting = list(node.targets)
+    while waiting:
+        target = waiting.pop(0)
+        if isinstance(target, (ast.Tuple, ast.List)):
+            waiting += target.elts
+        elif isinstance(target, ast.Name):
+            frame.declared.get(target.id, frame).names.pop(target.id, None)
+        elif isinstance(target, ast.Attribute):
+            owner = plain(machine.evaluate(target.value, frame))
+            if isinstance(owner, Instance):
+                owner.attributes.pop(target.attr, None)
+        elif isinstance(target, ast.Subscript):
+            key = _key(machine, target.slice, frame)
+            for one in alternatives(machine.evaluate(target.value, frame)):
+                _delete_element(machine, one.value, key)
+
+
+def _delete_element(machine: Machine, owner: Value, key: Value) -> None:
+    """Remove an element of a list or a dictionary; an element that is removed only under conditions is perhaps there."""
+    if isinstance(owner, dict):
+        key = hashable(key)
+        known = UNKNOWN not in owner and key != UNKNOWN
+    elif isinstance(owner, list):
+        known = isinstance(key, (int, slice)) and not may_have_more(owner)
+    else:
+        return
+    try:
+        if not machine.conditions:
+            del owner[key]
+        elif isinstance(key, slice):
+            owner[key] = [Guarded(one, (PERHAPS,)) for one in owner[key]]
+        else:
+            owner[key] = Guarded(owner[key], (PERHAPS,))
+    except (LookupError, TypeError) as error:
+        if known:
+            raise Raised(type(error).__name__) from None
+
+
+STATEMENTS: dict[type[ast.stmt], Callable[[Machine, Any, Frame], None]] = {
+    ast.Assign: _assign,
+    ast.AnnAssign: _annotated,
+    ast.AugAssign: _augmented,
+    ast.Import: _import,
+    ast.ImportFrom: _import_from,
+    ast.Global: _global,
+    ast.Nonlocal: _nonlocal,
+    ast.Delete: _delete,
+}
+"""How each is followed. After all of them the next statement comes."""

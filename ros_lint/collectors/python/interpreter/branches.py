@@ -1,0 +1,291 @@
+"""Branches and loops of Python launch files.
+
+Where a branch depends on what is not known, both sides are followed on the same objects, under a condition each, and
+names that differ afterwards stand for one of several values. Where a side leaves its block, the rest of the block runs
+under the opposite condition.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.collectors.python.interpreter.assignments import bind
+from ros_lint.collectors.python.interpreter.methods import items
+from ros_lint.collectors.python.interpreter.operations import opposite_of, truth
+from ros_lint.collectors.python.interpreter.values import (
+    PERHAPS,
+    Conditions,
+    Exit,
+    Frame,
+    Guarded,
+    OutOfBudget,
+    Raised,
+    Unknown,
+    Value,
+    alternatives,
+    plain,
+)
+from ros_lint.collectors.python.string_values import callee
+from ros_lint.collectors.symbolic_text import UNKNOWN, asked_for, expression, quoted
+from ros_lint.facts.launch import LaunchCondition
+
+if TYPE_CHECKING:
+    from ros_lint.collectors.python.interpreter.machine import Machine
+
+_MOST_TURNS = 2_000
+_MOST_EXITS = 100
+"""After how many turns that may leave an endless loop the loop counts as left."""
+
+NEXT, CONTINUE, BREAK, LEAVE = range(4)
+"""How a statement ends: with the next one, or by leaving a turn, a loop or the function."""
+
+
+class _Side(NamedTuple):
+    """A side of a branch that was followed."""
+
+    block: Sequence[ast.stmt]
+    taken: LaunchCondition
+    """The condition of the side."""
+    signal: int
+    names: dict[str, Value]
+    conditions: Conditions
+    """All conditions that hold at its end."""
+    exits: list[Exit]
+    """The ways out within it."""
+
+
+def either(
+    machine: Machine,
+    body: Sequence[ast.stmt],
+    other: Sequence[ast.stmt],
+    condition: LaunchCondition,
+    frame: Frame,
+    *,
+    loop: bool = False,
+) -> int:
+    """Follow both sides of a branch, and join what they leave behind.
+
+    ``loop`` says that the first side is the body of a loop that runs any number of times.
+    """
+    condition = machine.fresh(condition)
+    before, start = machine.conditions, frame.names
+    first = _follow(machine, body, condition, before, start, frame, loop=loop)
+    second = _follow(machine, other, opposite_of(condition), before, start, frame)
+    # Where the sides differ, the rest runs only after the side that goes on, or that leaves less.
+    signal = min(first.signal, second.signal)
+    rest: list[LaunchCondition] = []
+    for side in (first, second):
+        if side.signal == signal:
+            rest += _bars(machine, side.exits, len(before))
+            frame.exits += side.exits
+            continue
+        stops = side.signal == LEAVE and _stops(side.block)
+        if stops:
+            machine.asked.pop(condition.texts, None)  # it does not do without
+        if stops and gives_up(side.block, everywhere=not before):
+            continue
+        rest.append(opposite_of(side.taken))
+        if stops:
+            continue  # around the branch, only what happens when nothing fails counts
+        if side.signal == LEAVE and all(one.signal == LEAVE for one in side.exits):
+            frame.exits.append(Exit(LEAVE, (*before, side.taken), side.names))
+        else:
+            frame.exits += [*side.exits, Exit(side.signal, side.conditions, side.names)]
+    machine.conditions = (*before, *rest)
+    if first.signal == second.signal:
+        frame.names = first.names
+        _join(machine, frame, (condition,), second.names, (opposite_of(condition),))
+    elif first.signal == signal:
+        frame.names = {**second.names, **first.names}
+    else:
+        frame.names = {**first.names, **second.names}
+    return signal
+
+
+def _follow(
+    machine: Machine,
+    block: Sequence[ast.stmt],
+    taken: LaunchCondition,
+    before: Conditions,
+    start: dict[str, Value],
+    frame: Frame,
+    *,
+    loop: bool = False,
+) -> _Side:
+    machine.conditions, frame.names, known = (*before, taken), dict(start), len(frame.exits)
+    try:
+        signal = machine.execute(block, frame)
+    except Raised:
+        signal = LEAVE
+    exits = frame.exits[known:]
+    del frame.exits[known:]
+    if loop:
+        signal = LEAVE if signal == LEAVE else NEXT
+        for one in exits:
+            if one.signal != LEAVE:
+                _join_exit(machine, frame, one, (*before, taken))
+        exits = [one for one in exits if one.signal == LEAVE]
+    return _Side(block, taken, signal, frame.names, machine.conditions, exits)
+
+
+def _join(machine: Machine, frame: Frame, held: Conditions, names: dict[str, Value], conditions: Conditions) -> None:
+    """Join other names, which hold under conditions, to those of a frame."""
+    for name, value in names.items():
+        if name not in frame.names:
+            frame.names[name] = value
+        elif frame.names[name] is not value:
+            frame.names[name] = machine.joined([Guarded(frame.names[name], held), Guarded(value, conditions)])
+
+
+def _join_exit(machine: Machine, frame: Frame, one: Exit, around: Conditions) -> None:
+    taken = _beyond(one, around)
+    _join(machine, frame, (_complement(machine, taken),), one.names, taken)
+
+
+def _beyond(one: Exit, around: Iterable[LaunchCondition]) -> Conditions:
+    """Return the conditions of a way out beyond those that hold around it anyway."""
+    known = list(around)
+    return tuple([condition for condition in one.conditions if condition not in known])
+
+
+def _bars(machine: Machine, exits: Iterable[Exit], depth: int) -> list[LaunchCondition]:
+    """Return what must be so for none of some ways out to be taken, where ``depth`` conditions hold around them."""
+    bars: list[LaunchCondition] = []
+    for one in exits:
+        bars.append(_complement(machine, _beyond(one, (*one.conditions[:depth], *bars))))
+    return bars
+
+
+def _complement(machine: Machine, conditions: Conditions) -> LaunchCondition:
+    """Return the condition that holds when not all of some conditions hold."""
+    if len(conditions) == 1:
+        return opposite_of(conditions[0])
+    parts = [_negated(condition) for condition in conditions]
+    if not parts or None in parts:
+        return machine.fresh(PERHAPS)
+    return LaunchCondition((expression(" or ".join(part for part in parts if part)),), None)
+
+
+def _negated(condition: LaunchCondition) -> str | None:
+    """Return an expression of Python that is true when a condition does not hold; None if it is open what the condition asks."""
+    text = condition.texts[0]
+    if len(condition.texts) > 1 or UNKNOWN in text or asked_for(text):
+        return None
+    if condition.equals is not None:
+        return f"{quoted(text)} {'!=' if condition.wanted else '=='} {quoted(condition.equals)}"
+    return f"{quoted(text)}.strip().lower() {'not in' if condition.wanted else 'in'} ('true', '1')"
+
+
+def gives_up(body: Sequence[ast.stmt], *, everywhere: bool) -> bool:
+    """Return whether a block stops the whole launch file, so that what is beyond is what it does whenever it works.
+
+    An error that is raised within a branch says what those who take the branch have to install.
+    """
+    last = body[-1] if body else None
+    return _stops(body) and (everywhere or not (isinstance(last, ast.Raise) and isinstance(last.exc, ast.Call)))
+
+
+def _stops(body: Sequence[ast.stmt]) -> bool:
+    """Return whether a block ends the program, unless what it raises is caught."""
+    last = body[-1] if body else None
+    if isinstance(last, ast.Raise):
+        return True
+    return isinstance(last, ast.Expr) and isinstance(last.value, ast.Call) and callee(last.value) in ("exit", "quit", "_exit")
+
+
+class _Loop:
+    """A loop whose turns are followed one after the other."""
+
+    def __init__(self, machine: Machine, frame: Frame) -> None:
+        self._machine = machine
+        self._frame = frame
+        self._before = machine.conditions
+        self._known = len(frame.exits)
+        self._bars: list[LaunchCondition] = []
+        """The conditions under which the loop goes on after the turns so far."""
+        self.exits: list[Exit] = []
+        """The ways out of the loop."""
+        self.ended = False
+        """True if a way out is taken for certain."""
+
+    def turn(self, body: Sequence[ast.stmt], guards: Conditions = ()) -> None:
+        """Follow a turn, which happens under some conditions."""
+        machine, frame = self._machine, self._frame
+        around = machine.conditions = (*self._before, *self._bars, *guards)
+        signal = machine.execute(body, frame)
+        exits = frame.exits[self._known :]
+        del frame.exits[self._known :]
+        if signal in (BREAK, LEAVE):
+            exits.append(Exit(signal, machine.conditions, dict(frame.names)))
+        for one in exits:
+            if one.signal == CONTINUE:
+                _join_exit(machine, frame, one, around)
+                continue
+            taken = _beyond(one, (*self._before, *self._bars))
+            self.exits.append(one)
+            self.ended = self.ended or not taken
+            self._bars.append(_complement(machine, taken))
+        machine.conditions = (*self._before, *self._bars)
+
+    def end(self, orelse: Sequence[ast.stmt]) -> int:
+        """Follow what comes after the last turn, and join what the ways out leave behind."""
+        machine, frame = self._machine, self._frame
+        breaks = [one for one in self.exits if one.signal == BREAK]
+        leaves = [one for one in self.exits if one.signal == LEAVE]
+        signal = LEAVE if self.ended else machine.execute(orelse, frame)
+        if not breaks and (signal or not leaves):
+            machine.conditions = self._before
+            frame.exits += leaves
+            return signal
+        if signal:
+            frame.names = breaks.pop().names
+            if not self.ended:
+                leaves.append(Exit(signal, machine.conditions, frame.names))
+        for one in breaks:
+            _join_exit(machine, frame, one, self._before)
+        machine.conditions = (*self._before, *_bars(machine, leaves, len(self._before)))
+        frame.exits += leaves
+        return NEXT
+
+
+def follow_for(machine: Machine, node: ast.For | ast.AsyncFor, frame: Frame) -> int:
+    """Follow a for loop. Raises Raised and OutOfBudget."""
+    values = items(machine, machine.evaluate(node.iter, frame))
+    if values is None:
+        bind(machine, node.target, Unknown("element of what is not known"), frame)
+        return _perhaps(machine, node.body, frame)
+    loop = _Loop(machine, frame)
+    for turn, value in enumerate(values):
+        if turn > _MOST_TURNS:
+            raise OutOfBudget
+        machine.spend(1)
+        guards = next(alternatives(value)).conditions if isinstance(value, Guarded) else ()
+        bind(machine, node.target, plain(value), frame)
+        loop.turn(node.body, guards)
+        if loop.ended:
+            break
+    return loop.end(node.orelse)
+
+
+def follow_while(machine: Machine, node: ast.While, frame: Frame) -> int:
+    """Follow a while loop. Raises Raised and OutOfBudget."""
+    loop = _Loop(machine, frame)
+    for _ in range(_MOST_TURNS):
+        machine.spend(1)
+        answer, _condition = truth(machine, machine.evaluate(node.test, frame))
+        if answer is None:
+            signal = _perhaps(machine, node.body, frame)
+            return loop.end(()) if signal == NEXT else signal
+        if answer:
+            loop.turn(node.body)
+            loop.ended = loop.ended or (isinstance(node.test, ast.Constant) and len(loop.exits) > _MOST_EXITS)
+        if loop.ended or not answer:
+            return loop.end(node.orelse)
+    raise OutOfBudget
+
+
+def _perhaps(machine: Machine, body: Sequence[ast.stmt], frame: Frame) -> int:
+    """Follow a block that may run any number of times."""
+    return either(machine, body, (), PERHAPS, frame, loop=True)

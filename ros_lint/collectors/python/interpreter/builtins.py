@@ -1,0 +1,299 @@
+"""What the functions of Python and its libraries return, as far as launch files need it."""
+
+from __future__ import annotations
+
+import builtins
+import collections.abc
+import numbers
+import typing
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from ros_lint.collectors import symbolic_text as launch_text
+from ros_lint.collectors.launch.python.substitution_misuse import note
+from ros_lint.collectors.python.interpreter import container_functions as launch_py_collections
+from ros_lint.collectors.python.interpreter.calls import Call, Rule, nothing, unknown, unknown_text
+from ros_lint.collectors.python.interpreter.methods import call_method, of_instance
+from ros_lint.collectors.python.interpreter.operations import each, text_of, truth
+from ros_lint.collectors.python.interpreter.values import (
+    Api,
+    Bound,
+    Class,
+    Guarded,
+    Instance,
+    Made,
+    Method,
+    Raised,
+    Union,
+    Unknown,
+    Value,
+    plain,
+)
+from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN
+
+if TYPE_CHECKING:
+    from ros_lint.collectors.python.interpreter.machine import Machine
+
+
+def _str(call: Call) -> Value:
+    value = call.get(0)
+    if isinstance(value, Made):
+        note(call.machine, value, "formatted", call.node, call.frame)
+        return unknown_text(call)
+    return call.result(text_of(value)) if value is not None or call.arguments else ""
+
+
+def _number(kind: type) -> Rule:
+    def rule(call: Call) -> Value:
+        values = [plain(value) for value in (*call.arguments, *call.keywords.values())]
+        if all(isinstance(value, (int, float)) or _is_short_text(value) for value in values):
+            try:
+                return kind(*values)
+            except (TypeError, ValueError, OverflowError) as error:
+                raise Raised(type(error).__name__) from None
+        return Unknown("a number")
+
+    return rule
+
+
+def _is_short_text(value: Value) -> bool:
+    return isinstance(value, str) and launch_text.is_plain(value) and len(value) < 50
+
+
+def _bool(call: Call) -> Value:
+    answer, condition = truth(call.machine, call.get(0))
+    return answer if answer is not None else Unknown("a truth", condition)
+
+
+def _list(call: Call) -> Value:
+    if not call.arguments:
+        return []
+    found = call.items(0)
+    return found if found is not None else unknown(call)
+
+
+def _tuple(call: Call) -> Value:
+    found = _list(call)
+    return tuple(found) if isinstance(found, list) else found
+
+
+def _dict(call: Call) -> Value:
+    found: dict[Any, Value] = {}
+    call_method(call.machine, Method(found, "update"), call.arguments, call.keywords, call.node, call.frame)
+    return found
+
+
+def _length(call: Call) -> Value:
+    return each(call.get(0), _length_of)
+
+
+def _length_of(value: Value) -> Value:
+    value = plain(value)
+    if isinstance(value, (list, tuple, dict, set, range)) or (isinstance(value, str) and launch_text.is_plain(value)):
+        return len(value)
+    return Unknown("a length")
+
+
+def _range(call: Call) -> Value:
+    *before, last = call.arguments or [None]
+    return each(last, lambda one: _range_of([*before, one]))
+
+
+def _range_of(arguments: list[Value]) -> Value:
+    values = [plain(argument) for argument in arguments]
+    if values and all(isinstance(value, int) for value in values):
+        try:
+            return range(*values)
+        except (TypeError, ValueError):
+            raise Raised from None
+    return Unknown("a range")
+
+
+def _enumerate(call: Call) -> Value:
+    found = call.items(0)
+    start = plain(call.get(1, "start")) or 0
+    if found is None or not isinstance(start, int):
+        return unknown(call)
+    return [_keep(one, partial(_pair, index)) for index, one in enumerate(found, start)]
+
+
+def _pair(index: int, value: Value) -> Value:
+    return (index, value)
+
+
+def _keep(value: Value, function: Callable[[Value], Value]) -> Value:
+    """Apply a function to a value inside of the conditions around it."""
+    if isinstance(value, Guarded):
+        return Guarded(_keep(value.value, function), value.conditions)
+    return function(value)
+
+
+def _isinstance(call: Call) -> Value:
+    value, kind = plain(call.get(0)), plain(call.get(1))
+    kinds = kind if isinstance(kind, tuple) else (kind,)
+    names = {one.last for one in kinds if isinstance(one, Api)}
+    if isinstance(value, (str, int, float, list, dict, tuple, type(None))) and len(names) == len(kinds):
+        if isinstance(value, list) and any("set" in name.lower() for name in names):
+            return Unknown("a kind")  # a set is kept as a list
+        return any(_is_of(value, name) for name in names)
+    if isinstance(value, Made) and len(names) == len(kinds):
+        return value.name in names or (Unknown("a kind") if names & {"Action", "Substitution", "Entity"} else False)
+    if isinstance(value, Instance):
+        return any(isinstance(one, Class) and value.cls is one for one in kinds) or Unknown("a kind")
+    return Unknown("a kind")
+
+
+def _is_of(value: Value, name: str) -> bool:
+    """Return whether a known value is of a class of Python, collections.abc, numbers or typing, by the name of the class."""
+    if name == "NoneType":
+        return value is None
+    kinds = [getattr(module, name, None) for module in (builtins, collections.abc, numbers)]
+    kind = next(filter(None, kinds), None) or typing.get_origin(getattr(typing, name, None))
+    return isinstance(kind, type) and isinstance(value, kind)
+
+
+def _getattr(call: Call) -> Value:
+    owner, name = plain(call.get(0)), plain(call.get(1))
+    if isinstance(owner, Instance) and isinstance(name, str):
+        if len(call.arguments) > 2 and name not in owner.attributes and owner.cls.find(name) is None:
+            return call.arguments[2]
+        return of_instance(owner, name)
+    return Unknown("an attribute")
+
+
+def _fields(call: Call) -> Value:
+    """``dataclasses.fields()``: what has a name, each."""
+    given = plain(call.get(0))
+    cls = given.cls if isinstance(given, Instance) else given
+    if not isinstance(cls, Class):
+        return unknown(call)
+    found: list[Value] = []
+    for name in cls.every_field():
+        field = Instance(Class("Field", [], {}, []))
+        field.attributes["name"] = name
+        found.append(field)
+    return found
+
+
+def _open(call: Call) -> Value:
+    found, mode = call.texts(0, "file"), plain(call.get(1, "mode"))
+    if isinstance(mode, str) and not _MAKES.isdisjoint(mode):
+        call.machine.ask(found)  # it need not be there before
+    if len(found) != 1 or (isinstance(mode, str) and not _WRITES.isdisjoint(mode)):
+        return Unknown("a file")
+    return call.machine.open_file(found[0], next(iter(call.node.args), call.node), call.frame.source)
+
+
+_WRITES = frozenset("wxa+")
+_MAKES = frozenset("wxa")
+
+
+def _parsed(call: Call) -> Value:
+    return each(call.get(0, "stream", "s"), partial(_content, call.machine))
+
+
+def _content(machine: Machine, text: Value) -> Value:
+    if not isinstance(text, str) or not launch_text.is_plain(text):
+        machine.lose(text)
+        return text if isinstance(text, Unknown) else Unknown("the content of a file")
+    machine.spend(len(text) // 50)
+    from ros_lint.base.safe_yaml import YamlBoundError, YamlError, load  # noqa: PLC0415  (few launch files read YAML)
+
+    try:
+        return load(text)
+    except YamlBoundError:
+        return Unknown("the content of a file")
+    except YamlError:
+        raise Raised from None
+
+
+def _partial(call: Call) -> Value:
+    return Bound(call.arguments[0], call.arguments[1:], call.keywords) if call.arguments else unknown(call)
+
+
+def _copied(call: Call) -> Value:
+    value = plain(call.get(0))
+    if isinstance(value, list):
+        return list(value)
+    return dict(value) if isinstance(value, dict) else value
+
+
+def _copied_whole(call: Call) -> Value:
+    return _deep(call.machine, call.get(0), {})
+
+
+def _deep(machine: Machine, value: Value, done: dict[int, Value]) -> Value:
+    """Return a value with new lists and dictionaries all the way down, the same one where the same one was."""
+    if isinstance(value, Guarded):
+        return Guarded(_deep(machine, value.value, done), value.conditions)
+    if isinstance(value, Union):
+        return Union(tuple([Guarded(_deep(machine, one.value, done), one.conditions) for one in value.values]))
+    if isinstance(value, tuple):
+        return tuple([_deep(machine, one, done) for one in value])
+    if not isinstance(value, (list, dict)) or id(value) in done:
+        return done.get(id(value), value)
+    machine.spend(1 + len(value) // 8)
+    if isinstance(value, list):
+        items: list[Value] = []
+        done[id(value)] = items
+        items += [_deep(machine, one, done) for one in value]
+        return items
+    entries: dict[Any, Value] = {}
+    done[id(value)] = entries
+    entries.update({key: _deep(machine, one, done) for key, one in value.items()})
+    return entries
+
+
+BUILTINS: Mapping[str, Value] = {
+    "__file__": f"{OWN_FOLDER}/{UNKNOWN}",
+    **dict.fromkeys(
+        (
+            "str", "int", "float", "bool", "list", "dict", "tuple", "set", "frozenset", "len", "range", "enumerate", "zip",
+            "sorted", "reversed", "map", "filter", "any", "all", "min", "max", "sum", "isinstance", "hasattr", "getattr",
+            "setattr", "print", "open", "super", "next", "iter", "repr", "type", "locals", "globals", "vars", "input", "abs",
+            "round", "format", "callable", "id", "hash", "object", "property", "staticmethod", "classmethod", "bytes",
+            "exec", "eval", "dir", "chr", "ord", "divmod", "pow", "slice", "issubclass", "NotImplemented", "Ellipsis",
+            "exit", "quit", "__name__", "__import__", "bytearray", "complex", "memoryview", "__doc__", "__debug__",
+            "delattr", "hex", "oct", "bin", "ascii", "breakpoint", "help", "compile", "copyright", "credits", "license",
+            "BaseException", "Exception", "ArithmeticError", "AssertionError", "AttributeError", "EnvironmentError",
+            "EOFError", "FileExistsError", "FileNotFoundError", "ImportError", "IndexError", "IOError", "KeyError",
+            "KeyboardInterrupt", "LookupError", "ModuleNotFoundError", "NameError", "NotADirectoryError",
+            "NotImplementedError", "OSError", "OverflowError", "PermissionError", "RecursionError", "RuntimeError",
+            "StopIteration", "SyntaxError", "SystemError", "SystemExit", "TimeoutError", "TypeError", "UnicodeError",
+            "UnicodeDecodeError", "ValueError", "Warning", "UserWarning", "DeprecationWarning", "ZeroDivisionError",
+        )
+    ),
+}  # fmt: skip
+"""Names that Python binds."""
+
+FUNCTIONS: Mapping[str, Rule] = {
+    **launch_py_collections.FUNCTIONS,
+    "yaml.safe_load": _parsed,
+    "yaml.load": _parsed,
+    "json.load": _parsed,
+    "json.loads": _parsed,
+    "functools.partial": _partial,
+    "copy.copy": _copied,
+    "copy.deepcopy": _copied_whole,
+    "collections.OrderedDict": _dict,
+    "dataclasses.fields": _fields,
+    "builtins.str": _str,
+    "builtins.int": _number(int),
+    "builtins.float": _number(float),
+    "builtins.bool": _bool,
+    "builtins.list": _list,
+    "builtins.tuple": _tuple,
+    "builtins.dict": _dict,
+    "builtins.len": _length,
+    "builtins.range": _range,
+    "builtins.enumerate": _enumerate,
+    "builtins.isinstance": _isinstance,
+    "builtins.getattr": _getattr,
+    "builtins.print": nothing,
+    "builtins.open": _open,
+    "builtins.repr": unknown_text,
+    "builtins.input": unknown_text,
+    "builtins.type": unknown,
+}
+"""What functions return, by their full names."""

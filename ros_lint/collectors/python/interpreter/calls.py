@@ -1,0 +1,70 @@
+"""A call of a library's function in a Python launch file."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from ros_lint.collectors.python.interpreter.methods import items
+from ros_lint.collectors.python.interpreter.operations import text_of, texts_made
+from ros_lint.collectors.python.interpreter.values import Union, Unknown, Value, alternatives, union, written
+from ros_lint.collectors.symbolic_text import UNKNOWN
+
+if TYPE_CHECKING:
+    from ros_lint.collectors.python.interpreter.machine import Machine
+    from ros_lint.collectors.python.interpreter.values import Frame
+
+
+class Call:
+    """A call of a library: whose it is, what it gets, where it stands."""
+
+    __slots__ = ("arguments", "frame", "keywords", "machine", "name", "node")
+
+    def __init__(
+        self, machine: Machine, name: str, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame
+    ) -> None:
+        self.machine = machine
+        self.name = name
+        self.arguments = arguments
+        self.keywords = keywords
+        self.node = node
+        self.frame = frame
+
+    def get(self, position: int, *names: str) -> Value:
+        for name in names:
+            if name in self.keywords:
+                return self.keywords[name]
+        return self.arguments[position] if position < len(self.arguments) else None
+
+    def texts(self, position: int, *names: str) -> tuple[str, ...]:
+        """Return an argument as texts, for a function that takes no None: where it is None, Python goes no further."""
+        value = self.get(position, *names)
+        if isinstance(value, Union):
+            value = union(one for one in alternatives(value) if one.value is not None)
+        return (UNKNOWN,) if value is None else text_of(value)
+
+    def result(self, found: tuple[str, ...]) -> Value:
+        return texts_made(found, self.node, self.frame)
+
+    def items(self, position: int) -> list[Value] | None:
+        return items(self.machine, self.get(position))
+
+
+Rule = Callable[[Call], Value]
+
+
+def unknown(call: Call) -> Value:
+    """Return what a function returns of which nothing is known: what it got may go anywhere."""
+    call.machine.lose([call.arguments, call.keywords])
+    return Unknown(f"{call.name.rpartition('.')[2]}()")
+
+
+def unknown_text(call: Call) -> Value:
+    """Return a text of which nothing is known."""
+    return written(UNKNOWN, call.node, call.frame.source)
+
+
+def nothing(_: Call) -> Value:
+    """Return None."""
+    return None

@@ -1,0 +1,137 @@
+"""Functions of Python on collections in Python launch files. An element may be there only under conditions."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from ros_lint.collectors.python.interpreter.calls import Call, Rule, unknown
+from ros_lint.collectors.python.interpreter.methods import items
+from ros_lint.collectors.python.interpreter.operations import truth
+from ros_lint.collectors.python.interpreter.ordering import arranged, extreme, unique
+from ros_lint.collectors.python.interpreter.values import Conditions, Guarded, Unknown, Value, around, plain
+
+if TYPE_CHECKING:
+    from ros_lint.collectors.python.interpreter.machine import Machine
+
+
+def _set(call: Call) -> Value:
+    if not call.arguments:
+        return []
+    found = call.items(0)
+    return unknown(call) if found is None else unique(found)
+
+
+def _zip(call: Call) -> Value:
+    rows = _rows(call, 0)
+    return unknown(call) if rows is None else [_under(conditions, tuple(row)) for row, conditions in rows]
+
+
+def _rows(call: Call, start: int) -> list[tuple[list[Value], Conditions]] | None:
+    """Return what zip() makes of the arguments from a position on, with the conditions of each row; None if it is unknown."""
+    columns = [items(call.machine, argument) for argument in call.arguments[start:]]
+    if any(column is None for column in columns):
+        return None
+    rows = zip(*[column or [] for column in columns], strict=False)
+    return [([plain(one) for one in row], tuple([condition for one in row for condition in around(one)])) for row in rows]
+
+
+def _under(conditions: Conditions, value: Value) -> Value:
+    return Guarded(value, conditions) if conditions else value
+
+
+def _sorted(call: Call) -> Value:
+    found = call.items(0)
+    return unknown(call) if found is None else arranged(call.machine, found, call.keywords, call.node, call.frame)
+
+
+def _reversed(call: Call) -> Value:
+    found = call.items(0)
+    return found[::-1] if found is not None else unknown(call)
+
+
+def _map(call: Call) -> Value:
+    rows = _rows(call, 1)
+    if not rows:
+        return unknown(call) if rows is None else []
+    found: list[Value] = []
+    for row, conditions in rows:
+        with call.machine.under(*conditions):
+            found.append(_under(conditions, call.machine.call(call.arguments[0], row, {}, call.node, call.frame)))
+    return found
+
+
+def _filter(call: Call) -> Value:
+    found = call.items(1)
+    if found is None:
+        return unknown(call)
+    kept = []
+    for one in found:
+        asked = call.machine.call(call.arguments[0], [plain(one)], {}, call.node, call.frame) if call.arguments[0] else one
+        answer, condition = truth(call.machine, asked)
+        if answer is not False:
+            kept.append(one if answer else Guarded(one, (condition,)))
+    return kept
+
+
+def _any_all(wanted: bool) -> Rule:
+    def rule(call: Call) -> Value:
+        found = call.items(0)
+        answers = [_answer(call.machine, one, wanted) for one in found] if found is not None else [None]
+        if wanted in answers:
+            return wanted
+        return Unknown("any or all") if None in answers else not wanted
+
+    return rule
+
+
+def _answer(machine: Machine, value: Value, wanted: bool) -> bool | None:
+    """Return whether an element is true; None if that is unknown, or if the element may be missing and would decide."""
+    answer, _ = truth(machine, value)
+    return None if answer is wanted and isinstance(value, Guarded) else answer
+
+
+def _sum(call: Call) -> Value:
+    start, parts = plain(call.get(1, "start")), call.items(0)
+    if parts is None:
+        return unknown(call)
+    if not isinstance(start, list):
+        values = [0 if start is None else start, *parts]
+        known = all(isinstance(value, (int, float)) for value in values)
+        return sum(values) if known else Unknown("a number")
+    found = list(start)
+    for part in parts:
+        inner = items(call.machine, part)
+        if inner is None:
+            return unknown(call)
+        call.machine.spend(len(inner))
+        found += [_under(around(part), one) for one in inner]
+    return found
+
+
+def _chain(call: Call) -> Value:
+    found: list[Value] = []
+    for argument in call.arguments:
+        inner = items(call.machine, argument)
+        if inner is None:
+            return unknown(call)
+        found += inner
+    return found
+
+
+FUNCTIONS: Mapping[str, Rule] = {
+    "itertools.chain": _chain,
+    "builtins.set": _set,
+    "builtins.frozenset": _set,
+    "builtins.zip": _zip,
+    "builtins.sorted": _sorted,
+    "builtins.reversed": _reversed,
+    "builtins.map": _map,
+    "builtins.filter": _filter,
+    "builtins.any": _any_all(True),
+    "builtins.all": _any_all(False),
+    "builtins.min": extreme(min),
+    "builtins.max": extreme(max),
+    "builtins.sum": _sum,
+}
+"""The rules of functions, by their full names."""

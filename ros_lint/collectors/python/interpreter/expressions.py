@@ -1,0 +1,397 @@
+"""Expressions of Python launch files."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Iterable
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any
+
+from ros_lint.collectors.launch.python.substitution_misuse import note
+from ros_lint.collectors.python.interpreter.assignments import bind
+from ros_lint.collectors.python.interpreter.methods import attribute, items
+from ros_lint.collectors.python.interpreter.operations import (
+    INSTALLED,
+    compared,
+    each,
+    hashable,
+    negated,
+    operation,
+    opposite_of,
+    sliced,
+    subscript,
+    text_of,
+    texts_made,
+    truth,
+    with_format,
+)
+from ros_lint.collectors.python.interpreter.ordering import unique
+from ros_lint.collectors.python.interpreter.values import (
+    PERHAPS,
+    Api,
+    Conditions,
+    Frame,
+    Guarded,
+    Raised,
+    Union,
+    Unknown,
+    Value,
+    alternatives,
+    around,
+    plain,
+    union,
+    written,
+)
+from ros_lint.collectors.symbolic_text import UNKNOWN, expression, joined, quoted
+from ros_lint.facts.launch import LaunchCondition
+
+if TYPE_CHECKING:
+    from ros_lint.collectors.python.interpreter.machine import Machine
+
+
+_NUMBERS = (int, float, bool)
+
+
+def _constant(_: Machine, node: ast.Constant, frame: Frame) -> Value:
+    return written(node.value, node, frame.source) if isinstance(node.value, str) else node.value
+
+
+def _name(machine: Machine, node: ast.Name, frame: Frame) -> Value:
+    around: Frame | None = frame.declared.get(node.id, frame)
+    while around is not None:
+        if node.id in around.names:
+            return around.names[node.id]
+        around = around.outer
+    return machine.builtin(node, frame)
+
+
+def _list(machine: Machine, node: ast.List, frame: Frame) -> Value:
+    return _elements(machine, node.elts, frame)
+
+
+def _tuple(machine: Machine, node: ast.Tuple, frame: Frame) -> Value:
+    found = _elements(machine, node.elts, frame)
+    return tuple(found) if isinstance(found, list) else found
+
+
+def _set(machine: Machine, node: ast.Set, frame: Frame) -> Value:
+    # Kept as a list: its order is of no account, and what is in it need not have a hash.
+    found = _elements(machine, node.elts, frame)
+    return unique(found) if isinstance(found, list) else found
+
+
+def _elements(machine: Machine, nodes: Iterable[ast.expr], frame: Frame) -> Value:
+    found: list[Value] = []
+    for node in nodes:
+        if not isinstance(node, ast.Starred):
+            found.append(machine.evaluate(node, frame))
+            continue
+        value = machine.evaluate(node.value, frame)
+        inner = items(machine, value)
+        if inner is None:
+            machine.lose(value)
+            return Unknown("a list with * of what is not known")
+        found += inner
+    return found
+
+
+def _dict(machine: Machine, node: ast.Dict, frame: Frame) -> Value:
+    found: dict[Value, Value] = {}
+    unknown = False
+    for key_node, value_node in zip(node.keys, node.values, strict=True):
+        value = machine.evaluate(value_node, frame)
+        if key_node is None:
+            value = plain(value)
+            if isinstance(value, dict):
+                found.update(value)
+            else:
+                unknown = True
+            continue
+        key = plain(machine.evaluate(key_node, frame))
+        found[hashable(key)] = value
+    if unknown:
+        machine.lose(found)
+        found[UNKNOWN] = Unknown("elements that are not known")
+    return found
+
+
+def _formatted(machine: Machine, node: ast.JoinedStr, frame: Frame) -> Value:
+    rows: list[tuple[str, ...]] = []
+    for part in node.values:
+        if isinstance(part, ast.Constant):
+            rows.append((str(part.value),))
+            continue
+        assert isinstance(part, ast.FormattedValue)
+        value = machine.evaluate(part.value, frame)
+        note(machine, value, "formatted", node, frame)
+        found = text_of(value)
+        if part.format_spec is not None or part.conversion not in (-1, 115):
+            spec = machine.evaluate(part.format_spec, frame) if part.format_spec is not None else ""
+            found = tuple(with_format(plain(value), one, plain(spec), part.conversion) for one in found)
+        rows.append(found)
+    return texts_made(joined(rows, "".join), node, frame)
+
+
+def _operation(machine: Machine, node: ast.BinOp, frame: Frame) -> Value:
+    left = machine.evaluate(node.left, frame)
+    right = machine.evaluate(node.right, frame)
+    return operation(machine, node.op, left, right, node, frame)
+
+
+def _unary(machine: Machine, node: ast.UnaryOp, frame: Frame) -> Value:
+    value = machine.evaluate(node.operand, frame)
+    if isinstance(node.op, ast.Not):
+        note(machine, value, "tested", node, frame)
+        return negated(machine, value)
+    value = plain(value)
+    if isinstance(value, _NUMBERS) and isinstance(node.op, ast.USub):
+        return -value
+    return value if isinstance(value, _NUMBERS) and isinstance(node.op, ast.UAdd) else Unknown("the result of an operator")
+
+
+def _boolean(machine: Machine, node: ast.BoolOp, frame: Frame) -> Value:
+    stop_at = isinstance(node.op, ast.Or)
+    perhaps: list[Value] = []
+    passed: Conditions = ()
+    for part in node.values:
+        with machine.under(*passed):
+            value = machine.evaluate(part, frame)
+        if part is not node.values[-1]:
+            note(machine, value, "tested", part, frame)
+        answer, condition = truth(machine, value)
+        if part is node.values[-1] or answer is stop_at:
+            if not (value == "" and any(isinstance(plain(one), Unknown) for one in perhaps)):  # any value, and so an empty text
+                perhaps.append(Guarded(value, passed) if passed else value)
+            break
+        if answer is None:
+            condition = machine.fresh(condition)
+            ends = condition if stop_at else opposite_of(condition)
+            perhaps.append(Guarded(value, (*passed, ends)))
+            passed = (*passed, opposite_of(ends))
+    if len(perhaps) == 1:
+        return perhaps[0]
+    together = _together([plain(one) for one in perhaps], "or" if stop_at else "and")
+    return union(perhaps) if together is None else together
+
+
+def _together(values: list[Value], word: str) -> Value:
+    """Return comparisons, all of which wait for arguments, as one truth; None for anything else."""
+    parts: list[str] = []
+    for value in values:
+        condition = value.condition if isinstance(value, Unknown) else None
+        if condition is None or condition.equals is None or len(condition.texts) != 1 or UNKNOWN in condition.texts[0]:
+            return None
+        sign = "==" if condition.wanted else "!="
+        parts.append(f"{quoted(condition.texts[0])} {sign} {quoted(condition.equals)}")
+    return Unknown("a truth", LaunchCondition((expression(f" {word} ".join(parts)),), None))
+
+
+def _compare(machine: Machine, node: ast.Compare, frame: Frame) -> Value:
+    left = machine.evaluate(node.left, frame)
+    result: Value = True
+    for op, right_node in zip(node.ops, node.comparators, strict=True):
+        right = machine.evaluate(right_node, frame)
+        if isinstance(op, (ast.In, ast.NotIn)) and isinstance(right, (list, tuple, dict, str)):
+            machine.spend(len(right) // 8)
+        elif isinstance(op, (ast.Eq, ast.NotEq)):
+            for one, other in ((left, right), (right, left)):
+                if isinstance(other, str):
+                    note(machine, one, "compared", node, frame)
+        result = compared(op, left, right)
+        if len(node.ops) == 1:
+            return result
+        answer, _ = truth(machine, result)
+        if answer is not True:
+            return result if answer is False else Unknown("a chain of comparisons")
+        left = right
+    return result
+
+
+def _choice(machine: Machine, node: ast.IfExp, frame: Frame) -> Value:
+    test = machine.evaluate(node.test, frame)
+    note(machine, test, "tested", node.test, frame)
+    answer, condition = truth(machine, test)
+    if answer is not None:
+        return machine.evaluate(node.body if answer else node.orelse, frame)
+    condition = machine.fresh(condition)
+    with machine.under(condition):
+        first = machine.evaluate(node.body, frame)
+    opposite = opposite_of(condition)
+    with machine.under(opposite):
+        second = machine.evaluate(node.orelse, frame)
+    return machine.joined([Guarded(first, (condition,)), Guarded(second, (opposite,))])
+
+
+def _attribute(machine: Machine, node: ast.Attribute, frame: Frame) -> Value:
+    owner = machine.evaluate(node.value, frame)
+    if not isinstance(owner, (Guarded, Union)):
+        return attribute(machine, owner, node, frame)
+    return each(owner, lambda one: attribute(machine, one, node, frame))
+
+
+def _subscript(machine: Machine, node: ast.Subscript, frame: Frame) -> Value:
+    owner = machine.evaluate(node.value, frame)
+    if isinstance(node.slice, ast.Slice):
+        parts = [
+            plain(machine.evaluate(part, frame)) if part is not None else None
+            for part in (node.slice.lower, node.slice.upper, node.slice.step)
+        ]
+        return each(owner, lambda one: sliced(one, parts))
+    key = machine.evaluate(node.slice, frame)
+    return each(owner, lambda one: each(key, lambda other: subscript(machine, one, other)))
+
+
+def _call(machine: Machine, node: ast.Call, frame: Frame) -> Value:
+    function = machine.evaluate(node.func, frame)
+    arguments: list[Value] = []
+    for argument in node.args:
+        if not isinstance(argument, ast.Starred):
+            arguments.append(machine.evaluate(argument, frame))
+            continue
+        value = machine.evaluate(argument.value, frame)
+        inner = items(machine, value)
+        arguments += inner if inner is not None else [value]
+    keywords: dict[str, Value] = {}
+    for keyword in node.keywords:
+        value = machine.evaluate(keyword.value, frame)
+        if keyword.arg is not None:
+            keywords[keyword.arg] = value
+            continue
+        inner_value = plain(value)
+        if isinstance(inner_value, dict):
+            machine.spend(len(inner_value) // 8)
+            keywords.update({str(name): one for name, one in inner_value.items()})
+        else:
+            machine.lose(value)
+    if not isinstance(function, (Guarded, Union)):
+        return machine.call(function, arguments, keywords, node, frame)
+    # Each is called only where it is the one.
+    found: list[Value] = []
+    for one in alternatives(plain(function)):
+        with suppress(Raised), machine.under(*one.conditions):
+            found.append(Guarded(machine.call(one.value, arguments, keywords, node, frame), one.conditions))
+    if not found:
+        raise Raised
+    return union(found)
+
+
+def _lambda(machine: Machine, node: ast.Lambda, frame: Frame) -> Value:
+    return machine.function(node, frame)
+
+
+def _inside(node: ast.expr, frame: Frame) -> Frame:
+    """Return the names of a comprehension. What ``:=`` names in it has its name in the function around it."""
+    inner = Frame(frame.source, frame, {})
+    if frame.source.assigns_inside:
+        names = [one.target.id for one in ast.walk(node) if isinstance(one, ast.NamedExpr)]
+        inner.declared = {name: frame.declared.get(name, frame) for name in names}
+    return inner
+
+
+def _comprehension(machine: Machine, node: ast.ListComp | ast.SetComp | ast.GeneratorExp, frame: Frame) -> Value:
+    found: list[Value] = []
+    inner = _inside(node, frame)
+    of = machine.evaluate(node.generators[0].iter, inner)
+    if isinstance(of, Api) and of.name == INSTALLED:
+        return of  # whatever is made of each: who asks what is in it asks what is installed
+    _generate(machine, node.generators, of, inner, lambda: found.append(machine.guard(machine.evaluate(node.elt, inner))))
+    return unique(found) if isinstance(node, ast.SetComp) else found
+
+
+def _dict_comprehension(machine: Machine, node: ast.DictComp, frame: Frame) -> Value:
+    found: dict[Value, Value] = {}
+    inner = _inside(node, frame)
+
+    def add() -> None:
+        key = hashable(plain(machine.evaluate(node.key, inner)))
+        found[key] = machine.evaluate(node.value, inner)
+
+    _generate(machine, node.generators, machine.evaluate(node.generators[0].iter, inner), inner, add)
+    return found
+
+
+def _generate(
+    machine: Machine, generators: list[ast.comprehension], of: Value, frame: Frame, produce: Callable[[], None]
+) -> None:
+    """Produce something for every choice of elements; ``of`` is what the first generator goes through."""
+    first, rest = generators[0], generators[1:]
+    values = items(machine, of)
+    guards: list[tuple[Value, Conditions]] = []
+    if values is None:
+        guards.append((Unknown("element of what is not known"), (PERHAPS,)))
+    else:
+        guards = [(plain(one), around(one)) for one in values]
+    for value, conditions in guards:
+        bind(machine, first.target, value, frame)
+        needed = list(conditions)
+        for test in first.ifs:
+            answer, condition = truth(machine, machine.evaluate(test, frame))
+            if answer is False:
+                break
+            if answer is None:
+                needed.append(condition)
+        else:
+            with machine.under(*needed):
+                if rest:
+                    _generate(machine, rest, machine.evaluate(rest[0].iter, frame), frame, produce)
+                else:
+                    produce()
+
+
+def _slice_object(machine: Machine, node: ast.Slice, frame: Frame) -> Value:  # noqa: ARG001
+    return Unknown("a slice")
+
+
+def _named(machine: Machine, node: ast.NamedExpr, frame: Frame) -> Value:
+    value = machine.evaluate(node.value, frame)
+    bind(machine, node.target, value, frame)
+    return value
+
+
+def _starred(machine: Machine, node: ast.Starred, frame: Frame) -> Value:
+    return machine.evaluate(node.value, frame)
+
+
+def _yield(machine: Machine, node: ast.Yield, frame: Frame) -> Value:
+    frame.yielded.append(machine.guard(machine.evaluate(node.value, frame) if node.value is not None else None))
+    return None
+
+
+def _yield_from(machine: Machine, node: ast.YieldFrom, frame: Frame) -> Value:
+    value = machine.evaluate(node.value, frame)
+    frame.yielded += items(machine, value) or [value]
+    return None
+
+
+def _await(machine: Machine, node: ast.Await, frame: Frame) -> Value:
+    return machine.evaluate(node.value, frame)
+
+
+EVALUATE: dict[type[ast.expr], Callable[[Machine, Any, Frame], Value]] = {
+    ast.Constant: _constant,
+    ast.Name: _name,
+    ast.List: _list,
+    ast.Tuple: _tuple,
+    ast.Set: _set,
+    ast.Dict: _dict,
+    ast.JoinedStr: _formatted,
+    ast.BinOp: _operation,
+    ast.UnaryOp: _unary,
+    ast.BoolOp: _boolean,
+    ast.Compare: _compare,
+    ast.IfExp: _choice,
+    ast.Attribute: _attribute,
+    ast.Subscript: _subscript,
+    ast.Call: _call,
+    ast.Lambda: _lambda,
+    ast.ListComp: _comprehension,
+    ast.SetComp: _comprehension,
+    ast.GeneratorExp: _comprehension,
+    ast.DictComp: _dict_comprehension,
+    ast.NamedExpr: _named,
+    ast.Starred: _starred,
+    ast.Slice: _slice_object,
+    ast.Yield: _yield,
+    ast.YieldFrom: _yield_from,
+    ast.Await: _await,
+}

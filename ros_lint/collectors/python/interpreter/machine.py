@@ -1,0 +1,329 @@
+"""Statements and calls of Python launch files: a machine that follows the program and runs nothing.
+
+Where a branch depends on what is not known, both sides are followed on the same objects, under a condition each, and
+names that differ afterwards stand for one of several values. Steps, depth and sizes are bounded; what goes beyond the
+bounds is not known.
+"""
+
+from __future__ import annotations
+
+import ast
+import posixpath
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
+
+from ros_lint.collectors.launch.expressions import evaluate
+from ros_lint.collectors.launch.python.library import call_library, subscript_library
+from ros_lint.collectors.launch.python.released_helpers import HELPERS, helper, placed
+from ros_lint.collectors.launch.python.substitutions import Within, texts
+from ros_lint.collectors.python.interpreter.branches import LEAVE
+from ros_lint.collectors.python.interpreter.builtins import BUILTINS
+from ros_lint.collectors.python.interpreter.expressions import EVALUATE
+from ros_lint.collectors.python.interpreter.methods import call_method
+from ros_lint.collectors.python.interpreter.operations import text_of
+from ros_lint.collectors.python.interpreter.recorder import Notes
+from ros_lint.collectors.python.interpreter.repeated_calls import UnderWay, begin
+from ros_lint.collectors.python.interpreter.statements import execute
+from ros_lint.collectors.python.interpreter.values import (
+    PERHAPS,
+    Api,
+    Bound,
+    Class,
+    FilePath,
+    Frame,
+    Function,
+    Guarded,
+    Instance,
+    Made,
+    Method,
+    Modules,
+    OutOfBudget,
+    Raised,
+    Source,
+    Unknown,
+    Value,
+    guarded_text,
+    plain,
+    union,
+)
+from ros_lint.collectors.python.versions import STANDARD_LIBRARY
+from ros_lint.collectors.symbolic_text import fill, is_settled, joined
+from ros_lint.facts.launch import LaunchCondition
+
+STEPS = 150_000
+_STEPS_A_CALL = 60_000
+_DEEPEST_CALL = 40
+
+_KNOWN = STANDARD_LIBRARY | frozenset(
+    [
+        "ament_index_python",
+        "launch",
+        "launch_param_builder",
+        "launch_pytest",
+        "launch_ros",
+        "launch_testing",
+        "launch_testing_ros",
+        "launch_xml",
+        "launch_yaml",
+        "moveit_configs_utils",
+        "xacro",
+        "yaml",
+    ]
+)
+"""Libraries of which it is known what their classes and functions do. In a workspace that builds ROS itself their sources
+lie around, and say less."""
+
+_Definition = ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
+
+
+class Machine(Notes):
+    """Follows one launch file and the modules that it imports."""
+
+    def __init__(self, modules: Modules, files: Callable[[str], Value]) -> None:
+        super().__init__()
+        self._modules = modules
+        self._files = files
+        self._sources: dict[str, Source | None] = {}
+        self._placed: dict[tuple[int, int], tuple[_Definition, ast.AST, ast.AST]] = {}
+        self._left = STEPS
+        self._under_way: list[UnderWay] = []
+
+    # --- bounds and conditions ------------------------------------------------------------------------------------
+
+    def spend(self, steps: int) -> None:
+        """Count steps. Raises OutOfBudget."""
+        self._left -= steps
+        if self._left < 0:
+            raise OutOfBudget
+
+    def grant(self) -> None:
+        """Allow some more steps: for what is left to do when the others were not enough."""
+        self._left = STEPS // 4
+
+    @contextmanager
+    def under(self, *conditions: LaunchCondition) -> Iterator[None]:
+        """Follow something that happens only under conditions."""
+        before = self.conditions
+        self.conditions = (*before, *conditions)
+        try:
+            yield
+        finally:
+            self.conditions = before
+
+    # --- modules --------------------------------------------------------------------------------------------------
+
+    def run(self, tree: ast.Module, source: Source) -> Frame:
+        """Follow the statements of a module."""
+        frame = Frame(source, None, source.names)
+        source.names.setdefault("__name__", "launch_file")
+        with suppress(Raised):
+            execute(self, tree.body, frame)
+        source.names = frame.names
+        return frame
+
+    def module(self, name: str, importer: Source, at: ast.stmt) -> Source | None:
+        """Return a module of the workspace, or what is known of a released one, followed once.
+
+        None for any other, and for the libraries of launch, wherever their sources are.
+        """
+        known = name.partition(".")[0] in _KNOWN
+        if known and name not in HELPERS:
+            return None
+        key = f"{importer.text.path}:{name}" if name.startswith(".") else name
+        if key in self._sources:
+            return self._sources[key]
+        self._sources[key] = None  # while it is followed: modules may import each other
+        module = None if known else self._modules(name, importer.text)
+        if module is not None:
+            found = self._sources[key] = Source(module.text)
+            self.run(module.tree, found)
+            return found
+        if not known:
+            self.wanted.add(name)
+        if name in HELPERS:
+            self.borrows = True
+            found = self._sources[key] = Source(importer.text, lent=True)
+            self.run(helper(name, at), found)
+        return self._sources[key]
+
+    def _lent(self, function: Function, call: ast.Call, caller: Source) -> tuple[_Definition, Source]:
+        """Return what a helper of a released package does as if it stood where it is called, and the text around it."""
+        key = id(function.node), id(call)
+        if key not in self._placed:
+            self.spend(100)
+            self._placed[key] = (
+                placed(function.node, call),
+                function.node,
+                call,
+            )  # as long as they are here, no other has their ids
+        source = function.frame.source
+        return self._placed[key][0], source if source.text is caller.text else Source(caller.text, lent=True)
+
+    # --- statements -----------------------------------------------------------------------------------------------
+
+    def evaluate(self, node: ast.expr, frame: Frame) -> Value:
+        """Return the value of an expression. Raises Raised and OutOfBudget."""
+        self._left -= 1
+        if self._left < 0:
+            raise OutOfBudget
+        return EVALUATE[type(node)](self, node, frame)
+
+    def execute(self, body: Sequence[ast.stmt], frame: Frame) -> int:
+        """Follow statements, and return how they end. Raises Raised and OutOfBudget."""
+        return execute(self, body, frame)
+
+    def function(self, node: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda, frame: Frame) -> Function:
+        """Return a function of the program."""
+        found = Function(node, frame)
+        found.defaults = [self.evaluate(default, frame) for default in node.args.defaults]
+        for argument, default in zip(node.args.kwonlyargs, node.args.kw_defaults, strict=True):
+            if default is not None:
+                found.keyword_defaults[argument.arg] = self.evaluate(default, frame)
+        return found
+
+    # --- calls ----------------------------------------------------------------------------------------------------
+
+    def builtin(self, node: ast.Name, frame: Frame) -> Value:
+        """Return what a name means that the program does not bind."""
+        if node.id == "__file__":
+            return BUILTINS["__file__"]
+        if node.id in BUILTINS:
+            return Api(f"builtins.{node.id}")
+        self.unbound.append((node, frame.source))
+        # Python would stop here; what is meant is mostly plain.
+        return Api(node.id)
+
+    def call(self, function: Value, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame) -> Value:
+        """Return what calling a value returns."""
+        self.spend(1)
+        if isinstance(function, Api):
+            return call_library(self, function.name, arguments, keywords, node, frame)
+        if isinstance(function, Method):
+            if isinstance(function.owner, Made):
+                return call_library(self, function, arguments, keywords, node, frame)
+            return call_method(self, function, arguments, keywords, node, frame)
+        if isinstance(function, Function):
+            try:
+                return self._run_function(function, arguments, keywords, node, frame)
+            except Raised:
+                if function.frame.source is frame.source:
+                    raise
+                # A helper is more likely to be misread than to fail.
+                self.lose([arguments, keywords])
+                return Unknown(f"{getattr(function.node, 'name', 'a function')}() cannot be followed")
+        if isinstance(function, Bound):
+            return self._run_bound(function, arguments, keywords, node, frame)
+        if isinstance(function, Class):
+            return self._make(function, arguments, keywords, node, frame)
+        self.lose([arguments, keywords])
+        return Unknown("the result of a call that cannot be followed")
+
+    def _run_bound(self, bound: Bound, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame) -> Value:
+        kept = {name: value for name, value in bound.keywords.items() if name}
+        return self.call(bound.function, [*bound.arguments, *arguments], {**kept, **keywords}, node, frame)
+
+    def _make(self, cls: Class, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame) -> Value:
+        made = Instance(cls)
+        base = cls.library_base()
+        if base is not None and base.last not in ("ABC", "object", "Enum", "NamedTuple", "Protocol"):
+            result = call_library(self, base.name, arguments, keywords, node, frame)
+            made.made = result if isinstance(result, Made) else None
+        init = cls.find("__init__")
+        if isinstance(init, Function):
+            self._run_function(init, [made, *arguments], keywords, node, frame)
+        else:
+            for name, value in zip(cls.fields, arguments, strict=False):
+                made.attributes[name] = value
+            made.attributes.update({name: value for name, value in keywords.items() if name in cls.fields})
+        return made
+
+    def _run_function(
+        self, function: Function, arguments: list[Value], keywords: dict[str, Value], call: ast.Call, caller: Frame
+    ) -> Value:
+        node, source = function.node, function.frame.source
+        if source.lent:
+            node, source = self._lent(function, call, caller.source)
+        if len(self._under_way) >= _DEEPEST_CALL:
+            self.lose([arguments, keywords])
+            return Unknown("calls that are nested too deeply")
+        frame = Frame(source, function.frame, function.taking(arguments, keywords))
+        if not begin(self._under_way, function, frame.names, len(self.conditions)):
+            self.lose([arguments, keywords])
+            return Unknown(f"the result of {getattr(node, 'name', 'a function')}() within itself")
+        if isinstance(node, ast.Lambda):
+            try:
+                return self.evaluate(node.body, frame)
+            finally:
+                self._under_way.pop()
+        before, left = self.conditions, self._left
+        self._left = min(left, _STEPS_A_CALL)
+        allowed = self._left
+        try:
+            signal = execute(self, node.body, frame)
+        except OutOfBudget:
+            if left <= allowed:
+                raise
+            self.lose([arguments, keywords])
+            return Unknown("a call that takes too long")
+        except Raised:
+            if not frame.returned:
+                raise
+            signal = LEAVE  # this way out of several ends here
+        finally:
+            self._under_way.pop()
+            self._left = left - (allowed - self._left)
+            self.conditions = before
+        if frame.source.yields and function.yields():
+            return frame.yielded
+        if signal != LEAVE and frame.returned:
+            frame.returned.append(Guarded(None, (PERHAPS,)))
+        if not frame.returned:
+            return None
+        if len(frame.returned) == 1:
+            return frame.returned[0].value
+        count = len(before)
+        return self.joined([Guarded(one.value, one.conditions[count:]) for one in frame.returned])
+
+    # --- what the library needs -----------------------------------------------------------------------------------
+
+    def join_paths(self, left: Value, right: Sequence[Value], node: ast.expr, frame: Frame) -> Value:
+        """Return what ``/`` or joinpath makes: a path of pathlib, or a substitution."""
+        if isinstance(left, Made) or any(isinstance(plain(one), Made) for one in right):
+            call = node if isinstance(node, ast.Call) else ast.Call(node, [], [])
+            ast.copy_location(call, node)
+            return Made("PathJoinSubstitution", [[left, *right]], {}, call, frame.source)
+        rows = [text_of(left), *[text_of(one) for one in right]]
+        found = joined(rows, lambda row: posixpath.join("", *row))
+        return union(guarded_text(text, FilePath(text)) for text in found)
+
+    def open_file(self, path: str, at: ast.expr, source: Source) -> Value:
+        """Return the text of a file of the workspace, or what stands for it."""
+        if not self.guarded and not path.isascii():
+            self.opened.append((path, at, source, self.conditions))
+        unknown = Unknown(f"the content of {path.rpartition('/')[2] or 'a file'}")
+        paths = fill(path, self._defaults().get, evaluate)
+        if len(paths) != 1 or not is_settled(paths[0]):
+            return unknown
+        found = self._files(paths[0])
+        if found is None:
+            self.wanted.add(paths[0])
+            return unknown
+        # Who launches the file can name another one.
+        return found if paths[0] == path else union([Guarded(found, (PERHAPS,)), Guarded(unknown, (PERHAPS,))])
+
+    def _defaults(self) -> dict[str, tuple[str, ...]]:
+        """Return what is known so far of the values of launch configurations when nobody gives others."""
+        return {
+            str(name): texts(default)
+            for made in self.made
+            if made.name == "DeclareLaunchArgument"
+            if (default := made.get(1, "default_value")) is not None
+            for name in texts(made.get(0, "name"))
+        }
+
+    def subscript_of_library(self, owner: Value, key: Value) -> Value:
+        """Return an element of something that a library has."""
+        return subscript_library(self, owner, key)
+
+    def texts(self, value: Value) -> tuple[str, ...]:
+        return texts(value, Within(self.spend))

@@ -1,0 +1,362 @@
+"""Attributes and methods of values in Python launch files."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ros_lint.collectors.launch.expressions import EVALUATED
+from ros_lint.collectors.launch.python.substitution_misuse import note
+from ros_lint.collectors.python.interpreter.operations import (
+    chosen,
+    hashable,
+    may_have_more,
+    text_of,
+    texts_made,
+    waits,
+    with_format,
+    without,
+)
+from ros_lint.collectors.python.interpreter.ordering import arranged, is_known, unique
+from ros_lint.collectors.python.interpreter.path_functions import call_of_path, of_path
+from ros_lint.collectors.python.interpreter.values import (
+    PERHAPS,
+    Api,
+    Bound,
+    Class,
+    Context,
+    FilePath,
+    Function,
+    Guarded,
+    Instance,
+    Made,
+    Method,
+    Raised,
+    Source,
+    Union,
+    Unknown,
+    Value,
+    alternatives,
+    plain,
+    same,
+    union,
+    written,
+)
+from ros_lint.collectors.python.methods import CONSTANTS, NUMBERS, SPLITS, STRIPS, TEXT_METHODS, TRUTHS
+from ros_lint.collectors.symbolic_text import (
+    LONGEST,
+    UNKNOWN,
+    expression,
+    is_plain,
+    is_settled,
+    joined,
+    names_places,
+    quoted,
+    share,
+)
+from ros_lint.facts.launch import LaunchCondition
+
+if TYPE_CHECKING:
+    import ast
+
+    from ros_lint.collectors.python.interpreter.machine import Machine
+    from ros_lint.collectors.python.interpreter.values import Frame
+
+_MOST_ITEMS = 5_000
+
+
+def items(machine: Machine, value: Value) -> list[Value] | None:
+    """Return the elements of a value in a fresh list, guarded where they are conditional; None if they are not known."""
+    value = plain(value)
+    if isinstance(value, Union):
+        found: list[Value] = []
+        for one in alternatives(value):
+            inner = items(machine, one.value)
+            if inner is None and isinstance(one.value, Unknown):
+                inner = [Unknown("element of what is not known")]
+            elif inner is None:
+                return None
+            found += [Guarded(element, one.conditions or (PERHAPS,)) for element in inner]
+        return found
+    if isinstance(value, (list, tuple, set, frozenset, dict)):
+        machine.spend(len(value) // 8)
+        return list(value) if len(value) <= _MOST_ITEMS else None
+    if isinstance(value, range):
+        return list(value) if len(value) <= _MOST_ITEMS else None
+    if isinstance(value, str) and is_plain(value):
+        return list(value) if len(value) <= _MOST_ITEMS else None
+    if isinstance(value, Made) and value.name == "LaunchDescription":
+        return list(value.entities)
+    return None
+
+
+def attribute(machine: Machine, owner: Value, node: ast.Attribute, frame: Frame) -> Value:
+    """Return an attribute of a value."""
+    name = node.attr
+    if isinstance(owner, Api):
+        full = f"{owner.name}.{name}"
+        if full in CONSTANTS:
+            return CONSTANTS[full]
+        return written(UNKNOWN, node, frame.source) if full == "sys.executable" else Api(full)
+    if isinstance(owner, Instance):
+        return of_instance(owner, name)
+    if isinstance(owner, Class):
+        found = owner.find(name)
+        return found if found is not None else Unknown(f"attribute {name}")
+    if isinstance(owner, Source):
+        return owner.names.get(name, Unknown(f"{name} of a module"))
+    if isinstance(owner, FilePath):
+        return of_path(owner, name)
+    if isinstance(owner, Made):
+        return _of_made(owner, name)
+    if isinstance(owner, Context):
+        return Api(f"context.{name}")
+    if isinstance(owner, (str, list, dict, tuple, set)):
+        return Method(owner, name)
+    machine.lose(owner)
+    return Unknown(f"attribute {name} of what is not known")
+
+
+def of_instance(owner: Instance, name: str) -> Value:
+    """Return an attribute of an object of the program."""
+    if name in owner.attributes:
+        return owner.attributes[name]
+    found = owner.cls.find(name)
+    if isinstance(found, Function):
+        return Bound(found, [owner])
+    if isinstance(found, Bound) and isinstance(found.function, Function):  # property, classmethod, staticmethod
+        return found
+    if found is not None:
+        return found
+    if owner.made is not None:
+        return Method(owner.made, name)
+    return Unknown(f"attribute {name} of an object")
+
+
+def _of_made(owner: Made, name: str) -> Value:
+    match owner.name, name:
+        case "LaunchDescription", "entities":
+            return owner.entities
+        case "DeclareLaunchArgument", "name":
+            return owner.get(0, "name")
+        case "MoveItConfigsBuilder", "package_path" if package := built_for(owner):
+            return FilePath(share(package))
+    return Method(owner, name)
+
+
+def built_for(builder: Made) -> str:
+    """Return the package that one of MoveIt's builders is for, "" if it is not known: by the name of a robot, unless told."""
+    of_robots = builder.name == "MoveItConfigsBuilder"
+    package, robot = builder.get(2 if of_robots else 0, "package_name"), builder.get(0, "robot_name")
+    if package is None and of_robots and isinstance(robot, str):
+        package = f"{robot}_moveit_config"
+    return package if isinstance(package, str) and is_plain(package) else ""
+
+
+_OF_MARKED = STRIPS | SPLITS | {"replace"}
+"""Methods that mean something for texts, too, in which something stands that is known at launch only."""
+_OF_PLAIN = TEXT_METHODS | {"zfill", "encode"}
+
+
+def call_method(
+    machine: Machine, method: Method, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame
+) -> Value:
+    """Return what a method returns."""
+    owner, name = method.owner, method.name
+    if isinstance(owner, (list, dict)):
+        machine.spend(len(owner) // 8)
+    if isinstance(owner, str):
+        return _of_text(machine, owner, name, arguments, keywords, node, frame)
+    if isinstance(owner, list) and name == "sort":
+        owner[:] = arranged(machine, list(owner), keywords, node, frame)
+        return None
+    if isinstance(owner, list):
+        return _of_list(machine, owner, name, arguments)
+    if isinstance(owner, dict):
+        return _of_dict(machine, owner, name, arguments, keywords)
+    if isinstance(owner, FilePath):
+        return call_of_path(machine, owner, name, arguments, node, frame)
+    if isinstance(owner, tuple) and name == "index":
+        return Unknown("index in a tuple")
+    machine.lose([owner, arguments, keywords])
+    return Unknown(f"{name}()")
+
+
+def _of_text(
+    machine: Machine, owner: str, name: str, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame
+) -> Value:
+    if name == "format":
+        for value in (*arguments, *keywords.values()):
+            note(machine, value, "formatted", node, frame)
+        return _formatted(owner, arguments, keywords, node, frame)
+    if name == "read":
+        return owner  # a file that is open is its text
+    if name == "join" and arguments:
+        values = items(machine, arguments[0])
+        if values is None:
+            return written(UNKNOWN, node, frame.source)
+        return texts_made(joined([text_of(value) for value in values], owner.join), node, frame)
+    values = [plain(argument) for argument in arguments]
+    known = all(isinstance(value, (str, int, tuple, type(None))) for value in values) and not keywords
+    known = known and all(is_plain(value) for value in values if isinstance(value, str))
+    possible = (is_settled(owner) or name in STRIPS) and (name in _OF_MARKED or (name in _OF_PLAIN and is_plain(owner)))
+    if possible and known and len(owner) <= LONGEST:
+        if _grows(owner, name, values):
+            return UNKNOWN
+        try:
+            result = getattr(str(owner), name)(*values)
+        except (OverflowError, TypeError, ValueError):
+            raise Raised from None
+        return result if not isinstance(result, str) or len(result) <= LONGEST else UNKNOWN
+    if known and name in EVALUATED and len(owner) <= LONGEST and waits(owner) and not names_places(owner):
+        later = expression(f"{quoted(owner)}.{name}({', '.join(map(repr, values))})")
+        return Unknown("a truth", LaunchCondition((later,), None)) if name in TRUTHS else written(later, node, frame.source)
+    if name in TRUTHS or name in NUMBERS:
+        return Unknown(f"{name}() of a text that is not known")
+    return written(UNKNOWN, node, frame.source) if name not in SPLITS else Unknown(f"{name}()")
+
+
+def _grows(text: str, name: str, values: list[Value]) -> bool:
+    """Whether a method would make a text too long."""
+    if name == "zfill":
+        return any(isinstance(width, int) and width > LONGEST for width in values)
+    old, new = values[:2] if name == "replace" and len(values) > 1 else ("", "")
+    return isinstance(old, str) and isinstance(new, str) and text.count(old) * len(new) > LONGEST
+
+
+def _formatted(owner: str, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame) -> Value:
+    import string  # noqa: PLC0415  (few launch files format like this)
+
+    rows: list[tuple[str, ...]] = []
+    try:
+        fields = list(string.Formatter().parse(owner))
+    except ValueError:
+        raise Raised from None
+    count = 0
+    for literal, field, spec, conversion in fields:
+        rows.append((literal,))
+        if field is None:
+            continue
+        key = field or str(count)
+        count += 1
+        value = arguments[int(key)] if key.isdigit() and int(key) < len(arguments) else keywords.get(key)
+        if value is None:
+            rows.append((UNKNOWN,))
+        elif spec or conversion in ("r", "a"):
+            rows.append(tuple(with_format(plain(value), one, spec or "", ord(conversion or "s")) for one in text_of(value)))
+        else:
+            rows.append(text_of(value))
+    return texts_made(joined(rows, "".join), node, frame)
+
+
+def _of_list(machine: Machine, owner: list[Value], name: str, arguments: list[Value]) -> Value:
+    first = arguments[0] if arguments else None
+    match name:
+        case "append":
+            machine.spend(1)
+            owner.append(machine.guard(first))
+            return None
+        case "add" if any(same(one, first) for one in owner):
+            return None
+        case "add":
+            owner.append(machine.guard(first))
+            return None
+        case "extend" | "update":
+            found = items(machine, first)
+            if found is None:
+                machine.lose(first)
+                owner.append(machine.guard(Unknown("elements that are not known")))
+            else:
+                machine.spend(len(found))
+                owner += [machine.guard(one) for one in found]
+            if name == "update":
+                owner[:] = unique(owner)
+            return None
+        case "insert":
+            position = plain(first)
+            owner.insert(position if isinstance(position, int) else len(owner), machine.guard(arguments[-1]))
+            return None
+        case "pop":
+            return _popped(owner, first)
+        case "copy":
+            return list(owner)
+        case "reverse":
+            owner.reverse()
+            return None
+        case "clear":
+            owner.clear()
+            return None
+        case "remove" | "discard":
+            same_ones = [index for index, one in enumerate(owner) if same(plain(one), plain(first))]
+            if same_ones:
+                del owner[same_ones[0]]
+            elif name == "remove" and all(map(is_known, (*owner, first))):
+                raise Raised("ValueError")
+            return None
+        case "union":
+            return unique([*owner, *(one for argument in arguments for one in items(machine, argument) or [])])
+    return Unknown(f"{name}() of a list")
+
+
+def _popped(owner: list[Value], position: Value) -> Value:
+    index = -1 if position is None else plain(position)
+    if not isinstance(index, int) or (may_have_more(owner) and not -len(owner) <= index < len(owner)):
+        return Unknown("pop() from a place that is not known")
+    try:
+        return plain(owner.pop(index))
+    except IndexError:
+        raise Raised("IndexError") from None
+
+
+def _of_dict(machine: Machine, owner: dict[Any, Value], name: str, arguments: list[Value], keywords: dict[str, Value]) -> Value:
+    key = hashable(plain(arguments[0])) if arguments else None
+    match name:
+        case "items":
+            return list(owner.items())
+        case "keys":
+            return list(owner)
+        case "values":
+            return list(owner.values())
+        case "copy":
+            return dict(owner)
+        case "get" | "pop" | "setdefault":
+            default = arguments[1] if len(arguments) > 1 else None
+            if isinstance(key, str) and not is_plain(key):
+                return union([*chosen(owner, key), Guarded(default, without(owner, key))])
+            if key in owner:
+                return owner.pop(key) if name == "pop" else owner[key]
+            if UNKNOWN in owner:
+                return union([owner[UNKNOWN], default])
+            if name == "pop" and len(arguments) == 1 and key != UNKNOWN:
+                raise Raised("KeyError")
+            if name == "setdefault":
+                owner[key] = default
+            return default
+        case "clear":
+            owner.clear()
+            return None
+        case "popitem" if UNKNOWN not in owner:
+            if not owner:
+                raise Raised("KeyError")
+            return owner.popitem()
+        case "update":
+            return _updated(machine, owner, arguments, keywords)
+    return Unknown(f"{name}() of a dictionary")
+
+
+def _updated(machine: Machine, owner: dict[Any, Value], arguments: list[Value], keywords: dict[str, Value]) -> None:
+    for argument in arguments:
+        for one in alternatives(argument):
+            if isinstance(one.value, dict):
+                owner.update(one.value)
+                continue
+            pairs = items(machine, one.value)
+            for pair in pairs or ():
+                parts = items(machine, pair)
+                if parts is not None and len(parts) == 2:
+                    owner[hashable(plain(parts[0]))] = parts[1]
+                else:
+                    owner[UNKNOWN] = Unknown("elements that are not known")
+            if pairs is None:
+                owner[UNKNOWN] = Unknown("elements that are not known")
+                machine.lose(one.value)
+    owner.update(keywords)

@@ -1,0 +1,388 @@
+"""Operators, comparisons and truth of values in Python launch files, with three answers where there are three."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
+
+from ros_lint.collectors.launch.python.substitution_misuse import note
+from ros_lint.collectors.launch.python.substitutions import texts
+from ros_lint.collectors.python.interpreter.ordering import MOST_COMPARED, is_known, is_small
+from ros_lint.collectors.python.interpreter.values import (
+    PERHAPS,
+    Api,
+    Conditions,
+    FilePath,
+    Frame,
+    Guarded,
+    Made,
+    Raised,
+    Union,
+    Unknown,
+    Value,
+    alternatives,
+    guarded_text,
+    plain,
+    under,
+    union,
+    written,
+)
+from ros_lint.collectors.python.operators import ARITHMETIC, BITWISE, COMPARISONS
+from ros_lint.collectors.symbolic_text import (
+    LONGEST,
+    MOST,
+    UNKNOWN,
+    certain_part,
+    distinct,
+    expression,
+    is_plain,
+    joined,
+    named_in,
+    presence,
+    quoted,
+)
+from ros_lint.facts.launch import LaunchCondition
+
+if TYPE_CHECKING:
+    from ros_lint.collectors.python.interpreter.machine import Machine
+
+INSTALLED = "installed packages"
+"""What stands for the answer of the ament index which packages there are."""
+
+_NUMBERS = (int, float, bool)
+_MOST_ITEMS = 5_000
+
+
+def each(value: Value, function: Callable[[Value], Value]) -> Value:
+    """Apply a function to every alternative of a value."""
+    if isinstance(value, Guarded):
+        value = value.value
+    if not isinstance(value, Union):
+        return function(value)
+    found: list[Value] = []
+    raised = False
+    for one in alternatives(value):
+        try:
+            found.append(Guarded(function(one.value), one.conditions))
+        except Raised:  # then this alternative is none
+            raised = True
+    if raised and not found:
+        raise Raised
+    return union(found)
+
+
+def truth(machine: Machine, value: Value) -> tuple[bool | None, LaunchCondition]:
+    """Return whether a value is true, and the condition for it where that is not known."""
+    value = plain(value)
+    if isinstance(value, Unknown):
+        return None, value.condition or PERHAPS
+    if isinstance(value, Union):
+        return _truth_of_several(machine, value)
+    if isinstance(value, str):
+        if is_plain(value) or certain_part(value):
+            return bool(value), PERHAPS
+        return None, LaunchCondition((str(value),), "", wanted=False)
+    if value is None or isinstance(value, (*_NUMBERS, list, dict, tuple, set, frozenset, range)):
+        return bool(value), PERHAPS
+    return (None if isinstance(value, Api) else True), PERHAPS
+
+
+def _truth_of_several(machine: Machine, value: Union) -> tuple[bool | None, LaunchCondition]:
+    answers = [(truth(machine, one.value)[0], one.conditions) for one in alternatives(value)]
+    if len({answer for answer, _ in answers}) == 1:
+        return answers[0][0], PERHAPS
+    for wanted in (True, False):
+        found = [conditions for answer, conditions in answers if answer is wanted]
+        if len(found) == 1 and len(found[0]) == 1 and all(answer is not None for answer, _ in answers):
+            return None, found[0][0] if wanted else opposite_of(found[0][0])
+    return None, PERHAPS
+
+
+def text_of(value: Value) -> tuple[str, ...]:
+    """Return what str() makes of a value."""
+    if isinstance(value, str):
+        return (value,)
+    return distinct(text for one in alternatives(value) for text in under((_str(one.value),), one.conditions))
+
+
+def _str(value: Value) -> str:
+    if isinstance(value, str):
+        return value
+    if isinstance(value, FilePath):
+        return value.text
+    if value is None or isinstance(value, (*_NUMBERS, bytes)):
+        return str(value)
+    return _shown(value) if isinstance(value, (list, tuple, dict, set)) else UNKNOWN
+
+
+def _shown(value: Any) -> str:
+    """Return the text of a collection if it holds nothing but what Python can show."""
+    stack, count = [value], 0
+    while stack:
+        one = stack.pop()
+        count += 1
+        if count > 200:
+            return UNKNOWN
+        if isinstance(one, dict):
+            stack += [*one.keys(), *one.values()]
+        elif isinstance(one, (list, tuple, set)):
+            stack += one
+        elif not (one is None or isinstance(one, (str, *_NUMBERS))):
+            return UNKNOWN
+    return str(value)
+
+
+def hashable(key: Value) -> Any:
+    """Return what a value is as a key: itself, or a text for what cannot be one."""
+    if isinstance(key, (list, tuple, Made)):
+        found = texts(key)
+        return found[0] if len(found) == 1 else UNKNOWN
+    if isinstance(key, (str, *_NUMBERS)) or key is None:
+        return key
+    return UNKNOWN
+
+
+def with_format(value: Value, text: str, spec: Value, conversion: int) -> str:
+    """Return a value formatted; ``text`` is its text, ``conversion`` as in :class:`ast.FormattedValue`."""
+    if not isinstance(spec, str) or not is_plain(spec) or not is_plain(text) or len(spec) > 8:
+        return UNKNOWN
+    try:
+        if conversion in _CONVERSIONS and isinstance(value, (str, *_NUMBERS)):
+            return format(_CONVERSIONS[conversion](value if isinstance(value, _NUMBERS) else text), spec)
+        if conversion in _CONVERSIONS and isinstance(value, FilePath):
+            return UNKNOWN
+        return format(value if isinstance(value, _NUMBERS) else text, spec)
+    except (ValueError, OverflowError, MemoryError):
+        return UNKNOWN
+
+
+def texts_made(found: tuple[str, ...], node: ast.expr, frame: Frame) -> Value:
+    """Return a text, or one of several, made by an expression."""
+    if len(found) == 1:
+        return written(found[0], node, frame.source)
+    return union(guarded_text(one, written(one, node, frame.source)) for one in found)
+
+
+_CONVERSIONS = {ord("r"): repr, ord("a"): ascii}
+_OPERATORS = {**ARITHMETIC, **BITWISE}
+_ORDERS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="}
+
+
+def operation(machine: Machine, op: ast.operator, left: Value, right: Value, node: ast.expr, frame: Frame) -> Value:
+    """Return what an operator makes of two values."""
+    if isinstance(op, ast.Add):
+        for one, other in ((left, right), (right, left)):
+            if isinstance(other, (str, list, tuple, Made)):
+                note(machine, one, "added", node, frame)
+    elif isinstance(op, ast.Mod) and isinstance(left, str):
+        for one in right if isinstance(right, tuple) else (right,):
+            note(machine, one, "formatted", node, frame)
+    return each(left, lambda one: each(right, lambda other: _single(machine, op, one, other, node, frame)))
+
+
+def _single(machine: Machine, op: ast.operator, left: Value, right: Value, node: ast.expr, frame: Frame) -> Value:
+    if isinstance(op, ast.Add):
+        if isinstance(left, str) and isinstance(right, str):
+            return written(left + right if len(left) + len(right) <= LONGEST else UNKNOWN, node, frame.source)
+        if isinstance(left, str) and isinstance(right, Unknown):
+            return written(left + UNKNOWN, node, frame.source)
+        if isinstance(left, Unknown) and isinstance(right, str):
+            return written(UNKNOWN + right, node, frame.source)
+        if isinstance(left, (list, tuple)) and isinstance(right, (list, tuple)):
+            machine.spend(len(left) + len(right))
+            return [*left, *right] if isinstance(left, list) else (*left, *right)
+        if isinstance(left, (list, tuple)) and isinstance(right, Unknown):
+            return [*left, right]
+        if isinstance(left, Unknown) and isinstance(right, (list, tuple)):
+            return [left, *right]
+    if isinstance(op, ast.Div) and (isinstance(left, (FilePath, Made)) or isinstance(right, FilePath)):
+        return machine.join_paths(left, [right], node, frame)
+    if isinstance(op, ast.Mod) and isinstance(left, str):
+        return _percent(left, right, node, frame)
+    if isinstance(op, ast.BitOr) and isinstance(left, dict) and isinstance(right, dict):
+        return {**left, **right}
+    if isinstance(left, _NUMBERS) and isinstance(right, _NUMBERS) and type(op) in _OPERATORS:
+        try:
+            if abs(left) < 1 << 64 and abs(right) < 1 << 64:
+                return _OPERATORS[type(op)](left, right)
+        except (ArithmeticError, TypeError, ValueError):
+            raise Raised from None
+    if isinstance(op, ast.Mult):
+        if isinstance(left, int):
+            left, right = right, left
+        if isinstance(left, (str, list, tuple)) and isinstance(right, int) and len(left) * right <= _MOST_ITEMS:
+            return left * right
+    for lost in (left, right):
+        machine.lose(lost)
+    return Unknown("the result of an operator")
+
+
+def _percent(left: str, right: Value, node: ast.expr, frame: Frame) -> Value:
+    values = list(right) if isinstance(right, tuple) else [right]
+    rows = [text_of(value) for value in values]
+    pieces = left.split("%s")
+    if len(pieces) == len(rows) + 1 and "%" not in "".join(pieces).replace("%%", ""):
+        made = joined(rows, lambda row: "".join(a + b for a, b in zip(pieces, (*row, ""), strict=True)).replace("%%", "%"))
+        return texts_made(made, node, frame)
+    if all(isinstance(plain(value), (str, *_NUMBERS)) for value in values) and len(left) < 500 and not _wide(left):
+        try:
+            return written(left % tuple(plain(value) for value in values), node, frame.source)
+        except (OverflowError, TypeError, ValueError):
+            raise Raised from None
+    return Unknown("text made with %")
+
+
+def _wide(template: str) -> bool:
+    return "*" in template or any(len(run) > 3 for run in "".join(c if c.isdigit() else " " for c in template).split())
+
+
+def negated(machine: Machine, value: Value) -> Value:
+    """Return the opposite of the truth of a value."""
+    answer, condition = truth(machine, value)
+    if answer is not None:
+        return not answer
+    opposite = None if condition is PERHAPS else condition._replace(wanted=not condition.wanted)
+    return Unknown("not known to be true", opposite)
+
+
+def compared(op: ast.cmpop, left: Value, right: Value) -> Value:
+    """Return what a comparison gives."""
+    return each(left, lambda one: each(right, lambda other: _one_compare(op, one, other)))
+
+
+def _one_compare(op: ast.cmpop, left: Value, right: Value) -> Value:
+    if isinstance(op, (ast.Is, ast.IsNot)):
+        if isinstance(left, Unknown) or isinstance(right, Unknown):
+            return Unknown("identity with what is not known")
+        same = left is right or (isinstance(left, (str, *_NUMBERS)) and type(left) is type(right) and left == right)
+        return same is isinstance(op, ast.Is)
+    if isinstance(op, (ast.In, ast.NotIn)):
+        return _contained(op, left, right)
+    if isinstance(left, (Unknown, Api, Made)) or isinstance(right, (Unknown, Api, Made)):
+        return Unknown("comparison with what is not known")
+    if isinstance(op, (ast.Eq, ast.NotEq)):
+        if isinstance(left, FilePath) and isinstance(right, FilePath):
+            left, right = left.text, right.text
+        if isinstance(left, str) and isinstance(right, str) and not (is_plain(left) and is_plain(right)) and left != right:
+            if is_plain(left):
+                left, right = right, left
+            if is_plain(right):
+                return Unknown("comparison with an argument", LaunchCondition((str(left),), str(right), isinstance(op, ast.Eq)))
+            return Unknown("comparison with what is not known")
+    elif isinstance(left, str) and isinstance(right, str) and not (is_plain(left) and is_plain(right)):
+        return _asked(f"{quoted(left)} {_ORDERS[type(op)]} {quoted(right)}")
+    if isinstance(left, (list, tuple, dict, set)) and isinstance(right, type(left)):
+        if not (is_small(left) and is_small(right)):
+            return Unknown("a comparison of much")
+        if not (is_known(left) and is_known(right)):
+            return Unknown("comparison with what is not known")
+    try:
+        return bool(COMPARISONS[type(op)](left, right))
+    except (TypeError, RecursionError):
+        raise Raised from None
+
+
+def _contained(op: ast.cmpop, left: Value, right: Value) -> Value:
+    wanted = isinstance(op, ast.In)
+    if isinstance(right, Api) and right.name == INSTALLED:
+        return Unknown("whether a package is installed", LaunchCondition((presence(_str(left)),), None, wanted))
+    if isinstance(right, str):
+        if isinstance(left, str) and is_plain(left) and is_plain(right):
+            return (left in right) is wanted
+    elif isinstance(right, range):
+        return (left in right) is wanted if isinstance(left, int) else Unknown("membership that is not known")
+    elif isinstance(right, (list, tuple, dict)) and isinstance(left, (str, *_NUMBERS, type(None))):
+        inner = [plain(one) for one in right]
+        if any(isinstance(one, (str, *_NUMBERS, type(None))) and one == left for one in inner):
+            return wanted
+        known = all(isinstance(one, (*_NUMBERS, type(None))) or (isinstance(one, str) and is_plain(one)) for one in inner)
+        if known and (not isinstance(left, str) or is_plain(left)):
+            return not wanted
+        if known and len(inner) == 1 and isinstance(inner[0], str):
+            return Unknown("comparison with an argument", LaunchCondition((str(left),), inner[0], wanted))
+        if known and isinstance(left, str) and len(inner) <= MOST_COMPARED:
+            one_of = ", ".join([quoted(one) for one in inner if isinstance(one, str)])
+            return _asked(f"{quoted(left)} {'in' if wanted else 'not in'} ({one_of},)")
+    return Unknown("membership that is not known")
+
+
+def _asked(question: str) -> Unknown:
+    """Return a truth that waits for the arguments that a Python expression asks for."""
+    if UNKNOWN in question:
+        return Unknown("comparison with what is not known")
+    return Unknown("a truth", LaunchCondition((expression(question),), None))
+
+
+def opposite_of(condition: LaunchCondition) -> LaunchCondition:
+    """Return the condition that holds when this one does not."""
+    return condition._replace(wanted=not condition.wanted)
+
+
+def sliced(owner: Value, parts: list[Value]) -> Value:
+    """Return a slice of a value; the parts are start, stop and step."""
+    known = all(part is None or isinstance(part, int) for part in parts)
+    if known and (isinstance(owner, (list, tuple)) or (isinstance(owner, str) and is_plain(owner))):
+        try:
+            return owner[slice(*parts)]
+        except ValueError:
+            raise Raised from None
+    if known and isinstance(owner, str) and waits(owner):
+        return expression(f"{quoted(owner)}[{':'.join(['' if part is None else str(part) for part in parts])}]")
+    return Unknown("part of what is not known")
+
+
+def waits(text: str) -> bool:
+    """Whether a text is known as soon as the arguments and environment variables in it are."""
+    return UNKNOWN not in text and bool(named_in(text))
+
+
+def chosen(owner: dict[Any, Value], key: str) -> list[Value]:
+    """Return what a dictionary has under a key that hangs on arguments: each value where the key is its own."""
+    if not _is_choice(owner, key):
+        return list(owner.values())
+    return [Guarded(value, (LaunchCondition((str(key),), str(name)),)) for name, value in owner.items()]
+
+
+def without(owner: dict[Any, Value], key: str) -> Conditions:
+    """Return what must be so for a dictionary to have nothing under a key that hangs on arguments."""
+    if not _is_choice(owner, key):
+        return ()
+    return tuple([LaunchCondition((str(key),), str(name), wanted=False) for name in owner])
+
+
+def _is_choice(owner: dict[Any, Value], key: str) -> bool:
+    return len(owner) <= MOST and waits(key) and all(isinstance(one, str) and is_plain(one) for one in owner)
+
+
+def may_have_more(values: Sequence[Value]) -> bool:
+    """Whether a collection may hold more than is seen: one element stands for all that come of what is not known."""
+    return any(isinstance(one, (Guarded, Unknown)) for one in values)
+
+
+def subscript(machine: Machine, owner: Value, key: Value) -> Value:
+    """Return an element of a value."""
+    if isinstance(owner, dict):
+        if isinstance(key, str) and not is_plain(key):
+            return union(chosen(owner, key)) if owner else Unknown("element of an empty dictionary")
+        name = hashable(key)
+        if name in owner:
+            return owner[name]
+        if isinstance(key, Unknown) or UNKNOWN in owner:
+            return union(owner.values()) if owner else Unknown("element of an empty dictionary")
+        raise Raised("KeyError")
+    if isinstance(owner, (list, tuple)):
+        if isinstance(key, int) and (-len(owner) <= key < len(owner) or not may_have_more(owner)):
+            try:
+                return plain(owner[key])
+            except IndexError:
+                raise Raised("IndexError") from None
+        return union(owner) if owner else Unknown("element of an empty list")
+    if isinstance(owner, str) and is_plain(owner) and isinstance(key, int):
+        try:
+            return owner[key]
+        except IndexError:
+            raise Raised("IndexError") from None
+    if isinstance(owner, str) and isinstance(key, int) and waits(owner):
+        return expression(f"{quoted(owner)}[{key}]")
+    return machine.subscript_of_library(owner, key)

@@ -1,0 +1,107 @@
+"""Order and equality of values in Python launch files: what sorted(), min(), max() and sets make of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from ros_lint.collectors.python.interpreter.values import Guarded, Raised, Unknown, Value, plain
+from ros_lint.collectors.symbolic_text import UNKNOWN, is_plain
+
+if TYPE_CHECKING:
+    import ast
+
+    from ros_lint.collectors.python.interpreter.calls import Call, Rule
+    from ros_lint.collectors.python.interpreter.machine import Machine
+    from ros_lint.collectors.python.interpreter.values import Frame
+
+MOST_COMPARED = 500
+"""How many values a collection may hold that is compared with another collection."""
+
+
+def arranged(machine: Machine, values: list[Value], keywords: Mapping[str, Value], node: ast.Call, frame: Frame) -> list[Value]:
+    """Return values in the order of list.sort() with its keywords, or as they are if their order is unknown."""
+    keys = _keys(machine, values, keywords, node, frame)
+    if keys is None:
+        return values
+    return [values[index] for index in _ordered(keys, reverse=bool(plain(keywords.get("reverse"))))]
+
+
+def extreme(function: Callable[..., int]) -> Rule:
+    """Return the rule for min() or max()."""
+
+    def rule(call: Call) -> Value:
+        values = call.items(0) if len(call.arguments) == 1 else call.arguments
+        if values is None or any(isinstance(value, Guarded) for value in values):
+            return Unknown("the least or the greatest of what is not known")
+        if not values:
+            if "default" not in call.keywords:
+                raise Raised
+            return call.keywords["default"]
+        keys = _keys(call.machine, values, call.keywords, call.node, call.frame)
+        if keys is None:
+            return Unknown("the least or the greatest of what is not known")
+        _ordered(keys)
+        return values[function(range(len(values)), key=keys.__getitem__)]
+
+    return rule
+
+
+def _keys(machine: Machine, values: list[Value], keywords: Mapping[str, Value], node: ast.Call, frame: Frame) -> list[Any] | None:
+    """Return what values are compared by, None if that is unknown."""
+    key = keywords.get("key")
+    keys = [plain(value if key is None else machine.call(key, [plain(value)], {}, node, frame)) for value in values]
+    return keys if all(map(is_known, keys)) else None
+
+
+def is_known(value: Value) -> bool:
+    """Return whether a value is None, a number, a known text, or a collection of such values."""
+    if isinstance(value, dict):
+        return all(map(is_known, value.values())) and all(map(is_known, value))
+    if isinstance(value, (list, tuple)):
+        return all(map(is_known, value))
+    return value is None or isinstance(value, (int, float)) or (isinstance(value, str) and is_plain(value))
+
+
+def is_small(value: Any) -> bool:
+    """Return whether a collection has few elements, those of the collections in it counted wherever they are."""
+    stack, count = [value], 0
+    while stack:
+        one = stack.pop()
+        count += 1
+        if count > MOST_COMPARED:
+            return False
+        if isinstance(one, dict):
+            stack += one.values()
+        elif isinstance(one, (list, tuple, set)):
+            stack += one
+    return True
+
+
+def _ordered(keys: list[Any], *, reverse: bool = False) -> list[int]:
+    """Return the positions of keys in their order. Raises Raised if they cannot be compared."""
+    try:
+        return sorted(range(len(keys)), key=keys.__getitem__, reverse=reverse)
+    except TypeError:
+        raise Raised from None
+
+
+def unique(values: Iterable[Value]) -> list[Value]:
+    """Return values as the elements of a set: without those that equal an earlier value for certain."""
+    found: list[Value] = []
+    seen: set[Any] = set()
+    for value in values:
+        inner = plain(value)
+        if not _has_known_equality(inner):
+            found.append(value)
+        elif inner not in seen:
+            found.append(value)
+            if not isinstance(value, Guarded):
+                seen.add(inner)
+    return found
+
+
+def _has_known_equality(value: Value) -> bool:
+    if isinstance(value, tuple):
+        return all(map(_has_known_equality, value))
+    return value is None or isinstance(value, (int, float)) or (isinstance(value, str) and UNKNOWN not in value)

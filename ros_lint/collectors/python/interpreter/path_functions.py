@@ -1,0 +1,108 @@
+"""Paths in Python launch files: what os.path and pathlib make of texts in which something may not be known yet."""
+
+from __future__ import annotations
+
+import posixpath
+from typing import TYPE_CHECKING
+
+from ros_lint.collectors.python.interpreter.operations import waits
+from ros_lint.collectors.python.interpreter.values import FilePath, Method, Unknown, Value, plain, written
+from ros_lint.collectors.symbolic_text import BRACKETS, UNKNOWN, expression, is_plain, names_places, quoted
+
+if TYPE_CHECKING:
+    import ast
+    from collections.abc import Sequence
+
+    from ros_lint.collectors.python.interpreter.machine import Machine
+    from ros_lint.collectors.python.interpreter.values import Frame
+
+_MOST_PARENTS = 12
+
+
+def split(path: str) -> tuple[str, str]:
+    """Return the folder and the name of a path, as os.path.split does.
+
+    A part that is known later counts as one name, unless its default has a slash or nothing stands before it.
+    """
+    if is_plain(path):
+        return posixpath.split(path)
+    slash = _last_outside(path, "/")
+    name = path[slash + 1 :]
+    if is_plain(name) or (slash >= 0 and "/" not in name):
+        return posixpath.split(path[: slash + 1])[0], name
+    if not waits(name):
+        return UNKNOWN, UNKNOWN if "/" in name else name
+    return UNKNOWN, UNKNOWN if names_places(name) else expression(f"{quoted(name)}.split('/')[-1]")
+
+
+def split_suffix(path: str) -> tuple[str, str]:
+    """Return a path without its suffix, and the suffix, as os.path.splitext does."""
+    if is_plain(path):
+        return posixpath.splitext(path)
+    dot = _last_outside(path, ".")
+    if dot > path.rfind("/") and is_plain(path[dot:]):
+        return path[:dot], path[dot:]
+    return UNKNOWN, UNKNOWN
+
+
+def _last_outside(path: str, character: str) -> int:
+    """Return where a character is last, -1 if it is nowhere. What lies within a part that is known later does not count."""
+    found, start, depth = -1, 0, 0
+    for mark in BRACKETS.finditer(path):
+        if not depth:
+            found = max(found, path.rfind(character, start, mark.start()))
+        depth += 1 if mark[1] else -1
+        start = mark.end()
+    return max(found, path.rfind(character, start))
+
+
+def of_path(owner: FilePath, name: str) -> Value:
+    """Return an attribute of a path of pathlib."""
+    folder, last = split(owner.text)
+    match name:
+        case "parent":
+            return FilePath(folder)
+        case "name":
+            return last
+        case "stem":
+            return _split_name(last)[0]
+        case "suffix":
+            return _split_name(last)[1]
+        case "parents":
+            found: list[FilePath] = []
+            while folder and (not found or folder != found[-1].text):
+                found.append(FilePath(folder))
+                folder = split(folder)[0]
+            # What lies above a folder that is known only by name is not known.
+            return found if is_plain(owner.text) else [*found, *[FilePath(UNKNOWN)] * _MOST_PARENTS]
+    return Method(owner, name)
+
+
+def _split_name(name: str) -> tuple[str, str]:
+    """Return the stem and the suffix of a name. A dot at its end is no suffix for pathlib."""
+    stem, suffix = split_suffix(name)
+    return (name, "") if suffix == "." else (stem, suffix)
+
+
+def call_of_path(machine: Machine, owner: FilePath, name: str, arguments: Sequence[Value], node: ast.Call, frame: Frame) -> Value:
+    """Return what a method of a path of pathlib returns."""
+    match name:
+        case "joinpath":
+            return machine.join_paths(owner, list(arguments), node, frame)
+        case "as_posix" | "__str__" | "__fspath__":
+            return written(owner.text, node, frame.source)
+        case "resolve" | "absolute" | "expanduser":
+            return owner
+        case "with_suffix" | "with_name":
+            given = plain(arguments[0]) if arguments else None
+            if isinstance(given, str):
+                if name == "with_suffix":
+                    return FilePath(split_suffix(owner.text)[0] + given)
+                return FilePath(posixpath.join(split(owner.text)[0], given))
+        case "open" | "read_text" | "read_bytes":
+            return machine.open_file(owner.text, node, frame.source)
+        case "exists" | "is_file":
+            return machine.ask((owner.text,))
+        case "write_text" | "write_bytes":
+            machine.ask((owner.text,))  # it need not be there before
+    return Unknown(f"{name}() of a path")

@@ -1,0 +1,265 @@
+"""Statements of Python launch files."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from ros_lint.collectors.launch.python.substitution_misuse import note
+from ros_lint.collectors.python.exceptions import catching, kind_raised
+from ros_lint.collectors.python.interpreter import assignments as launch_py_bindings
+from ros_lint.collectors.python.interpreter.assignments import bind
+from ros_lint.collectors.python.interpreter.branches import (
+    BREAK,
+    CONTINUE,
+    LEAVE,
+    NEXT,
+    either,
+    follow_for,
+    follow_while,
+    gives_up,
+)
+from ros_lint.collectors.python.interpreter.operations import truth
+from ros_lint.collectors.python.interpreter.values import (
+    Api,
+    Bound,
+    Class,
+    Conditions,
+    Frame,
+    Function,
+    Guarded,
+    Raised,
+    Unknown,
+    Value,
+    plain,
+)
+from ros_lint.collectors.python.lookups import catches_missing_file, catches_missing_package
+from ros_lint.collectors.python.string_values import LOOK_UPS, callee
+from ros_lint.collectors.symbolic_text import presence
+from ros_lint.facts.launch import LaunchCondition
+
+if TYPE_CHECKING:
+    from ros_lint.collectors.python.interpreter.machine import Machine
+
+_Node = TypeVar("_Node", bound=ast.AST)
+
+
+def execute(machine: Machine, body: Sequence[ast.stmt], frame: Frame) -> int:
+    """Follow statements. Raises Raised and OutOfBudget."""
+    for statement in body:
+        handler = _STATEMENTS.get(type(statement))
+        if handler is not None:
+            signal = handler(machine, statement, frame)
+            if signal:
+                return signal
+    return NEXT
+
+
+def _expression(machine: Machine, node: ast.Expr, frame: Frame) -> int:
+    machine.evaluate(node.value, frame)
+    return NEXT
+
+
+def _if(machine: Machine, node: ast.If, frame: Frame) -> int:
+    test = node.test
+    if isinstance(test, ast.BoolOp) and isinstance(test.op, ast.And) and not node.orelse and not _may_leave(node.body):
+        inner: list[ast.stmt] = node.body  # one condition within the other, so that each is known for what it is
+        for part in reversed(test.values[1:]):
+            inner = [ast.copy_location(ast.If(part, inner, []), node)]
+        node = ast.copy_location(ast.If(test.values[0], inner, []), node)
+    value = machine.evaluate(node.test, frame)
+    note(machine, value, "tested", node.test, frame)
+    answer, condition = truth(machine, value)
+    if answer is not None:
+        return execute(machine, node.body if answer else node.orelse, frame)
+    return either(machine, node.body, node.orelse, condition, frame)
+
+
+def _may_leave(body: Sequence[ast.stmt]) -> bool:
+    ways_out = (ast.Return, ast.Raise, ast.Break, ast.Continue)
+    return any(isinstance(node, ways_out) for statement in body for node in ast.walk(statement))
+
+
+def _with(machine: Machine, node: ast.With | ast.AsyncWith, frame: Frame) -> int:
+    for item in node.items:
+        value = machine.evaluate(item.context_expr, frame)
+        if item.optional_vars is not None:
+            bind(machine, item.optional_vars, value, frame)
+    return execute(machine, node.body, frame)
+
+
+def _try(machine: Machine, node: ast.Try, frame: Frame) -> int:
+    before = machine.conditions
+    missing = next((handler for handler in node.handlers if catches_missing_package(handler)), None)
+    if missing is not None and _looks_up(node.body) and not gives_up(missing.body, everywhere=not machine.conditions):
+        # A package that is looked up may be missing, and the file does without.
+        there = LaunchCondition((presence(machine.another()),), None)
+        signal = either(machine, [*node.body, *node.orelse], missing.body, there, frame)
+        return _finally(machine, node, frame, before) or signal
+    guarded = any(map(catches_missing_file, node.handlers))
+    machine.guarded += guarded
+    raised: Raised | None = None
+    signal = NEXT
+    try:
+        signal = execute(machine, node.body, frame)
+    except Raised as error:
+        raised = error
+    finally:
+        machine.guarded -= guarded
+    if raised is not None:
+        handler = catching(node, raised.kind)
+        if handler is None:
+            _finally(machine, node, frame, before)
+            raise raised
+        if handler.name:
+            frame.names[handler.name] = Unknown("an exception")
+        signal = execute(machine, handler.body, frame)
+    elif signal == NEXT:
+        signal = execute(machine, node.orelse, frame)
+    return _finally(machine, node, frame, before) or signal
+
+
+def _finally(machine: Machine, node: ast.Try, frame: Frame, before: Conditions) -> int:
+    """Follow what comes at the end of a try statement, which runs whatever way the statement is left."""
+    after, machine.conditions = machine.conditions, before
+    signal = execute(machine, node.finalbody, frame)
+    machine.conditions = (*after, *machine.conditions[len(before) :])
+    return signal
+
+
+def _looks_up(body: Sequence[ast.stmt]) -> bool:
+    return any(isinstance(node, ast.Call) and callee(node) in LOOK_UPS for statement in body for node in ast.walk(statement))
+
+
+def _return(machine: Machine, node: ast.Return, frame: Frame) -> int:
+    value = machine.evaluate(node.value, frame) if node.value is not None else None
+    frame.returned.append(Guarded(value, machine.conditions))
+    return LEAVE
+
+
+def _raise(_machine: Machine, node: ast.Raise, _frame: Frame) -> int:
+    raise Raised(kind_raised(node))
+
+
+def _break(_machine: Machine, _node: ast.Break, _frame: Frame) -> int:
+    return BREAK
+
+
+def _continue(_machine: Machine, _node: ast.Continue, _frame: Frame) -> int:
+    return CONTINUE
+
+
+_SUBJECT, _ANYTHING = "<subject>", "<anything>"
+"""Names that no program has."""
+
+
+def _match(machine: Machine, node: ast.Match, frame: Frame) -> int:
+    subject = frame.names[_SUBJECT] = machine.evaluate(node.subject, frame)
+    frame.names[_ANYTHING] = Unknown("whether a pattern fits")
+    chain: list[ast.stmt] = []
+    for case in reversed(node.cases):
+        for inner in ast.walk(case.pattern):
+            if isinstance(inner, (ast.MatchAs, ast.MatchStar)) and inner.name:
+                frame.names[inner.name] = subject
+        test = _fits(case.pattern)
+        if case.guard is not None:
+            test = ast.BoolOp(ast.And(), [test, case.guard])
+        chain = [_at(ast.If(_at(test, case.pattern), case.body, chain), case.pattern)]
+    return execute(machine, chain, frame)
+
+
+def _fits(pattern: ast.pattern) -> ast.expr:
+    """Return what is asked of the subject by a pattern."""
+    subject: ast.expr = _at(ast.Name(_SUBJECT), pattern)
+    match pattern:
+        case ast.MatchValue(value=value):
+            return _at(ast.Compare(subject, [ast.Eq()], [value]), pattern)
+        case ast.MatchSingleton(value=value):
+            return _at(ast.Compare(subject, [ast.Is()], [_at(ast.Constant(value), pattern)]), pattern)
+        case ast.MatchOr(patterns=patterns):
+            return _at(ast.BoolOp(ast.Or(), [_fits(one) for one in patterns]), pattern)
+        case ast.MatchAs(pattern=None):
+            return _at(ast.Constant(value=True), pattern)
+        case ast.MatchAs(pattern=inner) if inner is not None:
+            return _fits(inner)
+    return _at(ast.Name(_ANYTHING), pattern)
+
+
+def _at(made: _Node, place: ast.AST) -> _Node:
+    return ast.copy_location(made, place)
+
+
+def _function(machine: Machine, node: ast.FunctionDef | ast.AsyncFunctionDef, frame: Frame) -> int:
+    found: Value = machine.function(node, frame)
+    for decorator in reversed(node.decorator_list):
+        name = decorator.id if isinstance(decorator, ast.Name) else ""
+        if name in ("classmethod", "staticmethod", "property"):
+            found = Bound(found, [], {"": name})
+        elif isinstance(found, Function):
+            found = _decorated(machine, found, decorator, frame)
+    frame.names[node.name] = found
+    return NEXT
+
+
+_LEAVING = frozenset({"abc", "builtins", "contextlib", "functools", "launch_testing", "pytest", "typing", "unittest"})
+"""Modules whose decorators have a function do what it does."""
+
+
+def _decorated(machine: Machine, function: Function, decorator: ast.expr, frame: Frame) -> Value:
+    """Return what a decorator makes of a function; the function itself, marked as changed, if that is not followed."""
+    name = machine.evaluate(decorator.func if isinstance(decorator, ast.Call) else decorator, frame)
+    if isinstance(name, Api) and name.name.partition(".")[0] in _LEAVING:
+        return function
+    by = machine.evaluate(decorator, frame) if isinstance(decorator, ast.Call) else name
+    if isinstance(by, Function):
+        call = ast.copy_location(ast.Call(decorator, [], []), decorator)
+        made = machine.call(by, [function], {}, call, frame)
+        if isinstance(made, (Function, Bound)):
+            return made
+    function.changed = True
+    return function
+
+
+def _class(machine: Machine, node: ast.ClassDef, frame: Frame) -> int:
+    bases = [plain(machine.evaluate(base, frame)) for base in node.bases]
+    inner = Frame(frame.source, frame, {})
+    execute(machine, node.body, inner)
+    fields = [
+        statement.target.id
+        for statement in node.body
+        if isinstance(statement, ast.AnnAssign) and isinstance(statement.target, ast.Name)
+    ]
+    found = Class(node.name, bases, inner.names, fields)
+    for value in inner.names.values():
+        if isinstance(value, Function):
+            value.owner = found
+            value.frame = frame  # methods do not see the names of their class
+        elif isinstance(value, Bound) and isinstance(value.function, Function):
+            value.function.owner = found
+            value.function.frame = frame
+    frame.names[node.name] = found
+    return NEXT
+
+
+_STATEMENTS: dict[type[ast.stmt], Callable[[Machine, Any, Frame], int | None]] = {
+    **launch_py_bindings.STATEMENTS,
+    ast.Expr: _expression,
+    ast.If: _if,
+    ast.For: follow_for,
+    ast.AsyncFor: follow_for,
+    ast.While: follow_while,
+    ast.With: _with,
+    ast.AsyncWith: _with,
+    ast.Try: _try,
+    ast.Return: _return,
+    ast.Raise: _raise,
+    ast.Break: _break,
+    ast.Continue: _continue,
+    ast.Match: _match,
+    ast.FunctionDef: _function,
+    ast.AsyncFunctionDef: _function,
+    ast.ClassDef: _class,
+}
+if hasattr(ast, "TryStar"):
+    _STATEMENTS[ast.TryStar] = _try

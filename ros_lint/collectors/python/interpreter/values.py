@@ -1,0 +1,394 @@
+"""What a name in a Python launch file can stand for while the file is read.
+
+Texts, numbers, lists and dictionaries are Python's own. What else there is has a class here: things of the launch
+libraries, functions and classes of the file, one of several values, and what is not known.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import PurePosixPath
+from typing import Any, Final, NamedTuple
+
+from ros_lint.base.text import Text
+from ros_lint.collectors.symbolic_text import MOST, UNKNOWN, agree, conditional, conditions_of, configuration, is_plain
+from ros_lint.facts.launch import LaunchCondition
+
+Value = Any
+"""A value of the program that is read: a str, int, list ... of Python, or an object of this module."""
+
+Conditions = tuple[LaunchCondition, ...]
+
+PERHAPS: Final = LaunchCondition((UNKNOWN,), None)
+"""A condition of which nothing is known."""
+
+
+class Module(NamedTuple):
+    """A module of the workspace."""
+
+    text: Text
+    tree: ast.Module
+
+
+Modules = Callable[[str, Text], "Module | None"]
+"""Finds a module by its dotted name (dots in front for a relative one), for a module that imports it."""
+
+
+class Source:
+    """A module: its text, and the names that it binds when it runs."""
+
+    __slots__ = ("ascii", "assigns_inside", "lent", "names", "text", "yields")
+
+    def __init__(self, text: Text, *, lent: bool = False) -> None:
+        self.text = text
+        self.ascii = text.text.isascii()
+        self.lent = lent
+        """Whether it is a helper of a released package: all of it stands where it is called, in the text of who calls it."""
+        self.yields = "yield" in text.text
+        self.assigns_inside = ":=" in text.text
+        self.names: dict[str, Value] = {}
+
+
+class Written(str):
+    """A text that knows the expression which made it."""
+
+    __slots__ = ("node", "source")
+
+    node: ast.expr
+    source: Source
+
+
+def written(text: str, node: ast.expr, source: Source) -> Written:
+    """Return a text with the expression that made it."""
+    made = Written(text)
+    made.node = node
+    made.source = source
+    return made
+
+
+class Unknown:
+    """Any value. ``condition`` is what it means when it is asked for its truth, if that is known."""
+
+    __slots__ = ("condition", "reason")
+
+    def __init__(self, reason: str, condition: LaunchCondition | None = None) -> None:
+        self.reason = reason
+        self.condition = condition
+
+
+class Guarded:
+    """A value that is there only under conditions."""
+
+    __slots__ = ("conditions", "value")
+
+    def __init__(self, value: Value, conditions: Conditions) -> None:
+        self.value = value
+        self.conditions = conditions
+
+
+class Union:
+    """One of several values."""
+
+    __slots__ = ("values",)
+
+    def __init__(self, values: tuple[Guarded, ...]) -> None:
+        self.values = values
+
+
+class FilePath:
+    """A path of pathlib. A text that is known whole is written as pathlib writes it: ``a/b`` for ``a//b/``."""
+
+    __slots__ = ("text",)
+
+    def __init__(self, text: str) -> None:
+        self.text = str(PurePosixPath(text)) if is_plain(text) else text
+
+
+class Api:
+    """A name of a library: a module, a class, a function."""
+
+    __slots__ = ("name",)
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+    @property
+    def last(self) -> str:
+        return self.name.rpartition(".")[2]
+
+
+def argument_of(call: ast.Call, position: int, *names: str) -> ast.expr:
+    """Return the expression of an argument of a call, or the whole call."""
+    for keyword in call.keywords:
+        if keyword.arg in names:
+            return keyword.value
+    if not 0 <= position < len(call.args) or any(isinstance(argument, ast.Starred) for argument in call.args):
+        return call
+    return call.args[position]
+
+
+class Made:
+    """What calling a class of the launch libraries makes: an action, a substitution, a description."""
+
+    __slots__ = ("arguments", "conditions", "entities", "keywords", "lost", "name", "node", "seen", "source")
+
+    def __init__(self, name: str, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, source: Source) -> None:
+        self.name = name
+        self.arguments = arguments
+        self.keywords = keywords
+        self.node = node
+        self.source = source
+        self.conditions: Conditions = ()
+        self.entities: list[Value] = []
+        """Of a launch description: what it holds. The list lives on while it is visited."""
+        self.seen = False
+        """Whether it is part of what is launched."""
+        self.lost = False
+        """Whether it went where it cannot be followed."""
+
+    def get(self, position: int, *names: str) -> Value:
+        """Return an argument by its name or position, None when it is not there."""
+        for name in names:
+            if name in self.keywords:
+                return self.keywords[name]
+        return self.arguments[position] if 0 <= position < len(self.arguments) else None
+
+    def written(self, position: int, *names: str) -> ast.expr:
+        """Return the expression of an argument, or the whole call."""
+        return argument_of(self.node, position, *names)
+
+
+class Function:
+    """A function of the program. ``frame`` is where it was defined."""
+
+    __slots__ = ("changed", "defaults", "frame", "keyword_defaults", "node", "owner")
+
+    def __init__(self, node: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda, frame: Frame) -> None:
+        self.node = node
+        self.frame = frame
+        self.defaults: list[Value] = []
+        self.keyword_defaults: dict[str, Value] = {}
+        self.owner: Class | None = None
+        self.changed = False  # whether a decorator that is not followed makes something else of it
+
+    def yields(self) -> bool:
+        """Whether it is a generator: it yields itself, not just a function in it."""
+        waiting: list[ast.AST] = list(self.node.body) if isinstance(self.node.body, list) else []
+        while waiting:
+            inner = waiting.pop()
+            if isinstance(inner, (ast.Yield, ast.YieldFrom)):
+                return True
+            if not isinstance(inner, (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda, ast.ClassDef)):
+                waiting += ast.iter_child_nodes(inner)
+        return False
+
+    def taking(self, arguments: list[Value], keywords: dict[str, Value]) -> dict[str, Value]:
+        """Return what the names of a call stand for at its beginning."""
+        spec = self.node.args
+        names = [argument.arg for argument in (*spec.posonlyargs, *spec.args)]
+        found: dict[str, Value] = dict(self.keyword_defaults)
+        if self.defaults:
+            found.update(zip(names[-len(self.defaults) :], self.defaults, strict=True))
+        found.update(zip(names, arguments, strict=False))
+        known = {*names, *(argument.arg for argument in spec.kwonlyargs)}
+        found.update({name: value for name, value in keywords.items() if name in known})
+        if spec.vararg is not None:
+            found[spec.vararg.arg] = tuple(arguments[len(names) :])
+        if spec.kwarg is not None:
+            found[spec.kwarg.arg] = {name: value for name, value in keywords.items() if name not in known}
+        for name in known:
+            found.setdefault(name, Unknown(f"the argument {name}"))
+        if self.owner is not None:
+            found.setdefault("__class__", self.owner)
+        return found
+
+
+class Bound:
+    """A function with some of its arguments: a method, or a partial."""
+
+    __slots__ = ("arguments", "function", "keywords")
+
+    def __init__(self, function: Value, arguments: list[Value], keywords: dict[str, Value] | None = None) -> None:
+        self.function = function
+        self.arguments = arguments
+        self.keywords = keywords or {}
+
+
+class Method:
+    """A method of a value of Python, or of what a library made."""
+
+    __slots__ = ("name", "owner")
+
+    def __init__(self, owner: Value, name: str) -> None:
+        self.owner = owner
+        self.name = name
+
+
+class Class:
+    """A class of the program."""
+
+    __slots__ = ("bases", "fields", "name", "names")
+
+    def __init__(self, name: str, bases: list[Value], names: dict[str, Value], fields: list[str]) -> None:
+        self.name = name
+        self.bases = bases
+        self.names = names
+        self.fields = fields
+        """Annotated names, in order: what a dataclass takes."""
+
+    def find(self, name: str) -> Value | None:
+        for one in self._line():
+            if isinstance(one, Class) and name in one.names:
+                return one.names[name]
+        return None
+
+    def every_field(self) -> dict[str, None]:
+        """Return the fields of the class and of those above it, which come first."""
+        line = [one for one in self._line() if isinstance(one, Class)]
+        return dict.fromkeys(name for one in reversed(line) for name in one.fields)
+
+    def library_base(self) -> Api | None:
+        """Return the class of a library that it is made from."""
+        return next((one for one in self._line() if isinstance(one, Api)), None)
+
+    def _line(self) -> Iterator[Value]:
+        """Yield the class and those above it, each once."""
+        waiting: list[Value] = [self]
+        seen: set[int] = set()
+        while waiting:
+            one = waiting.pop()
+            if id(one) not in seen:
+                seen.add(id(one))
+                yield one
+                if isinstance(one, Class):
+                    waiting += reversed(one.bases)
+
+
+class Instance:
+    """An object of a class of the program. ``made`` is what it is for the launch libraries, if anything."""
+
+    __slots__ = ("attributes", "cls", "made")
+
+    def __init__(self, cls: Class) -> None:
+        self.cls = cls
+        self.attributes: dict[str, Value] = {}
+        self.made: Made | None = None
+
+
+class Context:
+    """The context that launch hands to functions."""
+
+    __slots__ = ()
+
+
+class Exit(NamedTuple):
+    """A way out of a turn, a loop or a function that is taken only under conditions."""
+
+    signal: int
+    """The block that is left: CONTINUE, BREAK or LEAVE of :mod:`ros_lint.collectors.python.interpreter.branches`."""
+    conditions: Conditions
+    """All conditions that hold where it is taken."""
+    names: dict[str, Value]
+    """The names of the function there."""
+
+
+class Frame:
+    """The names of a function that runs, or of a module."""
+
+    __slots__ = ("declared", "exits", "names", "outer", "returned", "source", "yielded")
+
+    def __init__(self, source: Source, outer: Frame | None, names: dict[str, Value]) -> None:
+        self.source = source
+        self.outer = outer
+        self.names = names
+        self.declared: dict[str, Frame] = {}
+        """Names that ``global`` or ``nonlocal`` gives to another frame."""
+        self.exits: list[Exit] = []
+        """The ways out, in order, of the blocks that are being followed."""
+        self.returned: list[Guarded] = []
+        self.yielded: list[Value] = []
+
+
+class Raised(Exception):  # noqa: N818  (it stands for any exception of the program)
+    """The program raises an exception of the class ``kind``, "" if that is unknown."""
+
+    def __init__(self, kind: str = "") -> None:
+        super().__init__(kind)
+        self.kind = kind
+
+
+class OutOfBudget(Exception):  # noqa: N818
+    """The program takes too many steps, or too much memory."""
+
+
+def union(values: Iterable[Value]) -> Value:
+    """Return one of several values: the only one, when they are the same."""
+    found: list[Guarded] = []
+    for value in values:
+        for one in alternatives(value):
+            if len(one.conditions) > 1 and not agree(one.conditions):
+                continue
+            if not any(same(one.value, other.value) and one.conditions == other.conditions for other in found):
+                found.append(one)
+        if len(found) > MOST:
+            return Unknown("one of too many values")
+    if not found:
+        return Unknown("no value")
+    if all(same(one.value, found[0].value) for one in found):
+        return found[0].value
+    return Union(tuple(found))
+
+
+def alternatives(value: Value, conditions: Conditions = ()) -> Iterator[Guarded]:
+    """Yield every value that a value can be, with what must be so for it."""
+    if isinstance(value, Union):
+        for one in value.values:
+            yield from alternatives(one, conditions)
+    elif isinstance(value, Guarded):
+        yield from alternatives(value.value, (*conditions, *value.conditions))
+    else:
+        yield Guarded(value, conditions)
+
+
+def guarded_text(text: str, made: Value) -> Value:
+    """Return a value made from an alternative of a text, under the conditions of that one."""
+    conditions = conditions_of(text)
+    return Guarded(made, conditions) if conditions else made
+
+
+def under(texts: Iterable[str], conditions: Conditions) -> Iterator[str]:
+    """Yield texts under further conditions."""
+    for text in texts:
+        yield conditional(text, (*conditions, *conditions_of(text))) if conditions else text
+
+
+def plain(value: Value) -> Value:
+    """Return a value without the conditions around it."""
+    while isinstance(value, Guarded):
+        value = value.value
+    return value
+
+
+def around(value: Value) -> Conditions:
+    """Return the conditions around a value."""
+    conditions: Conditions = ()
+    while isinstance(value, Guarded):
+        conditions += value.conditions
+        value = value.value
+    return conditions
+
+
+def same(one: Value, other: Value) -> bool:
+    """Return whether two values are the same for certain."""
+    if one is other:
+        return True
+    if isinstance(one, str) and isinstance(other, str):
+        return one == other
+    simple = (int, float, bool, type(None), tuple)
+    return type(one) is type(other) and isinstance(one, simple) and bool(one == other)
+
+
+def environment(name: str, default: str | None) -> str:
+    """Return the text that stands for an environment variable."""
+    return configuration(f"${name}", default)

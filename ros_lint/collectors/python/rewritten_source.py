@@ -1,0 +1,128 @@
+"""Python sources that are not plain: bounded, rewritten, parsed and set right again."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Iterator
+
+from ros_lint.base import python_parser as python_ast
+from ros_lint.base.python_nesting import DEEPEST, SYMBOLS, first_too_deep, may_be_paired
+from ros_lint.base.python_tokens import TemplateDepthError, Token, TokenError, tokens
+from ros_lint.base.text import Text
+from ros_lint.collectors.python import syntax as syntax
+from ros_lint.collectors.python.newer_syntax import brackets, rewrite
+from ros_lint.collectors.python.restored_tree import place_of, restore
+from ros_lint.collectors.python.syntax import NotPythonError, Parsed, TooDeepError
+from ros_lint.facts.visibility import NewerSyntax
+
+_MOST_DIGITS = 1_000
+
+
+def read(source: Text) -> Parsed:
+    """Return the tree of a source and what is newer than Python 3.10 in it. Raises NotPythonError, also as TooDeepError."""
+    try:
+        paired = may_be_paired(source.text)
+        found = [] if paired else list(tokens(source.text))
+        if not paired and brackets(source.text, found) is not None:
+            raise NotPythonError
+        # Where brackets are in pairs, what nests too deeply ends the reading early.
+        if (deep := too_deep(source.text, _kept(tokens(source.text), found) if paired else found)) is not None:
+            raise _too_deep(source, *deep)
+        rewritten = rewrite(source.text, found)
+        tree = python_ast.module(rewritten.text)
+        inner: list[NewerSyntax] = []
+        restore(tree, source, rewritten, lambda text, offset: _expression(text, offset, source, inner))
+    except TemplateDepthError as error:
+        raise _too_deep(source, error.message, error.offset) from None
+    except (TokenError, SyntaxError):
+        raise NotPythonError from None
+    except python_ast.TooDeepForPythonError:
+        raise _too_deep(source, "nested too deeply", 0) from None
+    newer = [NewerSyntax(one.construct, one.version, source.span(one.start, one.end)) for one in rewritten.newer]
+    return Parsed(tree, tuple(sorted([*newer, *inner], key=lambda one: one.span)))
+
+
+def too_deep(text: str, found: Iterable[Token]) -> tuple[str, int] | None:
+    """Return why and where the code of a source exceeds a bound, None where it does not."""
+    branches = _Branches(text)
+    token = Token("newline", 0, 0)
+    wrong = ""
+
+    def symbols() -> Iterator[str]:
+        nonlocal token, wrong
+        for token in found:
+            if token.kind == "number" and token.end - token.start > _MOST_DIGITS:
+                wrong = f"a number of more than {_MOST_DIGITS:,} digits"
+            elif branches.are_too_many(token):
+                wrong = f"more than {DEEPEST} branches in a row"
+            if wrong:
+                return
+            if symbol := _symbol(text, token):
+                yield symbol
+
+    if first_too_deep(symbols()) is not None:
+        wrong = f"expressions nested more than {DEEPEST} levels deep"
+    return (wrong, token.start) if wrong else None
+
+
+def _kept(found: Iterable[Token], into: list[Token]) -> Iterator[Token]:
+    """Yield tokens that are noted down as they pass."""
+    for token in found:
+        into.append(token)
+        yield token
+
+
+def _symbol(text: str, token: Token) -> str:
+    if token.kind == "op":
+        return text[token.start : token.end]
+    if token.kind == "newline":
+        return "\n"
+    return SYMBOLS.get(text[token.start : token.end], "") if token.kind == "name" else ""
+
+
+class _Branches:
+    """Counts the branches of each if statement, in the order of the tokens."""
+
+    def __init__(self, text: str) -> None:
+        self._text = text
+        self._counts: dict[int, int] = {}
+        self._fresh = True
+
+    def are_too_many(self, token: Token) -> bool:
+        """Return whether a token begins a branch that exceeds the bound."""
+        text, fresh = self._text, self._fresh
+        self._fresh = token.kind in ("newline", "comment")
+        if not fresh or token.kind != "name":
+            return False
+        column = token.start - max(text.rfind("\n", 0, token.start), text.rfind("\r", 0, token.start))
+        word = text[token.start : token.end]
+        self._counts = {one: count for one, count in self._counts.items() if one <= column}
+        if word == "elif":
+            self._counts[column] = self._counts.get(column, 0) + 1
+        elif word != "else":
+            self._counts.pop(column, None)
+        return self._counts.get(column, 0) > DEEPEST
+
+
+def _too_deep(source: Text, message: str, offset: int) -> TooDeepError:
+    return TooDeepError(message, source.span(offset, offset))
+
+
+def _expression(text: str, offset: int, source: Text, newer: list[NewerSyntax]) -> ast.expr:
+    """Return the tree of an expression in brackets that begins at an offset of a source."""
+    try:
+        parsed = syntax.read(Text(source.path, text))
+    except TooDeepError as error:
+        raise _too_deep(source, error.message, offset) from None
+    body = parsed.tree.body
+    if len(body) != 1 or not isinstance(body[0], ast.Expr):
+        raise NotPythonError
+    line, column = place_of(source, offset)
+    for node in ast.walk(body[0]):
+        if isinstance(node, (ast.expr, ast.keyword, ast.arg)):
+            node.col_offset += column if node.lineno == 1 else 0
+            node.end_col_offset = (node.end_col_offset or 0) + (column if node.end_lineno == 1 else 0)
+            node.lineno += line - 1
+            node.end_lineno = (node.end_lineno or 1) + line - 1
+    newer += [one._replace(span=source.span(offset, offset)) for one in parsed.newer]
+    return body[0].value

@@ -1,0 +1,216 @@
+"""Python sources as syntax trees, and what to make of those that are none."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from functools import lru_cache
+from typing import NamedTuple
+
+from ros_lint.base import python_parser as python_ast
+from ros_lint.base.python_nesting import DEEPEST, most_levels, nests_too_deep, plain
+from ros_lint.base.text import Span, Text, from_raw, raw
+from ros_lint.facts.visibility import Facet, NewerSyntax, Opaque, Problem
+
+# What only Python 2 reads. One is enough: such a file is not meant for the interpreter that looks at it.
+_PYTHON_2 = re.compile(
+    r"""^\#!.*\bpython2
+    |(?:^|[;:])[ \t]*print(?:[ \t]+(?:["'%\w]|>>)|[ \t]*$)
+    |^[ \t]*except[ \t]+[\w.]+[ \t]*,[ \t]*\w+[ \t]*:
+    |^[ \t]*except[ \t]*\([^)\n]*\)[ \t]*,[ \t]*\w+[ \t]*:
+    |^[ \t]*raise[ \t]+[\w.]+[ \t]*,
+    |^[ \t]*exec[ \t]+["'\w]
+    |[\w)]\s*<>\s*[\w(]
+    |\bur["']
+    |[=(,][ \t]*0[0-7]+\b(?![.xob])""",
+    re.VERBOSE | re.MULTILINE,
+)
+_TEMPLATE_NAME = re.compile(r"\.(?:in|em|j2|jinja2?|mako|template|tmpl|tpl)(?:\.py)?\Z|\{\{|\}\}|__[A-Z_]+__\.py\Z")
+_TEMPLATE_MARK = re.compile(r"\{\{|\{%|@\{|@\(|@\[|@[A-Za-z_]\w*@|\$\{|<%")
+
+Node = ast.expr | ast.stmt | ast.alias | ast.keyword
+"""What stands in a place of its own."""
+
+
+class NotPythonError(Exception):
+    """A source is no Python of any version. :func:`refusal` says why."""
+
+
+class TooDeepError(NotPythonError):
+    """A source exceeds a bound of ros-lint. It may be Python all the same."""
+
+    def __init__(self, message: str, span: Span) -> None:
+        super().__init__(message)
+        self.message = message
+        self.span = span
+
+
+class Parsed(NamedTuple):
+    """A source that some version of Python reads."""
+
+    tree: ast.Module
+    newer: tuple[NewerSyntax, ...]
+    """What came later than Python 3.10, in order."""
+
+
+class Refusal(NamedTuple):
+    """Why a source has no tree."""
+
+    message: str
+    """A clause."""
+    span: Span
+    known: bool
+    """Whether it is no Python of any version. If not, it counts as not checked."""
+
+    def problem(self) -> Problem:
+        return Problem("syntax", f"not valid Python: {self.message}", self.span)
+
+    def opaque(self, hides: Facet) -> Opaque:
+        """Return what the source hides, as one that is no Python or not checked."""
+        reason = "no Python that can be read" if self.known else self.message
+        return Opaque(hides, reason, self.span, unchecked=not self.known)
+
+
+def parse(source: Text) -> ast.Module:
+    """Return the tree of a source. Raises :class:`NotPythonError`, also as :class:`TooDeepError`, and nothing else."""
+    return read(source).tree
+
+
+def read(source: Text) -> Parsed:
+    """Return the tree of a source, the same under every Python, and what is newer than 3.10 in it. Raises as :func:`parse`.
+
+    The tree is shared: nobody may change it.
+    """
+    found = _outcome(source.path, source.text)
+    if isinstance(found, Refusal):
+        raise TooDeepError(found.message, found.span)
+    if found is None:
+        raise NotPythonError
+    return found
+
+
+@lru_cache(maxsize=2)  # several collectors ask for the tree of one source, one after the other
+def _outcome(path: str, text: str) -> Parsed | Refusal | None:
+    """Return a source parsed, why it is not checked, or None where it is no Python."""
+    source = Text(path, text)
+    try:
+        return _parsed(source)
+    except TooDeepError as error:
+        return Refusal(error.message, error.span, known=False)
+    except NotPythonError:
+        return None
+
+
+def _parsed(source: Text) -> Parsed:
+    levels = most_levels(source.text)
+    if plain(source.text) and not (levels > _MOST_LEVELS and nests_too_deep(source.text)):
+        try:
+            tree = python_ast.module(source.text)
+        except SyntaxError:
+            raise NotPythonError from None
+        except python_ast.TooDeepForPythonError:
+            pass
+        else:
+            if levels <= DEEPEST or not any(map(nests_too_deep, _long_statements(source, tree))):
+                return Parsed(tree, ())
+    from ros_lint.collectors.python import rewritten_source as python_reread  # noqa: PLC0415  (one source of two hundred)
+
+    return python_reread.read(source)
+
+
+_MOST_LEVELS = 10_000
+"""How deep the parser of Python 3.10 can go. It overflows the stack at some ten times of that."""
+
+
+def read_expression(text: str) -> ast.expr:
+    """Return the tree of an expression, the same under every Python. Raises :class:`NotPythonError`."""
+    source = Text("", text)
+    if plain(text) and not nests_too_deep(text):
+        try:
+            return python_ast.expression(text)
+        except (SyntaxError, python_ast.TooDeepForPythonError):
+            raise NotPythonError from None
+    body = parse(source).body
+    if len(body) != 1 or not isinstance(body[0], ast.Expr):
+        raise NotPythonError
+    return body[0].value
+
+
+def _long_statements(source: Text, tree: ast.Module) -> Iterator[str]:
+    """Yield the statements that may nest too deeply; of those with a body what stands before it.
+
+    Raises :class:`TooDeepError` where branches are too many, each of which stands in the one before.
+    """
+    waiting: list[tuple[_Part, int]] = [(statement, 0) for statement in tree.body]
+    while waiting:
+        part, branches = waiting.pop()
+        inner: list[_Part] = []
+        if part.__class__ not in _SIMPLE:
+            inner = [each for name in _BODIES for each in getattr(part, name, ())]
+            waiting += [(each, 0) for each in inner]
+            if isinstance(part, ast.If) and len(part.orelse) == 1 and isinstance(part.orelse[0], ast.If):
+                if branches == DEEPEST:
+                    raise TooDeepError(f"more than {DEEPEST} branches in a row", span_of(source, part.orelse[0]).start())
+                waiting[-1] = part.orelse[0], branches + 1
+        first = part.pattern if isinstance(part, ast.match_case) else part
+        line, column = _beginning(first)
+        if inner:
+            end_line, end_column = _beginning(inner[0].pattern if isinstance(inner[0], ast.match_case) else inner[0])
+        else:
+            end_line, end_column = first.end_lineno or line, first.end_col_offset or column
+        if end_line > line or end_column - column > DEEPEST:
+            statement = source.text[_offset(source, line, column) : _offset(source, end_line, end_column)]
+            if most_levels(statement) > DEEPEST:
+                yield statement
+
+
+_SIMPLE = frozenset({ast.AnnAssign, ast.Assign, ast.AugAssign, ast.Expr, ast.Import, ast.ImportFrom, ast.Pass, ast.Return})
+"""Statements without a body, most of them."""
+_BODIES = ("body", "handlers", "cases", "orelse", "finalbody")
+_Part = ast.stmt | ast.ExceptHandler | ast.match_case
+
+
+def _beginning(node: ast.stmt | ast.ExceptHandler | ast.pattern) -> tuple[int, int]:
+    """Return line and column of the first decorator of a statement, or of the statement."""
+    decorators = getattr(node, "decorator_list", None)
+    return (decorators[0].lineno, decorators[0].col_offset) if decorators else (node.lineno, node.col_offset)
+
+
+def start_of(source: Text, node: Node) -> int:
+    """Return the offset at which a node starts. The tree counts columns in bytes of UTF-8."""
+    return _offset(source, node.lineno, node.col_offset)
+
+
+def range_of(source: Text, node: Node) -> tuple[int, int]:
+    """Return the offsets between which a node stands."""
+    end = _offset(source, node.end_lineno or node.lineno, node.end_col_offset or node.col_offset)
+    return start_of(source, node), end
+
+
+def span_of(source: Text, node: Node) -> Span:
+    """Return the place of a node."""
+    return source.span(*range_of(source, node))
+
+
+def _offset(source: Text, line: int, column: int) -> int:
+    start = source.offset(line, 1)
+    piece = source.text[start : start + column]
+    if not piece.isascii():
+        piece = from_raw(raw(piece)[:column])
+    return start + len(piece)
+
+
+def refusal(source: Text, error: NotPythonError) -> Refusal:
+    """Return why a source has no tree."""
+    if isinstance(error, TooDeepError):
+        return Refusal(error.message, error.span, known=False)
+    from ros_lint.collectors.python.syntax_errors import reason  # noqa: PLC0415  (few sources are no Python)
+
+    offset, message, known = reason(source.text)
+    return Refusal(message, source.span(offset, offset), known)
+
+
+def is_of_others(source: Text) -> bool:
+    """Return whether a source is a template, or of Python 2."""
+    return bool(_TEMPLATE_NAME.search(source.path) or _TEMPLATE_MARK.search(source.text) or _PYTHON_2.search(source.text))

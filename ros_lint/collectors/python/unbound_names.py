@@ -1,0 +1,54 @@
+"""Names in Python that nothing binds, and what stands where errors are caught."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Iterator
+
+from ros_lint.collectors.python.versions import BUILTINS
+
+_ANYWHERE = frozenset({"exec", "eval", "globals", "locals", "vars", "setattr"})
+"""What can bind names that are not written."""
+_MODULE = frozenset({"__file__", "__name__", "__doc__", "__package__", "__spec__", "__loader__", "__builtins__", "__path__"})
+_KNOWN = _MODULE | BUILTINS | {"copyright", "credits", "exit", "help", "license", "quit", "WindowsError"}
+"""What Python binds, with what it does so only when it starts as people start it, or elsewhere."""
+
+
+def unbound(tree: ast.Module, met: Iterable[ast.Name]) -> Iterator[ast.Name]:
+    """Yield those names of a module that were met, bound by nothing, of which it is sure that Python stops there."""
+    names = [node for node in met if node.id not in _KNOWN]
+    if not names:
+        return
+    bound, guarded = set[str](), set[ast.AST]()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name):
+            if node.id in _ANYWHERE:
+                return
+            if not isinstance(node.ctx, ast.Load):
+                bound.add(node.id)
+        elif isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)):
+            bound.add(node.name)
+        elif isinstance(node, ast.arg):
+            bound.add(node.arg)
+        elif isinstance(node, ast.alias):
+            if node.name == "*":
+                return
+            bound.add(node.asname or node.name.partition(".")[0])
+        elif isinstance(node, (ast.Global, ast.Nonlocal)):
+            bound.update(node.names)
+        elif isinstance(node, (ast.ExceptHandler, ast.MatchAs, ast.MatchStar)):
+            bound.add(node.name or "")
+        elif isinstance(node, ast.MatchMapping):
+            bound.add(node.rest or "")
+        elif isinstance(node, ast.Try):
+            guarded.update(tried(node))
+    for node in names:
+        if node.id not in bound and node not in guarded:
+            bound.add(node.id)  # once is enough
+            yield node
+
+
+def tried(node: ast.Try) -> Iterator[ast.AST]:
+    """Yield all that stands where an error is caught."""
+    for statement in node.body:
+        yield from ast.walk(statement)

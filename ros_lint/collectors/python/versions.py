@@ -1,0 +1,50 @@
+"""The Python of each distribution, and what its standard library has."""
+
+from __future__ import annotations
+
+import builtins
+import math
+import sys
+from collections.abc import Iterable, Iterator, Mapping
+from typing import TYPE_CHECKING, Final
+
+from ros_lint.facts.visibility import NewerSyntax, Problem
+
+if TYPE_CHECKING:
+    from ros_lint.engine.report import Target
+
+Version = tuple[int, int]
+
+PYTHON_OF: Final[Mapping[str, Version]] = {
+    "humble": (3, 10),
+    "jazzy": (3, 12),
+    "kilted": (3, 12),
+    "lyrical": (3, 14),
+    "rolling": (3, 14),
+}
+"""The Python on the Ubuntu of tier 1: Jammy, Noble, Noble, Resolute, Resolute.
+
+Source: REP 2000 up to Kilted, and "Lyrical Luth Supported Platforms" of docs.ros.org ("Python 3.12 - 3.14").
+"""
+
+# What one version from 3.10 to 3.14 has and another has not: the answer must not depend on the Python that runs.
+_SOME_PYTHONS: Final = """
+__future__ __main__ _thread aifc annotationlib asynchat asyncore audioop binhex cgi cgitb chunk compression crypt
+distutils imghdr imp lib2to3 mailcap msilib nis nntplib ossaudiodev pipes smtpd sndhdr spwd sunau telnetlib tomllib uu
+xdrlib
+"""
+STANDARD_LIBRARY: Final = frozenset([*_SOME_PYTHONS.split(), *(name for name in sys.stdlib_module_names if name[0] != "_")])
+"""Top-level modules of Python's standard library, of any version from 3.10 to 3.14."""
+BUILTINS: Final = frozenset(dir(builtins)) | {"BaseExceptionGroup", "ExceptionGroup", "PythonFinalizationError"}
+"""The names that Python has everywhere, in any version from 3.10 to 3.14."""
+MATH: Final = frozenset(dir(math)) | {"cbrt", "exp2", "fma", "sumprod"}
+"""The names of the module math, in any version from 3.10 to 3.14."""
+
+
+def too_new(syntax: Iterable[NewerSyntax], target: Target) -> Iterator[Problem]:
+    """Yield the constructs that the Python of a distribution refuses. None where nobody chose the distribution."""
+    runs = PYTHON_OF.get(target.distro) if target.told else None
+    for construct, version, span in syntax:
+        if runs is not None and runs < version:
+            needs, has = (".".join(map(str, one)) for one in (version, runs))
+            yield Problem("newer-python", f"{construct} need Python {needs}; {target.distro} runs {has}", span)

@@ -1,0 +1,152 @@
+"""Models, displays, parameters and plugin descriptions: URDF, xacro, SDF, rviz, YAML, XML.
+
+These name packages in a few fixed forms, whatever the format, so the text is searched and not parsed (reference,
+section E2.20 and E2.21).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from posixpath import normpath
+from typing import TYPE_CHECKING
+
+from ros_lint.collectors.launch.detect import is_of_ros_1
+from ros_lint.collectors.resources import parameter_files
+from ros_lint.facts.sources import FileFacts, LookUp, Mention
+
+if TYPE_CHECKING:
+    from ros_lint.base.text import Text
+
+_NAME = r"([A-Za-z][\w-]*)"
+# package://p/meshes/a.stl of descriptions, $(find p) of xacro, $(find-pkg-share p) of parameters, <include ros_pkg="p"> of
+# behavior trees: these are looked up. Each pattern starts with fixed letters, which the search runs through at the speed of
+# memory.
+_LOOK_UPS = tuple(
+    map(
+        re.compile,
+        (
+            rf"package://{_NAME}(?=/)",
+            rf"\$\(find(?:-pkg-share|-pkg-prefix)?\s+{_NAME}\s*\)",
+            rf"""ros_pkg\s*=\s*["']{_NAME}["']""",
+        ),
+    )
+)
+# model://p/a.stl may be a package or a model, and a class is named after its package by habit only: Class: p/Name of
+# rviz and rqt, but what is of rviz_common is built into rviz; type: p/Name of controllers, plugin: "p::Name" of navigation,
+# <plugin>p/Name</plugin>, type="p::Name", moveit_controller_manager: p/Name. What ros1_bridge is to translate has
+# ros2_package_name: p; ros_gz_bridge can only have messages that it brings itself (ros_type_name).
+_CLASS = r"([a-z]\w*)(?:/|::)[A-Za-z]"
+_MANAGER = re.compile(rf"""moveit_controller_manager["']?[ \t]*:[ \t]*["']?{_CLASS}""")
+_HABITS = (
+    _MANAGER,
+    *map(
+        re.compile,
+        (
+            rf"model://{_NAME}(?=/)",
+            rf"""Class["']?[ \t]*:[ \t]*["']?(?!rviz_common/){_CLASS}""",
+            rf"""ype["']?[ \t]*[:=][ \t]*["']?{_CLASS}""",
+            rf"""ros2_package_name["']?[ \t]*:[ \t]*["']?{_NAME}""",
+            rf"""plugin(?:_name)?["']?[ \t]*[:>]\s*["']?{_CLASS}""",
+        ),
+    ),
+)
+
+
+def collect(source: Text) -> FileFacts:
+    """Return what a resource file says of packages and nodes."""
+    facts = _packages(source)
+    if source.path.endswith((".yaml", ".yml")):
+        return facts._replace(parameters=parameter_files.collect(source))
+    return facts
+
+
+def loaded(source: Text) -> tuple[Mention, ...]:
+    """Return the packages of the controller managers that a launch file in Python has MoveIt load, as by its parameters."""
+    found: dict[str, tuple[int, int]] = {}
+    _search(_MANAGER, source.text, found)
+    spans = source.spans(found.values())
+    return tuple(
+        Mention(name, "package", span, optional=True, purpose="plugins") for name, span in zip(found, spans, strict=True)
+    )
+
+
+def _packages(source: Text) -> FileFacts:
+    """Return the packages that a resource file names, each once. Names by habit only are marked optional.
+
+    So are those in launch files of ROS 1: nothing looks them up.
+    """
+    text = source.text
+    found: dict[str, tuple[int, int]] = {}
+    for pattern in _LOOK_UPS:
+        _search(pattern, text, found)
+    sure = frozenset(found) if found and not is_of_ros_1(text) else frozenset()
+    for pattern in _HABITS:
+        _search(pattern, text, found)
+    if not found:
+        return FileFacts()
+    looked_up = tuple(_files(source)) if sure else ()
+    names = sorted(found, key=lambda name: found[name])
+    spans = source.spans(found[name] for name in names)
+    return FileFacts(
+        tuple(Mention(name, "package", span, optional=name not in sure) for name, span in zip(names, spans, strict=True)),
+        look_ups=looked_up,
+    )
+
+
+# A path that goes on with a reference or a variable is none.
+_FILE = re.compile(rf"(?:package://{_NAME}|\$\(find(?:-pkg-share)?\s+{_NAME}\s*\))/([\w./+-]*[\w+-]\.\w+)(?![\w./${{(@%-])")
+
+# What a behavior tree includes from the share folder of a package (BehaviorTree.CPP, loadDocImpl).
+_TREE = re.compile(rf"""<include\s(?=[^<>]*\bros_pkg\s*=\s*["']{_NAME}["'])[^<>]*>""")
+_TREE_PATH = re.compile(r"""\spath\s*=\s*["'](\w[\w./+-]*\.\w+)["']""")
+
+
+def _files(source: Text) -> Iterator[LookUp]:
+    """Yield the files that are looked up in packages, each once."""
+    places: dict[tuple[str, str], tuple[int, int]] = {}
+    for match in _FILE.finditer(source.text):
+        key = (match[1] or match[2], normpath(match[3].lstrip("/")))
+        if key[1].startswith("../"):  # it leads out of the package
+            continue
+        if key not in places and not _in_comment(source.text, match.start()) and not _is_spared(source.text, match.start()):
+            places[key] = match.span()
+    for match in _TREE.finditer(source.text):
+        path = _TREE_PATH.search(match[0])
+        if path and not _in_comment(source.text, match.start()):
+            start = match.start()
+            places.setdefault((match[1], path[1]), (start + path.start(1), start + path.end(1)))
+    names = sorted(places, key=lambda name: places[name])
+    spans = source.spans([places[name] for name in names])
+    yield from (LookUp(package, path, span) for (package, path), span in zip(names, spans, strict=True))
+
+
+def _is_spared(text: str, at: int) -> bool:
+    """Whether a place lies in a tag that does without the file: ``<xacro:include filename="..." optional="true"/>``."""
+    opening = text.rfind("<", 0, at)
+    return opening >= 0 and _OPTIONAL.match(text, opening) is not None
+
+
+_OPTIONAL = re.compile(r"""<xacro:include\s[^<>]*\boptional\s*=""")
+
+
+def _search(pattern: re.Pattern[str], text: str, found: dict[str, tuple[int, int]]) -> None:
+    for match in pattern.finditer(text):
+        if match[1] not in found and not _in_comment(text, match.start()) and not _in_class(text, match.start()):
+            found[match[1]] = match.span(1)
+
+
+def _in_class(text: str, at: int) -> bool:
+    """Whether a place lies in a class of a plugin description: it names its own class, and a base that the code includes."""
+    return _PLUGIN.match(text, max(text.rfind("<", 0, at), 0)) is not None
+
+
+_PLUGIN = re.compile(r"<class\s")
+
+
+def _in_comment(text: str, at: int) -> bool:
+    line = text[text.rfind("\n", 0, at) + 1 : at]
+    if line.lstrip()[:1] == "#" or " # " in line:
+        return True
+    opening = text.rfind("<!--", 0, at)
+    return opening >= 0 and text.find("-->", opening) > at

@@ -1,0 +1,82 @@
+"""Which nodes a YAML file has parameters for (``rcl_yaml_param_parser``: names of nodes, then ``ros__parameters``).
+
+Such files are long, and a few lines of them tell: those with ``ros__parameters`` and, above, those that are indented less.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from ros_lint.facts.sources import ParameterFile
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from ros_lint.base.text import Span, Text
+
+_MARK = "ros__parameters"
+_LINE = re.compile(r"^([ ]*)([\"']?ros__parameters[\"']?[ \t]*:|[^\s#])", re.MULTILINE)
+"""A line that says something, and whether it begins the parameters of a node."""
+# A key ends with a letter or with its quote: were the blanks behind it a part of it as well, a long row of them could be
+# parted in as many ways.
+_KEY = re.compile(
+    r"""([ ]*)(["'])?
+    ((?:[^\s"'\#:{}\[\],&*!|>%@`-]|/?\*\*?)
+      (?(2)[^"'\#:{}\[\],]*|(?:[^"'\#:{}\[\],]*[^"'\#:{}\[\], \t])?))
+    (?(2)\2)[ \t]*:(?=\s|$)""",
+    re.VERBOSE,
+)
+_FIRST = re.compile(
+    r"""^[ ]*["']?
+    ([^\s"'\#:{}\[\],&!|>%@`-](?:[^"'\#:{}\[\]\n]*[^"'\#:{}\[\] \t\n])?(?:[ \t]*(?=["']))?)
+    ["']?[ \t]*:(?=\s)""",
+    re.VERBOSE | re.MULTILINE,
+)
+_ANY = "/**"
+
+
+def collect(source: Text) -> ParameterFile | None:
+    """Return what a file says, None when it has no keys."""
+    found = _collected(source)
+    if found is None or "$(var" not in source.text:
+        return found
+    from ros_lint.collectors.launch.markup.collect import asks  # noqa: PLC0415  (few files of parameters are filled in)
+
+    return found._replace(asks=asks(source.text))
+
+
+def _collected(source: Text) -> ParameterFile | None:
+    text = source.text
+    first = _FIRST.search(text)
+    marks = text.count(_MARK)
+    if not marks or marks == _in_comments(text):
+        return None if first is None else ParameterFile(source.path, (), source.span(*first.span(1)))
+    found: list[tuple[str, Span]] = []
+    for keys in _headings(text):
+        if not keys:
+            break
+        name = "/".join(key.strip("/") for _, _, key in keys)
+        found.append((f"/{name}", source.span(*keys[-1][:2])))
+    if len(found) != marks - _in_comments(text):
+        # Written in another way: it may be for any node.
+        found.append((_ANY, source.span(0, 0)))
+    return ParameterFile(source.path, tuple(found), found[0][1] if first is None else source.span(*first.span(1)))
+
+
+def _in_comments(text: str) -> int:
+    return sum(_MARK in line.partition("#")[2] for line in text.splitlines() if "#" in line)
+
+
+def _headings(text: str) -> Iterator[list[tuple[int, int, str]]]:
+    """Yield the keys that each ``ros__parameters`` stands under, from the top: offsets and key. [] when one cannot be read."""
+    above: list[tuple[int, int]] = []
+    for match in _LINE.finditer(text):
+        indent = len(match[1])
+        while above and above[-1][1] >= indent:
+            above.pop()
+        if len(match[2]) > 1:
+            keys = [_KEY.match(text, start) for start, _ in above]
+            readable = keys and not above[0][1]
+            yield [(key.start(3), key.end(3), key[3]) for key in keys if key] if readable and all(keys) else []
+        above.append((match.start(), indent))

@@ -1,0 +1,78 @@
+"""Plugin descriptions of pluginlib: which library has which classes (reference, section C5.8)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from ros_lint.base.xml_tree import Element, XmlError, attribute_places, parse
+from ros_lint.collectors.cpp.registrations import class_name
+from ros_lint.facts.build import PluginClass, PluginFile, PluginLibrary
+
+if TYPE_CHECKING:
+    from ros_lint.base.text import Span, Text
+
+_DECLARATION = re.compile(r"<\?xml\b.*?\?>", re.DOTALL)
+_TEMPLATE = re.compile(r"""=\s*(?:"[^"]*<[^"]*"|'[^']*<[^']*')""")
+_STAND_IN = "\ue000"
+_ROOT = "<_>"
+
+
+def roots(text: str) -> list[Element]:
+    """Return the top-level elements, as tinyxml2 reads them for pluginlib; none of a text that it refuses.
+
+    Several may stand beside each other, and values of attributes may have "<" in them, as types of templates do.
+    """
+    try:
+        return [parse(text)]
+    except XmlError:
+        pass
+    plain = _DECLARATION.sub(lambda match: " " * len(match[0]), text)
+    plain = _TEMPLATE.sub(lambda match: match[0].replace("<", _STAND_IN), plain)
+    try:
+        root = parse(f"{_ROOT}{plain}</{_ROOT[1:]}")
+    except XmlError:
+        return []
+    for element in root.walk():
+        element.start -= len(_ROOT)
+        element.attributes = {name: value.replace(_STAND_IN, "<") for name, value in element.attributes.items()}
+    return root.children
+
+
+def collect(path: str, source: Text) -> PluginFile | None:
+    """Return a plugin description, None for a text that is none. ``path`` is relative to the package."""
+    if "<library" not in source.text and "<class" not in source.text:
+        return None
+    found = roots(source.text)
+    if not found:
+        return None
+    first = found[0]
+    if first.tag == "library":
+        libraries = [element for element in found if element.tag == "library"]
+    elif first.tag == "class_libraries":
+        libraries = [element for element in first.children if element.tag == "library"]
+    else:
+        return None
+    place = source.span(first.start, first.start + 1 + len(first.tag))
+    return PluginFile(path, tuple(_library(source, element) for element in libraries), place)
+
+
+def _library(source: Text, element: Element) -> PluginLibrary:
+    classes = tuple(_classes(source, element))
+    return PluginLibrary(element.attributes.get("path", ""), _place(source, element, "path"), classes)
+
+
+def _classes(source: Text, library: Element) -> Iterator[PluginClass]:
+    for element in library.children:
+        if element.tag == "class":
+            get = element.attributes.get
+            written = get("type", "")
+            place = _place(source, element, "type")
+            yield PluginClass(get("name", written), class_name(written), class_name(get("base_class_type", "")), place)
+
+
+def _place(source: Text, element: Element, attribute: str) -> Span:
+    places = attribute_places(source.text, element)
+    start, end = places.get(attribute, (element.start, element.start + 1 + len(element.tag)))
+    return source.span(start, end)

@@ -1,0 +1,55 @@
+"""Texts in ``setup.py`` that a fix can change: the patterns of globs, and the places where a comma between two is missing."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from ros_lint.collectors.python.string_values import callee
+from ros_lint.collectors.python.syntax import NotPythonError, parse, range_of, span_of
+from ros_lint.facts.setup_py import WrittenText
+
+if TYPE_CHECKING:
+    from ros_lint.base.text import Text
+
+
+def collect(source: Text) -> tuple[WrittenText, ...]:
+    """Return the last piece of each pattern that ``glob()`` is given, if written out, and gaps within texts with two ``=``."""
+    try:
+        tree = parse(source)
+    except NotPythonError:
+        return ()
+    return tuple(_found(source, tree))
+
+
+def _found(source: Text, tree: ast.Module) -> Iterator[WrittenText]:
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call) and node.args and callee(node) == "glob":
+            last = _last(node.args[0])
+            if isinstance(last, ast.Constant) and isinstance(last.value, str):
+                span = span_of(source, last)
+                # With quotes of one letter and without escapes, on a line.
+                if span.line == span.end_line and span.end_column - span.column == len(last.value) + 2:
+                    inner = span._replace(column=span.column + 1, end_column=span.end_column - 1)
+                    yield WrittenText("glob", last.value, inner)
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str) and node.value.count("=") > 1:
+            gaps = list(_gaps(source, node))
+            if len(gaps) == node.value.count("=") - 1:
+                yield from gaps
+
+
+def _gaps(source: Text, node: ast.Constant) -> Iterator[WrittenText]:
+    """Yield the ends of the texts that stand side by side and make one, but for the last."""
+    from ros_lint.base.python_tokens import tokens  # noqa: PLC0415  (few files have such a text)
+
+    start, end = range_of(source, node)
+    ends = [start + token.end for token in tokens(source.text[start:end]) if token.kind == "string"]
+    yield from (WrittenText("gap", "", source.span(at, at)) for at in ends[:-1])
+
+
+def _last(pattern: ast.expr) -> ast.expr:
+    """Return what a pattern ends with."""
+    while isinstance(pattern, (ast.BinOp, ast.Call)):
+        pattern = pattern.right if isinstance(pattern, ast.BinOp) else pattern.args[-1] if pattern.args else pattern.func
+    return pattern

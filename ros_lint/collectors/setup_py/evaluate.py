@@ -1,0 +1,184 @@
+"""Evaluate ``setup.py``, ``setup.cfg`` and ``pyproject.toml`` of a Python package without running anything.
+
+Reference, section D: setup.py is a program, and colcon runs it. Here a small interpreter goes through it with the names
+of the package's files at hand. What it cannot know becomes opaque, for the side of the package that it hides.
+"""
+
+from __future__ import annotations
+
+import ast
+import posixpath
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Set as AbstractSet
+from typing import TYPE_CHECKING
+
+from ros_lint.base.text import Span, beginning
+from ros_lint.base.tree import join
+from ros_lint.collectors.python.import_tree import walk
+from ros_lint.collectors.python.syntax import NotPythonError, is_of_others, read, refusal, span_of
+from ros_lint.collectors.python.unbound_names import tried, unbound
+from ros_lint.collectors.setup_py import setup_cfg as setup_cfg_collector
+from ros_lint.collectors.setup_py.distribution import INSTALLED, Context, Distribution
+from ros_lint.collectors.setup_py.interpreter import library as library
+from ros_lint.collectors.setup_py.interpreter.files import Files
+from ros_lint.collectors.setup_py.interpreter.program import Program, Setup
+from ros_lint.collectors.setup_py.interpreter.values import Module, Value
+from ros_lint.collectors.setup_py.options import completed
+from ros_lint.facts.build import BuildScript
+from ros_lint.facts.sources import Mention
+from ros_lint.facts.visibility import Facet, Opaque, Problem
+
+if TYPE_CHECKING:
+    from ros_lint.base.text import Text
+    from ros_lint.collectors.setup_py.setup_cfg import SetupCfg
+
+_PLAIN_SETUPS = frozenset({"setuptools", "distutils", "distutils.core"})
+
+
+def evaluate(
+    name: str,
+    path_prefix: str,
+    files: Sequence[str],
+    setup_py: Text | None,
+    setup_cfg: Text | None,
+    pyproject: Text | None,
+    executables: AbstractSet[str] = frozenset(),
+) -> BuildScript:
+    """Return what building a Python package with setuptools does.
+
+    ``name`` is that of package.xml, ``path_prefix`` the folder of the package, and ``files`` are those below it,
+    relative to it, ``executables`` those of them that have the executable bit. Problems are of the kinds
+    ``syntax``, ``missing-file``, ``directory-in-data-files``, ``empty-glob``, ``data-files-form``,
+    ``absolute-destination``, ``entry-point-form``, ``undefined-name``, ``no-function``, and those of
+    :mod:`ros_lint.collectors.setup_py.setup_cfg`.
+    """
+    first = setup_py or setup_cfg or pyproject
+    start = beginning(first.path if first else join(path_prefix, "setup.py"))
+    cfg = setup_cfg_collector.collect(setup_cfg) if setup_cfg else None
+    program = Program(name, Files(files))
+    if setup_py is None:
+        script = BuildScript(start.path)
+        program.setups.append(Setup({}, None, "setuptools"))
+    else:
+        script = _run(program, setup_py, start)
+    place = _placer(setup_py)
+    folder, unknown_folder = _scripts_folder(cfg)
+    found = [unknown_folder] if unknown_folder else []
+    for setup in program.setups:
+        call = place(setup, start)
+        options = completed(setup.options, program.files, cfg, pyproject)
+        context = Context(program.files, executables, folder, call, len(program.setups) > 1)
+        distribution = Distribution(context, place)
+        distribution.read(options)
+        if setup.module not in _PLAIN_SETUPS:
+            reason = f"setup() of {setup.module} may install more than its arguments say"
+            found.append(Opaque(INSTALLED | Facet.LIBRARIES, reason, call))
+        script = _with(script, distribution, options, place, call)
+    return script._replace(
+        python_packages=tuple(sorted({*script.python_packages, *program.generated})),
+        opaque=tuple(dict.fromkeys([*script.opaque, *found])),
+        problems=tuple(dict.fromkeys([*script.problems, *(cfg.problems if cfg else ())])),
+        texts=cfg.texts if cfg else (),
+    )
+
+
+def _run(program: Program, source: Text, start: Span) -> BuildScript:
+    """Run a setup.py. Return its imports, and what keeps it from being seen through."""
+    script = BuildScript(source.path)
+    try:
+        tree, newer = read(source)
+    except NotPythonError as error:
+        if is_of_others(source):
+            return script._replace(opaque=(Opaque(INSTALLED, "no Python that can be read: a template, or Python 2", start),))
+        why = refusal(source, error)
+        return script._replace(opaque=(why.opaque(INSTALLED),), problems=(why.problem(),) if why.known else ())
+    program.run(tree)
+    imports = [item for item in walk(source, tree) if item.module != "__future__"]
+    spans = source.spans([(item.start, item.start + len(item.module)) for item in imports])
+    script = script._replace(
+        mentions=tuple(
+            Mention(item.module, "import", span, f"import of {item.module}", item.optional)
+            for item, span in zip(imports, spans, strict=True)
+        )
+    )
+    script = script._replace(
+        problems=tuple(_failing(program, tree, source)), syntax=() if newer and is_of_others(source) else newer
+    )
+    if program.end or not program.setups:
+        reason = f"setup.py is not followed to its end: {program.end}" if program.end else "no call of setup() is seen"
+        return script._replace(opaque=(Opaque(INSTALLED, reason, start),))
+    return script
+
+
+def _failing(program: Program, tree: ast.Module, source: Text) -> Iterator[Problem]:
+    """Yield what Python stops at, where nothing catches that."""
+    for name in unbound(tree, program.strange):
+        yield Problem("undefined-name", f"'{name.id}' is not defined", span_of(source, name))
+    if not program.no_functions:
+        return
+    caught = {node for statement in ast.walk(tree) if isinstance(statement, ast.Try) for node in tried(statement)}
+    for call, value in program.no_functions:
+        if call not in caught:
+            yield Problem("no-function", _no_function(value), span_of(source, call.func))
+
+
+def _no_function(value: Value) -> str:
+    if isinstance(value, Module):
+        inside = f"{value.name}.{value.name}"
+        return f"'{value.name}' is a module and cannot be called" + (f"; write {inside}()" if library.member(inside) else "")
+    kind = "text" if isinstance(value, str) else type(value).__name__
+    return f"this {kind} cannot be called; is a comma missing after it?"
+
+
+def _placer(setup_py: Text | None) -> Callable[[Value, Span], Span]:
+    """Return what says where a value comes from."""
+
+    def place(value: Value, default: Span) -> Span:
+        node = getattr(value, "node", None)
+        if isinstance(node, Span):
+            return node
+        if setup_py is not None and isinstance(node, (ast.expr, ast.stmt)):
+            return span_of(setup_py, node)
+        if isinstance(value, (tuple, list)) and value:
+            return place(value[0], default)
+        return default
+
+    return place
+
+
+def _scripts_folder(cfg: SetupCfg | None) -> tuple[str | None, Opaque | None]:
+    """Return where programs go below the prefix, or what hides it. Reference, section D1.4 and D1.5."""
+    option = cfg.section("install").get("install_scripts") if cfg else None
+    if option is None:
+        return "bin", None
+    match = _BASE.match(option.value)
+    if match and "$" not in match[1]:
+        return posixpath.normpath(match[1]), None
+    return None, Opaque(Facet.EXECUTABLES, f"the folder {option.value} is not followed", option.span)
+
+
+_BASE = re.compile(r"\$\{?(?:base|prefix)\}?/(.*)\Z")
+
+
+def _with(
+    script: BuildScript,
+    distribution: Distribution,
+    options: Mapping[str, Value],
+    place: Callable[[Value, Span], Span],
+    call: Span,
+) -> BuildScript:
+    """Return a script with what one call of setup() adds."""
+    name, version = options.get("name"), options.get("version")
+    return script._replace(
+        name=str(name) if isinstance(name, str) else "",
+        name_span=place(name, call) if isinstance(name, str) else None,
+        version=str(version) if isinstance(version, str) else "",
+        version_span=place(version, call) if isinstance(version, str) else None,
+        provides=(*script.provides, *distribution.provides),
+        entry_points=(*script.entry_points, *distribution.entry_points),
+        python_packages=(*script.python_packages, *distribution.python_packages),
+        moved=(*script.moved, *distribution.moved),
+        opaque=(*script.opaque, *distribution.opaque),
+        problems=(*script.problems, *distribution.problems),
+    )

@@ -1,0 +1,100 @@
+"""Read ``setup.cfg``, as ``configparser`` does, but with places."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.facts.setup_py import WrittenText
+from ros_lint.facts.visibility import Problem
+
+if TYPE_CHECKING:
+    from ros_lint.base.text import Span, Text
+
+
+class Line(NamedTuple):
+    """A line of a value, without blanks around it."""
+
+    text: str
+    span: Span
+
+
+class Option(NamedTuple):
+    """A key of a section."""
+
+    section: str
+    key: str
+    """As written, except that it has underscores for dashes: distutils takes both for one."""
+    lines: tuple[Line, ...]
+    """Those of the value that are not empty, comments left out."""
+    span: Span
+    """Of the key."""
+
+    @property
+    def value(self) -> str:
+        return "\n".join(line.text for line in self.lines)
+
+
+class SetupCfg(NamedTuple):
+    """A ``setup.cfg``, as far as it can be read."""
+
+    options: tuple[Option, ...]
+    problems: tuple[Problem, ...]
+    texts: tuple[WrittenText, ...] = ()
+    """Where options can be added or changed."""
+
+    def section(self, name: str) -> dict[str, Option]:
+        """Return the options of a section by key."""
+        return {option.key: option for option in self.options if option.section == name}
+
+
+_SECTION = re.compile(r"\[(.+)\]")
+_OPTION = re.compile(r"(.*?)\s*[=:]\s*(.*)$")
+# Where distutils looks for options of commands. Elsewhere a dash is part of the key.
+_DASHED = frozenset({"develop", "install", "metadata", "options"})
+
+
+def collect(source: Text) -> SetupCfg:
+    """Return the options of a ``setup.cfg``.
+
+    Problems are what setuptools stops at (``setup-cfg-syntax``), and keys with a dash, which it rejects or warns about
+    (``dashed-key``; reference, section D1.6).
+    """
+    options: list[Option] = []
+    problems: list[Problem] = []
+    texts: list[WrittenText] = []
+    section = ""
+    last = source.span(0, 0)
+    indent: int | None = None  # of the option that goes on with what is indented more
+    for number in range(1, source.line_count + 1):
+        line = source.line(number)
+        text = line.strip()
+        if not text or text[0] in "#;":
+            continue
+        width = len(line) - len(line.lstrip())
+        start = source.offset(number, 1) + width
+        whole = source.span(start, start + len(text))
+        last = whole.end()
+        if indent is not None and width > indent:
+            options[-1] = options[-1]._replace(lines=(*options[-1].lines, Line(text, whole)))
+            continue
+        indent = None
+        header, given = _SECTION.match(text), _OPTION.match(text)
+        if header:
+            section = header[1]
+            texts.append(WrittenText("section", section, last))
+        elif given is None or not section or not given[1]:
+            message = "this line is in no section" if not section else "this line is neither a section nor an option"
+            problems.append(Problem("setup-cfg-syntax", message, whole))
+        else:
+            indent = width
+            at = start + given.start(2)
+            lines = (Line(given[2], source.span(at, at + len(given[2]))),) if given[2] else ()
+            option = Option(section, given[1].replace("-", "_"), lines, source.span(start, start + len(given[1])))
+            options.append(option)
+            if "-" in given[1] and section in _DASHED:
+                message = f"{given[1]} with a dash; write {option.key}"
+                problems.append(Problem("dashed-key", message, option.span, subject=given[1]))
+    texts += [WrittenText("option", f"{option.section}.{option.key}", option.lines[0].span) for option in options if option.lines]
+    texts.append(WrittenText("section", "", last))
+    return SetupCfg(tuple(options), tuple(problems), tuple(texts))

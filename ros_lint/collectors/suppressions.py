@@ -1,0 +1,124 @@
+"""Read the comments that suppress findings: where they are, what they speak for, and how to take them out again."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from ros_lint.analysis.rule import Edit
+from ros_lint.collectors.comments import comments
+from ros_lint.engine.suppressions import Name, Suppression
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from ros_lint.base.text import Text
+
+_HOW = "write ros-lint: ignore[rule-name] reason"
+
+_MARK = re.compile(r"ros-lint:[ \t]*(?P<word>[A-Za-z][\w-]*)?(?P<bracket>[ \t]*\[(?P<names>[^\]\r\n]*)(?P<close>\])?)?")
+_OPENING = re.compile(r"(?:<!--|#\[=*\[|#+|;|//+[!<]?|/\*+[!<]?)\s*")
+_CLOSING = re.compile(r"\s*(?:-->|\*+/|\]=*\])?\s*\Z")
+_DECLARATION = re.compile(r"<\?.*?\?>|<!DOCTYPE[^>\[]*(?:\[.*?\]\s*)?>", re.DOTALL)
+_REASON = re.compile(r"[^\r\n]*?(?=[ \t]+(?:#|//)[ \t]|[\r\n]|\Z)")
+_SIGN = re.compile(r"[ \t]*(?:#+|//+)?[ \t]*")
+_BLANK = re.compile(r"[ \t\f]*(?:\r\n|\r|\n|\Z)")
+
+
+def read(text: Text) -> Iterator[Suppression]:
+    """Yield the suppressions in the comments of a file, in order."""
+    whole = text.text
+    ranges = comments(text)
+    lines = {start: (text.position(start)[0], text.position(end)[0]) for start, end in ranges}
+    alone = {start for start, end in ranges if _is_alone(whole, start, end)}
+    own_lines = {line for start in alone for line in range(lines[start][0], lines[start][1] + 1)}
+    below: dict[int, int] = {}  # a line that a comment has to itself -> the next that none has
+    for line in sorted(own_lines, reverse=True):
+        below[line] = below.get(line + 1, line + 1)
+    leading = True
+    before = 0
+    for start, end in ranges:
+        leading = leading and _says_nothing(whole[before:start])
+        before = end
+        first, last = lines[start]
+        yield from _in_comment(text, start, end, (first, below[last] if start in alone else last), leading)
+
+
+def _in_comment(text: Text, start: int, end: int, lines: tuple[int, int], leading: bool) -> Iterator[Suppression]:
+    whole = text.text
+    marks = list(_MARK.finditer(whole, start, end))
+    for number, mark in enumerate(marks, 1):
+        opens = _OPENING.fullmatch(whole, start, mark.start()) is not None
+        problem = _problem(mark, leading)
+        if problem is None or (not opens and mark["word"] not in ("ignore", "ignore-file")):
+            continue  # a sentence that speaks of ros-lint
+        stop = _reason_end(whole, mark.end(), marks[number].start() if number < len(marks) else end)
+        sole = opens and len(marks) == 1 and _CLOSING.fullmatch(whole, stop, end) is not None
+        cut = _cut_comment(whole, start, end) if sole else _cut_mark(whole, start, mark.start(), stop, end)
+        inside = mark.span("names") if mark["names"] is not None else (mark.end(), mark.end())
+        yield Suppression(
+            tuple(_names(text, *inside)),
+            whole[mark.end() : stop].strip().lstrip("-:").strip(),
+            None if mark["word"] == "ignore-file" else lines,
+            text.span(*mark.span()),
+            text.span(*inside),
+            Edit(text.span(*cut), _joint(whole, *cut)),
+            problem,
+        )
+
+
+def _problem(mark: re.Match[str], leading: bool) -> str | None:
+    """Return what is wrong with a suppression, "" when nothing is, or None if it may be no suppression at all."""
+    if mark["word"] not in ("ignore", "ignore-file"):
+        return f"'{mark[0].strip()}' has no effect; {_HOW}" if mark["word"] else None
+    if mark["names"] is not None and not mark["close"]:
+        return f"the bracket of this suppression is not closed on its line; {_HOW}"
+    if not (mark["names"] or "").replace(",", "").strip():
+        return f"this suppression names no rule; {_HOW}"
+    if mark["word"] == "ignore-file" and not leading:
+        return "ignore-file only works in the first comments of a file; move it there, or use ignore"
+    return ""
+
+
+def _names(text: Text, start: int, end: int) -> Iterator[Name]:
+    for word in re.finditer(r"[^,\s](?:[^,]*[^,\s])?", text.text[start:end]):
+        yield Name(word[0], text.span(start + word.start(), start + word.end()))
+
+
+def _is_alone(whole: str, start: int, end: int) -> bool:
+    line_start = max(whole.rfind("\n", 0, start), whole.rfind("\r", 0, start)) + 1
+    return not whole[line_start:start].strip() and _BLANK.match(whole, end) is not None
+
+
+def _says_nothing(between: str) -> bool:
+    """Whether what stands between two comments leaves them the first: space, and the declarations of XML."""
+    return not _DECLARATION.sub("", between).strip("\ufeff \t\r\n\f")
+
+
+def _reason_end(whole: str, start: int, limit: int) -> int:
+    """Return where the reason ends: with the line, the comment, or the sign of another comment within it."""
+    line = _REASON.match(whole, start, limit)
+    return start + len(_CLOSING.sub("", line[0] if line else "").rstrip("#/ \t"))
+
+
+def _cut_comment(whole: str, start: int, end: int) -> tuple[int, int]:
+    """Return what to cut to be rid of a comment: its lines, or with it the space before it."""
+    lines = _BLANK.match(whole, end) if _is_alone(whole, start, end) else None
+    while start and whole[start - 1] in " \t":
+        start -= 1
+    return start, lines.end() if lines else end
+
+
+def _cut_mark(whole: str, comment: int, start: int, stop: int, end: int) -> tuple[int, int]:
+    """Return what to cut to be rid of a mark in a comment that says more: with it, one comment sign."""
+    if _OPENING.fullmatch(whole, comment, start):
+        following = _SIGN.match(whole, stop, end)
+        return start, following.end() if following else stop
+    while start > comment and whole[start - 1] in " \t#/":
+        start -= 1
+    return start, stop
+
+
+def _joint(whole: str, start: int, end: int) -> str:
+    """Return a space where a cut would glue two words together."""
+    return " " if start and end < len(whole) and not (whole[start - 1].isspace() or whole[end].isspace()) else ""

@@ -1,0 +1,399 @@
+"""Texts of launch files in which something is not known yet.
+
+What a launch configuration holds, where a package is installed and what a command prints is known only when the launch
+file runs. Characters of the private use area stand for it, so that such texts can be joined, split and formatted like
+any others while the file is read, and filled in later:
+
+- ``UNKNOWN`` for any text at all;
+- ``OWN_FOLDER`` for the folder of the launch file;
+- an absolute path that no file system has for the install prefix of a package;
+- marks around the name of a launch configuration, a Python expression, a command.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping
+from functools import lru_cache
+from itertools import islice, product
+from typing import NamedTuple
+
+from ros_lint.facts.launch import LaunchCondition
+
+UNKNOWN = "\ue000"
+_ROOT = "\ue001"
+OWN_FOLDER = "/\ue002"
+"""The folder of the launch file itself, which is one place in the source and another one where it is installed."""
+
+_CONFIGURATION = ("\ue010", "\ue011")
+_EXPRESSION = ("\ue012", "\ue013")
+_COMMAND = ("\ue014", "\ue015")
+_OF_XACRO = f"{_COMMAND[0]}xacro"
+_DEFAULT = "\ue016"
+_PRESENT = "\ue017"
+
+MOST = 24
+"""How many alternatives of a text are kept apart."""
+
+_DEEPEST = 30
+_MOST_CHOICES = 3_000
+_MOST_FILLED = 400
+"""How many configurations are put into one text, those in their values included. Real texts take up to 34."""
+LONGEST = 20_000
+"""How many characters of a text are followed."""
+
+_ANY_MARK = re.compile("[\ue000-\ue017]")
+_UNSETTLED = re.compile("[\ue000\ue003-\ue017]")
+# A path ends where a command line or a list of paths goes on; an unknown piece belongs to it.
+_PREFIX = re.compile(rf"/{_ROOT}([^/\s]*)((?:/[^/\s'\":;,\ue012-\ue015]*)*)")
+_INNERMOST = re.compile("\ue010([^\ue010\ue011]*)\ue011")
+# A name that is computed begins with the mark of another one.
+_NAME_OF_CONFIGURATION = re.compile("\ue010([^\ue010\ue011\ue016]*)([\ue010\ue011\ue016])")
+BRACKETS = re.compile("([\ue010\ue012\ue014])|[\ue011\ue013\ue015]")
+"""Begins (in group 1) or ends a part of a text that is known later."""
+_EXPRESSION_MARKS = re.compile("([\ue012\ue013])")
+_INNER_EXPRESSION = re.compile("\ue012([^\ue012\ue013]*)\ue013")
+_ENDS = re.compile("\ue010\\$|[\ue010-\ue015]")
+_SHOWN = {"\ue010$": "$(env ", "\ue010": "$(var ", "\ue012": "$(eval ", "\ue014": "$(command "}
+_LOGIC = re.compile(r"_(and|or|not|if|equals|not_equals)\((.*)\)", re.DOTALL)
+_ROOTED = re.compile(rf"/{_ROOT}([^/:;,'\"]*)(?:/share/([^\s'\":;,{_ROOT}]*))?")
+_RENAMES = ("__node:=", "__name:=", "__ns:=")
+_TWICE_ROOTED = re.compile(rf".*/(?=/(?:{_ROOT}|\ue002))", re.DOTALL)
+
+
+class Installed(NamedTuple):
+    """A place in the install space of a package."""
+
+    package: str
+    path: str
+    """Relative to the prefix of the package, such as ``share/<package>/launch/a.launch.py``."""
+
+    @property
+    def known(self) -> bool:
+        """Whether the package is known."""
+        return bool(self.package) and is_plain(self.package)
+
+    @property
+    def share(self) -> str | None:
+        """The path below share/<package>, "" for the folder itself; None when it is elsewhere or not known whole."""
+        folder = f"share/{self.package}"
+        if not is_plain(self.path) or not (self.path == folder or self.path.startswith(folder + "/")):
+            return None
+        return self.path[len(folder) + 1 :]
+
+    @property
+    def executable(self) -> str:
+        """The name directly in lib/<package>, "" when the path is no such thing."""
+        folder, _, name = self.path.rpartition("/")
+        return name if folder == f"lib/{self.package}" and is_plain(name) else ""
+
+
+def prefix(package: str) -> str:
+    """Return the path that stands for the install prefix of a package."""
+    return f"/{_ROOT}{package}"
+
+
+def share(package: str) -> str:
+    """Return the path that stands for the share folder of a package."""
+    return f"/{_ROOT}{package}/share/{package}"
+
+
+def configuration(name: str, default: str | None = None) -> str:
+    """Return what stands for the value of a launch configuration; ``default`` is what it is when nobody set it."""
+    inner = name if default is None else f"{name}{_DEFAULT}{default}"
+    return f"{_CONFIGURATION[0]}{inner}{_CONFIGURATION[1]}"
+
+
+@lru_cache(maxsize=8_192)
+def named_in(text: str) -> tuple[str, ...] | None:
+    """Return the names of the launch configurations in a text, None where a name is computed."""
+    found = _NAME_OF_CONFIGURATION.findall(text)
+    return None if any(mark == _CONFIGURATION[0] for _, mark in found) else tuple([name for name, _ in found])
+
+
+def expression(text: str) -> str:
+    """Return what stands for the value of a Python expression."""
+    return f"{_EXPRESSION[0]}{text}{_EXPRESSION[1]}"
+
+
+def has_expression(text: str) -> bool:
+    """Return whether the value of a Python expression is part of a text."""
+    return _EXPRESSION[0] in text
+
+
+def quoted(text: str) -> str:
+    """Return a text as a literal of Python, marks kept, and expressions as they are: their values come to stand there."""
+    if not has_expression(text):
+        return f"'{_escaped(text)}'"
+    depth, parts = 0, []
+    for part in _EXPRESSION_MARKS.split(text):
+        depth += (part == _EXPRESSION[0]) - (part == _EXPRESSION[1])
+        parts.append(part if depth else _escaped(part))
+    return f"'{''.join(parts)}'"
+
+
+def _escaped(text: str) -> str:
+    return text.replace("\\", "\\\\").replace("'", "\\'").replace("\n", "\\n")
+
+
+def command(text: str) -> str:
+    """Return what stands for the output of a command."""
+    return f"{_COMMAND[0]}{text}{_COMMAND[1]}"
+
+
+def presence(package: str) -> str:
+    """Return what stands for the answer whether a package is installed."""
+    return f"{_PRESENT}{package}"
+
+
+def asked_for(text: str) -> str:
+    """Return the package whose presence a text stands for, or ""."""
+    return text[1:] if text.startswith(_PRESENT) else ""
+
+
+def certain_part(text: str) -> str:
+    """Return the letters that a text has whatever the rest of it becomes."""
+    while match := _INNERMOST.search(text) or _INNER_EXPRESSION.search(text):
+        text = text[: match.start()] + text[match.end() :]
+    return _ANY_MARK.sub("", text)
+
+
+def is_plain(text: str) -> bool:
+    """Return whether a text is known whole."""
+    return text.isascii() or not _ANY_MARK.search(text)
+
+
+def is_settled(text: str) -> bool:
+    """Return whether a text is known but for the place where packages are installed."""
+    return text.isascii() or not _UNSETTLED.search(text)
+
+
+def configurations(text: str) -> Iterator[tuple[str, bool, str]]:
+    """Yield the names of the launch configurations that a text depends on, whether it does without, and what stands for each."""
+    for match in _INNERMOST.finditer(text):
+        name, mark, _ = match[1].partition(_DEFAULT)
+        yield name, bool(mark), match[0]
+
+
+def runs_xacro(text: str) -> bool:
+    """Return whether a text is a command line of xacro, or has the output of one in it."""
+    return text.startswith("xacro ") or _OF_XACRO in text
+
+
+def renames(word: str) -> bool:
+    """Return whether a word of a command line may give a node another name or namespace (``-r __ns:=/front``)."""
+    return any(mark in word for mark in _RENAMES)
+
+
+def readable(text: str) -> str:
+    """Return a text for people, with the substitutions of XML launch files for what is not known, and ? for any text."""
+    text = _with_logic(text) if f"{_EXPRESSION[0]}_" in text else text
+    text = _ENDS.sub(lambda match: _SHOWN.get(match[0], ")"), text.replace(f"{OWN_FOLDER}/", "$(dirname)/"))
+    text = text.replace(OWN_FOLDER, "$(dirname)").replace(_PRESENT, "").replace(_DEFAULT, " ")
+    return _ROOTED.sub(_readable_root, text).replace(UNKNOWN, "?")
+
+
+def _with_logic(text: str) -> str:
+    """Return a text in which the expressions that stand for substitutions of logic are these substitutions again."""
+    while match := _INNER_EXPRESSION.search(text):
+        before, said = text[: match.start()], _said(match[1])
+        inside = before.count(_EXPRESSION[0]) > before.count(_EXPRESSION[1])
+        text = f"{before}{quoted(said)[1:-1] if inside else said}{text[match.end() :]}"
+    return text
+
+
+def _said(inner: str) -> str:
+    from ros_lint.base.python_parser import literal  # noqa: PLC0415  (only for people)
+
+    match = _LOGIC.fullmatch(inner)
+    try:
+        words = literal(f"({match[2]},)") if match else ()
+    except ValueError:
+        words = ()
+    if match is None or not words or not isinstance(words, tuple) or not all(isinstance(word, str) for word in words):
+        return f"$(eval {inner})"
+    said = " ".join(f"'{word}'" if not word or (" " in certain_part(word) and word[:2] != "$(") else word for word in words)
+    return f"$({match[1].replace('_', '-')} {said})"
+
+
+def _readable_root(match: re.Match[str]) -> str:
+    package, path = match[1], match[2]
+    if path is None:
+        return f"$(find-pkg-prefix {package})"
+    if path == package or path.startswith(f"{package}/"):
+        return f"$(find-pkg-share {package}){path[len(package) :]}"
+    return f"$(find-pkg-prefix {package})/share/{path}"
+
+
+def names_places(text: str, carriers: Container[str] = ()) -> bool:
+    """Return whether a text can mention an install place, or a command of xacro.
+
+    ``carriers`` are the launch configurations whose values can.
+    """
+    if _ROOT in text or "xacro" in text:
+        return True
+    return any(mark == _CONFIGURATION[0] or name in carriers for name, mark in _NAME_OF_CONFIGURATION.findall(text))
+
+
+def carriers_of_places(values: Mapping[str, tuple[str, ...]]) -> frozenset[str]:
+    """Return the launch configurations whose values can mention an install place, themselves or through others."""
+    found: set[str] = set()
+    left: dict[str, tuple[str, ...]] = {}
+    for name, texts in values.items():
+        for text in texts:
+            if not text.isascii() or "xacro" in text:
+                left[name] = texts
+                break
+    while new := [name for name, texts in left.items() if any(names_places(text, found) for text in texts)]:
+        found.update(new)
+        for name in new:
+            del left[name]
+    return frozenset(found)
+
+
+def installed(text: str) -> Iterator[Installed]:
+    """Yield the install places that a text mentions: one path, or several in a command line."""
+    if _ROOT not in text:
+        return
+    for match in _PREFIX.finditer(text):
+        parts: list[str] = []
+        for part in match[2].split("/"):
+            if part == ".." and parts:
+                parts.pop()
+            elif part not in ("", ".", ".."):
+                parts.append(part)
+        yield Installed(match[1], "/".join(parts))
+
+
+def installed_place(text: str) -> Installed | None:
+    """Return the one install place that a text mentions, None where it mentions none or several."""
+    places = list(installed(text))
+    return places[0] if len(places) == 1 else None
+
+
+class Conditional(str):
+    """An alternative of a text that holds only under conditions."""
+
+    __slots__ = ("conditions",)
+
+    conditions: tuple[LaunchCondition, ...]
+
+
+def conditional(text: str, conditions: tuple[LaunchCondition, ...]) -> str:
+    """Return a text as one that holds under conditions."""
+    if not conditions:
+        return text
+    made = Conditional(text)
+    made.conditions = conditions
+    return made
+
+
+def conditions_of(text: str) -> tuple[LaunchCondition, ...]:
+    """Return what must hold for an alternative of a text."""
+    return text.conditions if isinstance(text, Conditional) else ()
+
+
+def agree(conditions: Iterable[LaunchCondition]) -> bool:
+    """Return whether conditions can hold together: none is the opposite of another."""
+    wanted: dict[tuple[tuple[str, ...], str | None], bool] = {}
+    equal: dict[tuple[str, ...], str] = {}
+    for condition in conditions:
+        key = (condition.texts, condition.equals)
+        if wanted.setdefault(key, condition.wanted) is not condition.wanted:
+            return False
+        if not condition.wanted or condition.equals is None:
+            continue
+        if equal.setdefault(condition.texts, condition.equals) != condition.equals:
+            return False
+    return True
+
+
+def distinct(texts: Iterable[str]) -> tuple[str, ...]:
+    """Return each text once, or once for each set of conditions that it holds under; if that is too many, under none."""
+    every = {(text, conditions_of(text)): text for text in texts}
+    if len(every) <= MOST:
+        return tuple([text for (plain, conditions), text in every.items() if not conditions or (plain, ()) not in every])
+    found: dict[str, str] = {}
+    for (plain, _), text in every.items():
+        found[plain] = str(text) if plain in found else text
+    return tuple(found.values())
+
+
+def joined(rows: Iterable[tuple[str, ...]], function: Callable[[tuple[str, ...]], str]) -> tuple[str, ...]:
+    """Return what a function makes of one alternative of each row, for every choice whose conditions agree."""
+    rows = tuple(rows)
+    if all(len(row) == 1 and not isinstance(row[0], Conditional) for row in rows):
+        choice = tuple([row[0] for row in rows])
+        return (function(choice) if sum(map(len, choice)) <= LONGEST else UNKNOWN,)
+    found: list[str] = []
+    for choice in islice(product(*rows), _MOST_CHOICES):
+        conditions = tuple(dict.fromkeys(condition for text in choice for condition in conditions_of(text)))
+        if conditions and not agree(conditions):
+            continue
+        found.append(conditional(function(choice) if sum(map(len, choice)) <= LONGEST else UNKNOWN, conditions))
+    texts = distinct(found)
+    return texts if 0 < len(texts) <= MOST else (UNKNOWN,)
+
+
+def fill(text: str, values: Callable[[str], tuple[str, ...] | None], evaluate: Callable[[str], str]) -> tuple[str, ...]:
+    """Return what a text becomes when launch configurations have values.
+
+    ``values`` returns the alternatives of a configuration, None if nobody set it; ``evaluate`` the value of an
+    expression that is known whole, UNKNOWN if it has none.
+    """
+    found = _Filling(values).of(text, frozenset()) if _CONFIGURATION[0] in text else (text,)
+    if len(found) == 1:
+        return (_settle(found[0], evaluate),)
+    return tuple(dict.fromkeys([_settle(one, evaluate) for one in found]))
+
+
+class _Filling:
+    """Puts values for the configurations in a text, with a bound on the work: values can double at each step."""
+
+    __slots__ = ("_left", "_values")
+
+    def __init__(self, values: Callable[[str], tuple[str, ...] | None]) -> None:
+        self._values = values
+        self._left = _MOST_FILLED
+
+    def of(self, text: str, busy: frozenset[str]) -> tuple[str, ...]:
+        """Return the alternatives of a text in which the values of ``busy`` are being put already."""
+        waiting = [text]
+        done: dict[str, None] = {}
+        while waiting:
+            one = waiting.pop()
+            match = _INNERMOST.search(one) if _CONFIGURATION[0] in one else None
+            if match is None:
+                done[one] = None
+                continue
+            self._left -= 1
+            found = self._one(match[1], busy)
+            if len(waiting) + len(done) + len(found) > MOST or len(one) > LONGEST or self._left < 0:
+                return (UNKNOWN,)
+            start, end = match.span()
+            waiting += [one[:start] + value + one[end:] for value in reversed(found)]
+        return tuple(done)
+
+    def _one(self, configuration: str, busy: frozenset[str]) -> tuple[str, ...]:
+        name, mark, default = configuration.partition(_DEFAULT)
+        given = None if not mark else self._values(name)
+        if given is not None and f"{_CONFIGURATION[0]}{configuration}{_CONFIGURATION[1]}" in given:
+            return (default,)  # the default of the argument is this one, whichever of several it is
+        # A default that names its own argument is asked for while that has no value yet.
+        given = None if name in busy or len(busy) > _DEEPEST else self._values(name)
+        if given is None:
+            return (default,) if mark else (UNKNOWN,)
+        if len(given) > MOST:
+            return (UNKNOWN,)
+        if len(given) == 1 and _CONFIGURATION[0] not in given[0]:
+            return given
+        busy |= {name}
+        return tuple([inner for value in given for inner in self.of(value, busy)])
+
+
+def _settle(text: str, evaluate: Callable[[str], str]) -> str:
+    while has_expression(text) and (match := _INNER_EXPRESSION.search(text)):
+        value = evaluate(match[1]) if is_settled(match[1]) else UNKNOWN
+        text = text[: match.start()] + value + text[match.end() :]
+    # A configuration that holds an absolute path replaces what it was joined to.
+    return _TWICE_ROOTED.sub("", text) if "//" in text else text

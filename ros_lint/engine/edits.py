@@ -1,0 +1,238 @@
+"""Apply edits to texts, and write files whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import re
+import tempfile
+import time
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
+from functools import partial
+from itertools import groupby
+
+from ros_lint.analysis.rule import Edit, Fix
+from ros_lint.base import files
+from ros_lint.base.text import Text, read
+from ros_lint.base.tree import Tree
+
+
+class EditError(Exception):
+    """A file that cannot be written as wanted. The message names it. ``written`` are the files that were written before."""
+
+    def __init__(self, message: str, written: Sequence[str] = ()) -> None:
+        super().__init__(message)
+        self.written = tuple(written)
+
+
+def choose(fixes: Iterable[Fix]) -> tuple[Fix, ...]:
+    """Return the fixes that can be made together: one that touches the place of an earlier one is left for the next round."""
+    chosen: list[Fix] = []
+    taken: list[Edit] = []
+    for fix in fixes:
+        new = [edit for edit in fix.edits if edit not in taken]
+        if any(_collide(edit, other) for edit in new for other in taken):
+            continue
+        chosen.append(fix)
+        taken += new
+    return tuple(chosen)
+
+
+def apply(fixes: Iterable[Fix], texts: Callable[[str], Text]) -> dict[str, str]:
+    """Return the new text of every file that changes. The fixes do not collide, see :func:`choose`.
+
+    Raises EditError for a text that has no such place.
+    """
+    edits: dict[str, list[Edit]] = {}
+    for fix in fixes:
+        for edit in fix.edits:
+            in_file = edits.setdefault(edit.span.path, [])
+            if edit not in in_file:
+                in_file.append(edit)
+    return {path: _apply_to(texts(path), in_file) for path, in_file in sorted(edits.items())}
+
+
+def text_of(tree: Tree, path: str) -> Text:
+    """Return the text of a file to edit, the empty text for one that an edit creates. Raises EditError for what is no file."""
+    try:
+        return read(path, tree.read(path))
+    except FileNotFoundError:
+        return Text(path, "")
+    except OSError as error:
+        raise EditError(f"{path}: cannot be read: {error.strerror or error}") from error
+
+
+def encode(changed: Mapping[str, str], texts: Callable[[str], Text]) -> dict[str, bytes]:
+    """Return the changed texts as bytes in each file's own encoding. Raises EditError."""
+    result = {}
+    for path, text in changed.items():
+        try:
+            result[path] = texts(path).encode(text)
+        except UnicodeEncodeError as error:
+            raise EditError(f"{path}: its encoding {error.encoding} cannot represent {text[error.start]!r}") from error
+    return result
+
+
+def write(path: str, data: bytes) -> None:
+    """Replace or create one file whole or not at all; to a FIFO or a device it is written. Raises EditError."""
+    try:
+        if os.path.exists(path) and not os.path.isfile(path):
+            with open(path, "wb") as stream:
+                stream.write(data)
+            return
+    except OSError as error:
+        raise _no_write(path, error) from error
+    target = os.path.realpath(path)
+    _ask(path, target)
+    _replace(path, target, data)
+
+
+def write_all(base: str, changed: Mapping[str, bytes], before: Mapping[str, bytes]) -> None:
+    """Replace or create files, each in one step.
+
+    ``before`` has what the changes were made of, and nothing for files that they create. A file that no longer has these
+    bytes is not written. Raises EditError: when a file is seen to be read-only or changed, before anything is written.
+    """
+    targets = {path: os.path.realpath(os.path.join(base, path)) for path in changed}
+    for path, target in targets.items():
+        _ask(path, target)
+        if not _is_still(target, before.get(path)):
+            raise EditError(f"{path}: {_CHANGED}; nothing was changed")
+    written: list[str] = []
+    for path, data in changed.items():
+        try:
+            _replace(path, targets[path], data, partial(_is_still, targets[path], before.get(path)))
+        except EditError as error:
+            left = [other for other in changed if other not in written]
+            raise EditError(f"{error}; {_so_far(written, left)}", written) from error
+        written.append(path)
+
+
+_CHANGED = "changed since it was read; fix skipped"
+
+
+def _so_far(written: Sequence[str], left: Sequence[str]) -> str:
+    if not written:
+        return "nothing was changed"
+    return f"written already: {', '.join(written)}; not written: {', '.join(left)}"
+
+
+def _is_still(target: str, before: bytes | None) -> bool:
+    """Return whether a file has some bytes, or for None does not exist."""
+    try:
+        return files.read(target) == before
+    except FileNotFoundError:
+        return before is None
+    except OSError:
+        return False
+
+
+def _no_write(path: str, error: OSError) -> EditError:
+    return EditError(f"{path}: cannot be written: {error.strerror or error}")
+
+
+def _ask(path: str, target: str) -> None:
+    # Permission bits are asked as well as the system, which lets root write everywhere.
+    folder = os.path.dirname(target)
+    try:
+        for place in (target, folder) if os.path.lexists(target) else (folder,):
+            if not os.stat(place).st_mode & 0o222:
+                raise EditError(f"{path}: cannot be written: it is read-only; nothing was changed")
+    except OSError as error:
+        raise EditError(f"{_no_write(path, error)}; nothing was changed") from error
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise EditError(f"{path}: cannot be written: no permission to write to its folder; nothing was changed")
+
+
+def _replace(path: str, target: str, data: bytes, may_be: Callable[[], bool] = lambda: True) -> None:
+    """Write a file beside the target and rename it. Permissions are kept, and a link stays a link.
+
+    ``may_be`` is asked when all but the rename is done. Raises EditError, with the target as it was.
+    """
+    folder = os.path.dirname(target)
+    temporary = ""
+    try:
+        _remove_left_over(folder)
+        handle, temporary = tempfile.mkstemp(prefix=_PREFIX, suffix=_SUFFIX, dir=folder)
+        with os.fdopen(handle, "wb") as file:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        os.chmod(temporary, os.stat(target).st_mode & 0o7777 if os.path.exists(target) else _NEW_MODE)
+        if not may_be():
+            raise EditError(f"{path}: {_CHANGED}")
+        os.replace(temporary, target)
+        temporary = ""
+    except OSError as error:
+        raise _no_write(path, error) from error
+    finally:
+        if temporary:
+            with suppress(OSError):
+                os.unlink(temporary)
+
+
+_PREFIX, _SUFFIX = ".ros-lint-", ".part"
+_LEFT_OVER = re.compile(rf"{re.escape(_PREFIX)}[a-z0-9_]{{8}}{re.escape(_SUFFIX)}")
+_OLD = 3600
+"""Seconds after which no run is still writing a file."""
+_NEW_MODE = 0o644
+
+
+def _remove_left_over(folder: str) -> None:
+    """Remove the files of runs that were killed while they wrote into a folder."""
+    with os.scandir(folder) as entries:
+        mine = [entry for entry in entries if _LEFT_OVER.fullmatch(entry.name) and entry.is_file(follow_symlinks=False)]
+    for entry in mine:
+        with suppress(OSError):
+            if time.time() - entry.stat().st_mtime > _OLD:
+                os.unlink(entry.path)
+
+
+def _apply_to(source: Text, edits: Sequence[Edit]) -> str:
+    text = source.text
+    by_return = "\r\n" in text and text.count("\r\n") == text.count("\n")
+    in_order = sorted(edits, key=lambda edit: (edit.span[1:], edit.kind, edit.order))
+    if any(edit.span.end_line > source.line_count for edit in in_order):
+        raise EditError(f"{source.path}: {_CHANGED}")
+    # From the end, so that earlier offsets stay true.
+    for span, at_place in reversed([(span, list(group)) for span, group in groupby(in_order, lambda edit: edit.span)]):
+        start = source.offset(span.line, span.column)
+        end = source.offset(span.end_line, span.end_column)
+        put = _indented(_joined(at_place), text, start)
+        put = put.replace("\r\n", "\n").replace("\n", "\r\n") if by_return else put
+        text = text[:start] + put + text[end:]
+    return text
+
+
+def _indented(put: str, text: str, start: int) -> str:
+    """Indent new lines by tabs where the line before them is: who makes an edit counts characters, whatever they are."""
+    line = text[text.rfind("\n", 0, start) + 1 : start]
+    indent = line[: len(line) - len(line.lstrip(" \t"))]
+    return put.replace(f"\n{' ' * len(indent)}", f"\n{indent}") if "\t" in indent else put
+
+
+_BLANK = re.compile(r"\r\n|\n|\r")
+
+
+def _joined(edits: Sequence[Edit]) -> str:
+    """Return what is put to one place: what belongs together is set off once, and nothing by two blank lines."""
+    whole, kind = "", 0
+    for edit in edits:
+        text, same = edit.text, edit.kind == kind != 0
+        apart = _BLANK.match(text)
+        if whole and edit.span.column == 1 and apart and (same or _ends_apart(whole)):
+            text = text[apart.end() :]
+        elif same and _ends_apart(whole):
+            whole = whole[: len(whole) - 2 if whole.endswith("\r\n") else -1]
+        whole += text
+        kind = edit.kind
+    return whole
+
+
+def _collide(a: Edit, b: Edit) -> bool:
+    x, y = a.span, b.span
+    return x.path == y.path and x[1:3] < y[3:5] and y[1:3] < x[3:5]
+
+
+def _ends_apart(text: str) -> bool:
+    return text.endswith(("\n\n", "\r\n\r\n", "\r\r"))

@@ -1,0 +1,85 @@
+"""Find the rules: ours and those of plugins, by the same door, the entry point group ``ros_lint.rules``.
+
+An entry names a module or a package; every ``RULE`` in it and in the modules directly below it is taken. Our own
+entry is known without asking for it, because ``importlib.metadata`` takes longer than most runs; it is asked only
+when the settings enable plugins.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+from collections.abc import Iterator, Sequence
+from functools import lru_cache
+from types import ModuleType
+
+from ros_lint.analysis.rule import Rule
+from ros_lint.base.suggestions import did_you_mean, similar
+from ros_lint.engine.report import RefusalError
+
+GROUP = "ros_lint.rules"
+BUILTIN = "ros_lint_rules"
+
+
+class PluginError(RefusalError):
+    """A plugin that cannot be loaded, or that brings a name or code which is taken."""
+
+
+@lru_cache(maxsize=2)
+def load(plugins: bool = False) -> tuple[Rule, ...]:
+    """Return every rule, sorted by code. Raises PluginError."""
+    found = list(_rules_of(importlib.import_module(BUILTIN)))
+    if plugins:
+        found += _plugin_rules()
+    taken: dict[str, Rule] = {}
+    for rule in found:
+        for key in (rule.name, rule.code):
+            if taken.setdefault(key, rule) != rule:
+                raise PluginError(f"two rules have the same name or code '{key}'")
+    return tuple(sorted(found, key=lambda rule: rule.code))
+
+
+def _plugin_rules() -> Iterator[Rule]:
+    from importlib.metadata import entry_points  # noqa: PLC0415
+
+    for entry in sorted(entry_points(group=GROUP), key=lambda entry: entry.name):
+        if entry.value == BUILTIN:
+            continue
+        try:
+            yield from _rules_of(entry.load())
+        except Exception as error:
+            raise PluginError(f"plugin '{entry.name}' ({entry.value}) cannot be loaded: {error}") from error
+
+
+def _rules_of(module: ModuleType) -> Iterator[Rule]:
+    if isinstance(rule := getattr(module, "RULE", None), Rule):
+        yield rule
+    for name in sorted({name for folder in getattr(module, "__path__", ()) for name in _inside(folder)}):
+        yield from _rules_of(importlib.import_module(f"{module.__name__}.{name}"))
+
+
+def _inside(folder: str) -> Iterator[str]:
+    """Yield the modules and packages in the folder of a package. ``pkgutil`` would cost more to import than to have."""
+    for entry in os.scandir(folder) if os.path.isdir(folder) else ():
+        name, dot, suffix = entry.name.partition(".")
+        is_module = suffix == "py" or (not dot and os.path.isfile(os.path.join(entry.path, "__init__.py")))
+        if is_module and name.isidentifier() and name != "__init__":
+            yield name
+
+
+def matching(rules: Sequence[Rule], selector: str) -> tuple[Rule, ...]:
+    """Return the rules that a selector means: ``all``, ``default``, a name, a code, or the beginning of codes (ROS2)."""
+    if selector == "all":
+        return tuple(rules)
+    if selector == "default":
+        return tuple(rule for rule in rules if rule.default)
+    exact = tuple(rule for rule in rules if selector in (rule.name, rule.code))
+    if exact or not selector.startswith("ROS"):
+        return exact
+    return tuple(rule for rule in rules if rule.code.startswith(selector))
+
+
+def no_rule(rules: Sequence[Rule], selector: str) -> str:
+    """Return what to say of a selector that means nothing."""
+    words = [word for rule in rules for word in (rule.name, rule.code)]
+    return f"unknown rule '{selector}'{did_you_mean(similar(selector, [*words, 'all', 'default']))}"

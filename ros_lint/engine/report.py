@@ -1,0 +1,127 @@
+"""What a run found, what it did not show, and what it could not see: all that a reporter needs."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.base.text import beginning
+from ros_lint.facts.environment import ROS_2
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from ros_lint.analysis.rule import Finding, Rule, Severity
+    from ros_lint.base.text import Span
+
+
+class RefusalError(Exception):
+    """The tool cannot do what was asked for. The message names the reason, and the way out."""
+
+
+class Issue(NamedTuple):
+    """A finding with the rule that made it and the package that has to change, "" when it is none of the workspace."""
+
+    rule: Rule
+    package: str
+    finding: Finding
+
+    @property
+    def severity(self) -> Severity:
+        return self.finding.severity or self.rule.severity
+
+    @property
+    def identity(self) -> str:
+        """What stays the same when lines move: rule, package and subject. Two places can share it."""
+        return f"{self.rule.code}/{self.package}/{self.finding.subject}"
+
+
+UNSURE = "of lower confidence (shown with --pedantic)"
+
+
+class Hidden(NamedTuple):
+    """Findings that are not shown. ``reason`` goes on from the count, as :data:`UNSURE` does."""
+
+    reason: str
+    count: int  # type: ignore[assignment]  # a tuple counts things as well
+
+
+class Unseen(NamedTuple):
+    """A side of packages that something opaque hides."""
+
+    what: str
+    """In words: "executables"."""
+    packages: tuple[str, ...]
+    """The names of those that it concerns, in the order of the workspace."""
+
+
+class Crash(NamedTuple):
+    """A rule that failed, for one package or (``package`` is "") for the workspace."""
+
+    rule: str
+    package: str
+    traceback: str
+
+    @property
+    def error(self) -> str:
+        """The last line of the traceback: type and message."""
+        return self.traceback.strip().rpartition("\n")[2]
+
+
+class Target(NamedTuple):
+    """The ROS distribution that the workspace is checked for."""
+
+    distro: str
+    source: str
+    """Where the choice comes from, such as "--distro" or "newest long-term release known"."""
+    told: bool = True
+    """False when nobody chose it: then what only another distribution has is no mistake."""
+
+    @property
+    def context(self) -> Mapping[str, str]:
+        """Return the variables of package.xml conditions that are known (REP 149; reference, section A3)."""
+        return {**ROS_2, "ROS_DISTRO": self.distro, "DISABLE_GROUPS_WORKAROUND": "1"}
+
+
+class NotChecked(NamedTuple):
+    """Something that the run could not look at: a file, or a whole class of questions."""
+
+    what: str
+    reason: str
+    span: Span | None
+
+    @classmethod
+    def of(cls, path: str, error: OSError) -> NotChecked:
+        """Return a file or folder that cannot be read. ``path`` is relative to the base, "" is the base."""
+        return cls(path or ".", error.strerror or str(error), beginning(path))
+
+
+class Report(NamedTuple):
+    """The result of a run. The same input gives the same report, on any machine."""
+
+    issues: tuple[Issue, ...]
+    """Those to show, sorted by span, code, message."""
+    rules: tuple[Rule, ...]
+    """Those that ran, sorted by code."""
+    packages: int
+    """How many were checked. 0 means that nothing was."""
+    target: Target
+    data_date: str
+    """Of what is known about the released world, as YYYY-MM-DD."""
+    version: str
+    """Of ros-lint."""
+    hidden: tuple[Hidden, ...] = ()
+    not_checked: tuple[NotChecked, ...] = ()
+    unseen: tuple[Unseen, ...] = ()
+    crashes: tuple[Crash, ...] = ()
+    workspace: str = ""
+    """The folder that was checked, relative to the base that paths are relative to; "" is the base."""
+    warnings: tuple[str, ...] = ()
+    """What is odd about what was asked for: no part of the output, but told all the same."""
+
+    def count(self, severity: Severity) -> int:
+        """Return how many issues have a severity."""
+        return sum(issue.severity is severity for issue in self.issues)
+
+    def fixable(self, *, safe: bool) -> int:
+        """Return how many issues carry a safe fix, or one that is not."""
+        return sum(issue.finding.fix is not None and issue.finding.fix.safe is safe for issue in self.issues)

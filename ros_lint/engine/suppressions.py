@@ -1,0 +1,176 @@
+"""Comments that suppress findings.
+
+``ros-lint: ignore[rule, ...] reason`` speaks for the line it stands on or, when the comment has its lines to itself,
+for the next line that is no comment. ``ros-lint: ignore-file[rule, ...] reason`` stands before everything but comments,
+and speaks for the file. docs/suppressions.md has the whole of it.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_left, bisect_right
+from itertools import accumulate
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.analysis.rule import Edit
+from ros_lint.base.suggestions import similar
+
+if TYPE_CHECKING:
+    from collections.abc import Container, Iterable
+
+    from ros_lint.analysis.rule import Rule
+    from ros_lint.base.text import Span, Text
+    from ros_lint.engine.report import Issue
+
+MARKER = "ros-lint:"
+"""Only files that hold this can suppress anything."""
+
+
+class Name(NamedTuple):
+    """A rule as a suppression names it, by name or code."""
+
+    text: str
+    span: Span
+
+
+class Suppression(NamedTuple):
+    """A comment that suppresses findings of some rules, or a ``problem`` that keeps it from doing so."""
+
+    names: tuple[Name, ...]
+    reason: str
+    lines: tuple[int, int] | None
+    """First and last line that it speaks for, its own included; None stands for the whole file."""
+    span: Span
+    """From ``ros-lint:`` to the closing bracket."""
+    inside: Span
+    """Between the brackets."""
+    removal: Edit
+    """Takes it out of the file, with the comment when there is nothing else in it."""
+    problem: str = ""
+    """Why it suppresses nothing, as a message."""
+
+    def covers(self, issue: Issue) -> bool:
+        """Whether it speaks for the place of an issue, if not for its rule. Any line of the issue's place will do."""
+        if self.problem or issue.finding.span.path != self.span.path:
+            return False
+        if self.lines is None:
+            return True
+        first, last = _lines(issue.finding.span)
+        return first <= self.lines[1] and self.lines[0] <= last
+
+    def without(self, names: Iterable[Name]) -> Edit:
+        """Return the edit that takes some of the names out, and the whole suppression when none would be left."""
+        gone = set(names)
+        left = [name.text for name in self.names if name not in gone]
+        return Edit(self.inside, ", ".join(left)) if left else self.removal
+
+
+class Unused(NamedTuple):
+    """Names in a suppression for which their rules found nothing to suppress."""
+
+    suppression: Suppression
+    names: tuple[Name, ...]
+
+
+class Unknown(NamedTuple):
+    """A name in a suppression that no rule has."""
+
+    suppression: Suppression
+    name: Name
+    suggestion: str
+    """The nearest name or code, or ""."""
+
+
+class Outcome(NamedTuple):
+    """What suppressions did to the issues."""
+
+    kept: tuple[Issue, ...]
+    suppressed: tuple[tuple[Issue, Suppression], ...]
+    unused: tuple[Unused, ...]
+    unknown: tuple[Unknown, ...]
+    broken: tuple[Suppression, ...]
+    """Those that have a problem."""
+
+
+def collect(text: Text) -> tuple[Suppression, ...]:
+    """Return the suppressions in the comments of a file, in order."""
+    if MARKER not in text.text:
+        return ()
+    from ros_lint.collectors.suppressions import read  # noqa: PLC0415  (most runs meet no suppression)
+
+    return tuple(read(text))
+
+
+def apply(
+    issues: Iterable[Issue], suppressions: Iterable[Suppression], known: Iterable[Rule], ran: Container[str | None]
+) -> Outcome:
+    """Return which issues stay.
+
+    ``known`` are all rules there are; ``ran`` has the names of those that looked at everything: only these can leave a
+    suppression unused. To be called before issues are hidden for other reasons, or their suppressions will seem unused,
+    and once more for what rules say about the outcome, of which the issues kept are all that matters.
+    """
+    names = {key.lower(): rule.name for rule in known for key in (rule.name, rule.code)}
+    judging = {rule.name for rule in known if rule.suppressions}  # they speak later, so what they need is not known
+    ordered = sorted(suppressions, key=lambda each: each.span.path)
+    whole = [(each, [(name, names.get(name.text.lower())) for name in each.names]) for each in ordered if not each.problem]
+    about: dict[tuple[str, str], list[tuple[Suppression, Name]]] = {}
+    for each, means in whole:
+        for name, rule in means:
+            if rule is not None:
+                about.setdefault((each.span.path, rule), []).append((each, name))
+    heard = {key: _Heard(entries) for key, entries in about.items()}
+    used: set[tuple[Suppression, Name]] = set()
+    kept: list[Issue] = []
+    suppressed: list[tuple[Issue, Suppression]] = []
+    for issue in issues:
+        spoken = heard.get((issue.finding.span.path, issue.rule.name))
+        hits = spoken.about(issue) if spoken else []
+        used.update(hits)
+        if hits:
+            suppressed.append((issue, hits[0][0]))
+        else:
+            kept.append(issue)
+    idle = [
+        (each, tuple([name for name, rule in means if rule in ran and rule not in judging and (each, name) not in used]))
+        for each, means in whole
+    ]
+    unknown = [Unknown(each, name, _nearest(name.text, names)) for each, means in whole for name, rule in means if rule is None]
+    return Outcome(
+        tuple(kept),
+        tuple(suppressed),
+        tuple([Unused(each, left) for each, left in idle if left]),
+        tuple(unknown),
+        tuple([each for each in ordered if each.problem]),
+    )
+
+
+class _Heard:
+    """What suppresses one rule in one file, by the lines that it speaks for: there can be thousands of it."""
+
+    def __init__(self, entries: Iterable[tuple[Suppression, Name]]) -> None:
+        self._entries = sorted(entries, key=_first_line)
+        self._firsts = [_first_line(entry) for entry in self._entries]
+        # Up to the last line that each of them, or one before it, speaks for.
+        self._reach = list(accumulate([math.inf if each.lines is None else each.lines[1] for each, _ in self._entries], max))
+
+    def about(self, issue: Issue) -> list[tuple[Suppression, Name]]:
+        """Return what speaks for the place of an issue."""
+        first, last = _lines(issue.finding.span)
+        near = self._entries[bisect_left(self._reach, first) : bisect_right(self._firsts, last)]
+        return [entry for entry in near if entry[0].covers(issue)]
+
+
+def _first_line(entry: tuple[Suppression, Name]) -> int:
+    lines = entry[0].lines
+    return lines[0] if lines else 0
+
+
+def _lines(span: Span) -> tuple[int, int]:
+    """Return the first and the last line of a place: one that ends before the first column has nothing of its last line."""
+    return span.line, span.end_line - 1 if span.end_column == 1 and span.end_line > span.line else span.end_line
+
+
+def _nearest(word: str, names: Iterable[str]) -> str:
+    close = similar(word.lower(), names)
+    return (close[0].upper() if close[0].startswith("ros") and close[0][3:].isdigit() else close[0]) if close else ""

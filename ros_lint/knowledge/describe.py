@@ -1,0 +1,55 @@
+"""From a manifest to the line of a distribution."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros_lint.collectors.interfaces.naming import GROUP
+from ros_lint.collectors.manifest.conditions import ConditionError, build_types, parse, truth, variables
+from ros_lint.facts.environment import ROS_2
+from ros_lint.knowledge.index import BUILD_TYPES, TAG_KINDS, Released
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from ros_lint.facts.manifest import Manifest
+
+
+def context(distro: str) -> Mapping[str, str]:
+    """Return the variables that are known when a package is released (bloom; reference, section A3.3)."""
+    return {**ROS_2, "ROS_DISTRO": distro}
+
+
+def describe(manifest: Manifest, variables_known: Mapping[str, str]) -> Released:
+    """Return what a manifest says of a package when other variables of conditions are empty, as all tools take them.
+
+    The name may differ from that of the folder or of the release.
+    """
+    depends: dict[str, set[str]] = {}
+    interfaces = False
+    for depend in manifest.depends:
+        if not holds(depend.condition, variables_known):
+            continue
+        kinds = TAG_KINDS.get(depend.tag, "")
+        if kinds == "M" and depend.name == GROUP:
+            interfaces = True
+            continue
+        for kind in kinds:
+            depends.setdefault(kind, set()).add(depend.name)
+    types = [name for name, _ in build_types(manifest, variables_known)] or ["catkin"]
+    letter = next((letter for letter, name in BUILD_TYPES.items() if name == types[-1]), "?")
+    exported = {element.tag for element in manifest.exports}
+    flags = letter + "i" * interfaces + "m" * ("metapackage" in exported) + "D" * ("deprecated" in exported)
+    named = {kind: tuple(sorted(names)) for kind, names in depends.items()}
+    return Released(manifest.name, manifest.version, flags, manifest.name, named)
+
+
+def holds(condition: str, variables_known: Mapping[str, str]) -> bool:
+    """Return whether a condition holds when every other variable is empty. One that does not parse holds."""
+    if not condition:
+        return True
+    try:
+        empty = dict.fromkeys(variables(parse(condition)), "")
+    except ConditionError:
+        return True
+    return truth(condition, {**empty, **variables_known}) is not False

@@ -1,0 +1,259 @@
+"""One install prefix, as ament, colcon and setuptools leave it (reference, sections B4.8 and C5).
+
+Nothing raises for what is missing or unreadable: a prefix is other people's, and half of one is still worth reading.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from ros_lint.base.tree import join
+from ros_lint.collectors.launch import detect as launch
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from ros_lint.base.tree import Kind, Tree
+
+_INDEX = "share/ament_index/resource_index"
+_PLUGINS = "__pluginlib__plugin"
+_LIBRARIES = (".a", ".la", ".pyc")
+_LIBRARY = re.compile(r"\.so(\.\d+)*$|\.dylib$|\.dll$")
+_LAUNCH_CONTENT = {
+    ".py": re.compile(rb"^(?:async )?def generate_launch_description\b", re.MULTILINE),
+    ".xml": re.compile(rb"\A(?:\xef\xbb\xbf)?(?:\s|<\?[^?]*(?:\?(?!>)[^?]*)*\?>|<!--[^-]*(?:-(?!->)[^-]*)*-->)*<launch[\s/>]"),
+    ".yaml": re.compile(rb"\A(?:#.*\n|---.*\n|\s)*launch:"),
+}
+_LAUNCH_CONTENT[".yml"] = _LAUNCH_CONTENT[".yaml"]
+_CONFIGURATION = re.compile(r"(.+)(?:Config|-config)\.cmake")
+"""The file by which find_package() finds a CMake package in configuration mode."""
+_NO_MODULES = (".egg-info", ".dist-info", ".pth", ".egg-link")
+
+
+class Prefix:
+    """An install prefix: a folder of a tree. ``single`` tells that all of it belongs to its one package."""
+
+    def __init__(self, tree: Tree, root: str, *, single: bool = False) -> None:
+        self._tree = tree
+        self.root = root
+        self.single = single
+
+    def alone(self) -> Prefix:
+        """Return the same prefix as that of one package, if it has one."""
+        return Prefix(self._tree, self.root, single=len(self.packages) == 1)
+
+    def read(self, path: str) -> bytes | None:
+        """Return a file below the prefix, or None."""
+        try:
+            return self._tree.read(join(self.root, path))
+        except OSError:
+            return None
+
+    @property
+    def layout(self) -> str:
+        """Return "isolated" or "merged" as colcon marks it, else ""."""
+        return (self.read(".colcon_install_layout") or b"").decode("ascii", "replace").strip()
+
+    @property
+    def indexed(self) -> bool:
+        """Return whether there is an ament index, even an empty one."""
+        return self._is_there("share/ament_index")
+
+    @cached_property
+    def packages(self) -> tuple[str, ...]:
+        """Return the packages, sorted: those with a manifest, and those that only ament's or colcon's index knows."""
+        found = {name for name, _ in self._list("share") if self._is_there(f"share/{name}/package.xml")}
+        found.update(name for name, _ in self._list(f"{_INDEX}/packages"))
+        found.update(name for name, _ in self._list("share/colcon-core/packages"))
+        return tuple(sorted(found))
+
+    def recorded_dependencies(self, package: str) -> tuple[str, ...] | None:
+        """Return the run dependencies recorded at build time, sorted, or None. Ament's include those for tests."""
+        by_ament = f"{_INDEX}/package_run_dependencies/{package}"
+        by_colcon = f"share/colcon-core/packages/{package}"
+        for path, separator in ((by_ament, ";"), (by_colcon, ":")):
+            data = self.read(path)
+            if data is not None:
+                return tuple(sorted(filter(None, data.decode("utf-8", "replace").strip().split(separator))))
+        return None
+
+    def executables(self, package: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        """Return the names in lib/<package> that can be run, and those that lead nowhere, each sorted.
+
+        Only what lies directly there: launch does not look deeper (reference, section D5.2).
+        """
+        found, broken = [], []
+        for name, kind in self._list(f"lib/{package}"):
+            if name.endswith(_LIBRARIES) or _LIBRARY.search(name) or kind == "directory":
+                continue
+            if kind == "other":
+                broken.append(name)
+            elif self._is_executable(f"lib/{package}/{name}"):
+                found.append(name)
+        return tuple(found), tuple(broken)
+
+    @property
+    def programs(self) -> tuple[str, ...]:
+        """Return the names in bin, sorted."""
+        return tuple(name for name, kind in self._list("bin") if kind == "file")
+
+    def share_files(self, package: str) -> tuple[str, ...]:
+        """Return the files below share/<package>, relative to it, sorted."""
+        return tuple(sorted(self._walk(f"share/{package}", "")))
+
+    def launch_files(self, package: str) -> tuple[str, ...]:
+        """Return the launch files below share/<package>, relative to it, sorted.
+
+        By the names that ``ros2 launch`` offers, or by what they begin with (reference, section G1.3).
+        """
+        return tuple(path for path in self.share_files(package) if self._is_launch(package, path))
+
+    def components(self, package: str) -> tuple[str, ...]:
+        """Return the classes that can be loaded into a component container, sorted."""
+        lines = self._resource("rclcpp_components", package)
+        return tuple(sorted({line.partition(";")[0].strip() for line in lines} - {""}))
+
+    def interfaces(self, package: str) -> tuple[str, ...]:
+        """Return the interfaces, as msg/Name, sorted."""
+        found = set()
+        for line in self._resource("rosidl_interfaces", package):
+            name, _, suffix = line.strip().rpartition(".")
+            # srv/Name_Request.msg is made from srv/Name.srv.
+            if suffix in (name.partition("/")[0], "idl"):
+                found.add(name)
+        return tuple(sorted(found))
+
+    def plugins(self, package: str) -> tuple[str, ...]:
+        """Return the pluginlib plugins as base=class, where class is the name that a loader is given, sorted."""
+        found: set[str] = set()
+        for resource, _ in self._list(_INDEX):
+            if resource.endswith(_PLUGINS):
+                for path in self._resource(resource, package):
+                    base = resource.removesuffix(_PLUGINS)
+                    found.update(f"{base}={name}" for name in self._plugin_classes(path.strip()))
+        return tuple(sorted(found))
+
+    @cached_property
+    def modules(self) -> Mapping[str, tuple[str, ...]]:
+        """Return the top-level Python modules, each with the packages that it belongs to as far as that can be told."""
+        found: dict[str, tuple[str, ...]] = {}
+        for folder in self._python_folders():
+            entries = self._list(folder)
+            owner_of = self._egg_owners(folder, [name for name, _ in entries])
+            for name, kind in entries:
+                module = name.partition(".")[0]
+                if not module.isidentifier() or module == "__pycache__" or name.endswith(_NO_MODULES):
+                    continue
+                if kind == "file" and not name.endswith((".py", ".so")):
+                    continue
+                if self.single:
+                    found[module] = self.packages
+                elif module in self.packages:
+                    found[module] = (module,)
+                else:
+                    found[module] = owner_of.get(module, ())
+        return found
+
+    def header_owners(self, path: str) -> tuple[str, ...]:
+        """Return the packages that install a header, in include/ or include/<package>/ (reference, section E3.8)."""
+        first = path.partition("/")[0]
+        if self.single:
+            (package,) = self.packages
+            return (package,) if any(self._is_there(f"include/{at}{path}") for at in ("", f"{package}/")) else ()
+        # Most packages are called as their headers; the others are looked for in the folders of all.
+        if first in self.packages and any(self._is_there(f"include/{at}{path}") for at in (f"{first}/", "")):
+            return (first,)
+        return tuple(name for name in self._include_folders.get(first, ()) if self._is_there(f"include/{name}/{path}"))
+
+    def cmake_names(self) -> Iterator[tuple[str, str]]:
+        """Yield the name of every CMake package and the package that installs it."""
+        for package in self.packages:
+            places = [f"share/{package}/cmake"]
+            if self.single:
+                places += [f"{at}/{name}" for at in ("lib/cmake", "share/cmake") for name, _ in self._list(at)]
+            listed = [_CONFIGURATION.fullmatch(name) for place in places for name, _ in self._list(place)]
+            yield from ((found[1], package) for found in listed if found is not None)
+
+    @cached_property
+    def _include_folders(self) -> Mapping[str, tuple[str, ...]]:
+        """First segments of header paths in include/<package>/, with the packages."""
+        found: dict[str, tuple[str, ...]] = {}
+        for package, kind in self._list("include"):
+            if kind == "directory" and package in self.packages:
+                for name, _ in self._list(f"include/{package}"):
+                    found[name] = (*found.get(name, ()), package)
+        return found
+
+    def _egg_owners(self, folder: str, names: list[str]) -> Mapping[str, tuple[str, ...]]:
+        by_name = {name.lower().replace("-", "_"): name for name in self.packages}
+        found = {}
+        for name in names:
+            if name.endswith((".egg-info", ".dist-info")):
+                owner = by_name.get(name.partition("-")[0].removesuffix(".egg-info").lower().replace("-", "_"))
+                listed = self.read(f"{folder}/{name}/top_level.txt")
+                if owner and listed:
+                    found.update(dict.fromkeys(listed.decode("utf-8", "replace").split(), (owner,)))
+        return found
+
+    def _python_folders(self) -> list[str]:
+        found = []
+        for lib in ("lib", "local/lib"):
+            for name, kind in self._list(lib):
+                if kind == "directory" and name.startswith("python3"):
+                    found += [f"{lib}/{name}/{site}" for site in ("site-packages", "dist-packages")]
+        return found
+
+    def _plugin_classes(self, path: str) -> Iterator[str]:
+        from ros_lint.collectors.resources.plugin_descriptions import roots  # noqa: PLC0415  (few runs look at plugins)
+
+        text = (self.read(path) or b"").decode("utf-8", "replace")
+        for element in (inner for root in roots(text) for inner in root.walk()):
+            if element.tag == "class":
+                name = element.attributes.get("name") or element.attributes.get("type")
+                if name:
+                    yield name
+
+    def _is_launch(self, package: str, path: str) -> bool:
+        if path.endswith(launch.NAMES):
+            return True
+        content = _LAUNCH_CONTENT.get(os.path.splitext(path)[1])
+        if content is None or path == "package.xml":
+            return False
+        return bool(content.search(self.read(f"share/{package}/{path}") or b""))
+
+    def _resource(self, kind: str, package: str) -> list[str]:
+        data = self.read(f"{_INDEX}/{kind}/{package}")
+        return data.decode("utf-8", "replace").splitlines() if data else []
+
+    def _walk(self, folder: str, inside: str, above: frozenset[object] = frozenset()) -> Iterator[str]:
+        identity = self._tree.identity(join(self.root, folder))
+        if identity in above:
+            return  # a link that leads back up
+        for name, kind in self._list(folder):
+            if kind == "directory":
+                yield from self._walk(f"{folder}/{name}", f"{inside}{name}/", above | {identity})
+            else:
+                yield f"{inside}{name}"
+
+    def _list(self, path: str) -> list[tuple[str, Kind]]:
+        """Return names and kinds of what lies in a folder, sorted: nothing for a folder that is not there."""
+        try:
+            return [(name, kind) for name, kind, _ in self._tree.list(join(self.root, path))]
+        except OSError:
+            return []
+
+    def _is_there(self, path: str) -> bool:
+        try:
+            self._tree.stamp(join(self.root, path))
+        except OSError:
+            return False
+        return True
+
+    def _is_executable(self, path: str) -> bool:
+        try:
+            return self._tree.stamp(join(self.root, path)).executable
+        except OSError:
+            return False

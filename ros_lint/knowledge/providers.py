@@ -1,0 +1,281 @@
+"""Whose name is it: from a header, a Python module, a CMake package or a wrong name to what can be declared.
+
+The order is always workspace, underlay, index of the distribution, maps (reference, sections C2, D6, E3.8).
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+from ros_lint.base.auxiliary_files import is_apart
+from ros_lint.knowledge.names import NOTHING_NEEDED
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Sequence
+
+    from ros_lint.facts.build import BuildScript
+    from ros_lint.knowledge.world import World
+
+
+class Providers(NamedTuple):
+    """Who provides a header, a module or a CMake package.
+
+    Any one of ``names`` satisfies the use when it is declared.
+    """
+
+    names: tuple[str, ...] = ()
+    """Packages and keys, the one to declare first."""
+    packages: tuple[str, ...] = ()
+    keys: tuple[str, ...] = ()
+    none_needed: bool = False
+    """It comes with the language or the build tool."""
+    sure: bool = True
+    """False where the packages of the distributions that use it mostly declare none of the names, or too few use it."""
+
+    @property
+    def known(self) -> bool:
+        """Return whether anything is known. If not, a rule has nothing to say."""
+        return bool(self.names) or self.none_needed
+
+
+class Meant(NamedTuple):
+    """What somebody who wrote an unknown name must have meant."""
+
+    name: str
+    """A package, or a rosdep key that resolves for the distribution."""
+    by: Literal["spelling", "cmake", "header", "python", "system", "slip"]
+    """How the wrong name comes about: dashes, capitals and what is in the package; what find_package, #include, import, or apt
+    and pip call it; one letter."""
+
+
+_NONE_NEEDED = Providers(none_needed=True)
+
+_RELEASED = re.compile(r"ros-[a-z]+-(?=[a-z])")
+"""How what apt calls a package of a distribution begins."""
+
+
+def by_cmake(world: World, name: str) -> Providers:
+    """Return who provides the argument of find_package."""
+    owners = _in_underlay(world, [underlay.cmake(name) for underlay in world.underlays])
+    if world.layer(name) == "workspace":
+        return _of(world, (name,))
+    mapped = world.knowledge.names.cmake(name)
+    if mapped == (NOTHING_NEEDED,) and not owners:
+        return _NONE_NEEDED
+    found = _of(world, (*owners, name, *mapped), keys=mapped)
+    if not found.known or owners or found.names[0] == name:
+        return found
+    return found._replace(sure=world.knowledge.names.cmake_sure(name))
+
+
+def by_macro(world: World, package: str) -> Providers:
+    """Return who provides the macros of a package."""
+    names = world.knowledge.names.alternatives(package)
+    return world.by_cmake(package) if len(names) == 1 else _of(world, names, keys=names)
+
+
+def by_include(world: World, header: str) -> Providers:
+    """Return who provides a header."""
+    names = world.knowledge.names
+    first, slash, rest = header.partition("/")
+    if slash and not world.underlays and not names.maps(first):
+        return world.by_folder(first)
+    shared = names.shares(first)
+    second = f"{first}_{rest.partition('/')[0]}" if shared and "/" in rest else ""
+    mapped = names.header(header)
+    if slash and not shared and world.layer(first) == "workspace":
+        return _of(world, (first,))
+    if second and world.layer(second) == "workspace":
+        return _of(world, (second,))
+    owners = _in_underlay(world, [underlay.headers(header) for underlay in world.underlays])
+    if mapped == (NOTHING_NEEDED,):
+        return _NONE_NEEDED
+    by_folder = second if shared else first if slash else ""
+    found = _of(world, (*owners, *((by_folder,) if world.is_package(by_folder) else ()), *mapped), keys=mapped)
+    if not found.known:
+        return found
+    by_map = found.names[0] in found.keys or (found.names[0] != by_folder and not owners)
+    return found._replace(sure=names.header_sure(header)) if by_map else found
+
+
+def by_folder(world: World, folder: str) -> Providers:
+    """Return who provides the headers below a folder that tells its package by its name."""
+    return _of(world, (folder,))
+
+
+def by_import(world: World, module: str) -> Providers:
+    """Return who provides a Python module."""
+    names = world.knowledge.names
+    top = module.partition(".")[0]
+    keys = names.module(module)
+    if keys == (NOTHING_NEEDED,):
+        return _NONE_NEEDED
+    offering = world.offering(top)
+    if offering:
+        return _of(world, _with_released(world, top, offering))
+    owners = _in_underlay(world, [underlay.modules(top) for underlay in world.underlays])
+    differing = names.module_packages(module, world.knowledge.distro)
+    named = () if any(world.is_package(name) for name in differing) or not _has_module(world, top) else (top,)
+    return _of(world, (*owners, *differing, *named, *keys), keys=keys)
+
+
+def _with_released(world: World, module: str, offering: tuple[str, ...]) -> tuple[str, ...]:
+    """Return the packages of the workspace that offer a module, and the one that everybody knows it of."""
+    if module in offering or world.layer(module) == "workspace":
+        return offering
+    answer = world.python_modules(module).ask(module) if world.is_package(module) else "missing"
+    return (module, *offering) if answer == "exists" else offering if answer == "missing" else (*offering, module)
+
+
+def offered(script: BuildScript, files: Sequence[str]) -> tuple[str, ...] | None:
+    """Return the modules at the top of what a package installs that are meant to be imported, None if they are not known.
+
+    ``files`` are those of the package. ``find_namespace_packages()`` takes any folder for a package: those without Python
+    modules and those that hold data, going by their name, are none.
+    """
+    tops = dict.fromkeys(name.partition(".")[0] for name in script.python_packages)
+    modules: dict[str, bool] = {}
+    for file in files if tops else ():
+        top, slash, rest = file.removeprefix("src/").partition("/")
+        if slash and top in tops:
+            is_module = rest == "__init__.py" or (rest.endswith(".py") and top not in _DATA)
+            modules[top] = modules.get(top, False) or is_module
+    found = tuple(dict.fromkeys([*(top for top in tops if modules.get(top, True)), *_installed_modules(script)]))
+    return found if found or _has_no_module(script, files) else None
+
+
+def _installed_modules(script: BuildScript) -> Iterator[str]:
+    """Yield the modules whose files are put by themselves where Python looks for them."""
+    for provided in script.provides:
+        if provided.path.endswith(".py") and provided.importable:
+            top = provided.path.partition("-packages/")[2].partition("/")[0].removesuffix(".py")
+            if top != "__init__":
+                yield top
+
+
+def _has_no_module(script: BuildScript, files: Iterable[str]) -> bool:
+    """Whether a package surely offers no module: no file becomes one, and CMake finds nothing that binds other code."""
+    if any(mention.name.lower().startswith(_BINDS) for mention in script.mentions if mention.via == "cmake"):
+        return False
+    return not any(file.endswith(_MODULES) and not (is_apart(file) or ".launch." in file) for file in files)
+
+
+_BINDS = ("python", "pybind11", "nanobind", "swig")
+_MODULES = (".py", ".pyx", ".i", ".idl", ".msg", ".srv", ".action")
+
+
+_DATA = frozenset(
+    {
+        "launch", "config", "configs", "cfg", "params", "param", "resource", "resources", "urdf", "meshes", "models", "worlds",
+        "world", "maps", "map", "rviz", "scenarios", "test", "tests", "doc", "docs", "examples", "images", "scripts", "include",
+        "msg", "srv", "action", "build", "install", "log",
+    }
+)  # fmt: skip
+"""Folders of packages that are there for everything but modules."""
+
+
+def meant(world: World, name: str, *, python: bool) -> Meant | None:
+    """Return what an unknown name must mean, or None when there is any doubt.
+
+    ``python`` says whether it is needed to run Python code, where find_package has no say.
+    """
+    names = world.knowledge.names
+    package = name.replace(".", "/").partition("/")[0]
+    if package != name and world.is_package(package):  # a message, or a module: std_msgs/msg/String, rclpy.qos
+        return Meant(package, "spelling")
+    released = _RELEASED.match(name)
+    package = name[released.end() :].replace("-", "_") if released else ""
+    if package and world.is_package(package):  # ros-humble-tf2-ros
+        return Meant(package, "system")
+    libraries = () if python else tuple(_libraries(names.cmake(name)))
+    if libraries:
+        return _first(world, libraries, "cmake")  # nobody who builds against it means what pip calls so
+    same = _declarable(world, world.spelling.same(name))
+    if same:
+        return Meant(same[0], "spelling") if len(same) == 1 else None
+    for found in _other_names(world, name, python=python):
+        if found is not None:
+            return found
+    slips = _declarable(world, world.spelling.one_slip(name))
+    if python:  # a library of that name is nothing to Python: pyaml is not yaml, but the module of it
+        slips = _declarable(world, (slip if world.is_package(slip) else f"python3-{slip}" for slip in _bare(slips)))
+    return Meant(slips[0], "slip") if len(slips) == 1 else None
+
+
+def _bare(names: Iterable[str]) -> Iterator[str]:
+    return (name.removeprefix("python3-") for name in names)
+
+
+def near(world: World, name: str, *, python: bool) -> tuple[str, ...]:
+    """Return packages and keys that resemble an unknown name, nearest first, at most three."""
+    sure = world.meant(name, python=python)
+    found = _declarable(world, world.spelling.near(name))
+    return tuple(dict.fromkeys([sure.name, *found] if sure else found))[:3]
+
+
+def _other_names(world: World, name: str, *, python: bool) -> Iterator[Meant | None]:
+    """Yield what the name stands for where it is right: as a CMake package, a module, a package of apt or pip."""
+    names, rosdep = world.knowledge.names, world.knowledge.rosdep
+    bare = name.removeprefix("python3-").removeprefix("python-").removesuffix("-pip").removesuffix("-python")
+    if python or bare != name:
+        yield _first(world, [f"python3-{bare}", f"python3-{bare}-pip"], "spelling")
+        yield _first(world, (*names.module_packages(bare, world.knowledge.distro), *names.module(bare)), "python")
+        yield _only(world, rosdep.installing(bare))
+        yield _first(world, [f"python3-{bare.removeprefix('py')}"], "spelling")  # pyserial
+    else:
+        yield _first(world, _libraries(names.cmake_any_case(name)), "cmake")
+        yield _first(world, names.folder(name), "header")
+    yield _only(world, rosdep.installing(name))
+
+
+def _libraries(names: Iterable[str]) -> Iterator[str]:
+    """Leave out what only tells CMake where a library is: whoever declares the library does not mean that."""
+    return (name for name in names if name != NOTHING_NEEDED and not name.endswith("_cmake_module"))
+
+
+def _first(world: World, names: Iterable[str], by: Literal["spelling", "cmake", "header", "python"]) -> Meant | None:
+    found = _declarable(world, names)
+    return Meant(found[0], by) if found else None
+
+
+def _only(world: World, keys: Iterable[str]) -> Meant | None:
+    found = _declarable(world, keys)
+    return Meant(found[0], "system") if len(found) == 1 else None
+
+
+def _declarable(world: World, names: Iterable[str]) -> tuple[str, ...]:
+    """Return those names that can stand in a manifest: packages, and keys with a rule for the distribution."""
+    resolves = world.knowledge.resolves
+    return tuple(name for name in names if world.is_package(name) or (world.is_key(name) and resolves(name) is not False))
+
+
+def _has_module(world: World, package: str) -> bool:
+    """Whether a package of the name of a module can be taken for its provider: not when it is known to have none."""
+    if world.layer(package) == "workspace":
+        return False  # its own word has been heard
+    return world.is_package(package) and world.python_modules(package).ask(package) != "missing"
+
+
+def _in_underlay(world: World, owners: Sequence[tuple[str, ...]]) -> tuple[str, ...]:
+    """Return the owners in the topmost underlay that has any, without those that the workspace hides."""
+    for found in owners:
+        seen = tuple(name for name in found if world.layer(name) == "underlay")
+        if seen:
+            return seen
+    return ()
+
+
+def _of(world: World, names: Iterable[str], keys: Iterable[str] = ()) -> Providers:
+    """Return the providers among names: packages that there are, and those of ``keys`` that are rosdep keys.
+
+    Keys without a rule for the distribution come last, for what is to be declared must resolve.
+    """
+    ordered = dict.fromkeys(name for name in names if name != NOTHING_NEEDED)
+    allowed = set(keys)
+    packages = tuple(name for name in ordered if world.is_package(name))
+    as_keys = tuple(name for name in ordered if name in allowed and name not in packages and world.is_key(name))
+    found = [name for name in ordered if name in packages or name in as_keys]
+    if as_keys and len(found) > 1:
+        found.sort(key=lambda name: name in as_keys and world.knowledge.resolves(name) is False)
+    return Providers(tuple(found), packages, as_keys)

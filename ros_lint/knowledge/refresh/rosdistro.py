@@ -1,0 +1,146 @@
+"""Upstream's files: the index of distributions (REP 153), their files (REP 143), and the caches of manifests.
+
+The only place that uses the network, and only for ``ros-lint index refresh`` with a URL.
+"""
+
+from __future__ import annotations
+
+import gzip
+import os
+import zlib
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from ros_lint.base.safe_yaml import YamlError, load
+from ros_lint.base.text import Text
+from ros_lint.collectors.manifest import collect as manifests
+from ros_lint.knowledge.describe import context, describe
+from ros_lint.knowledge.index import Released
+from ros_lint.knowledge.store import KnowledgeError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+_TIMEOUT = 60.0
+_MOST_BYTES = 1 << 28
+
+
+class Source(NamedTuple):
+    """Where upstream describes a distribution. Places are paths or URLs."""
+
+    name: str
+    files: tuple[str, ...]
+    """Later ones go before earlier ones: a private overlay is appended."""
+    cache: str
+    active: bool
+    """Whether it is a ROS 2 distribution not yet at its end of life."""
+
+
+def sources(place: str) -> dict[str, Source]:
+    """Return the distributions of an index (``index-v4.yaml``) by name. Raises KnowledgeError when it is none."""
+    index = _mapping(place, load_yaml(place), "distributions")["distributions"]
+    found = {}
+    for name, entry in index.items():
+        if not isinstance(entry, dict) or not isinstance(entry.get("distribution"), list):
+            raise KnowledgeError(f"{place}: distribution '{name}' has no list of files")
+        files = tuple(_beside(place, str(file)) for file in entry["distribution"])
+        cache = str(entry.get("distribution_cache") or "")
+        active = entry.get("distribution_type") == "ros2" and entry.get("distribution_status") != "end-of-life"
+        found[str(name)] = Source(str(name), files, _beside(place, cache) if cache else "", active)
+    return found
+
+
+def packages(source: Source) -> Iterator[Released]:
+    """Yield the packages of a distribution. Raises KnowledgeError when a file cannot be read or is of another kind."""
+    if not source.cache:
+        raise KnowledgeError(f"the index has no cache for '{source.name}', so its dependencies are unknown")
+    cache = _mapping(source.cache, load_yaml(source.cache), "release_package_xmls")
+    released = cache["release_package_xmls"] or {}
+    in_sources = {
+        name: entry[1]
+        for repository in (cache.get("source_repo_package_xmls") or {}).values()
+        for name, entry in repository.items()
+        if isinstance(entry, list) and len(entry) == 2
+    }
+    repositories: dict[str, Any] = {}
+    for file in source.files:
+        repositories.update(_mapping(file, load_yaml(file), "repositories")["repositories"] or {})
+    known = context(source.name)
+    for repository, entry in repositories.items():
+        release = (entry or {}).get("release")
+        if not release:
+            continue
+        version = str(release.get("version") or "").rpartition("-")[0]
+        ended = "E" * (entry.get("status") in ("end-of-life", "unmaintained"))
+        for name in map(str, release.get("packages") or [repository]):
+            listed = Released(name, version, f"?{'' if version else 'U'}", str(repository), {})
+            if name in released:
+                yield _described(source, listed, released[name], known, ended)
+            elif name in in_sources:
+                yield _described(source, listed, in_sources[name], known, ended)
+            else:
+                yield listed._replace(flags=listed.flags if not version else "?-")
+
+
+def _described(source: Source, listed: Released, xml: object, known: Mapping[str, str], ended: str) -> Released:
+    manifest = manifests.collect(Text(f"{source.cache}: {listed.name}", str(xml)))
+    if manifest.name != listed.name:
+        return listed._replace(flags="?-")
+    found = describe(manifest, known)
+    # The cache may lag behind the file of the distribution.
+    state = "U" if not listed.version else "~" if found.version != listed.version else ""
+    return listed._replace(flags=found.flags + state + ended, depends=found.depends)
+
+
+def load_yaml(place: str) -> Any:
+    """Return what a YAML file holds, by path or URL, plain or gzipped. Raises KnowledgeError when it cannot be read."""
+    data = read(place)
+    try:
+        return load(data.decode("utf-8-sig"))
+    except (YamlError, UnicodeDecodeError) as error:
+        raise KnowledgeError(f"{place} is not valid YAML: {' '.join(str(error).split())}") from error
+
+
+def read(place: str) -> bytes:
+    """Return a file by path or URL (http, https, file), unpacked. Raises KnowledgeError when it cannot be read."""
+    try:
+        data = _download(place) if _is_url(place) else _open(place)
+        return gzip.decompress(data) if data.startswith(b"\x1f\x8b") else data
+    except (OSError, EOFError, ValueError, zlib.error) as error:
+        reason = getattr(error, "reason", None) or getattr(error, "strerror", None) or error
+        raise KnowledgeError(f"{place} cannot be read: {reason}") from error
+
+
+def _open(place: str) -> bytes:
+    with open(place, "rb") as file:
+        return file.read()
+
+
+def _download(url: str) -> bytes:
+    from urllib.request import Request, urlopen  # noqa: PLC0415  (only a refresh needs it)
+
+    if not url.startswith(("https://", "http://", "file://")):
+        raise ValueError("only http, https and file URLs are supported")
+    request = Request(url, headers={"User-Agent": "ros-lint"})  # noqa: S310  (checked above)
+    with urlopen(request, timeout=_TIMEOUT) as answer:  # noqa: S310
+        data: bytes = answer.read(_MOST_BYTES + 1)
+    if len(data) > _MOST_BYTES:
+        raise ValueError(f"it is larger than {_MOST_BYTES >> 20} MB")
+    return data
+
+
+def _is_url(place: str) -> bool:
+    return "://" in place
+
+
+def _beside(index: str, place: str) -> str:
+    """Return a place as seen from the index that names it."""
+    if _is_url(place) or os.path.isabs(place):
+        return place
+    folder = index.rpartition("/")[0] if _is_url(index) else os.path.dirname(index)
+    return f"{folder}/{place}" if folder else place
+
+
+def _mapping(place: str, found: object, key: str) -> dict[str, Any]:
+    if not isinstance(found, dict) or not isinstance(found.get(key, ""), dict | None):
+        raise KnowledgeError(f"{place} has no mapping {key!r}, so it is not the expected file")
+    return found

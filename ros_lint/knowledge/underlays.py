@@ -1,0 +1,210 @@
+"""Installed prefixes that a workspace is built on, read without ROS (reference, section B4.8).
+
+Which packages a prefix has is found out at once; all else is read package by package when it is first asked for.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from ros_lint.base.text import read as read_text
+from ros_lint.base.tree import Machine, join
+from ros_lint.collectors.manifest import collect as manifests
+from ros_lint.knowledge.describe import context, describe
+from ros_lint.knowledge.index import RUNTIME, Released
+from ros_lint.knowledge.install_prefix import Prefix
+from ros_lint.knowledge.provides import NOTHING_KNOWN, Known
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping, Sequence
+
+    from ros_lint.base.tree import Tree
+    from ros_lint.knowledge.provides import Offer
+
+
+_NOT_PLAIN = re.compile(rb"condition|<!DOCTYPE|<!\[CDATA\[|&|\0")
+_ASIDE = re.compile(rb"<!--.*?-->|<\?.*?\?>|<export\b.*?</export\s*>", re.DOTALL)
+_TAG = re.compile(rb"<(?:build_export_|buildtool_export_|exec_|run_)?depend\b")
+_NAMED = re.compile(_TAG.pattern + rb"(?:\s[^>]*)?>\s*([\w.+-]+)\s*</")
+"""Dependency tags of the kinds in RUNTIME."""
+
+
+class UnderlayError(Exception):
+    """A folder that is no install prefix. The message names it and says what would be one."""
+
+
+class Installed:
+    """A package of an underlay."""
+
+    def __init__(self, name: str, prefix: Prefix, distro: str) -> None:
+        self.name = name
+        self.prefix = prefix
+        self._distro = distro
+
+    @cached_property
+    def released(self) -> Released | None:
+        """Return version and dependencies, or None when nothing tells them.
+
+        ``share/<package>/package.xml`` is the authority. A package without one, such as plain CMake, has what colcon or
+        ament recorded of its run dependencies.
+        """
+        path = f"share/{self.name}/package.xml"
+        data = self.prefix.read(path)
+        if data is not None:
+            found = manifests.collect(read_text(path, data))
+            if found.name:
+                return describe(found, context(self._distro))._replace(name=self.name, repository=self.name)
+        recorded = self.prefix.recorded_dependencies(self.name)
+        return None if recorded is None else Released(self.name, "", "?", self.name, {"x": recorded})
+
+    @cached_property
+    def runtime(self) -> tuple[str, ...] | None:
+        """Return what comes along with it, sorted, or None when nothing tells.
+
+        As :attr:`released` says, but plain manifests are not taken apart: hundreds of them are asked for this alone.
+        """
+        data = self.prefix.read(f"share/{self.name}/package.xml")
+        if data is not None and not _NOT_PLAIN.search(data):
+            bare = _ASIDE.sub(b"", data)
+            names = _NAMED.findall(bare)
+            if len(names) == len(_TAG.findall(bare)):
+                return tuple(sorted({name.decode() for name in names}))
+        return None if self.released is None else self.released.on(RUNTIME)
+
+    @cached_property
+    def groups(self) -> tuple[str, ...]:
+        """Return the groups that it is a member of, ``rosidl_interface_packages`` included."""
+        return self.released.groups if self.released else ()
+
+    def known(self, offer: Offer) -> Known:
+        """Return what is known of one side of the package. Python modules may be hidden by develop installs."""
+        prefix = self.prefix
+        match offer:
+            case "executables":
+                names, broken = prefix.executables(self.name)
+                return Known(names, broken, complete=True)
+            case "launch":
+                return Known(prefix.launch_files(self.name), complete=True)
+            case "components":
+                return Known(prefix.components(self.name), complete=True)
+            case "plugins":
+                return Known(prefix.plugins(self.name), complete=True)
+            case "interfaces":
+                return Known(prefix.interfaces(self.name), complete=True)
+            case "modules":
+                return Known(tuple(name for name, owners in prefix.modules.items() if owners == (self.name,)))
+            case "programs":
+                return Known(prefix.programs, complete=True) if prefix.single else NOTHING_KNOWN
+
+    @cached_property
+    def share_files(self) -> Known:
+        """Return every file below share/<package>, relative to it."""
+        return Known(self.prefix.share_files(self.name), complete=True)
+
+
+class Underlay:
+    """A prefix, or the prefixes of all packages of one workspace. ``packages`` is sorted by name."""
+
+    def __init__(self, root: str, prefixes: Sequence[Prefix], distro: str = "") -> None:
+        self.root = root
+        self._prefixes = tuple(prefixes)
+        found: dict[str, Installed] = {}
+        for prefix in prefixes:
+            for name in prefix.packages:
+                found.setdefault(name, Installed(name, prefix, distro))
+        self.packages: Mapping[str, Installed] = dict(sorted(found.items()))
+
+    def headers(self, path: str) -> tuple[str, ...]:
+        """Return the packages that install a header, by its path as it is written between the brackets, sorted."""
+        return tuple(sorted({owner for prefix in self._prefixes for owner in prefix.header_owners(path)}))
+
+    def modules(self, module: str) -> tuple[str, ...]:
+        """Return the packages that install a top-level Python module, sorted."""
+        return tuple(sorted({owner for prefix in self._prefixes for owner in prefix.modules.get(module, ())}))
+
+    def cmake(self, name: str) -> tuple[str, ...]:
+        """Return the packages that install the configuration of a CMake package, sorted."""
+        return tuple(sorted(self._cmake.get(name, ())))
+
+    @cached_property
+    def _cmake(self) -> Mapping[str, set[str]]:
+        found: dict[str, set[str]] = {}
+        for prefix in self._prefixes:
+            for name, owner in prefix.cmake_names():
+                found.setdefault(name, set()).add(owner)
+        return found
+
+
+def read(prefixes: Sequence[str], distro: str = "", base: str = "", machine: Tree | None = None) -> tuple[Underlay, ...]:
+    """Return the underlays at some places, in the order given: the first that has a package wins.
+
+    A place is an install prefix such as ``/opt/ros/jazzy``, the ``install`` folder of a workspace (of either layout),
+    one package's folder in there as AMENT_PREFIX_PATH lists it, or a workspace with an ``install`` folder. Conditions
+    in manifests are evaluated for ``distro``. With ``base``, the folder of the workspace under analysis, its own
+    ``install`` folder is left out: what it has was made of the very packages that are looked at. ``machine`` has all files
+    by their absolute paths; without one, this machine has.
+    Raises UnderlayError for any other folder.
+    """
+    roots = [os.path.abspath(place) for place in prefixes]
+    tree = machine or Machine()
+    return tuple(in_tree(tree, root, distro) for root in roots if not (base and _belongs_to(tree, root, base)))
+
+
+def in_tree(tree: Tree, root: str, distro: str = "") -> Underlay:
+    """Return the underlay in a folder of a tree. Raises UnderlayError as :func:`read` does."""
+    return Underlay(root, tuple(_prefixes(tree, root)), distro)
+
+
+def _prefixes(tree: Tree, root: str) -> Iterator[Prefix]:
+    """Yield the prefixes at a place. Raises UnderlayError when there is none."""
+    try:
+        names = [entry.name for entry in tree.list(root) if entry.kind == "directory"]
+    except OSError as error:
+        raise UnderlayError(f"underlay {root} cannot be read: {error.strerror}") from error
+    prefix = Prefix(tree, root)
+    layout = prefix.layout
+    if prefix.packages == (os.path.basename(root),):
+        yield prefix.alone()
+        return
+    if prefix.packages or layout == "merged":
+        yield prefix
+        return
+    inner = [child for child in (Prefix(tree, join(root, name)) for name in names) if child.packages]
+    if inner and (layout == "isolated" or all(os.path.basename(child.root) in child.packages for child in inner)):
+        # colcon makes one prefix per package.
+        yield from (child.alone() for child in inner)
+    elif layout != "isolated":
+        if "install" in names:
+            yield from _prefixes(tree, join(root, "install"))
+        elif not prefix.indexed:
+            raise UnderlayError(
+                f"underlay {root} is not an install prefix: it has no share/<package>/package.xml; "
+                "use the folder that contains setup.bash, such as /opt/ros/jazzy or install"
+            )
+        else:
+            yield prefix
+
+
+def _belongs_to(tree: Tree, root: str, base: str) -> bool:
+    inside, base = tree.identity(root), tree.identity(base)
+    if _below(inside, base):
+        return True
+    for install in (inside, os.path.dirname(inside)):
+        if _has_file(tree, f"{install}/.colcon_install_layout") and _below(base, os.path.dirname(install)):
+            return True
+    return False
+
+
+def _has_file(tree: Tree, path: str) -> bool:
+    try:
+        tree.read(path)
+    except OSError:
+        return False
+    return True
+
+
+def _below(path: str, folder: str) -> bool:
+    return path == folder or path.startswith(f"{folder.rstrip('/')}/")

@@ -1,0 +1,119 @@
+"""Evaluate the build scripts of all packages, those first whose CMake code runs in others."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import chain
+from typing import TYPE_CHECKING
+
+from ros_lint.base.text import beginning
+from ros_lint.base.tree import Tree, join
+from ros_lint.collectors.cmake import calls as cmake_calls
+from ros_lint.collectors.python import top_level_names as python_names
+from ros_lint.collectors.setup_py import editable_lists as setup_layout
+from ros_lint.collectors.setup_py import editable_texts as setup_texts
+from ros_lint.facts.build import BuildScript
+from ros_lint.facts.setup_py import PythonModule
+from ros_lint.facts.visibility import ANYTHING, Opaque
+from ros_lint.workspace.build_scripts.files import Executables, text_in, with_files
+from ros_lint.workspace.build_scripts.sources import Parts, Surroundings, sources
+from ros_lint.workspace.collect import FAILED
+from ros_lint.workspace.discovery.discover import Found
+
+if TYPE_CHECKING:
+    from ros_lint.collectors.cmake.evaluator.sources import Helper
+
+_PYTHON = ("setup.py", "setup.cfg", "pyproject.toml")
+
+
+def evaluate(tree: Tree, packages: Sequence[Parts], distro: str) -> list[BuildScript | None]:
+    """Return the evaluated script of each package, in the order given, None where there is none to evaluate."""
+    result: list[BuildScript | None] = [None] * len(packages)
+    helpers: dict[str, Helper] = {}
+    around = Surroundings(tree)
+    in_order = [*_helping(packages), *(number for number, parts in enumerate(packages) if not _helps(parts))]
+    for number in in_order:
+        parts = packages[number]
+        try:
+            if "CMakeLists.txt" in parts.commands and parts.found.type != "ros.ament_python":
+                result[number] = with_files(tree, parts.found, parts.commands, _cmake(tree, parts, distro, helpers, around))
+            elif script := _python(tree, parts.found):
+                result[number] = with_files(tree, parts.found, parts.commands, script)
+        except Exception as error:  # a mistake of ours in one script must not cost the user all the others
+            result[number] = _failed(parts, FAILED.format(f"{type(error).__name__}: {error}"))
+    return result
+
+
+def _cmake(tree: Tree, parts: Parts, distro: str, helpers: dict[str, Helper], around: Surroundings) -> BuildScript:
+    from ros_lint.collectors.cmake import evaluate as cmake  # noqa: PLC0415
+    from ros_lint.collectors.cmake.evaluator.sources import Helper  # noqa: PLC0415
+    from ros_lint.collectors.cmake.released_macros import opaque_packages  # noqa: PLC0415
+
+    seen = sources(tree, parts, around)
+    script = cmake.evaluate(seen, distro, helpers)
+    if script.extras and parts.found.name not in opaque_packages():
+        helpers[parts.found.name] = Helper(seen, script)
+    folder = parts.found.path
+    written = (cmake_calls.collect(join(folder, file), parsed) for file, parsed in sorted(parts.commands.items()))
+    return script._replace(written=tuple(chain.from_iterable(written)))
+
+
+def _failed(parts: Parts, reason: str) -> BuildScript:
+    path = join(parts.found.path, "CMakeLists.txt" if "CMakeLists.txt" in parts.commands else "setup.py")
+    return BuildScript(path, opaque=(Opaque(ANYTHING, reason, beginning(path)),), failed=True)
+
+
+def _python(tree: Tree, found: Found) -> BuildScript | None:
+    if not {"setup.py", "setup.cfg"}.intersection(found.files) or found.type not in ("ros.ament_python", "python"):
+        return None
+    from ros_lint.collectors.setup_py import evaluate as setup_py  # noqa: PLC0415
+
+    setup, config, project = texts_read = [text_in(tree, found, file) for file in _PYTHON]
+    script = setup_py.evaluate(found.name, found.path, found.files, setup, config, project, Executables(tree, found))
+    slots = setup_layout.collect(setup, found.name) if setup else ()
+    texts = setup_texts.collect(setup) if setup else ()
+    unread = [join(found.path, file) for file, text in zip(_PYTHON, texts_read, strict=True) if not text and file in found.files]
+    opaque = [Opaque(ANYTHING, "it cannot be read", beginning(path)) for path in unread]
+    return script._replace(
+        slots=slots,
+        texts=(*script.texts, *texts),
+        modules=tuple(_modules(tree, found, script)),
+        opaque=(*script.opaque, *opaque),
+    )
+
+
+def _modules(tree: Tree, found: Found, script: BuildScript) -> Iterator[PythonModule]:
+    """Yield the modules of the package that its entry points name."""
+    files = frozenset(found.files)
+    for name in dict.fromkeys(entry.module for entry in script.entry_points):
+        stem = name.replace(".", "/")
+        ends = (f"{stem}.py", f"{stem}/__init__.py")
+        path = next((f"{top}{end}" for end in ends for top in ("", "src/") if f"{top}{end}" in files), None)
+        path = path or next((file for file in found.files if file.endswith(tuple(f"/{end}" for end in ends))), None)
+        text = text_in(tree, found, path) if path else None
+        if path and text:
+            yield python_names.collect(name, path, text)
+
+
+def _helps(parts: Parts) -> bool:
+    """Whether a package gives CMake code to those that find it (ament_package(CONFIG_EXTRAS ...))."""
+    return any(
+        argument[0].startswith("CONFIG_EXTRAS")
+        for parsed in parts.commands.values()
+        for command in parsed.commands
+        if command.name in ("ament_package", "ament_auto_package")
+        for argument in command.args
+    )
+
+
+def _helping(packages: Sequence[Parts]) -> Iterator[int]:
+    """Yield the numbers of the packages that help others, each after those that it depends on itself."""
+    left = {parts.found.name: number for number, parts in enumerate(packages) if _helps(parts)}
+    while left:
+        ready = [name for name, number in left.items() if not _needed(packages[number]) & (left.keys() - {name})]
+        for name in ready or list(left):  # in a cycle any order is as good
+            yield left.pop(name)
+
+
+def _needed(parts: Parts) -> set[str]:
+    return {name for names in parts.depends.values() for name in names}

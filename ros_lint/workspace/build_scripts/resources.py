@@ -1,0 +1,73 @@
+"""Files that are looked up at run time, by the folders in which they are kept: parameters, models, maps, displays."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from ros_lint.base.auxiliary_files import is_apart
+from ros_lint.base.text import raw
+from ros_lint.base.tree import folders_of, parent
+
+_FOLDERS = frozenset(
+    {
+        "behavior_trees", "behaviors", "calibration", "cfg", "config", "configs", "controllers", "data", "description",
+        "maps", "map", "media", "meshes", "mesh", "model", "models", "param", "params", "protos", "rviz", "rviz2", "robots",
+        "textures", "trees", "urdf", "sdf", "world", "worlds", "xacro", "images", "proto", "srdf",
+    }
+)  # fmt: skip
+_FILES = re.compile(
+    r"\.(?:ya?ml|rviz|urdf|xacro|sdf|worlds?|wbt|stl|dae|obj|pgm|png|jpe?g|xml|json|lua|srdf|config|proto|csv|onnx|sh|py|txt)\Z",
+    re.IGNORECASE,
+)
+
+
+_OF_EXPORTER = re.compile(r"/joint_names_[\w.-]+\.yaml\Z")
+"""What the exporter of SolidWorks writes beside a URDF, for controllers of ROS 1: nothing of ROS 2 reads it."""
+
+
+def uninstalled(files: Iterable[str], sources: Iterable[str]) -> dict[str, list[str]]:
+    """Return the topmost folders of a package of which nothing is installed, with their resources.
+
+    ``files`` are those of the package, ``sources`` those that it installs; both relative to it.
+    """
+    # Few folders have many files: each is looked at once.
+    used = {parent(source) for source in sources}
+    occupied = used.union(*[folders_of(folder) for folder in used])
+    found: dict[str, list[str]] = {}
+    for file in files:
+        top, _, rest = file.partition("/")
+        top = top.lower()
+        if not (top in _FOLDERS or (top == "launch" and file.endswith(".launch"))) or not rest:
+            continue
+        if not (_FILES.search(file) or file.endswith(".launch")) or file.endswith("/CMakeLists.txt") or is_apart(file):
+            continue
+        if "/." in file or _OF_EXPORTER.search(file):  # hidden: kept by an editor or a tool for itself
+            continue
+        free = [folder for folder in folders_of(file) if folder not in occupied]
+        if free:
+            found.setdefault(free[-1], []).append(file)
+    return found
+
+
+_MAY_NAME = (
+    ".py", ".launch", ".xml", ".yaml", ".yml", ".urdf", ".xacro", ".sdf", ".world", ".wbt", ".proto", ".cpp", ".hpp", ".cc",
+    ".h",
+)  # fmt: skip
+
+
+def may_name(file: str) -> bool:
+    """Return whether a text can be one that looks up files: a program, a launch file, a model, parameters."""
+    name = file.rpartition("/")[2]
+    return file.endswith(_MAY_NAME) and name not in ("package.xml", "setup.py") and not is_apart(file)
+
+
+def pattern_of(file: str) -> re.Pattern[bytes]:
+    """Return what finds a file where it is looked up: its name after that of its folder, as ``config/a`` or ``"config", "a"``.
+
+    Not where further folders stand before: a path such as ``/home/me/config/a`` needs no installation.
+    """
+    folder, _, name = file.rpartition("/")
+    inner = folder.rpartition("/")[2]
+    words = (re.escape(raw(inner)), re.escape(raw(name)))
+    return re.compile(rb"(?<![\w-])(?<![\w.~-]/)%s[\"'/, \t\r\n)(]{1,24}(%s)(?![\w-])" % words)

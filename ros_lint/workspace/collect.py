@@ -1,0 +1,218 @@
+"""Collect the facts of files: each file once, in several processes when there are many, from the cache when unchanged.
+
+Which collector reads which file is said here and nowhere else. Collectors themselves see one text and no other file.
+"""
+
+from __future__ import annotations
+
+import errno
+import gc
+import os
+import re
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import Literal, NamedTuple
+
+from ros_lint.base.text import Text, beginning, read
+from ros_lint.base.tree import DiskTree, RecordedTree, Tree
+from ros_lint.collectors import machine_paths
+from ros_lint.collectors.cmake.syntax import Parsed
+from ros_lint.collectors.suffixes import HEADERS, INTERFACES, SOURCES
+from ros_lint.engine import suppressions as suppress
+from ros_lint.facts.launch import LaunchFile
+from ros_lint.facts.sources import FileFacts, MachinePath
+from ros_lint.facts.visibility import ANYTHING, Facet, Opaque
+from ros_lint.workspace.fact_cache import Cache
+
+Kind = Literal[
+    "manifest",
+    "config",
+    "cpp",
+    "python",
+    "program",
+    "cmake",
+    "interface",
+    "xml",
+    "yaml",
+    "resource",
+    "java",
+    "rust",
+    "cargo",
+    "matlab",
+]
+
+FAILED = "ros-lint failed on this file ({}); please report this bug"
+
+_FILES_A_PROCESS = 500
+"""Below this many files a further process costs more than it saves."""
+
+_MOST_PROCESSES = 61
+"""Windows cannot wait for more."""
+
+_SUFFIXES: dict[str, Kind] = {"py": "python", "cmake": "cmake", "java": "java", "rs": "rust", "m": "matlab"}
+_SUFFIXES.update((suffix[1:], "cpp") for suffix in (*HEADERS, *SOURCES))
+_SUFFIXES.update((suffix[1:], "interface") for suffix in INTERFACES)
+_SUFFIXES.update(dict.fromkeys(("xml", "launch"), "xml"))
+_SUFFIXES.update(dict.fromkeys(("yaml", "yml"), "yaml"))
+_SUFFIXES.update(dict.fromkeys(("urdf", "xacro", "sdf", "world", "rviz"), "resource"))
+
+
+_OF_PYTHON = re.compile(rb"#![^\n]*python")
+"""How a program begins that Python runs, whatever it is called."""
+
+_HIDES: dict[Kind, Facet] = {
+    "manifest": Facet(0),  # without it there is no package
+    "program": Facet(0),  # mostly no program
+    "config": Facet(0),  # only beside setup.py, where its evaluation tells of it
+    "cpp": Facet.USES | Facet.COMPONENTS,
+    "cmake": ANYTHING,
+    "interface": Facet.USES | Facet.INTERFACES,
+    "xml": Facet.USES | Facet.COMPONENTS,
+}
+"""What a file that cannot be read hides of its package, if it is more than uses."""
+
+
+class Collected(NamedTuple):
+    """What one file gave."""
+
+    facts: FileFacts | None = None
+    launch: LaunchFile | None = None
+    commands: Parsed | None = None
+    suppressions: tuple[suppress.Suppression, ...] = ()
+    machine_paths: tuple[MachinePath, ...] = ()
+    unreadable: str = ""
+    """Why the file was not read, or ""."""
+
+
+def kind_of(path: str) -> Kind | None:
+    """Return what a file is taken for by its name, or None for one that no collector reads."""
+    name = path.rpartition("/")[2]
+    if name == "CMakeLists.txt":
+        return "cmake"
+    if name == "package.xml":
+        return "manifest"  # discovery has read it; here for its comments
+    if name in ("setup.cfg", "pyproject.toml"):
+        return "config"  # setup.py is evaluated with it; here for its comments, and to say when it cannot be read
+    if name == "Cargo.toml":
+        return "cargo"
+    stem, _, suffix = name.rpartition(".")
+    if suffix in ("in", "em") and stem:  # configured by CMake, expanded by empy
+        inner = _SUFFIXES.get(stem.rpartition(".")[2])
+        return inner if inner in ("cmake", "python") else None
+    if name == suffix:  # without a suffix, it may be a program; what lies in resource/ is a marker, what is in capitals a LICENSE
+        return None if name.isupper() or path.endswith(f"resource/{name}") else "program"
+    return _SUFFIXES.get(suffix) if stem else None
+
+
+def collect(text: Text, kind: Kind) -> Collected:
+    """Return the facts of a file. Never raises for what the file holds."""
+    # Imported here, so that a workspace without launch files does not wait for the tools to read them.
+    facts: FileFacts | None = None
+    launch: LaunchFile | None = None
+    commands: Parsed | None = None
+    if kind in ("python", "xml", "yaml"):
+        from ros_lint.collectors.launch import detect as launch_files  # noqa: PLC0415
+
+        if language := launch_files.is_launch_file(text.path, text.text):
+            launch = launch_files.collect(text, language)
+    if kind == "cpp":
+        from ros_lint.collectors.cpp import collect as cpp  # noqa: PLC0415
+
+        facts = cpp.collect(text)
+    elif kind == "python":
+        from ros_lint.collectors.python import collect as python  # noqa: PLC0415
+
+        facts = python.collect(text, launch=launch is not None)
+    elif kind == "cmake":
+        from ros_lint.collectors.cmake import syntax as cmake_syntax  # noqa: PLC0415
+
+        commands = cmake_syntax.parse(text)
+    elif kind == "interface":
+        from ros_lint.collectors.interfaces import collect as interfaces  # noqa: PLC0415
+
+        facts = interfaces.collect(text)
+    elif kind in ("java", "rust", "cargo", "matlab"):
+        from ros_lint.collectors.java_rust_matlab import COLLECTORS  # noqa: PLC0415
+
+        facts = COLLECTORS[kind](text)
+    elif launch is None and kind not in ("manifest", "config"):
+        from ros_lint.collectors.resources import collect as resources  # noqa: PLC0415
+
+        facts = resources.collect(text)
+    # Comments of MATLAB are not told from its code.
+    paths = machine_paths.collect(text) if kind != "matlab" else ()
+    return Collected(facts, launch, commands, suppress.collect(text), paths)
+
+
+def collect_all(tree: Tree, paths: Sequence[str], jobs: int, cache: Cache, tick: Callable[[int], None]) -> dict[str, Collected]:
+    """Return what every file gave, by path.
+
+    ``jobs`` is the number of processes, 0 decides by the number of files; ``tick`` hears how many files are done.
+    """
+    wanted = [(path, kind) for path in paths if (kind := kind_of(path))]
+    found = cache.fetch(tree, [path for path, _ in wanted], Collected)
+    tick(len(found))
+    missing = [(path, kind) for path, kind in wanted if path not in found]
+    fresh: dict[str, Collected] = {}
+    processes = _processes(jobs, len(missing))
+    chunks: Iterable[dict[str, Collected]]
+    disk = tree.disk if isinstance(tree, RecordedTree) else tree
+    if processes > 1 and missing and isinstance(disk, DiskTree):
+        chunks = _in_processes(disk, missing, processes)
+    else:
+        chunks = (_collect_chunk(tree, missing[at : at + 100]) for at in range(0, len(missing), 100))
+    enabled = gc.isenabled()
+    gc.disable()  # facts hold no cycles, and the collector would walk through all of them again and again
+    try:
+        for chunk in chunks:
+            fresh.update(chunk)
+            tick(len(found) + len(fresh))
+    finally:
+        if enabled:
+            gc.enable()
+    cache.store(tree, fresh)
+    found.update(fresh)
+    return {path: found[path] for path, _ in wanted}
+
+
+def _processes(jobs: int, files: int) -> int:
+    """Return how many processes read some files. However many are asked for, there is no more than one a core."""
+    cores = min(os.cpu_count() or 1, _MOST_PROCESSES)
+    return min(jobs, cores) if jobs else min(cores, 8, files // _FILES_A_PROCESS)
+
+
+def _in_processes(tree: DiskTree, files: list[tuple[str, Kind]], processes: int) -> Iterator[dict[str, Collected]]:
+    from concurrent.futures import ProcessPoolExecutor  # noqa: PLC0415
+
+    size = max(20, min(200, len(files) // (processes * 4)))
+    chunks = [files[at : at + size] for at in range(0, len(files), size)]
+    with ProcessPoolExecutor(min(processes, len(chunks))) as pool:
+        yield from pool.map(_collect_chunk, [tree] * len(chunks), chunks)
+
+
+def _collect_chunk(tree: Tree, files: Sequence[tuple[str, Kind]]) -> dict[str, Collected]:
+    return {path: _read_and_collect(tree, path, kind) for path, kind in files}
+
+
+def _read_and_collect(tree: Tree, path: str, kind: Kind) -> Collected:
+    try:
+        data = tree.read(path)
+    except OSError as error:
+        if kind == "program" and error.errno == errno.EFBIG:
+            return Collected()  # no script has as much: it is compiled
+        return _unreadable(path, kind, error.strerror or str(error))
+    if kind == "program":
+        if not _OF_PYTHON.match(data):
+            return Collected()
+        kind = "python"
+    if b"\0" in data[:1024] and not data.startswith((b"\xff\xfe", b"\xfe\xff")):
+        return _unreadable(path, kind, "binary data")
+    try:
+        return collect(read(path, data), kind)
+    except Exception as error:  # a mistake of ours in one file must not cost the user all the others
+        return _unreadable(path, kind, FAILED.format(f"{type(error).__name__}: {error}"))
+
+
+def _unreadable(path: str, kind: Kind, reason: str) -> Collected:
+    hides = _HIDES.get(kind, Facet.USES)
+    facts = FileFacts(opaque=(Opaque(hides, f"the file is not read: {reason}", beginning(path)),)) if hides else None
+    return Collected(facts, unreadable=reason)

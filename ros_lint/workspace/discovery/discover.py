@@ -1,0 +1,309 @@
+"""Find the packages of a workspace and the files of each in one walk.
+
+Which folders are packages is what ``colcon list`` says: the crawl of colcon-recursive-crawl, the identification of
+:mod:`ros_lint.workspace.discovery.identify` (reference, section A6). Beyond colcon, products that are not marked as such are skipped.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.base.text import beginning, read
+from ros_lint.base.tree import is_below, join, parent, seen_from
+from ros_lint.collectors.manifest import collect as manifests
+from ros_lint.engine.report import NotChecked
+from ros_lint.facts.environment import ROS_2
+from ros_lint.workspace.discovery.identify import (
+    SIGNS,
+    Folder,
+    Identity,
+    Ignored,
+    Settings,
+    identify,
+    ignored_by_ros,
+    ignored_everywhere,
+    product,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from ros_lint.base.tree import Entry, Kind, Tree
+    from ros_lint.facts.manifest import ColconDepend, ColconMeta, ColconSettings, Manifest
+
+NEVER = frozenset((".git", ".hg", ".svn", "node_modules", "__pycache__"))
+"""Folders that no one looks for sources in."""
+
+_TELLING = frozenset((*SIGNS, "package.xml", "manifest.xml", "CMakeLists.txt", "setup.py", "colcon.pkg"))
+"""Without one of these names a folder is nothing to colcon."""
+
+_APART = frozenset((*SIGNS, "package.xml"))
+"""Without one of these names a folder below a package belongs to it."""
+
+_BUILD_SCRIPTS = frozenset(("CMakeLists.txt", "setup.py", "setup.cfg", "pyproject.toml", "Cargo.toml", "build.gradle"))
+"""Without one of these beside it, a manifest is data."""
+
+_CONTEXT = {**ROS_2, "DISABLE_GROUPS_WORKAROUND": "1"}
+
+
+class Skipped(NamedTuple):
+    """A folder that was not looked into."""
+
+    path: str
+    reason: str
+    link: bool = False
+    """Whether it is a link that is not followed, for what is behind it is met elsewhere or does not belong here."""
+
+
+class Found(NamedTuple):
+    """A package of the workspace, before anything but its manifest has been read."""
+
+    path: str
+    """Its folder, relative to the base; "" is the base."""
+    name: str
+    """The name in ``package.xml``, by which other manifests, rosdep and the ament index know the package. Where no manifest
+    gives one it is the name that colcon uses."""
+    colcon_name: str
+    """The name that ``colcon list`` prints: ``colcon.pkg``, ``colcon.meta`` or the script of a plain package may set another."""
+    type: str
+    """As ``colcon list`` prints it: ros.ament_cmake, ros.ament_python, cmake, python ..."""
+    manifest: Manifest | None
+    """Also there, with its problems, when colcon cannot use it."""
+    colcon_depends: tuple[ColconDepend, ...]
+    files: tuple[str, ...]
+    """Every file below the folder, relative to it and sorted. Nested packages and skipped folders are left out."""
+    nested: tuple[Manifest, ...]
+    """Manifests of packages further down, by path. Folders that are marked to be ignored do not count, nor do those without
+    a build script or which the CMake build of this package takes in."""
+    unseen: tuple[Skipped, ...]
+    """Folders, relative to the package, that were not looked into: whether a file exists there is unknown."""
+
+
+class Discovery(NamedTuple):
+    """What a walk found. Everything is sorted by path."""
+
+    packages: tuple[Found, ...]
+    rejected: tuple[Manifest, ...]
+    """Manifests that colcon cannot use, in folders that are no package in another way."""
+    skipped: tuple[Skipped, ...]
+    not_checked: tuple[NotChecked, ...]
+
+
+def discover(tree: Tree, roots: Sequence[str], context: Mapping[str, str] = _CONTEXT) -> Discovery:
+    """Return the packages below some directories of a tree, as ``colcon list --base-paths`` run in its base.
+
+    ``roots`` are relative to the base of the tree, "" is the base; a ``colcon.meta`` is read in the base and in each of
+    them. ``context`` has the known variables of package.xml conditions, which may choose a build type. Never raises for
+    what it finds: places that cannot be read end up in ``not_checked``.
+    """
+    return _Walk(tree, context).run(roots)
+
+
+class _Walk:
+    def __init__(self, tree: Tree, context: Mapping[str, str]) -> None:
+        self._tree = tree
+        self._context = context
+        self._base = tree.identity("")
+        self._packages: list[Found] = []
+        self._rejected: list[Manifest] = []
+        self._skipped: list[Skipped] = []
+        self._not_checked: list[NotChecked] = []
+        self._settings = Settings({}, {})
+
+    def run(self, roots: Sequence[str]) -> Discovery:
+        self._settings = self._read_meta(("", *roots))
+        visited: set[str] = set()
+        for root in roots:
+            self._crawl(root, visited)
+        return Discovery(
+            tuple(sorted(self._packages, key=lambda found: found.path)),
+            tuple(sorted(self._rejected, key=lambda manifest: manifest.path)),
+            tuple(sorted(self._skipped)),
+            tuple(sorted(self._not_checked, key=lambda item: (item.span or beginning(""), item.what))),
+        )
+
+    def _crawl(self, root: str, visited: set[str]) -> None:
+        todo = [(root, self._tree.identity(root))]
+        while todo:
+            path, identity = todo.pop()
+            if identity in visited:
+                continue  # by another way, as colcon does: the first in the order of names counts
+            visited.add(identity)
+            entries = self._list(path)
+            if entries is None or self._is_package(path, identity, entries):
+                continue
+            for name, kind, link in reversed(entries):
+                if kind == "directory" and not name.startswith(".") and name not in NEVER:
+                    child = join(path, name)
+                    target = self._tree.identity(child) if link else join(identity, name)
+                    if link and target != self._base and is_below(self._base, target):
+                        # colcon would go through everything around the workspace, and be it the whole disk.
+                        self._skipped.append(Skipped(child, "a link to a folder that contains the workspace", link=True))
+                    else:
+                        todo.append((child, target))
+
+    def _is_package(self, path: str, identity: str, entries: Sequence[Entry]) -> bool:
+        """Take a folder in, and return whether colcon looks no further down."""
+        names = {name: kind for name, kind, _ in entries}
+        if _TELLING.isdisjoint(names) and identity not in self._settings.by_identity:
+            return False
+        folder = Folder(self._tree, path, identity, names)
+        text = folder.text("package.xml")
+        manifest = manifests.collect(text) if text else None
+        found = identify(folder, manifest, self._settings, self._context)
+        self._not_checked += folder.not_checked
+        if isinstance(found, Ignored):
+            self._skipped.append(Skipped(path, found.reason))
+        elif isinstance(found, Identity):
+            files = _Files(self._tree, path, (self._base, identity))
+            files.gather(entries, identity)
+            self._not_checked += files.not_checked
+            self._packages.append(
+                Found(
+                    path,
+                    manifest.name if manifest and manifest.name else found.name,
+                    found.name,
+                    found.type,
+                    manifest,
+                    found.depends,
+                    tuple(sorted(files.found)),
+                    tuple(sorted(files.nested, key=lambda nested: nested.path)),
+                    tuple(sorted(files.unseen)),
+                )
+            )
+        elif manifest:
+            self._rejected.append(manifest)
+        return found is not None
+
+    def _list(self, path: str) -> list[Entry] | None:
+        try:
+            return self._tree.list(path)
+        except OSError as error:
+            self._not_checked.append(NotChecked.of(path, error))
+            return None
+
+    def _read_meta(self, places: Sequence[str]) -> Settings:
+        by_name: dict[str, ColconSettings] = {}
+        by_identity: dict[str, ColconSettings] = {}
+        for place in dict.fromkeys(places):
+            if (meta := self._meta(place)) is None:
+                continue
+            by_name.update(meta.by_name)
+            folder = parent(meta.path)
+            for path, values in meta.by_path:
+                by_identity[self._tree.identity(seen_from(folder, path))] = values
+        return Settings(by_name, by_identity)
+
+    def _meta(self, place: str) -> ColconMeta | None:
+        path = join(place, "colcon.meta")
+        try:
+            kinds = {name: kind for name, kind, _ in self._tree.list(place)}
+        except OSError:
+            return None  # noted by the crawl
+        if kinds.get("colcon.meta") == "directory":
+            path = join(path, "colcon.meta")
+        elif kinds.get("colcon.meta") != "file":
+            return None
+        from ros_lint.collectors.colcon import metadata as colcon_yaml  # noqa: PLC0415  (few workspaces have the file)
+
+        try:
+            return colcon_yaml.meta(read(path, self._tree.read(path)))
+        except FileNotFoundError:
+            return None  # in the folder of that name
+        except OSError as error:
+            self._not_checked.append(NotChecked.of(path, error))
+        except colcon_yaml.ColconYamlError as error:
+            self._not_checked.append(NotChecked(path, str(error), error.span))
+        return None
+
+
+class _Files:
+    """The files of one package."""
+
+    def __init__(self, tree: Tree, package: str, inside: tuple[str, ...]) -> None:
+        self._tree = tree
+        self._package = package
+        self._inside = inside
+        self._linked: set[str] = set()
+        self._marked: list[str] = []
+        self.found: list[str] = []
+        self.nested: list[Manifest] = []
+        self.unseen: list[Skipped] = []
+        self.not_checked: list[NotChecked] = []
+
+    def gather(self, entries: Sequence[Entry], identity: str) -> None:
+        """Collect what lies below the folder of the package. ``crossed`` are the folders with the links on the way."""
+        todo: list[tuple[str, Sequence[Entry], str, tuple[str, ...]]] = [("", entries, identity, ())]
+        while todo:
+            folder, entries, identity, crossed = todo.pop()
+            prefix = f"{folder}/" if folder else ""
+            for name, kind, link in entries:
+                if kind == "file":
+                    self.found.append(prefix + name)
+                if kind != "directory" or name in NEVER:
+                    continue
+                child, child_crossed = prefix + name, (*crossed, identity) if link else crossed
+                child_identity = self._tree.identity(join(self._package, child)) if link else f"{identity}/{name}"
+                if link and (reason := self._not_followed(child_identity, child_crossed)):
+                    self.unseen.append(Skipped(child, reason, link=True))
+                elif below := self._enter(child):
+                    todo.append((child, below, child_identity, child_crossed))
+
+    def _enter(self, child: str) -> list[Entry] | None:
+        path = join(self._package, child)
+        try:
+            entries = self._tree.list(path)
+        except OSError as error:
+            self.not_checked.append(NotChecked.of(path, error))
+            self.unseen.append(Skipped(child, "it cannot be read"))
+            return None
+        if _APART.isdisjoint([entry[0] for entry in entries]):
+            return entries
+        names = {name: kind for name, kind, _ in entries}
+        reason = ignored_everywhere(names) or product(names)
+        if not reason and (mark := ignored_by_ros(names)):
+            # The mark is for those who look for packages, and for linters: the build of this package takes no notice of it.
+            reason = mark if "package.xml" in names else ""
+            self._marked.append(child)
+        if not reason and self._is_nested(child, names):
+            reason = "a package of its own"
+            if not any(is_below(child, marked) for marked in self._marked):
+                self._add_nested(join(path, "package.xml"))
+        if not reason:
+            return entries
+        self.unseen.append(Skipped(child, reason))
+        return None
+
+    def _is_nested(self, child: str, names: Mapping[str, Kind]) -> bool:
+        """Whether a folder is a package that the build of this one takes no notice of, rather than a part of it."""
+        if names.get("package.xml") != "file" or _BUILD_SCRIPTS.isdisjoint(names):
+            return False
+        from ros_lint.collectors.colcon import cmake_lists as colcon_cmake  # noqa: PLC0415  (few packages have another one inside)
+
+        parts = child.split("/")
+        for depth in range(len(parts)):
+            path = join(self._package, "/".join((*parts[:depth], "CMakeLists.txt")))
+            try:
+                added = colcon_cmake.subdirectories(read(path, self._tree.read(path)))
+            except OSError:
+                continue  # there mostly is none
+            if "/".join(parts[depth:]) in added:
+                return False
+        return True
+
+    def _add_nested(self, path: str) -> None:
+        try:
+            self.nested.append(manifests.collect(read(path, self._tree.read(path))))
+        except OSError as error:
+            self.not_checked.append(NotChecked.of(path, error))
+
+    def _not_followed(self, target: str, crossed: tuple[str, ...]) -> str:
+        """Return why a link is not followed, or "". ``crossed`` are the folders with it and the links on the way."""
+        if any(is_below(place, target) for place in crossed):
+            return "a link to a folder that contains it"
+        if not any(is_below(target, place) for place in self._inside):
+            return "a link that leads out of the workspace"
+        if len(crossed) > 1 and target in self._linked:
+            return "a link to a folder that another link already leads to"
+        self._linked.add(target)
+        return ""

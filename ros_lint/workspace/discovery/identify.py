@@ -1,0 +1,272 @@
+"""What colcon takes a folder for: a package of some name and type, something to skip, or nothing.
+
+Source: the identification extensions of colcon-core, colcon-metadata, colcon-ros, colcon-cmake and
+colcon-python-setup-py, in the order of their priorities (reference, section A6).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.base.text import Span, Text, beginning, read
+from ros_lint.base.tree import join
+from ros_lint.collectors.manifest import conditions
+from ros_lint.engine.report import NotChecked
+from ros_lint.facts.manifest import ColconSettings
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterator, Mapping
+
+    from ros_lint.base.tree import Kind, Tree
+    from ros_lint.collectors.colcon.python_project import PythonProject
+    from ros_lint.facts.manifest import ColconDepend, Manifest
+
+
+class Identity(NamedTuple):
+    """A package, as colcon calls it."""
+
+    name: str
+    type: str
+    depends: tuple[ColconDepend, ...]
+
+
+class Ignored(NamedTuple):
+    """A folder that is skipped with everything below it."""
+
+    reason: str
+
+
+class Settings(NamedTuple):
+    """What ``colcon.meta`` files set: by the name of a package, and by the identity of its folder."""
+
+    by_name: Mapping[str, ColconSettings]
+    by_identity: Mapping[str, ColconSettings]
+
+    def of(self, name: str) -> ColconSettings:
+        return self.by_name.get(name, NO_SETTINGS)
+
+
+NO_SETTINGS = ColconSettings("", "", ())
+Verdict = Identity | Ignored | None
+
+_EVERYWHERE = ("COLCON_IGNORE", "_order_isolated_packages.py", "_setup_util.py")
+_ROS_ONLY = ("CATKIN_IGNORE", "AMENT_IGNORE")
+_PREFIX_SCRIPTS = ("bash", "sh", "zsh", "ps1")
+_HOOKS = ("local_setup.dsv", "package.dsv")
+"""What ament and colcon put beside the manifest of an installed package."""
+SIGNS = frozenset(
+    (
+        *_EVERYWHERE,
+        *_ROS_ONLY,
+        ".colcon_install_layout",
+        ".built_by",
+        "colcon_build.rc",
+        "CMakeCache.txt",
+        "pyvenv.cfg",
+        "CACHEDIR.TAG",
+        *(f"local_setup.{shell}" for shell in _PREFIX_SCRIPTS),
+    )
+)
+"""Without one of these names a folder is neither ignored nor a product."""
+
+
+def ignored_everywhere(names: Mapping[str, Kind]) -> str:
+    """Return the name for which colcon skips a folder with all that is below it, whatever else is in there, or ""."""
+    if "COLCON_IGNORE" in names:  # a dangling link will do
+        return "COLCON_IGNORE"
+    return next((name for name in _EVERYWHERE if _exists(names, name)), "")
+
+
+def ignored_by_ros(names: Mapping[str, Kind]) -> str:
+    """Return the name for which colcon-ros skips a folder with all that is below it, or ""."""
+    return next((name for name in _ROS_ONLY if _exists(names, name)), "")
+
+
+def product(names: Collection[str]) -> str:
+    """Return why a folder is a product and no source, or "".
+
+    colcon marks what it writes with COLCON_IGNORE. Copies, and what other tools write, lack that.
+    """
+    if ".colcon_install_layout" in names:
+        return "an install folder: it has .colcon_install_layout"
+    if ".built_by" in names or "colcon_build.rc" in names:
+        return "a build folder of colcon"
+    if "pyvenv.cfg" in names:
+        return "a Python virtual environment: it has pyvenv.cfg"
+    if "CACHEDIR.TAG" in names:
+        return "a cache folder: it has CACHEDIR.TAG"
+    if "package.xml" in names:
+        hooks = [name for name in _HOOKS if name in names]
+        return (
+            f"an installed package: it has {hooks[0]}" if hooks and not {"CMakeLists.txt", "setup.py"}.intersection(names) else ""
+        )
+    if "CMakeCache.txt" in names and "CMakeLists.txt" not in names:
+        return "a build folder of CMake: it has CMakeCache.txt"
+    if any(f"local_setup.{shell}" in names and f"setup.{shell}" in names for shell in _PREFIX_SCRIPTS):
+        return "an install folder: it has setup.* and local_setup.*"
+    return ""
+
+
+def _exists(names: Mapping[str, Kind], name: str) -> bool:
+    return names.get(name, "other") != "other"
+
+
+class Folder:
+    """A directory that may be a package. What cannot be read in it is noted in ``not_checked``."""
+
+    def __init__(self, tree: Tree, path: str, identity: str, names: Mapping[str, Kind]) -> None:
+        self.tree = tree
+        self.path = path
+        self.identity = identity
+        self.names = names
+        self.not_checked: list[NotChecked] = []
+        self._texts: dict[str, Text | None] = {}
+
+    def text(self, name: str) -> Text | None:
+        """Return a file of the folder, or None when there is none that can be read."""
+        if name not in self._texts:
+            self._texts[name] = self.read(join(self.path, name)) if self.names.get(name) == "file" else None
+        return self._texts[name]
+
+    def read(self, path: str) -> Text | None:
+        """Return any file, or None when it cannot be read."""
+        try:
+            return read(path, self.tree.read(path))
+        except OSError as error:
+            self.cannot(path, error.strerror or str(error))
+            return None
+
+    def cannot(self, path: str, reason: str, span: Span | None = None) -> None:
+        """Note a file that could not be looked at."""
+        self.not_checked.append(NotChecked(path, reason, span or beginning(path)))
+
+
+def build_type(manifest: Manifest, context: Mapping[str, str]) -> str:
+    """Return the build type that colcon gives a package, or "" when it cannot use the manifest.
+
+    It cannot when the manifest has problems, when a condition does not parse, or when there are two build types or an
+    empty one (reference, sections A3.5 and A5.4). Where the context does not say which one counts, it is the first.
+    """
+    if manifest.problems or conditions.problems(manifest):
+        return ""
+    types = conditions.build_types(manifest, context)
+    sure = [name for name, active in types if active]
+    if len(sure) > 1:
+        return ""
+    return (sure or [name for name, _ in types] or ["catkin"])[0]
+
+
+def identify(folder: Folder, manifest: Manifest | None, settings: Settings, context: Mapping[str, str]) -> Verdict:
+    """Return what colcon takes a folder for. ``context`` has the variables of conditions that are known."""
+    if reason := ignored_everywhere(folder.names) or product(folder.names):
+        return Ignored(reason)
+    own = _colcon_pkg(folder)
+    by_path = settings.by_identity.get(folder.identity, NO_SETTINGS)
+    name = own.name or by_path.name
+    kind = own.type or by_path.type or settings.of(name).type
+    found: Verdict = None
+    if name and kind:
+        found = Identity(name, kind, ())
+    elif kind in ("", "ros"):
+        found = _as_ros(folder, name, manifest, context)
+    if found is None and kind in ("", "cmake", "python"):
+        found = _by_script(folder, name, kind)
+    if not isinstance(found, Identity):
+        return found
+    depends = (*own.depends, *settings.of(found.name).depends, *by_path.depends, *found.depends)
+    if found.type == "python" and (project := _setup_cfg(folder) or _setup_py(folder)):
+        depends += project.depends
+    return found._replace(depends=depends)
+
+
+def _colcon_pkg(folder: Folder) -> ColconSettings:
+    text = folder.text("colcon.pkg")
+    if text is None:
+        return NO_SETTINGS
+    from ros_lint.collectors.colcon import metadata as colcon_yaml  # noqa: PLC0415  (few packages have the file)
+
+    try:
+        return colcon_yaml.package(text)
+    except colcon_yaml.ColconYamlError as error:
+        folder.cannot(text.path, str(error), error.span)
+        return NO_SETTINGS
+
+
+def _as_ros(folder: Folder, name: str, manifest: Manifest | None, context: Mapping[str, str]) -> Verdict:
+    if reason := ignored_by_ros(folder.names):
+        return Ignored(reason)
+    if manifest and (kind := build_type(manifest, context)):
+        return Identity(name or manifest.name, f"ros.{kind}", ())
+    if manifest and not manifest.problems and conditions.problems(manifest):
+        return None  # colcon fails before it looks for the other file
+    # A package of rosbuild must not be taken for one of CMake.
+    return Ignored("manifest.xml") if _exists(folder.names, "manifest.xml") else None
+
+
+def _by_script(folder: Folder, name: str, kind: str) -> Verdict:
+    cmake = _as_cmake(folder, name) if kind != "python" else None
+    if kind == "cmake":
+        return cmake
+    project = _setup_cfg(folder)
+    if cmake and project and name in ("", project.name):
+        return Ignored("both CMake and Python could build it, so colcon skips it")
+    if cmake:
+        return cmake
+    project = project or _setup_py(folder)
+    if project and project.unknown:
+        reason = f"colcon may see a package here, but {project.unknown}"
+        folder.cannot(join(folder.path, "setup.py"), reason)
+    if project is None or not project.name or name not in ("", project.name):
+        return None
+    return Identity(project.name, "python", ())
+
+
+def _as_cmake(folder: Folder, name: str) -> Identity | None:
+    text = folder.text("CMakeLists.txt")
+    if text is None:
+        return None
+    from ros_lint.collectors.colcon import cmake_lists as colcon_cmake  # noqa: PLC0415  (needed only where there is no usable manifest)
+
+    project = colcon_cmake.project(text)
+    own_name = project.name or folder.path.rpartition("/")[2]
+    if project.toplevel or not (own_name or name):
+        return None
+    depends = [depend for file in _cmake_files(folder) for depend in colcon_cmake.depends(file)]
+    return Identity(name or own_name, "cmake", tuple(depend for depend in depends if depend.name != own_name))
+
+
+def _cmake_files(folder: Folder) -> Iterator[Text]:
+    """Yield every CMake file, those of nested packages and ignored folders included: colcon looks into all."""
+    todo = [folder.path]
+    while todo:
+        path = todo.pop()
+        try:
+            entries = folder.tree.list(path)
+        except OSError:
+            continue  # noted by the walk
+        for name, kind, link in entries:
+            if kind == "file" and (name == "CMakeLists.txt" or name.endswith(".cmake")):
+                if text := folder.read(join(path, name)):
+                    yield text
+            elif kind == "directory" and not link and not name.startswith("."):
+                todo.append(join(path, name))
+
+
+def _setup_cfg(folder: Folder) -> PythonProject | None:
+    """Return what setup.cfg says, if colcon is content with it."""
+    setup_py, setup_cfg = folder.text("setup.py"), folder.text("setup.cfg")
+    if setup_py is None or setup_cfg is None:
+        return None
+    from ros_lint.collectors.colcon import python_project as colcon_python  # noqa: PLC0415  (needed only where there is no usable manifest)
+
+    found = colcon_python.from_setup_cfg(setup_cfg) if colcon_python.needs_no_run(setup_py) else None
+    return found if found and found.name else None
+
+
+def _setup_py(folder: Folder) -> PythonProject | None:
+    setup_py = folder.text("setup.py")
+    if setup_py is None:
+        return None
+    from ros_lint.collectors.colcon import python_project as colcon_python  # noqa: PLC0415  (needed only where there is no usable manifest)
+
+    return colcon_python.from_setup_py(setup_py, folder.text("setup.cfg"), folder.text("pyproject.toml"))

@@ -1,0 +1,93 @@
+"""Files that name sources which belong to a workspace and need not be there."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from typing import NamedTuple
+
+from ros_lint.base.tree import Tree, join, parent, text_of
+from ros_lint.engine.report import NotChecked
+
+_ENDINGS = (".repos", ".rosinstall", ".gitmodules")
+
+
+class Awaited(NamedTuple):
+    """Repositories that may still come to a workspace, by the names of their folders: mostly those of the packages in them."""
+
+    uncloned: frozenset[str] = frozenset()
+    """Submodules whose folders are empty. What they have is missing by no mistake: packages, Python modules, libraries."""
+    listed: frozenset[str] = frozenset()
+    """Those that ``*.repos`` and ``*.rosinstall`` have fetched, which whoever builds the workspace may have done or not."""
+
+
+NOTHING_AWAITED = Awaited()
+
+
+def find(tree: Tree, roots: Sequence[str], files: Iterable[str]) -> tuple[str, ...]:
+    """Return the ``*.repos`` (vcstool), ``*.rosinstall`` (wstool) and ``.gitmodules`` of a workspace, sorted.
+
+    Looked for are the base of the tree, the roots and the folders directly in either, and ``files``, which are those of
+    packages. What cannot be read has none.
+    """
+    found = {path for path in files if path.endswith(_ENDINGS)}
+    for top in {"", *roots}:
+        folders = [top]
+        for number, folder in enumerate(folders):
+            try:
+                entries = tree.list(folder)
+            except OSError:
+                continue
+            lists = [entry.name for entry in entries if entry.name.endswith(_ENDINGS) and entry.kind != "directory"]
+            found.update(join(folder, name) for name in lists)
+            if number == 0:
+                inner = [entry.name for entry in entries if entry.kind == "directory" and not entry.name.startswith(".")]
+                folders += [join(top, name) for name in inner]
+    return tuple(sorted(found))
+
+
+def unreadable(tree: Tree, lists: Iterable[str]) -> Iterator[NotChecked]:
+    """Yield the lists that cannot be read, such as a FIFO of that name."""
+    for path in lists:
+        try:
+            tree.read(path)
+        except FileNotFoundError:
+            continue  # a link to nothing
+        except OSError as error:
+            yield NotChecked.of(path, error)
+
+
+_SUBMODULE = re.compile(r"^[ \t]*path[ \t]*=[ \t]*(.+?)[ \t\r]*$", re.MULTILINE)
+
+
+def submodules(tree: Tree, lists: Iterable[str]) -> tuple[str, ...]:
+    """Return the folders that the ``.gitmodules`` among the lists name and that are empty, or not there: not cloned yet."""
+    found = []
+    for path in lists:
+        if path.rpartition("/")[2] != ".gitmodules":
+            continue
+        text = text_of(tree, path)
+        folders = (join(parent(path), match[1].strip("/")) for match in _SUBMODULE.finditer(text.text if text else ""))
+        found += [folder for folder in folders if not _has_entries(tree, folder)]
+    return tuple(sorted(found))
+
+
+_REPOSITORY = re.compile(r"^[ \t]+['\"]?([\w./+-]+?)['\"]?[ \t]*:[ \t\r]*$|\blocal-name:[ \t]*['\"]?([\w./+-]+)", re.MULTILINE)
+
+
+def awaited(tree: Tree, lists: Iterable[str], submodules: Iterable[str]) -> Awaited:
+    """Return what the lists of a workspace name, and the submodules that are not cloned yet."""
+    texts = [text.text for path in lists if not path.endswith(".gitmodules") and (text := text_of(tree, path))]
+    found = (match[1] or match[2] for text in texts for match in _REPOSITORY.finditer(text))
+    return Awaited(_names(submodules), _names(folder.rstrip("/") for folder in found))
+
+
+def _names(folders: Iterable[str]) -> frozenset[str]:
+    return frozenset([folder.rpartition("/")[2] for folder in folders])
+
+
+def _has_entries(tree: Tree, folder: str) -> bool:
+    try:
+        return bool(tree.list(folder))
+    except OSError:
+        return False

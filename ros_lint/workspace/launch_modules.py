@@ -1,0 +1,224 @@
+"""Python launch files that read more than themselves: helper modules and files of the workspace.
+
+Each launch file is followed by itself first, and notes what it wants. Where that leaves something open and the workspace
+has what is wanted, it is followed again with this at hand.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.analysis.launch.includes import everything
+from ros_lint.base.text import Text, read
+from ros_lint.base.tree import Tree, join, parent, seen_from, within
+from ros_lint.collectors.launch.presence_checks import DISTRIBUTIONS
+from ros_lint.collectors.launch.python.released_helpers import HELPERS
+from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, installed_place
+from ros_lint.facts.build import BuildScript
+from ros_lint.facts.launch import LaunchAction, LaunchFile, LaunchValue
+
+if TYPE_CHECKING:
+    from ros_lint.collectors.python.interpreter.values import Module
+
+_MOST_BYTES = 1 << 18
+
+
+class Around(NamedTuple):
+    """A package with what its launch files may read."""
+
+    name: str
+    path: str
+    files: Collection[str]
+    """Relative to the package."""
+    script: BuildScript | None
+    launch: tuple[LaunchFile, ...]
+
+
+def completed(tree: Tree, packages: Sequence[Around], distro: str) -> list[tuple[LaunchFile, ...]]:
+    """Return the launch files of each package, those followed again that want something which is there and may help.
+
+    They refer to what they do in a distribution, if it is maintained.
+    """
+    if not any(_is_open(file) for package in packages for file in package.launch):
+        return [tuple([_under(distro, file) for file in package.launch]) for package in packages]
+    places = _Places(tree, packages)
+    return [tuple([_under(distro, places.completed(file, package)) for file in package.launch]) for package in packages]
+
+
+def _under(distro: str, file: LaunchFile) -> LaunchFile:
+    if distro not in DISTRIBUTIONS or not any(reference.distros for reference in file.references):
+        return file
+    return file._replace(references=tuple([one for one in file.references if not one.distros or distro in one.distros]))
+
+
+class _Places:
+    """Finds modules and installed files in the sources of the workspace."""
+
+    def __init__(self, tree: Tree, packages: Sequence[Around]) -> None:
+        self._tree = tree
+        self._by_name: dict[str, list[Around]] = {}
+        self._by_path = {package.path: package for package in packages}
+        self._modules: dict[str, list[Around]] = {}
+        self._provides: dict[str, dict[str, str]] = {}
+        self._trees: dict[str, Module | None] = {}
+        self._on_path: set[str] = set()
+        """Modules that were found where Python was told to look: what lies beside them is found as well."""
+        for package in packages:
+            self._by_name.setdefault(package.name, []).append(package)
+            script = package.script
+            for top in dict.fromkeys(name.partition(".")[0] for name in script.python_packages) if script else ():
+                self._modules.setdefault(top, []).append(package)
+
+    def completed(self, file: LaunchFile, package: Around) -> LaunchFile:
+        """Return a launch file followed with what it wants, as it is where nothing of that is there."""
+        text = self._text(file.path) if _is_open(file) else None
+        if text is None or not any(self._module(want, text) or self._file(want, file, package) for want in file.wants):
+            return file
+        from ros_lint.collectors.launch.python import collect as launch_py  # noqa: PLC0415  (few launch files want anything)
+
+        def modules(name: str, importer: Text) -> Module | None:
+            path = self._module(name, importer)
+            return self._parsed(path) if path else None
+
+        def files(path: str) -> str | None:
+            source = self._file(path, file, package)
+            found = self._text(source) if source else None
+            return None if found is None else found.text
+
+        again = launch_py.collect(text, modules, files)
+        if len(again.opaque) > len(file.opaque):
+            return file
+        # What the module of another package starts is the need of that package.
+        own = [one for one in again.references if self._package_of(one.package_span.path) is package]
+        return again._replace(references=tuple(own))
+
+    def _text(self, path: str) -> Text | None:
+        try:
+            data = self._tree.read(path)
+        except OSError:
+            return None
+        return read(path, data) if len(data) <= _MOST_BYTES else None
+
+    def _parsed(self, path: str) -> Module | None:
+        """Return a module, None for what is no Python. Many launch files import the same ones."""
+        if path not in self._trees:
+            text = self._text(path)
+            self._trees[path] = _module_of(text) if text else None
+        return self._trees[path]
+
+    # --- modules --------------------------------------------------------------------------------------------------
+
+    def _module(self, name: str, importer: Text) -> str:
+        """Return the path of a module, as another one imports it, "" if it is not clear which file that is."""
+        package = self._package_of(importer.path)
+        if package is None:
+            return ""
+        dots = len(name) - len(name.lstrip("."))
+        rest = name[dots:].replace(".", "/")
+        if dots:
+            folder = parent(importer.path)
+            for _ in range(dots - 1):
+                folder = parent(folder)
+            return self._existing(join(folder, rest) if rest else folder, package)
+        owners = self._modules.get(rest.partition("/")[0], [])
+        if package in owners:
+            return self._sought(rest, importer, package)
+        if "sys.path" in importer.text or importer.path in self._on_path:
+            found = self._sought(rest, importer, package) or self._elsewhere(rest, importer)
+            self._on_path.add(found)
+            return found
+        return _shortest(owners[0], rest) if len(owners) == 1 else ""
+
+    def _sought(self, module: str, importer: Text, package: Around) -> str:
+        return self._existing(join(parent(importer.path), module), package) or _shortest(package, module)
+
+    def _elsewhere(self, module: str, importer: Text) -> str:
+        """Return the path of a module in the folder of another package that is named: where Python was told to look, too."""
+        named = [one for one in self._by_path.values() if _is_quoted(one.name, importer.text)]
+        found = [path for one in named if (path := _shortest(one, module))]
+        return found[0] if len(found) == 1 else ""
+
+    def _package_of(self, path: str) -> Around | None:
+        while path:
+            path = parent(path)
+            if path in self._by_path:
+                return self._by_path[path]
+        return None
+
+    @staticmethod
+    def _existing(module: str, package: Around) -> str:
+        return next((path for path in _sources(module) if within(package.path, path) in package.files), "")
+
+    # --- files ----------------------------------------------------------------------------------------------------
+
+    def _file(self, path: str, file: LaunchFile, package: Around) -> str:
+        """Return the source of an installed file, "" if it is not clear which one that is."""
+        if path.startswith(f"{OWN_FOLDER}/"):
+            return self._beside(path[len(OWN_FOLDER) + 1 :], file, package)
+        place = installed_place(path)
+        if place is None:
+            return ""
+        owners = self._by_name.get(place.package, [])
+        return self._provided(owners[0]).get(place.path, "") if len(owners) == 1 else ""
+
+    def _beside(self, path: str, file: LaunchFile, package: Around) -> str:
+        """Return the source of a file that is named from the folder of a launch file, where that is installed."""
+        provided = self._provided(package)
+        own = next((place for place, source in provided.items() if source == file.path), "")
+        if own:
+            return provided.get(seen_from(parent(own), path), "")
+        source = seen_from(parent(file.path), path)
+        return source if within(package.path, source) in package.files else ""
+
+    def _provided(self, package: Around) -> dict[str, str]:
+        """Return the sources of what a package installs, by install path."""
+        found = self._provides.get(package.path)
+        if found is None:
+            provides = package.script.provides if package.script else ()
+            found = {one.path: seen_from(package.path, one.source) for one in provides if one.source}
+            self._provides[package.path] = found
+        return found
+
+
+def _is_open(file: LaunchFile) -> bool:
+    """Return whether there is something in a launch file that what it wants can make clear."""
+    if not file.wants or file.helper:
+        return False
+    if file.opaque or not HELPERS.keys().isdisjoint(file.wants):
+        return True
+    return any(UNKNOWN in text for action in everything(file.actions) for value in _named_by(action) for text in value.texts)
+
+
+def _named_by(action: LaunchAction) -> Iterator[LaunchValue]:
+    """Yield what an action names: a package, what is started, files of parameters."""
+    yield from (value for value in (action.package, action.target) if value is not None)
+    yield from (value for name, value in action.parameters if not name)
+
+
+def _module_of(text: Text) -> Module | None:
+    from ros_lint.collectors.python.interpreter.values import Module  # noqa: PLC0415  (few launch files want anything)
+    from ros_lint.collectors.python.syntax import NotPythonError, parse  # noqa: PLC0415
+
+    try:
+        return Module(text, parse(text))
+    except NotPythonError:
+        return None
+
+
+def _sources(module: str) -> Iterator[str]:
+    yield f"{module}.py"
+    yield f"{module}/__init__.py"
+
+
+def _is_quoted(name: str, text: str) -> bool:
+    return f"'{name}'" in text or f'"{name}"' in text
+
+
+def _shortest(package: Around, module: str) -> str:
+    """Return the source of a module in a package: the one that lies least deep."""
+    for name in _sources(module):
+        found = [file for file in package.files if file == name or file.endswith(f"/{name}")]
+        if found:
+            return join(package.path, min(found, key=lambda file: (file.count("/"), file)))
+    return ""

@@ -1,0 +1,399 @@
+"""From mentions to uses: whose name is it, what is it needed for, and is the place alive?
+
+Names are not packages: a header path, a Python module, the argument of find_package and a package name live in four name
+spaces (reference, sections C2b, D6, E3.8). This module is the only one that goes from one to the other.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, NamedTuple, Protocol
+
+from ros_lint.base.text import Span
+from ros_lint.base.tree import within
+from ros_lint.collectors.suffixes import HEADERS
+from ros_lint.facts.build import NOTHING_BUILT, REPOSITORIES, BuildScript
+from ros_lint.facts.launch import LaunchFile
+from ros_lint.facts.manifest import Role
+from ros_lint.facts.sources import FileFacts, Mention, Use, Via
+from ros_lint.facts.visibility import Opaque
+from ros_lint.knowledge.spelling import may_be_package
+from ros_lint.workspace.usage.file_roles import Liveness
+from ros_lint.workspace.usage.own_files import OwnFiles
+
+if TYPE_CHECKING:
+    from ros_lint.knowledge.providers import Providers
+    from ros_lint.knowledge.world import Standing
+    from ros_lint.workspace.discovery.repository_lists import Awaited
+
+
+class Names(Protocol):
+    """The look-ups of the world that evidence needs."""
+
+    def by_cmake(self, name: str) -> Providers: ...
+    def by_macro(self, package: str) -> Providers: ...
+    def by_include(self, header: str) -> Providers: ...
+    def by_import(self, module: str) -> Providers: ...
+    def is_package(self, name: str) -> bool: ...
+    def standing(self, name: str) -> Standing: ...
+    def is_declared(self, name: str) -> bool: ...
+    @property
+    def awaited(self) -> Awaited: ...
+
+
+_make = tuple.__new__
+"""Makes a named tuple in half the time that its class takes."""
+
+
+class Source(NamedTuple):
+    """What evidence needs to know of one package."""
+
+    name: str
+    path: str
+    files: tuple[str, ...]
+    """Relative to the package."""
+    script: BuildScript | None
+    facts: Mapping[str, FileFacts]
+    """By path relative to the package."""
+    launch: tuple[LaunchFile, ...]
+    builds_with: str
+
+    @property
+    def built(self) -> BuildScript:
+        """Return the build script, one that builds and installs nothing where there is none."""
+        return self.script or NOTHING_BUILT
+
+
+_WORD = re.compile("[A-Za-z0-9]+")
+
+_BUILD_MODULES = frozenset({"setuptools", "distutils", "pkg_resources", "pip"})
+"""Whoever builds a Python package has these (reference, section D1.9)."""
+
+_TEST = Role.TEST
+_LOOKED_UP = Role.EXEC
+"""A package whose files are looked up at run time is not compiled against (reference, section E2, rows 17 and 24)."""
+
+
+class Answer(NamedTuple):
+    """Whose name a mention is."""
+
+    providers: tuple[str, ...]
+    """Every name that satisfies it when it is declared, the best first: empty when it is nobody's."""
+    sure: bool = True
+    what: str = ""
+    """How a message quotes it."""
+
+
+_NOBODY = Answer(())
+_INTERFACES = re.compile(r"[a-z][a-z0-9_]*[./](?:msg|srv|action)(?:[./]|\Z)")
+"""Headers and modules of messages: only packages of ROS have them, whoever has the package."""
+_OF_ROS_1 = re.compile(r"[a-z][a-z0-9_]*_(?:msgs|srvs)/[A-Z]\w*\.h")
+"""Headers of messages as ROS 1 makes them; ROS 2 makes others, in a folder ``msg``, for those with the same name."""
+_OF_TESTS = ("gtest/", "gmock/")
+"""Headers that a header without a source of its own can include for nobody but tests."""
+
+
+class Resolver:
+    """Says whose a name is, once for all packages of a workspace."""
+
+    def __init__(self, sources: Sequence[Source], names: Names) -> None:
+        self.names = names
+        self._headers = include_index(sources)
+        self._sources = frozenset([source.name for source in sources])
+        self._empty = frozenset([source.name for source in sources if source.built.makes_nothing])
+        self._ask: Mapping[Via, Callable[[str], Answer]] = {
+            "include": self._include,
+            "import": self._imported,
+            "cmake": self._found,
+            "target": lambda name: self._told(self.names.by_cmake(name.partition("::")[0]), name.partition("::")[0]),
+            "macro": lambda name: self._told(self.names.by_macro(name.partition("::")[0]), name.partition("::")[0]),
+            "interface": lambda name: self._package(name.partition("/")[0]),
+            "package": self._package,
+            "symbol": lambda name: Answer((name,)) if self.names.is_package(name) else _NOBODY,
+            "launch": lambda name: Answer((name,)) if self.names.is_package(name) else self._strange(name),
+            "key": lambda name: Answer((name,)),
+        }
+        self._said: Mapping[Via, dict[str, Answer]] = {via: {} for via in self._ask}
+
+    def answer(self, via: Via, name: str) -> Answer:
+        """Return whose a name is, if not the package's own that mentions it."""
+        said = self._said[via]
+        found = said.get(name)
+        if found is None:
+            found = said[name] = self._ask[via](name)._replace(what=_WHAT[via].format(name))
+        return found
+
+    def _include(self, header: str) -> Answer:
+        found = self._headers.get(header)
+        first, slash, _ = header.partition("/")
+        if not found:
+            if (slash and first in self._empty) or _OF_ROS_1.fullmatch(header):
+                return _NOBODY  # the headers of a library that is called like a metapackage, and those of ROS 1
+            return self._told(self.names.by_include(header), first if slash else "", header)
+        if slash and first not in found:
+            known = self.names.by_include(header)
+            if known.known and not set(found).intersection(known.names):  # then this is a copy of what is known elsewhere
+                return Answer((*known.names, *found), known.sure)
+        return Answer(tuple(sorted(found, key=lambda package: package != first)))
+
+    def _imported(self, module: str) -> Answer:
+        first = module.partition(".")[0]
+        found = self._told(self.names.by_import(module), first, module)
+        # Even a package without such a module is the one that is meant: interfaces have no other name.
+        meant = not found.providers and first in self._sources and _INTERFACES.match(module)
+        return Answer((first,)) if meant else found
+
+    def _package(self, name: str) -> Answer:
+        # Definitions that tests parse are full of names that nobody has, and so are look-ups in templates.
+        return Answer((name,)) if self.names.is_package(name) else self._strange(name, self.names.is_declared(name))
+
+    def looked_up(self, name: str) -> Answer:
+        """Return whose files are sure to be looked up by a name that says nothing: a package, wherever that comes from."""
+        return Answer((name,), False, name) if self.names.standing(name) == "unknown" and may_be_package(name) else _NOBODY
+
+    def _found(self, name: str) -> Answer:
+        known = self.names.by_cmake(name)
+        # A library may have any name, but not by chance that of a dependency of another package.
+        return self._told(known, name) if known.known or not may_be_package(name) else self._package(name)
+
+    def _told(self, providers: Providers, name: str, whole: str = "") -> Answer:
+        if providers.known:
+            return Answer(providers.names, providers.sure)
+        return self._strange(name, bool(whole) and _INTERFACES.match(whole) is not None)
+
+    def _strange(self, name: str, interfaces: bool = False) -> Answer:
+        """Return what is to be made of a name that nobody here has.
+
+        It is a package that other distributions have, or had, or one whose ``interfaces`` are used. That one is no left-over if
+        the workspace declares it.
+        """
+        standing = self.names.standing(name) if name else "unknowable"
+        if standing == "elsewhere":
+            return Answer((name,))
+        declared = interfaces and self.names.is_declared(name)
+        # A submodule that is not cloned may be a library. What another package declares is none, wherever it comes from.
+        if standing == "end-of-life" or (standing == "unknown" and interfaces) or (standing == "unknowable" and declared):
+            return Answer((name,), declared)
+        return _NOBODY
+
+
+_WHAT: Mapping[Via, str] = {
+    "package": "{}",
+    "cmake": "find_package({})",
+    "macro": "{}()",
+    "target": "{}",
+    "include": "#include <{}>",
+    "import": "import {}",
+    "interface": "{}",
+    "symbol": "{}",
+    "key": "{}",
+    "launch": "{}",
+}
+
+
+def resolve(source: Source, resolver: Resolver, own: OwnFiles) -> tuple[Use, ...]:
+    """Return every use of another package, sorted by place, given what names mean files of the package itself."""
+    launched = frozenset(within(source.path, launch.path) for launch in source.launch)
+    tests = frozenset(within(source.path, launch.path) for launch in source.launch if launch.test)
+    alive = Liveness(own, launched)
+    uses = _Uses(source, own, alive, resolver)
+    forgone = own.forgone(_lenient(source, alive))
+    _add_script(source, uses)
+    for path, facts in source.facts.items():
+        if not facts.mentions or alive.is_foreign(path):
+            continue
+        role, sure = alive.place(path)
+        role = _TEST if path in tests else role
+        mentions = list(facts.mentions)
+        if alive.is_optional(path) or (path in forgone and not alive.is_started(path)):
+            mentions = [mention._replace(optional=True) for mention in mentions]
+        if path in launched:  # the launch collector has the packages, too, but for those of plugins
+            mentions = [mention for mention in mentions if mention.via != "package" or mention.purpose == "plugins"]
+        uses.add(path, mentions, role, _TEST if role is _TEST else _LOOKED_UP, sure)
+    for launch in source.launch:
+        path = within(source.path, launch.path)
+        if alive.is_foreign(path):
+            continue
+        role, sure = alive.place(path)
+        _launch_uses(launch, _TEST if launch.test else role, uses, sure)
+    return uses.sorted()
+
+
+def _add_script(source: Source, uses: _Uses) -> None:
+    """Add what the build script names, and what it is said to search on behalf of others."""
+    by_role: dict[tuple[str, Role], list[Mention]] = {}
+    untaken = frozenset(source.built.untaken)
+    for mention in source.built.mentions:
+        if mention.purpose == "plugins":
+            continue  # who loads them need not be there, and the base class is in headers
+        role = _TEST if mention.test else _script_role(source, mention)
+        only_named = mention.via == "cmake" and mention.span in untaken
+        ours = by_role.setdefault((mention.span.path, role), [])
+        ours.append(mention._replace(optional=True) if only_named else mention)
+    for (path, role), mentions in by_role.items():
+        uses.add(within(source.path, path), mentions, role, role, sure=True)
+    for mention, always in source.built.handed_on:
+        uses.add(within(source.path, mention.span.path), [mention], Role.EXPORT, Role.EXPORT, always)
+    _unspoken(source, uses)
+
+
+class _Uses:
+    """The uses found in a package so far. Of two of one package in one place by one way the last counts."""
+
+    def __init__(self, source: Source, own: OwnFiles, alive: Liveness, resolver: Resolver) -> None:
+        self.package = source.name
+        self.resolver = resolver
+        self._own = own
+        self._alive = alive
+        self._absent = resolver.names.awaited.uncloned
+        self._caught = frozenset([name for path in _lenient(source, alive) for name in source.facts[path].caught])
+        self._added = frozenset([span for facts in source.facts.values() for span in facts.added])
+        script = source.built
+        self._reaches_out = script.reaches_out
+        self._bundled = frozenset([name.lower() for name in script.bundled])
+        self._found_always = frozenset(
+            [each.name for each in script.mentions if each.via == "cmake" and not (each.optional or each.test)]
+        )
+        self._found: dict[tuple[Span, str, Via], Use] = {}
+
+    def put(self, use: Use) -> None:
+        self._found[use.span, use.package, use.via] = use
+
+    def sorted(self) -> tuple[Use, ...]:
+        return tuple([use for _, use in sorted(self._found.items())])
+
+    def add(self, path: str, mentions: Iterable[Mention], role: Role, looked_up: Role, sure: bool) -> None:
+        """Add what the mentions in a file come to. ``looked_up`` is what packages are for whose files are looked up."""
+        package, answer, found = self.package, self.resolver.answer, self._found
+        own = self._own.included(path)
+        for name, via, span, what, optional, test, purpose in mentions:
+            if (via == "include" and (name in own or self._is_bundled(name))) or (
+                via == "import" and self._is_own_module(name, path)
+            ):
+                continue
+            providers, known, usual = answer(via, name)
+            if not providers and via == "package" and sure and not (optional or test or role is _TEST):
+                providers, known, usual = self.resolver.looked_up(name)
+            if not providers or package in providers:
+                continue
+            if via == "include" and providers[0] in self._own.include_folders and name.startswith(f"{providers[0]}/"):
+                continue
+            needed = _TEST if test else looked_up if via == "package" else role
+            if via == "include" and name.startswith(_OF_TESTS) and self._alive.serves_tests(path):
+                needed = _TEST
+            spared = optional
+            if via == "import":
+                spared = spared or self._is_spared(name, span, providers[0])
+                known = known and name.partition(".")[0] not in self._absent
+            elif known and self._reaches_out and via == "include" and "/" not in name:
+                known = False  # any folder may have it
+            elif self._absent and known:
+                known = self._is_here(name, providers[0])
+            if not known and providers[0] in self._found_always and _INTERFACES.match(name):
+                known = True  # no left-over: without it nothing is built
+            by: Via = "macro" if purpose == "helper" else via
+            found[span, providers[0], by] = _make(
+                Use, (providers[0], providers, needed, what or usual, by, spared, span, sure and known, name)
+            )
+
+    def _is_here(self, name: str, best: str) -> bool:
+        """Whether no submodule that is not cloned may bring a header or a library."""
+        if REPOSITORIES.get(name.partition("/")[0]) in self._absent:
+            return False
+        return self.resolver.names.is_package(best) or self._absent.isdisjoint(_WORD.findall(name))
+
+    def _is_spared(self, name: str, span: Span, best: str) -> bool:
+        """Whether a module can be missing, or be what nobody knows: elsewhere in the package its absence is allowed for."""
+        if span in self._added:
+            return not self.resolver.names.is_package(best)
+        return bool(self._caught) and any(name == each or name.startswith(f"{each}.") for each in self._caught)
+
+    def _is_bundled(self, header: str) -> bool:
+        """Whether a header is of a project that is built along with the package: in its folder, or owner/name.hpp."""
+        if not self._bundled:
+            return False
+        path = header.lower()
+        folder = path.partition("/")[0]
+        return not self._bundled.isdisjoint((folder, REPOSITORIES.get(folder, folder), path.rpartition(".")[0]))
+
+    def _is_own_module(self, name: str, path: str) -> bool:
+        top = name.partition(".")[0]
+        return self._own.has_module(top, path) or (top in _BUILD_MODULES and path.endswith("setup.py"))
+
+
+def _lenient(source: Source, alive: Liveness) -> list[str]:
+    """Return the files of the package that import something and go on without, tests aside."""
+    return [path for path, facts in source.facts.items() if facts.caught and alive.place(path)[0] is not _TEST]
+
+
+def _unspoken(source: Source, uses: _Uses) -> None:
+    """Add what generated code needs without being told: actions are made of it (reference, section C4.4)."""
+    if source.name == _ACTIONS or not any(each.startswith("action/") for each in source.built.interfaces):
+        return
+    for mention in source.built.mentions:
+        if mention.via == "macro" and mention.purpose == "interfaces" and uses.resolver.names.is_package(_ACTIONS):
+            role = _TEST if mention.test else Role.BUILD | Role.EXPORT | Role.EXEC
+            uses.put(Use(_ACTIONS, (_ACTIONS,), role, "an action", "macro", mention.optional, mention.span))
+
+
+_ACTIONS = "action_msgs"
+
+
+def _script_role(source: Source, mention: Mention) -> Role:
+    if source.builds_with == "ament_python" or mention.via == "macro" or mention.purpose == "tool":
+        return Role.TOOL
+    return Role.EXPORT if mention.purpose == "export" else Role.BUILD
+
+
+def _launch_uses(launch: LaunchFile, role: Role, uses: _Uses, sure: bool) -> None:
+    for reference in launch.references:
+        package = reference.package
+        if reference.kind == "program":
+            continue
+        answer = uses.resolver.answer("launch", package)
+        if package != uses.package and answer.providers:
+            what = package if reference.kind == "package" else f"{reference.kind} {reference.name}"
+            uses.put(
+                Use(package, (package,), role, what, "launch", reference.optional, reference.package_span, sure and answer.sure)
+            )
+
+
+def include_index(sources: Iterable[Source]) -> dict[str, tuple[str, ...]]:
+    """Return, for every header below an ``include`` folder of the workspace, the packages that have it, by include path."""
+    found: dict[str, tuple[str, ...]] = {}
+    for source in sources:
+        for file in source.files:
+            if not file.endswith(HEADERS):
+                continue
+            _, marker, header = f"/{file}".partition("/include/")
+            if not marker:
+                continue
+            # include/<package>/<package>/x.hpp and include/<package>/x.hpp are both written <package>/x.hpp.
+            for spelling in {header, header.removeprefix(f"{source.name}/") if header.count("/") > 1 else header}:
+                have = found.get(spelling, ())
+                if source.name not in have:
+                    found[spelling] = (*have, source.name)
+    return found
+
+
+def opaque_of(source: Source) -> tuple[Opaque, ...]:
+    """Return everything that hides a side of the package."""
+    found: list[Opaque] = list(source.built.opaque)
+    for facts in source.facts.values():
+        found += facts.opaque
+    for launch in source.launch:
+        found += launch.opaque
+    return tuple(sorted(found, key=lambda opaque: (opaque.span, opaque.reason)))
+
+
+def satisfying(uses: Iterable[Use]) -> frozenset[str]:
+    """Return every name that satisfies some use when it is declared."""
+    return frozenset([name for answer in {use.providers for use in uses} for name in answer])
+
+
+def used_names(declared: Iterable[str], uses: Iterable[Use]) -> frozenset[str]:
+    """Return the names that satisfy a use. Of several that would do, the best that is declared does it."""
+    names = frozenset(declared)
+    answers = {use.providers for use in uses}
+    return frozenset([name for answer in answers for name in [each for each in answer if each in names][:1]])

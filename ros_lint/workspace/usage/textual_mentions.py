@@ -1,0 +1,289 @@
+"""Where the texts of a package name others that nothing in it seems to use (reference, section F3, condition 7)."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import accumulate
+from typing import TYPE_CHECKING
+
+from ros_lint.analysis.dependencies.find_package import not_seen_used
+from ros_lint.analysis.dependencies.tags import is_built_in_sight, is_unseen_by_name, sounds_unseen
+from ros_lint.base.text import Span, beginning, raw, span_in
+from ros_lint.base.tree import Tree, contents, join
+from ros_lint.facts.sources import Via
+from ros_lint.workspace.model import Package
+from ros_lint.workspace.usage.resolve import Source, satisfying, used_names
+from ros_lint.workspace.usage.unqualified_types import Types
+
+if TYPE_CHECKING:
+    from ros_lint.knowledge.world import World
+
+_NO_TEXT = (
+    ".md", ".rst", ".png", ".jpg", ".svg", ".gif", ".pdf", ".stl", ".dae", ".obj", ".pgm", ".pcd",
+    ".zip", ".onnx", ".bag", ".mcap",
+)  # fmt: skip
+_NO_TRACE = ("changelog", "readme", "license", "licence", "contributing", "quality_declaration", "copying", "notice")
+
+
+def of_package(tree: Tree, package: Package, source: Source, world: World, types: Types) -> Mapping[str, Span]:
+    """Return a place for every declared name that stands in a text of the package though nothing in it is seen to use it."""
+    if not is_built_in_sight(package):
+        return {}
+    built = [d.name for d in package.declared if d.depend.tag in ("depend", "build_depend") and d.always]
+    used, satisfied = used_names(built, package.uses), satisfying(package.uses)
+    names = world.knowledge.names
+    wanted = [
+        name
+        for name in dict.fromkeys(built)
+        if not (name in used or sounds_unseen(world, name) or (name in satisfied and is_unseen_by_name(world, name)))
+    ]
+    libraries = {name: names.called(name) for name in wanted if world.is_key(name)}
+    found = mentioned(wanted, source, libraries, _may_trace) if wanted else {}
+    left = [name for name in wanted if name not in found]
+    if left:
+        found = {**found, **traces(left, _contents(tree, package, package.files), libraries)}
+        left = [name for name in left if name not in found]
+    if left:
+        found = {**found, **types.used(source, left)}
+        left = [name for name in left if name not in found]
+    return {**found, **_started(left, tree, package)} if left else found
+
+
+def _started(names: Sequence[str], tree: Tree, package: Package) -> dict[str, Span]:
+    """Return a place for those names that the pages of a package tell people to start something of.
+
+    A page that cannot be read may do so for each of them.
+    """
+    found: dict[str, Span] = {}
+    for path in (join(package.path, file) for file in package.files if file.lower().endswith(_PAGES)):
+        try:
+            data = tree.read(path)
+        except OSError:
+            return dict.fromkeys(names, beginning(path))
+        for match in _START.finditer(data) if b"ros2 " in data else ():
+            name = match[1].decode()
+            if name in names:
+                found.setdefault(name, span_in(path, data, *match.span(1)))
+    return found
+
+
+_PAGES = (".md", ".rst")
+_START = re.compile(rb"ros2 +(?:run|launch) +([a-z][a-z0-9_]*)")
+"""A command line, as people are told to type it."""
+
+
+def of_found(tree: Tree, package: Package, source: Source, world: World, types: Types) -> frozenset[str]:
+    """Return the packages that CMake finds and that are used all the same, it seems, though no code is seen to use them.
+
+    Their name stands in a text, build scripts aside, for namespaces are often known by way of a header of another package;
+    or the script takes more of them than what is linked; or they may have a header that nobody is known to have.
+    """
+    wanted = [each.name for each in not_seen_used(package) if not is_unseen_by_name(world, each.name)]
+    if not wanted:
+        return frozenset()
+    scripts, others = ([file for file in package.files if file.endswith(_OF_BUILD) is of_build] for of_build in (True, False))
+    found = frozenset(traces(wanted, _contents(tree, package, others), whole=True))
+    commands = b"\n".join([data for _, data in _contents(tree, package, scripts)])
+    found |= {name for name in wanted if re.search(_VARIABLE % re.escape(raw(name)), commands)}
+    if len(found) < len(wanted):
+        folders = _unknown_folders(package, source)
+        found |= {name for name in wanted if any(f"{name}_".startswith(f"{folder}_") for folder in folders)}
+    return found.union(types.used(source, [name for name in wanted if name not in found]))
+
+
+def unwritten(tree: Tree, package: Package) -> frozenset[str]:
+    """Return the classes in plugin descriptions of a package whose name stands in no source of it.
+
+    None where names are put together, so that they need not stand there.
+    """
+    made = {registration.name for registration in package.registrations}
+    plugins = package.built.plugins
+    described = [one.type for plugin in plugins for library in plugin.libraries for one in library.classes]
+    wanted = [name for name in dict.fromkeys(described) if name not in made]
+    if not wanted:
+        return frozenset()
+    sources = [file for file in package.files if file.endswith(_OF_CODE) or file.endswith(_OF_BUILD)]
+    words = {name: word for name in wanted if (word := raw(name.rpartition("::")[2]))}
+    for _, data in contents(tree, package.path, sources):
+        if _PUT_TOGETHER.search(data):
+            return frozenset()
+        words = {name: word for name, word in words.items() if not re.search(rb"\b%s\b" % re.escape(word), data)}
+    return frozenset(words)
+
+
+_PUT_TOGETHER = re.compile(rb"#[ \t]*define\b(?:[^\n]|\\\n)*(?:PLUGINLIB_EXPORT_|CLASS_LOADER_REGISTER_)CLASS")
+"""A macro that makes classes loadable: it may make their names, too."""
+
+_OF_CODE = (".c", ".cc", ".cpp", ".cu", ".cxx", ".em", ".h", ".hh", ".hpp", ".hxx", ".in", ".inl", ".ipp", ".jinja", ".py")
+"""Sources, and what sources are made of."""
+
+
+def _unknown_folders(package: Package, source: Source) -> frozenset[str]:
+    """Return the folders of headers that are included and nobody is known to have.
+
+    Packages share their beginnings with these, as ``moveit_core`` does with ``moveit/planning_scene.h``.
+    """
+    used = {use.span for use in package.uses if use.via == "include"}
+    found = {
+        mention.name
+        for facts in source.facts.values()
+        for mention in facts.mentions
+        if mention.via == "include" and "/" in mention.name and mention.span not in used
+    }
+    own = "\n".join(["", *package.files, ""])
+    return frozenset(header.partition("/")[0] for header in found if f"/{header}\n" not in own)
+
+
+_VARIABLE = rb"\$\{%s_(?!(?:TARGETS|LIBRAR|INCLUDE_DIR|DEFINITIONS|FOUND|VERSION)\w*\})"
+"""A variable that a package gives for more than to be linked: the files that it has, for example."""
+
+_OF_BUILD = ("CMakeLists.txt", ".cmake")
+
+
+def _contents(tree: Tree, package: Package, files: Iterable[str]) -> Iterator[tuple[str, bytes]]:
+    """Yield those files of a package that may say that it uses something: no prose, and not the manifest itself."""
+    for path, data in contents(tree, package.path, filter(_may_trace, files)):
+        if b"\0" not in data[:1024]:
+            yield path, data
+
+
+def _may_trace(file: str) -> bool:
+    name = file.rpartition("/")[2].lower()
+    return not (name == "package.xml" or name.startswith(_NO_TRACE) or name.endswith(_NO_TEXT))
+
+
+def traces(
+    names: Sequence[str],
+    files: Iterable[tuple[str, bytes]],
+    words: Mapping[str, Sequence[str]] | None = None,
+    *,
+    whole: bool = False,
+) -> dict[str, Span]:
+    """Return a place for every name that stands as a word in one of the files, dashes and underscores taken as equal.
+
+    ``files`` are paths with contents. Many are searched at once and as they are: few of them have a name in question.
+    ``words`` are sought for some of the names instead, anywhere and whatever their capitals. With ``whole`` the part of a
+    longer name does not count: ``tf2`` is not in ``tf2_ros``.
+    """
+    found: dict[str, Span] = {}
+    for batch in _batches(files):
+        found.update(_traces_in(batch, [name for name in names if name not in found], words or {}, whole))
+        if len(found) == len(names):
+            break
+    return {name: found[name] for name in names if name in found}
+
+
+_BATCH = 1 << 24
+"""Bytes of texts that are held in memory to be searched together. Few packages have more."""
+
+
+def _batches(files: Iterable[tuple[str, bytes]]) -> Iterator[list[tuple[str, bytes]]]:
+    """Yield the files in groups, each of which ends with the file that fills it."""
+    batch: list[tuple[str, bytes]] = []
+    size = 0
+    for path, data in files:
+        batch.append((path, data))
+        size += len(data)
+        if size >= _BATCH:
+            yield batch
+            batch, size = [], 0
+    yield batch
+
+
+def _traces_in(
+    listed: Sequence[tuple[str, bytes]], names: Sequence[str], words: Mapping[str, Sequence[str]], whole: bool
+) -> dict[str, Span]:
+    data = b"\n".join([content for _, content in listed])
+    starts = list(accumulate([len(content) + 1 for _, content in listed], initial=0))
+    found: dict[str, Span] = {}
+    lower = data.lower() if words else b""
+    for name in names:
+        if name in words:
+            places = ((lower.find(raw(word.lower())), raw(word)) for word in words[name])
+        else:
+            places = ((_find_word(data, spelling, _JOINING if whole else b""), spelling) for spelling in _written(name, data))
+        start, spelling = next((place for place in places if place[0] >= 0), (-1, b""))
+        if start < 0:
+            continue
+        file = bisect_right(starts, start) - 1
+        offset = start - starts[file]
+        found[name] = span_in(*listed[file], offset, offset + len(spelling))
+    return found
+
+
+def mentioned(
+    names: Sequence[str], source: Source, words: Mapping[str, Sequence[str]], counts: Callable[[str], bool]
+) -> dict[str, Span]:
+    """Return what :func:`traces` does for those names that stand in an include or an import, without the texts.
+
+    ``counts`` says which files may leave traces.
+    """
+    mentions = [
+        mention
+        for file, facts in source.facts.items()
+        if facts.mentions and counts(file)
+        for mention in facts.mentions
+        if mention[1] in _AS_WRITTEN  # by index: there are ten thousands
+    ]
+    lines = raw("\n".join([mention[0] for mention in mentions]))
+    return {name: mentions[span.line - 1].span for name, span in traces(names, [("", lines)], words).items()}
+
+
+_AS_WRITTEN: frozenset[Via] = frozenset({"include", "import", "symbol"})
+"""Mentions whose name stands in the source just so."""
+
+
+def _written(name: str, data: bytes) -> Iterator[bytes]:
+    """Yield those spellings of a name whose end stands somewhere: names begin alike, and what few have is found faster."""
+    there: dict[bytes, bool] = {}
+    for spelling in _spellings(name):
+        written = raw(spelling)
+        end = _SEPARATOR.split(written, maxsplit=1)[-1]
+        if end not in there:
+            there[end] = end in data
+        if there[end]:
+            yield written
+
+
+_SEPARATOR = re.compile(rb"[-_/]|::")
+
+
+def _spellings(name: str) -> tuple[str, ...]:
+    """Return how a package may be written: with dashes, as a nested namespace or include folder.
+
+    The outer namespace is left out by who is in it, and libraries leave out that they are such.
+    Conversions of tf2 are found by the types of their arguments, and bear no name but tf2.
+    """
+    found = [name, name.replace("-", "_"), name.replace("_", "-"), name.replace("_", "::", 1), name.replace("_", "/", 1)]
+    inner = name.partition("_")[2]
+    if "_" in inner and name not in _CONVERSIONS:
+        found.append(f"{inner}::")
+    if name.startswith("lib"):
+        found += [f"{name[3:]}/", f"{name[3:]}::"]
+    return tuple(dict.fromkeys([*found, "tf2"] if name in _CONVERSIONS else found))
+
+
+_CONVERSIONS = frozenset({"tf2_bullet", "tf2_eigen", "tf2_eigen_kdl", "tf2_geometry_msgs", "tf2_kdl", "tf2_sensor_msgs"})
+
+
+_JOINING = b"-_"
+
+
+def _find_word(data: bytes, word: bytes, joining: bytes) -> int:
+    """Return the offset of a word, -1 when there is none. A search for letters is many times faster than for a pattern.
+
+    ``joining`` are the bytes that are part of a word besides letters and digits. A word that ends with a mark is a whole one
+    whatever follows.
+    """
+    start = data.find(word)
+    marked = not word[-1:].isalnum()
+    joining = _JOINING if marked else joining
+    while start >= 0:
+        end = start + len(word)
+        around = data[max(start - 1, 0) : start], b"" if marked else data[end : end + 1]
+        if not any(each.isalnum() or (each and each in joining) for each in around):
+            return start
+        start = data.find(word, start + 1)
+    return -1

@@ -1,0 +1,47 @@
+"""Which files of a workspace fixes may write."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from ros_lint.base.tree import Entry, Tree, is_below, join
+
+
+class Writable:
+    """The files that really lie below the folders that were asked for, and have no second name among the files of packages.
+
+    ``roots`` and ``paths``, the files of all packages, are relative to the base of the tree.
+    """
+
+    def __init__(self, tree: Tree, roots: Iterable[str], paths: Iterable[str]) -> None:
+        self._tree = tree
+        self._roots = [tree.identity(root) for root in roots]
+        self._names = names_of_files(tree, dict.fromkeys(paths))
+
+    def refusal(self, path: str) -> str:
+        """Return why a file must not be written, or "" if it may be."""
+        identity = self._tree.identity(path)
+        if not any(is_below(identity, root) for root in self._roots):
+            return f"{path} is outside of the given folders"
+        names = self._names.get(identity, ())
+        return f"{' and '.join(names)} are the same file" if len(names) > 1 else ""
+
+
+def names_of_files(tree: Tree, paths: Iterable[str]) -> dict[str, list[str]]:
+    """Return files by the identity of each, with several paths for a file that links give several names."""
+    found: dict[str, list[str]] = {}
+    folders: dict[str, tuple[str, frozenset[str]]] = {}
+    for path in paths:
+        folder, _, name = path.rpartition("/")
+        if folder not in folders:
+            folders[folder] = tree.identity(folder), frozenset(entry.name for entry in _entries(tree, folder) if entry.link)
+        above, links = folders[folder]
+        found.setdefault(tree.identity(path) if name in links else join(above, name), []).append(path)
+    return found
+
+
+def _entries(tree: Tree, folder: str) -> Sequence[Entry]:
+    try:
+        return tree.list(folder)
+    except OSError:
+        return ()
