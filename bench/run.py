@@ -22,7 +22,7 @@ import time
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
-from ros_lint.workspace.collect import kind_of
+from ros_lint.collectors.file_types import kind_of
 
 SKIPPED = frozenset({".git", "__pycache__", "node_modules"})
 

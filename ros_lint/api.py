@@ -9,19 +9,19 @@ from ros_lint.analysis.build.commands import (
     FINDS_TESTS,
     LINTERS,
     REGISTERING,
-    astray,
-    called,
     config_names,
     evaluated_name,
-    forgotten_nodes,
-    from_base,
-    generated_from,
     has_extras,
-    has_header,
     hidden,
     installed_targets,
-    installs_built,
     is_cut_short,
+    unguarded_tests,
+)
+from ros_lint.analysis.build.targets import (
+    astray,
+    forgotten_nodes,
+    has_header,
+    installs_built,
     is_on_request,
     is_shared_by_words,
     left_out_nodes,
@@ -30,46 +30,25 @@ from ros_lint.analysis.build.commands import (
     listed_to_install,
     may_run_built,
     node_targets,
-    place_of,
     programs_built,
-    relative,
     stem,
     stranded,
-    top_file,
-    unguarded_tests,
     with_client,
 )
+from ros_lint.analysis.dependencies.declared_closure import covered, declared_closure
 from ros_lint.analysis.dependencies.find_package import come_along, finds_declared, found_along, found_names, given_for
 from ros_lint.analysis.dependencies.load_bearing import Carried, carriers, found_for_nothing
-from ros_lint.analysis.dependencies.needs import (
-    Need,
+from ros_lint.analysis.dependencies.needs import Need, needs, wishes
+from ros_lint.analysis.dependencies.remedy import Advice, advice, availability, lacks_rule, naming
+from ros_lint.analysis.dependencies.tags import add_dependency, change_dependency, remove_dependency, tag_for
+from ros_lint.analysis.dependencies.traceless import PYTHON_LIKE, is_library, is_mostly_run, leaves_trace, runs, works_unseen
+from ros_lint.analysis.dependencies.undeclared import (
     comes_elsewhere,
     comes_with_launching,
-    covered,
-    declared_closure,
     is_miswritten,
     is_somewhere,
-    needs,
     tells,
     undeclared,
-    wishes,
-)
-from ros_lint.analysis.dependencies.remedy import Advice, advice, availability, lacks_rule, naming
-from ros_lint.analysis.dependencies.tags import (
-    PYTHON_LIKE,
-    add_dependency,
-    change_dependency,
-    is_built_in_sight,
-    is_library,
-    is_mostly_run,
-    is_seen_whole,
-    is_unseen_by_name,
-    leaves_trace,
-    remove_dependency,
-    runs,
-    sounds_unseen,
-    tag_for,
-    works_unseen,
 )
 from ros_lint.analysis.dependencies.unknown_closure import may_bring
 from ros_lint.analysis.dependencies.unresolved import (
@@ -82,6 +61,7 @@ from ros_lint.analysis.dependencies.unresolved import (
     strangers,
     used_instead,
 )
+from ros_lint.analysis.finding import Confidence, Finding, Fix, Related, Severity
 from ros_lint.analysis.graph.cycles import Knot, knots
 from ros_lint.analysis.graph.dependency_graph import Edge, Graph, Reason
 from ros_lint.analysis.launch.configurations import Families, asked_at, needed
@@ -98,14 +78,16 @@ from ros_lint.analysis.launch.files import (
     started,
     used_files,
 )
-from ros_lint.analysis.launch.includes import Links, defaults_of, everything, filled, texts_of
+from ros_lint.analysis.launch.includes import Links, defaults_of, filled
 from ros_lint.analysis.launch.parameter_files import Given, ParameterFiles
 from ros_lint.analysis.launch.runs import Broken, PassedFile, broken_expressions, launched, passed_files
 from ros_lint.analysis.launch.scopes import Include, Left, includes
-from ros_lint.analysis.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
-from ros_lint.analysis.wording import few, several
+from ros_lint.analysis.memo import per_package, per_workspace
+from ros_lint.analysis.rule import Rule
+from ros_lint.analysis.wording import several
 from ros_lint.base.auxiliary_files import is_apart, is_for_tests
-from ros_lint.base.suggestions import did_you_mean, is_meant, similar
+from ros_lint.base.edit import Edit
+from ros_lint.base.suggestions import did_you_mean, few, is_meant, similar
 from ros_lint.base.text import Span, beginning
 from ros_lint.base.tree import folders_of
 from ros_lint.collectors.interfaces import naming as interface_names
@@ -116,12 +98,11 @@ from ros_lint.collectors.python.versions import STANDARD_LIBRARY, too_new
 from ros_lint.collectors.setup_py import edits as setup_edits
 from ros_lint.collectors.suffixes import HEADERS, INTERFACES
 from ros_lint.collectors.symbolic_text import agree, configurations, is_plain, renames
-from ros_lint.engine.report import Target
 from ros_lint.engine.suppressions import Outcome
 from ros_lint.facts.build import BuildScript, Component, LeftBehind, PluginClass, PluginFile, PluginLibrary, Provided, ScriptFile
 from ros_lint.facts.cmake import Call
 from ros_lint.facts.cmake import Target as BuildTarget
-from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchFile, LaunchReference, LaunchValue
+from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchFile, LaunchReference, LaunchValue, everything, texts_of
 from ros_lint.facts.manifest import Depend, Element, Manifest, Role
 from ros_lint.facts.setup_py import EntryPoint, PythonModule, Slot
 from ros_lint.facts.sources import MachinePath, Mention, PluginLoader, Registration, Use
@@ -129,8 +110,11 @@ from ros_lint.facts.visibility import ANYTHING, Facet, Opaque, Problem
 from ros_lint.knowledge.providers import Meant
 from ros_lint.knowledge.spelling import VENDOR, may_be_package, near_names
 from ros_lint.workspace.build_scripts.resources import uninstalled as uninstalled_resources
-from ros_lint.workspace.model import Declared, Package, Workspace, per_package, per_workspace
+from ros_lint.workspace.model import Declared, Package, Workspace, called, from_base, place_of, relative, top_file
+from ros_lint.workspace.target import Target
 from ros_lint.workspace.usage.resolve import satisfying, used_names
+from ros_lint.workspace.usage.unused_find_package import generated_from
+from ros_lint.workspace.usage.visibility import is_built_in_sight, is_seen_whole, is_unseen_by_name, sounds_unseen
 
 if TYPE_CHECKING:  # made only where it is asked for
     from ros_lint.collectors.launch.expand import Started as Started  # noqa: PLC0414

@@ -25,9 +25,10 @@ from ros_lint.base.text import Text, raw, read
 from ros_lint.base.tree import MemoryTree, OverlayTree, Tree
 from ros_lint.engine import edits, registry
 from ros_lint.engine import run as engine
-from ros_lint.engine.report import Issue, Target
+from ros_lint.engine.report import Issue
 from ros_lint.knowledge.underlays import in_tree
 from ros_lint.workspace.loader import Loader
+from ros_lint.workspace.target import Target
 
 FENCE = re.compile(
     r"^(?:`(?P<path>[^`\n]+)`\n+)?(?P<fence>`{3,})(?P<kind>\w*)\n(?P<body>.*?)^(?P=fence)$", re.MULTILINE | re.DOTALL

@@ -2,6 +2,7 @@
 
 from ros_lint.base.text import Text
 from ros_lint.collectors.launch import detect as launch
+from ros_lint.collectors.launch.collect import collect
 from ros_lint.facts.launch import LaunchFile, LaunchReference
 
 
@@ -9,7 +10,7 @@ def collect(path: str, text: str) -> tuple[Text, LaunchFile]:
     source = Text(path, text)
     language = launch.is_launch_file(path, text)
     assert language is not None
-    return source, launch.collect(source, language)
+    return source, collect(source, language)
 
 
 def said(source: Text, found: LaunchFile) -> list[str]:

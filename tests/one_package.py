@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ros_lint.base.tree import MemoryTree
-from ros_lint.engine.report import Target
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Use
 from ros_lint.workspace.loader import Loader
 from ros_lint.workspace.model import Workspace
+from ros_lint.workspace.target import Target
 from tests.packages import manifest_text
 
 BUILT = Role.BUILD | Role.EXEC

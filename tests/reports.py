@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from ros_lint.analysis.rule import Confidence, Edit, Finding, Fix, Related, Rule, Severity
+from ros_lint.analysis.finding import Confidence, Finding, Fix, Related, Severity
+from ros_lint.analysis.rule import Rule
+from ros_lint.base.edit import Edit
 from ros_lint.base.text import Span, Text, read
-from ros_lint.engine.report import Crash, Hidden, Issue, NotChecked, Report, Target, Unseen
+from ros_lint.engine.report import Crash, Hidden, Issue, Report, Unseen
+from ros_lint.workspace.target import NotChecked, Target
 
 DOC = """
 ## What it finds

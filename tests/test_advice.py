@@ -5,13 +5,13 @@ from __future__ import annotations
 import pytest
 
 from ros_lint.analysis.dependencies.remedy import availability, naming
-from ros_lint.analysis.rule import Edit
+from ros_lint.base.edit import Edit
 from ros_lint.base.text import beginning
 from ros_lint.base.tree import MemoryTree
-from ros_lint.engine.report import Target
 from ros_lint.knowledge.underlays import in_tree
 from ros_lint.workspace.loader import Loader
 from ros_lint.workspace.model import Workspace
+from ros_lint.workspace.target import Target
 from tests.packages import manifest_text
 
 EDIT = Edit(beginning("robot/package.xml"), "<depend>x</depend>")

@@ -10,11 +10,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ros_lint.analysis.rule import Confidence, Finding, Rule, Severity
+from ros_lint.analysis.finding import Confidence, Finding, Severity
+from ros_lint.analysis.rule import Rule
 from ros_lint.base.text import Span
 from ros_lint.engine import baseline
 from ros_lint.engine.baseline import BaselineError
-from ros_lint.engine.report import UNSURE, Crash, Hidden, Issue, Report, Target
+from ros_lint.engine.report import UNSURE, Crash, Hidden, Issue, Report
+from ros_lint.workspace.target import Target
 from tests.test_cli import DEMO, HEADLINES, run
 
 PLACE = Span("a/package.xml", 1, 1, 1, 2)

@@ -8,7 +8,7 @@ from pkgutil import iter_modules
 import pytest
 
 from ros_lint import facts
-from ros_lint.analysis.rule import Severity
+from ros_lint.analysis.finding import Severity
 from ros_lint.base.tree import DiskTree
 from ros_lint.facts.visibility import Facet
 from ros_lint.workspace import cache_files as kept_files

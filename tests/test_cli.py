@@ -12,7 +12,8 @@ from pathlib import Path
 import pytest
 
 from ros_lint import __version__
-from ros_lint.cli.options import COMMANDS, FORMATS
+from ros_lint.cli.options import COMMANDS
+from ros_lint.reporters import FORMATS
 from tests.packages import manifest_text
 
 ROOT = Path(__file__).parent.parent

@@ -15,7 +15,6 @@ from typing import NamedTuple
 
 import pytest
 
-import ros_lint.collectors.cmake.evaluate
 from ros_lint.base.text import Text
 from ros_lint.collectors.cmake.evaluator import flow as cmake_flow
 from ros_lint.collectors.cmake.evaluator.run import Run

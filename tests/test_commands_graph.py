@@ -14,13 +14,13 @@ import pytest
 
 from ros_lint.base.text import Span
 from ros_lint.cli.commands import graph, order, overlay, why
-from ros_lint.engine.report import Target
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Use
 from ros_lint.knowledge import Knowledge
 from ros_lint.knowledge import underlays as underlay
 from ros_lint.knowledge.world import Member, World
 from ros_lint.workspace.model import Package, Workspace
+from ros_lint.workspace.target import Target
 from tests.one_package import loaded
 from tests.packages import manifest_text, package
 

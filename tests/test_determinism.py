@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from ros_lint.cli.options import FORMATS
+from ros_lint.reporters import FORMATS
 
 DEMO = Path(__file__).parent.parent / "fixtures" / "workspaces" / "demo"
 

@@ -3,8 +3,9 @@ from pathlib import Path
 
 import pytest
 
-from ros_lint.analysis.rule import Edit, Fix
+from ros_lint.analysis.finding import Fix
 from ros_lint.base.diff import unified
+from ros_lint.base.edit import Edit
 from ros_lint.base.text import Span, Text
 from ros_lint.base.tree import DiskTree
 from ros_lint.engine import edits

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from ros_lint.analysis.dependencies.needs import covered, needs, undeclared
+from ros_lint.analysis.dependencies.declared_closure import covered
+from ros_lint.analysis.dependencies.needs import needs
+from ros_lint.analysis.dependencies.undeclared import undeclared
 from ros_lint.analysis.dependencies.unknown_closure import may_bring
 from ros_lint.analysis.dependencies.unresolved import meant
 from ros_lint.facts.manifest import Role

@@ -4,9 +4,9 @@ import json
 
 from ros_lint.base.tree import MemoryTree
 from ros_lint.cli.commands import explain_package
-from ros_lint.engine.report import Target
 from ros_lint.workspace.loader import Loader
 from ros_lint.workspace.model import Workspace
+from ros_lint.workspace.target import Target
 
 FILES = {
     "robot/package.xml": """\

@@ -5,8 +5,9 @@ from __future__ import annotations
 import pytest
 
 from ros_lint.base.text import Text
+from ros_lint.collectors.file_types import kind_of
 from ros_lint.facts.sources import Mention
-from ros_lint.workspace.collect import collect, kind_of
+from ros_lint.workspace.collect import collect
 
 
 def collected(path: str, text: str) -> tuple[Mention, ...]:

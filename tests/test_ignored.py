@@ -9,8 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from ros_lint.base.gitignore import find, is_ignored, patterns
+from ros_lint.base.gitignore import is_ignored, patterns
 from ros_lint.base.tree import MemoryTree
+from ros_lint.workspace.discovery.ignore_files import find
 
 NAMES = ("a", "b.so", "lib", "ab", "x y", "-", "é", "]b", "&")
 PIECES = (

@@ -11,15 +11,15 @@ from pathlib import Path
 
 import pytest
 
-from ros_lint.analysis.rule import Confidence
+from ros_lint.analysis.finding import Confidence
 from ros_lint.base.tree import DiskTree, MemoryTree, Tree, join
 from ros_lint.engine import registry
 from ros_lint.engine import run as engine
-from ros_lint.engine.report import Target
 from ros_lint.knowledge.underlays import in_tree
 from ros_lint.testing import Case, read_cases
 from ros_lint.workspace.discovery.discover import discover
 from ros_lint.workspace.loader import Loader
+from ros_lint.workspace.target import Target
 from tests.trees import Locked
 
 FIXTURES = Path(__file__).parent.parent / "fixtures"

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import pytest
 
 import ros_lint
-from ros_lint.analysis.rule import Confidence, Severity
+from ros_lint.analysis.finding import Confidence, Severity
 from ros_lint.base import files
 from ros_lint.base.sealed import Sealed
 from ros_lint.base.text import Span, beginning

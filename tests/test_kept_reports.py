@@ -12,7 +12,7 @@ import pytest
 
 from ros_lint.base.tree import DiskTree, RecordedTree
 from ros_lint.cli.main import main
-from ros_lint.cli.options import FORMATS
+from ros_lint.reporters import FORMATS
 from ros_lint.workspace import cache_files as kept_files
 from ros_lint.workspace.collect import collect_all
 from ros_lint.workspace.fact_cache import Cache

@@ -5,6 +5,7 @@ from __future__ import annotations
 from ros_lint.base.text import Span, Text
 from ros_lint.base.tree import MemoryTree
 from ros_lint.collectors.launch import detect as launch
+from ros_lint.collectors.launch.collect import collect
 from ros_lint.collectors.symbolic_text import share
 from ros_lint.facts.build import BuildScript, Provided
 from ros_lint.facts.launch import LaunchFile
@@ -29,7 +30,7 @@ def _package(name: str, files: dict[str, str], provides: dict[str, str], modules
     for path, text in files.items():
         language = launch.is_launch_file(path, text)
         if language:
-            found.append(launch.collect(Text(f"{name}/{path}", text), language))
+            found.append(collect(Text(f"{name}/{path}", text), language))
     return launch_around.Around(name, name, tuple(files), script, tuple(found))
 
 

@@ -11,9 +11,9 @@ from ros_lint.cli import main as cli
 from ros_lint.cli.commands.launch.launch import Asked, answer, understood
 from ros_lint.cli.commands.launch.lookup import LookUp
 from ros_lint.cli.session import UsageError
-from ros_lint.engine.report import Target
 from ros_lint.knowledge.underlays import in_tree
 from ros_lint.workspace.loader import Loader
+from ros_lint.workspace.target import Target
 from tests.packages import manifest_text
 
 INSTALLS = "project({0})\nfind_package(ament_cmake REQUIRED)\ninstall(DIRECTORY {1} DESTINATION share/{0})\nament_package()\n"

@@ -11,6 +11,7 @@ import pytest
 from ros_lint.base.text import Text
 from ros_lint.cli.session import open_workspace
 from ros_lint.collectors.launch import detect as launch
+from ros_lint.collectors.launch.collect import collect
 from ros_lint.collectors.launch.expand import expand
 from ros_lint.engine.registry import load
 from ros_lint.facts.launch import LaunchFile
@@ -133,7 +134,7 @@ BOUNDED = {
 def _read(program: str, language: launch.Language = "python", path: str = "a.launch.py") -> LaunchFile:
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     start = time.process_time()
-    found = launch.collect(Text(path, program), language)
+    found = collect(Text(path, program), language)
     assert time.process_time() - start < SECONDS
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < KILOBYTES
     return found
@@ -190,7 +191,7 @@ def test_includes_that_double() -> None:
 
     def file(number: int) -> LaunchFile:
         include = f'<include file="$(find-pkg-share a)/{number + 1}.launch.xml"/>'
-        return launch.collect(Text(f"{number}.launch.xml", f"<launch>{include * 2}</launch>"), "xml")
+        return collect(Text(f"{number}.launch.xml", f"<launch>{include * 2}</launch>"), "xml")
 
     files = [file(number) for number in range(40)]
     start = time.process_time()

@@ -10,7 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ros_lint.analysis.rule import Edit, Fix
+from ros_lint.analysis.finding import Fix
+from ros_lint.base.edit import Edit
 from ros_lint.base.text import Text
 from ros_lint.collectors.manifest import edits as manifest_edits
 from ros_lint.collectors.manifest.collect import collect

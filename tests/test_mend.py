@@ -6,8 +6,10 @@ from types import SimpleNamespace
 
 import pytest
 
-from ros_lint.analysis.rule import Edit, Finding, Fix, Rule, Severity
+from ros_lint.analysis.finding import Finding, Fix, Severity
+from ros_lint.analysis.rule import Rule
 from ros_lint.base.diff import line_before
+from ros_lint.base.edit import Edit
 from ros_lint.base.text import Span
 from ros_lint.base.tree import MemoryTree
 from ros_lint.engine import fixing as mend

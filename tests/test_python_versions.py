@@ -13,7 +13,7 @@ from ros_lint.base.text import Text
 from ros_lint.collectors.launch.presence_checks import DISTRIBUTIONS
 from ros_lint.collectors.python.syntax import NotPythonError, parse, read, refusal
 from ros_lint.collectors.python.versions import PYTHON_OF, too_new
-from ros_lint.engine.report import Target
+from ros_lint.workspace.target import Target
 
 NEWER = [
     ("def f[T](x: T) -> T: pass", "type parameter lists", (3, 12), "1:6"),

@@ -13,16 +13,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import ros_lint.reporters
-from ros_lint.analysis.rule import Severity
+from ros_lint.analysis.finding import Severity
 from ros_lint.base.text import Span, Text, read
-from ros_lint.cli.options import FORMATS
-from ros_lint.engine.report import NotChecked, Report
-from ros_lint.reporters import reporter, sarif
+from ros_lint.engine.report import Report
+from ros_lint.reporters import FORMATS, reporter, sarif
 from ros_lint.reporters.ansi import Style, glyph, safe
 from ros_lint.reporters.fingerprint import line_hashes
 from ros_lint.reporters.frames import Mark, frame
 from ros_lint.reporters.github import command
 from ros_lint.reporters.text import render_issues
+from ros_lint.workspace.target import NotChecked
 from tests.reports import ARM, EVERYTHING, ISSUES, REPORTS, SOURCES, texts
 
 GOLDEN = Path(__file__).parent / "golden"

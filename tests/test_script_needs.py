@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from ros_lint.analysis.dependencies.needs import needs, undeclared
+from ros_lint.analysis.dependencies.needs import needs
+from ros_lint.analysis.dependencies.undeclared import undeclared
 from ros_lint.facts.manifest import Role
 from tests.one_package import BUILT, INSTALLED, load, placed, use
 

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from ros_lint.base.tree import DiskTree, MemoryTree, Tree
-from ros_lint.engine.report import Target
 from ros_lint.facts.build import BuildScript
 from ros_lint.workspace.loader import Loader
+from ros_lint.workspace.target import Target
 from tests.packages import manifest_text
 
 HEAD = "cmake_minimum_required(VERSION 3.8)\nproject(p)\nfind_package(ament_cmake REQUIRED)\n"

@@ -8,10 +8,10 @@ from ros_lint.base.tree import MemoryTree
 from ros_lint.collectors.cmake import evaluate as cmake
 from ros_lint.engine import registry
 from ros_lint.engine import run as engine
-from ros_lint.engine.report import Target
 from ros_lint.facts.visibility import ANYTHING, Facet
 from ros_lint.workspace.loader import Loader
 from ros_lint.workspace.model import Workspace
+from ros_lint.workspace.target import Target
 from tests.one_package import loaded
 from tests.trees import Locked
 

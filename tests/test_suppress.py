@@ -10,12 +10,14 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ros_lint.analysis.rule import Finding, Fix, Rule, Severity
+from ros_lint.analysis.finding import Finding, Fix, Severity
+from ros_lint.analysis.rule import Rule
 from ros_lint.base.text import Span, Text
 from ros_lint.collectors.comments import comments
 from ros_lint.engine import edits
 from ros_lint.engine.report import Issue
-from ros_lint.engine.suppressions import Suppression, apply, collect
+from ros_lint.engine.suppressions import apply, collect
+from ros_lint.facts.suppressions import Suppression
 
 RULES = tuple(
     Rule(name, code, "it must be so", Severity.WARNING, "0.1", "")

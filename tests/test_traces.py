@@ -6,7 +6,7 @@ from ros_lint.base.text import read
 from ros_lint.collectors.cpp import collect as cpp
 from ros_lint.knowledge.names import Names
 from ros_lint.knowledge.store import Store
-from ros_lint.workspace.usage.resolve import Source
+from ros_lint.workspace.usage.package_files import Source
 from ros_lint.workspace.usage.textual_mentions import mentioned, traces
 
 

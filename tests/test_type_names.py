@@ -6,7 +6,7 @@ from ros_lint.base.text import Span
 from ros_lint.base.tree import MemoryTree
 from ros_lint.collectors.cpp.types import declared, introduced
 from ros_lint.facts.sources import FileFacts, Mention
-from ros_lint.workspace.usage.resolve import Source
+from ros_lint.workspace.usage.package_files import Source
 from ros_lint.workspace.usage.unqualified_types import Types
 
 ROUTE = b"namespace house::route_handler {\nclass HOUSE_PUBLIC RouteHandler : Base {};\nstruct Node\n{};\nclass Other;\n}\n"

@@ -1,6 +1,6 @@
-from ros_lint.analysis.rule import Related
-from ros_lint.analysis.wording import few, several
-from ros_lint.base.suggestions import did_you_mean, is_meant, similar
+from ros_lint.analysis.finding import Related
+from ros_lint.analysis.wording import several
+from ros_lint.base.suggestions import did_you_mean, few, is_meant, similar
 from ros_lint.base.text import Span
 
 

@@ -9,7 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from ros_lint.analysis.rule import Edit, Fix
+from ros_lint.analysis.finding import Fix
+from ros_lint.base.edit import Edit
 from ros_lint.base.text import Span, Text
 from ros_lint.engine import edits
 from tests.test_bad_input import Ran, lint, package, rules

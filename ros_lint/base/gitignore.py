@@ -8,10 +8,8 @@ from functools import lru_cache
 from itertools import count
 from typing import Final, NamedTuple
 
-from ros_lint.base.text import octets, read
-from ros_lint.base.tree import Tree, folders_of, join, parent
+from ros_lint.base.text import octets
 from ros_lint.base.wildcards import LONGEST, letters, spaced
-from ros_lint.engine.report import NotChecked
 
 _NAME = ".gitignore"
 
@@ -25,32 +23,6 @@ class Pattern(NamedTuple):
     """Of a path below the folder. Most runs never ask, so it is translated when it is needed."""
     negated: bool
     """Whether it takes back what an earlier line said."""
-
-
-class Ignores(NamedTuple):
-    """What the ``.gitignore`` files of a workspace say, and those that cannot be read."""
-
-    patterns: tuple[Pattern, ...]
-    """Later patterns win."""
-    not_checked: tuple[NotChecked, ...]
-
-
-def find(tree: Tree, packages: Iterable[tuple[str, Iterable[str]]]) -> Ignores:
-    """Return the patterns for packages, given by folder with the files in it."""
-    paths = {_NAME}
-    for folder, files in packages:
-        paths.update([join(folder, file) for file in files if file.rpartition("/")[2] == _NAME])
-        paths.update([join(above, _NAME) for above in folders_of(folder)])
-    found: list[Pattern] = []
-    unread: list[NotChecked] = []
-    for path in sorted(paths, key=lambda path: (path.count("/"), path)):
-        try:
-            found += patterns(parent(path), read(path, tree.read(path)).text)
-        except (FileNotFoundError, NotADirectoryError):
-            continue
-        except OSError as error:
-            unread.append(NotChecked.of(path, error))
-    return Ignores(tuple(found), tuple(unread))
 
 
 def patterns(folder: str, text: str) -> Iterator[Pattern]:

@@ -25,3 +25,13 @@ def is_meant(names: Sequence[str]) -> str:
 def _quoted(name: str) -> str:
     """Return a name as messages show it: in quotes, except tags."""
     return name if name.startswith("<") else f"'{name}'"
+
+
+_MOST_NAMES = 3
+
+
+def few(names: Iterable[str]) -> str:
+    """Return the first three of some names, in quotes, and the number of the others."""
+    names = list(names)
+    first = ", ".join([f"'{name}'" for name in names[:_MOST_NAMES]])
+    return f"{first} and {len(names) - _MOST_NAMES} more" if len(names) > _MOST_NAMES else first

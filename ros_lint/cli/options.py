@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import Any, Literal, NamedTuple
 
+from ros_lint.reporters import FORMATS
+
 Type = Literal["flag", "word", "words", "number", "path", "paths", "table"]
 SEVERITIES = ("error", "warning", "info")
 MOST = 1_000_000
 """The largest number that an option takes."""
-FORMATS = ("text", "concise", "json", "sarif", "github", "gitlab")
 
 
 class Option(NamedTuple):

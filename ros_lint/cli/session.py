@@ -11,10 +11,11 @@ from ros_lint.base.tree import DiskTree, repository_of
 from ros_lint.cli.options import COMMANDS, OPTIONS
 from ros_lint.cli.settings import Settings, settle
 from ros_lint.engine.registry import BUILTIN
-from ros_lint.engine.report import RefusalError, Target
+from ros_lint.errors import RefusalError
 from ros_lint.knowledge import Knowledge, distros, newest_lts
 from ros_lint.knowledge.store import user_directory
 from ros_lint.workspace import fact_cache as cache
+from ros_lint.workspace.target import Target
 
 if TYPE_CHECKING:
     from ros_lint.base.tree import Tree
@@ -223,6 +224,6 @@ def _target(settings: Settings, places: Sequence[str]) -> tuple[Target, tuple[st
 def _excluder(patterns: Sequence[str]) -> Callable[[str], bool]:
     if not patterns:
         return lambda path: False
-    from ros_lint.engine.run import matches  # noqa: PLC0415
+    from ros_lint.engine.selection import matches  # noqa: PLC0415
 
     return lambda path: any(matches(path, pattern) for pattern in patterns)

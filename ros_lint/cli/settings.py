@@ -15,7 +15,7 @@ from ros_lint.base import files
 from ros_lint.base.suggestions import did_you_mean, similar
 from ros_lint.base.tree import upwards
 from ros_lint.cli.options import BY_NAME, MOST, OPTIONS, Option
-from ros_lint.engine.report import RefusalError
+from ros_lint.errors import RefusalError
 
 _MOST_BYTES = 256 << 10
 """Of a configuration file. Many times as much as any has."""

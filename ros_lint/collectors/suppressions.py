@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from ros_lint.analysis.rule import Edit
+from ros_lint.base.edit import Edit
 from ros_lint.collectors.comments import comments
-from ros_lint.engine.suppressions import Name, Suppression
+from ros_lint.facts.suppressions import Name, Suppression
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -11,11 +11,12 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
-from ros_lint.analysis.rule import Confidence
+from ros_lint.analysis.finding import Confidence
 from ros_lint.base import files
 from ros_lint.base.json_text import encode
 from ros_lint.engine import edits
-from ros_lint.engine.report import UNSURE, Hidden, Issue, RefusalError, Report
+from ros_lint.engine.report import UNSURE, Hidden, Issue, Report
+from ros_lint.errors import RefusalError
 
 Key = tuple[str, str, str]
 """The name of the rule, the package, the subject."""

@@ -11,8 +11,9 @@ from contextlib import suppress
 from functools import partial
 from itertools import groupby
 
-from ros_lint.analysis.rule import Edit, Fix
+from ros_lint.analysis.finding import Fix
 from ros_lint.base import files
+from ros_lint.base.edit import Edit
 from ros_lint.base.text import Text, read
 from ros_lint.base.tree import Tree
 

@@ -14,7 +14,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 from typing import NamedTuple
 
-from ros_lint.analysis.rule import Confidence
+from ros_lint.analysis.finding import Confidence
 from ros_lint.base.diff import line_before, unified_bytes
 from ros_lint.base.text import Span, Text, read
 from ros_lint.base.tree import join
@@ -22,7 +22,9 @@ from ros_lint.cli.commands import check
 from ros_lint.cli.session import Opened
 from ros_lint.engine import edits, registry
 from ros_lint.engine import run as engine
+from ros_lint.engine.check import check
 from ros_lint.engine.report import Issue, Report
+from ros_lint.engine.selection import Selection, show
 from ros_lint.workspace.model import Workspace
 from ros_lint.workspace.writable import Writable
 
@@ -40,7 +42,7 @@ class Mended(NamedTuple):
     """Issues whose fix was not made, at their place in the files as they are, and why."""
 
 
-def run(opened: Opened, selection: engine.Selection) -> tuple[Report, int]:
+def run(opened: Opened, selection: Selection) -> tuple[Report, int]:
     """Show or make the fixes. Returns the report of what is left, and 2 when files could not be written."""
     gc.enable()  # the workspace is loaded again and again, and what is left of the last time has to go
     proof = _Proof(opened, selection)
@@ -50,15 +52,15 @@ def run(opened: Opened, selection: engine.Selection) -> tuple[Report, int]:
     if opened.settings["diff"]:
         sys.stdout.buffer.write(diff(opened, mended.changed))
         sys.stdout.buffer.flush()
-        return check.check(opened, proof.trial({}).workspace, selection), 0
+        return check(opened, proof.trial({}).workspace, selection), 0
     try:
         edits.write_all(opened.base, mended.changed, opened.loader.held)
         print(f"ros-lint: {_told(len(mended.made), len(mended.changed))}", file=sys.stderr)
     except edits.EditError as error:
         print(f"ros-lint: {error}", file=sys.stderr)
         written = {path: mended.changed[path] for path in error.written}
-        return check.check(opened, proof.trial(written).workspace, selection), 2
-    return check.check(opened, proof.trial(mended.changed).workspace, selection), 0
+        return check(opened, proof.trial(written).workspace, selection), 2
+    return check(opened, proof.trial(mended.changed).workspace, selection), 0
 
 
 def _told(count: int, files: int) -> str:
@@ -67,7 +69,7 @@ def _told(count: int, files: int) -> str:
     return f"fixed {count} finding{'s' * (count != 1)} in {files} file{'s' * (files != 1)}"
 
 
-def mend(opened: Opened, selection: engine.Selection) -> Mended:
+def mend(opened: Opened, selection: Selection) -> Mended:
     """Return every fix of the selected rules that can be proven, nothing written."""
     return _mended(_Proof(opened, selection))
 
@@ -215,7 +217,7 @@ def _idle(had: Counter[str], after: Sequence[Issue], group: Sequence[Issue]) -> 
 class _Proof:
     """Loads and checks a workspace with changes, and says what is wrong with them."""
 
-    def __init__(self, opened: Opened, selection: engine.Selection) -> None:
+    def __init__(self, opened: Opened, selection: Selection) -> None:
         self._opened = opened
         self._selection = selection
         self._every = registry.load(opened.settings["plugins"])
@@ -266,7 +268,7 @@ class _Proof:
 
     def _with_fix(self, changed: Mapping[str, bytes]) -> list[Issue]:
         issues = [issue for issue in self.trial(changed).issues if issue.rule in self._selection.rules]
-        shown, _ = engine.show(issues, self._selection)
+        shown, _ = show(issues, self._selection)
         unsafe = self._opened.settings["unsafe-fixes"]
         return [issue for issue in shown if issue.finding.fix and (issue.finding.fix.safe or unsafe)]
 

@@ -15,7 +15,7 @@ from types import ModuleType
 
 from ros_lint.analysis.rule import Rule
 from ros_lint.base.suggestions import did_you_mean, similar
-from ros_lint.engine.report import RefusalError
+from ros_lint.errors import RefusalError
 
 GROUP = "ros_lint.rules"
 BUILTIN = "ros_lint_rules"

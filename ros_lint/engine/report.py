@@ -4,18 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.base.text import beginning
-from ros_lint.facts.environment import ROS_2
+from ros_lint.workspace.target import NotChecked, Target
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from ros_lint.analysis.rule import Finding, Rule, Severity
-    from ros_lint.base.text import Span
-
-
-class RefusalError(Exception):
-    """The tool cannot do what was asked for. The message names the reason, and the way out."""
+    from ros_lint.analysis.finding import Finding, Severity
+    from ros_lint.analysis.rule import Rule
 
 
 class Issue(NamedTuple):
@@ -65,34 +58,6 @@ class Crash(NamedTuple):
     def error(self) -> str:
         """The last line of the traceback: type and message."""
         return self.traceback.strip().rpartition("\n")[2]
-
-
-class Target(NamedTuple):
-    """The ROS distribution that the workspace is checked for."""
-
-    distro: str
-    source: str
-    """Where the choice comes from, such as "--distro" or "newest long-term release known"."""
-    told: bool = True
-    """False when nobody chose it: then what only another distribution has is no mistake."""
-
-    @property
-    def context(self) -> Mapping[str, str]:
-        """Return the variables of package.xml conditions that are known (REP 149; reference, section A3)."""
-        return {**ROS_2, "ROS_DISTRO": self.distro, "DISABLE_GROUPS_WORKAROUND": "1"}
-
-
-class NotChecked(NamedTuple):
-    """Something that the run could not look at: a file, or a whole class of questions."""
-
-    what: str
-    reason: str
-    span: Span | None
-
-    @classmethod
-    def of(cls, path: str, error: OSError) -> NotChecked:
-        """Return a file or folder that cannot be read. ``path`` is relative to the base, "" is the base."""
-        return cls(path or ".", error.strerror or str(error), beginning(path))
 
 
 class Report(NamedTuple):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from typing import Final, Literal, NamedTuple
 
 from ros_lint.base.text import Span
@@ -137,3 +138,29 @@ class LaunchFile(NamedTuple):
     """What not every distribution takes; ``kind`` is the first that does."""
     syntax: tuple[NewerSyntax, ...] = ()
     """What not every version of Python reads in a Python launch file."""
+
+
+def everything(actions: Iterable[LaunchAction]) -> Iterator[LaunchAction]:
+    """Yield actions and all those in them."""
+    for action in actions:
+        yield action
+        yield from everything(action.children)
+
+
+def texts_of(action: LaunchAction) -> Iterator[tuple[str, Span]]:
+    """Yield every text of an action and its conditions with its place, but for those of the actions in it."""
+    for value in values(action):
+        yield from ((text, value.span) for text in value.texts)
+    for condition in action.conditions:
+        yield from ((text, action.span) for text in condition.texts)
+
+
+def values(action: LaunchAction) -> Iterator[LaunchValue]:
+    """Yield every text of an action, but for those of the actions in it."""
+    for value in (action.package, action.target, action.value, action.name, action.namespace):
+        if value is not None:
+            yield value
+    for _, value in (*action.arguments, *action.parameters):
+        yield value
+    for pair in action.remappings:
+        yield from pair

@@ -13,7 +13,7 @@ from operator import gt
 from typing import TYPE_CHECKING, Generic, TypeVar
 
 from ros_lint.base import files
-from ros_lint.engine.report import RefusalError
+from ros_lint.errors import RefusalError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence

@@ -11,13 +11,13 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from ros_lint.collectors.interfaces.naming import GROUP
+from ros_lint.facts.repositories import NOTHING_AWAITED, Awaited
 from ros_lint.knowledge import providers
 from ros_lint.knowledge.closure import Closure, Reach
 from ros_lint.knowledge.index import RUNTIME
 from ros_lint.knowledge.providers import Meant, Providers
 from ros_lint.knowledge.provides import NOTHING_KNOWN
 from ros_lint.knowledge.spelling import Spelling
-from ros_lint.workspace.discovery.repository_lists import NOTHING_AWAITED, Awaited
 
 if TYPE_CHECKING:
     from collections.abc import Container, Iterable, Mapping, Sequence

@@ -6,7 +6,6 @@ import importlib
 from collections.abc import Callable
 
 from ros_lint.base.text import Text
-from ros_lint.cli.options import FORMATS
 from ros_lint.engine.report import Report
 from ros_lint.reporters.ansi import Style
 
@@ -23,3 +22,6 @@ def reporter(name: str) -> Reporter:
     module = importlib.import_module(f"{__name__}.{'json_report' if name == 'json' else name}")
     render: Reporter = module.render
     return render
+
+
+FORMATS = ("text", "concise", "json", "sarif", "github", "gitlab")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING
 
-from ros_lint.analysis.rule import Severity
+from ros_lint.analysis.finding import Severity
 from ros_lint.reporters.ansi import Style, safe
 from ros_lint.reporters.summary import and_list, count, crashed, summary, told
 

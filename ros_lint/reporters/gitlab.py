@@ -6,7 +6,7 @@ import hashlib
 from collections import Counter
 from typing import TYPE_CHECKING, Any
 
-from ros_lint.analysis.rule import Severity
+from ros_lint.analysis.finding import Severity
 from ros_lint.base.json_text import encode
 from ros_lint.reporters.summary import crashed, told
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ros_lint.analysis.rule import Severity
+from ros_lint.analysis.finding import Severity
 from ros_lint.base.json_text import encode
 
 if TYPE_CHECKING:
-    from ros_lint.analysis.rule import Fix
+    from ros_lint.analysis.finding import Fix
     from ros_lint.base.text import Span
     from ros_lint.engine.report import Issue, Report
     from ros_lint.reporters import Texts

@@ -20,7 +20,8 @@ from ros_lint.reporters.summary import and_list, crashed, hidden_findings, some,
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from ros_lint.analysis.rule import Edit, Finding, Fix
+    from ros_lint.analysis.finding import Finding, Fix
+    from ros_lint.base.edit import Edit
     from ros_lint.engine.report import Issue, Report
     from ros_lint.reporters import Texts
     from ros_lint.reporters.ansi import Style

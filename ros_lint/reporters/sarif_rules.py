@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
-from ros_lint.analysis.rule import Severity
+from ros_lint.analysis.finding import Severity
 
 if TYPE_CHECKING:
     from ros_lint.analysis.rule import Rule

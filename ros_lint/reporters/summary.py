@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from ros_lint.analysis.rule import Severity
+from ros_lint.analysis.finding import Severity
 from ros_lint.reporters.ansi import Style, paint, safe
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from ros_lint.engine.report import Crash, Hidden, NotChecked, Report
+    from ros_lint.engine.report import Crash, Hidden, Report
+    from ros_lint.workspace.target import NotChecked
 
 _LISTED = 10
 """Entries of a list to show; the json format has all."""

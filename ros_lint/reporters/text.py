@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING
 
-from ros_lint.analysis.rule import Confidence
+from ros_lint.analysis.finding import Confidence
 from ros_lint.reporters.ansi import Style, paint, safe
 from ros_lint.reporters.frames import Mark, frame
 from ros_lint.reporters.summary import count, summary
@@ -13,7 +13,7 @@ from ros_lint.reporters.summary import count, summary
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from ros_lint.analysis.rule import Fix
+    from ros_lint.analysis.finding import Fix
     from ros_lint.engine.report import Issue, Report
     from ros_lint.reporters import Texts
 

@@ -10,35 +10,21 @@ import gc
 import os
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 from ros_lint.base.text import Text, beginning, read
 from ros_lint.base.tree import DiskTree, RecordedTree, Tree
 from ros_lint.collectors import machine_paths
 from ros_lint.collectors.cmake.syntax import Parsed
+from ros_lint.collectors.file_types import _SUFFIXES, Kind, kind_of
+from ros_lint.collectors.launch.collect import collect
 from ros_lint.collectors.suffixes import HEADERS, INTERFACES, SOURCES
 from ros_lint.engine import suppressions as suppress
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.sources import FileFacts, MachinePath
+from ros_lint.facts.suppressions import Suppression
 from ros_lint.facts.visibility import ANYTHING, Facet, Opaque
 from ros_lint.workspace.fact_cache import Cache
-
-Kind = Literal[
-    "manifest",
-    "config",
-    "cpp",
-    "python",
-    "program",
-    "cmake",
-    "interface",
-    "xml",
-    "yaml",
-    "resource",
-    "java",
-    "rust",
-    "cargo",
-    "matlab",
-]
 
 FAILED = "ros-lint failed on this file ({}); please report this bug"
 
@@ -48,7 +34,6 @@ _FILES_A_PROCESS = 500
 _MOST_PROCESSES = 61
 """Windows cannot wait for more."""
 
-_SUFFIXES: dict[str, Kind] = {"py": "python", "cmake": "cmake", "java": "java", "rs": "rust", "m": "matlab"}
 _SUFFIXES.update((suffix[1:], "cpp") for suffix in (*HEADERS, *SOURCES))
 _SUFFIXES.update((suffix[1:], "interface") for suffix in INTERFACES)
 _SUFFIXES.update(dict.fromkeys(("xml", "launch"), "xml"))
@@ -77,30 +62,10 @@ class Collected(NamedTuple):
     facts: FileFacts | None = None
     launch: LaunchFile | None = None
     commands: Parsed | None = None
-    suppressions: tuple[suppress.Suppression, ...] = ()
+    suppressions: tuple[Suppression, ...] = ()
     machine_paths: tuple[MachinePath, ...] = ()
     unreadable: str = ""
     """Why the file was not read, or ""."""
-
-
-def kind_of(path: str) -> Kind | None:
-    """Return what a file is taken for by its name, or None for one that no collector reads."""
-    name = path.rpartition("/")[2]
-    if name == "CMakeLists.txt":
-        return "cmake"
-    if name == "package.xml":
-        return "manifest"  # discovery has read it; here for its comments
-    if name in ("setup.cfg", "pyproject.toml"):
-        return "config"  # setup.py is evaluated with it; here for its comments, and to say when it cannot be read
-    if name == "Cargo.toml":
-        return "cargo"
-    stem, _, suffix = name.rpartition(".")
-    if suffix in ("in", "em") and stem:  # configured by CMake, expanded by empy
-        inner = _SUFFIXES.get(stem.rpartition(".")[2])
-        return inner if inner in ("cmake", "python") else None
-    if name == suffix:  # without a suffix, it may be a program; what lies in resource/ is a marker, what is in capitals a LICENSE
-        return None if name.isupper() or path.endswith(f"resource/{name}") else "program"
-    return _SUFFIXES.get(suffix) if stem else None
 
 
 def collect(text: Text, kind: Kind) -> Collected:
@@ -113,7 +78,7 @@ def collect(text: Text, kind: Kind) -> Collected:
         from ros_lint.collectors.launch import detect as launch_files  # noqa: PLC0415
 
         if language := launch_files.is_launch_file(text.path, text.text):
-            launch = launch_files.collect(text, language)
+            launch = collect(text, language)
     if kind == "cpp":
         from ros_lint.collectors.cpp import collect as cpp  # noqa: PLC0415
 

@@ -9,14 +9,13 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.analysis.launch.includes import everything
 from ros_lint.base.text import Text, read
 from ros_lint.base.tree import Tree, join, parent, seen_from, within
 from ros_lint.collectors.launch.presence_checks import DISTRIBUTIONS
 from ros_lint.collectors.launch.python.released_helpers import HELPERS
 from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, installed_place
 from ros_lint.facts.build import BuildScript
-from ros_lint.facts.launch import LaunchAction, LaunchFile, LaunchValue
+from ros_lint.facts.launch import LaunchAction, LaunchFile, LaunchValue, everything
 
 if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.values import Module

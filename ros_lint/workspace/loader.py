@@ -10,16 +10,15 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from typing import NamedTuple
 
-from ros_lint.base import gitignore as ignored
 from ros_lint.base.text import Text, beginning
 from ros_lint.base.tree import OverlayTree, Tree, join, text_of, within
+from ros_lint.collectors.file_types import kind_of
 from ros_lint.collectors.manifest import conditions
-from ros_lint.engine.report import NotChecked, Target
-from ros_lint.engine.suppressions import Suppression
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.manifest import ROLES, Manifest, Role
 from ros_lint.facts.sources import FileFacts, MachinePath
+from ros_lint.facts.suppressions import Suppression
 from ros_lint.facts.visibility import Opaque
 from ros_lint.knowledge import Knowledge
 from ros_lint.knowledge.index import TAG_KINDS
@@ -29,15 +28,18 @@ from ros_lint.knowledge.world import Member, World
 from ros_lint.workspace import launch_modules as launch_around
 from ros_lint.workspace.build_scripts import evaluate as scripts
 from ros_lint.workspace.build_scripts.sources import Parts
-from ros_lint.workspace.collect import Collected, collect_all, kind_of
+from ros_lint.workspace.collect import Collected, collect_all
 from ros_lint.workspace.discovery import repository_lists as source_lists
 from ros_lint.workspace.discovery.discover import Found, Skipped, discover
+from ros_lint.workspace.discovery.ignore_files import find
 from ros_lint.workspace.fact_cache import Cache
 from ros_lint.workspace.model import Declared, Package, Workspace
+from ros_lint.workspace.target import NotChecked, Target
 from ros_lint.workspace.usage import own_files, public_headers
 from ros_lint.workspace.usage import resolve as evidence
 from ros_lint.workspace.usage import textual_mentions as traces
 from ros_lint.workspace.usage import unqualified_types as type_names
+from ros_lint.workspace.usage.package_files import Source, opaque_of
 
 Progress = Callable[[str, int, int], None]
 """Hears what is being done, how much of it is done, and how much there is."""
@@ -110,7 +112,7 @@ class Loader:
         world = World(tuple(self._members(reads, discovery.rejected)), self._underlays, self._knowledge, awaited)
         packages = tuple(self._join(tree, reads, world, sources))
         unusable = tuple(self._unusable(manifest) for manifest in discovery.rejected if not self._exclude(manifest.path))
-        ignores = ignored.find(tree, ((found.path, found.files) for found in founds))
+        ignores = find(tree, ((found.path, found.files) for found in founds))
         unread = (*discovery.not_checked, *source_lists.unreadable(tree, lists), *ignores.not_checked, *_unreadable(collected))
         not_checked = tuple(dict.fromkeys((*unread, *_failed(reads))))
         return Workspace(packages, unusable, world, self.target, not_checked, lists, ignores.patterns)
@@ -204,9 +206,7 @@ class Loader:
 
     def _join(self, tree: Tree, reads: Sequence[_Read], world: World, search: bool) -> Iterator[Package]:
         sources = [
-            evidence.Source(
-                r.found.name, r.found.path, r.found.files, r.script, r.facts, r.launch, r.found.type.removeprefix("ros.")
-            )
+            Source(r.found.name, r.found.path, r.found.files, r.script, r.facts, r.launch, r.found.type.removeprefix("ros."))
             for r in reads
         ]
         resolver = evidence.Resolver(sources, world)
@@ -233,7 +233,7 @@ class Loader:
                 launch=done.launch,
                 uses=uses,
                 traces={},
-                opaque=evidence.opaque_of(source),
+                opaque=opaque_of(source),
                 registrations=tuple([made for facts in done.facts.values() for made in facts.registrations]),
                 loaders=tuple([loader for facts in done.facts.values() for loader in facts.loaders]),
                 imported_types=tuple([each for facts in done.facts.values() for each in facts.types]),

@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from functools import cached_property, wraps
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros_lint.base import gitignore as ignored
 from ros_lint.base.text import Span, beginning
-from ros_lint.base.tree import join
+from ros_lint.base.tree import join, within
 from ros_lint.collectors.manifest import conditions
-from ros_lint.engine.report import NotChecked, Target
 from ros_lint.facts.build import NOTHING_BUILT, BuildScript, LeftBehind
+from ros_lint.facts.cmake import Call
 from ros_lint.facts.interfaces import InterfaceFile
 from ros_lint.facts.launch import LaunchFile, LaunchReference
 from ros_lint.facts.manifest import ColconDepend, Depend, Manifest, Role
 from ros_lint.facts.sources import ImportedType, LookUp, MachinePath, ParameterFile, PluginLoader, Registration, Use
 from ros_lint.facts.visibility import Facet, Opaque
+from ros_lint.workspace.target import NotChecked, Target
 
 if TYPE_CHECKING:
     from ros_lint.analysis.graph.dependency_graph import Graph
@@ -240,33 +241,33 @@ class Workspace:
         return build(self.packages)
 
 
-T = TypeVar("T")
+def top_file(package: Package) -> str:
+    """Return the path of the package's own CMakeLists.txt, relative to the base."""
+    return from_base(package, "CMakeLists.txt")
 
 
-def per_workspace(function: Callable[[Workspace], T]) -> Callable[[Workspace], T]:
-    """Make a pure function of a workspace remember what it says, for several rules ask the same."""
+def called(package: Package, *names: str, anywhere: bool = False) -> Iterator[Call]:
+    """Yield the calls of commands in the package's own CMakeLists.txt, or ``anywhere`` in its CMake files, in order."""
+    if package.script is None:
+        return
+    found = [call for call in package.script.written if call.name in names]
+    if anywhere or not found:
+        yield from found
+    else:
+        top = top_file(package)
+        yield from (call for call in found if call.path == top)
 
-    @wraps(function)
-    def remembering(workspace: Workspace) -> T:
-        if function not in workspace.said:
-            workspace.said[function] = function(workspace)
-        said: T = workspace.said[function]
-        return said
 
-    return remembering
+def relative(package: Package, path: str) -> str:
+    """Return a path relative to the package."""
+    return within(package.path, path)
 
 
-def per_package(function: Callable[[Package, Workspace], T]) -> Callable[[Package, Workspace], T]:
-    """Make a pure function of a package and its workspace remember what it says, for several rules ask the same."""
+def from_base(package: Package, path: str) -> str:
+    """Return a path of the package relative to the base, as places have it: the reverse of :func:`relative`."""
+    return join(package.path, path)
 
-    @wraps(function)
-    def remembering(package: Package, workspace: Workspace) -> T:
-        key = (function, id(package))
-        found = workspace.said.get(key)
-        if found is None:
-            # The package is kept, so that its id goes on meaning it.
-            found = workspace.said[key] = (package, function(package, workspace))
-        said: T = found[1]
-        return said
 
-    return remembering
+def place_of(package: Package, path: str) -> Span:
+    """Return where to point when a file of the package as a whole is meant."""
+    return beginning(from_base(package, path))

@@ -5,12 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 
-from ros_lint.analysis.build.commands import called
-from ros_lint.analysis.rule import Edit
+from ros_lint.base.edit import Edit
 from ros_lint.base.tree import join
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.cmake import Call
-from ros_lint.workspace.model import Package, Workspace
+from ros_lint.workspace.model import Package, Workspace, called
 
 _LIBRARY = """\
 install(TARGETS {}

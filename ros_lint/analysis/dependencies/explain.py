@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
+from ros_lint.analysis.dependencies.declared_closure import all_declared
 from ros_lint.analysis.dependencies.load_bearing import carriers
-from ros_lint.analysis.dependencies.needs import all_declared, despite, only_launched, tells, undeclared
 from ros_lint.analysis.dependencies.remedy import circle
-from ros_lint.analysis.dependencies.tags import builds_something, is_built_in_sight, is_library, is_unseen_by_name
-from ros_lint.analysis.rule import Confidence
+from ros_lint.analysis.dependencies.traceless import is_library
+from ros_lint.analysis.dependencies.undeclared import despite, only_launched, tells, undeclared
+from ros_lint.analysis.finding import Confidence
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Use
 from ros_lint.facts.visibility import Facet
 from ros_lint.workspace.model import Package, Workspace
+from ros_lint.workspace.usage.visibility import builds_something, is_built_in_sight, is_unseen_by_name
 
 _MOST = 5
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.analysis.dependencies.find_package import not_seen_used
 from ros_lint.analysis.dependencies.needs import needs
-from ros_lint.analysis.dependencies.tags import is_mostly_run, works_unseen
+from ros_lint.analysis.dependencies.traceless import is_mostly_run, works_unseen
+from ros_lint.analysis.memo import per_package, per_workspace
 from ros_lint.facts.manifest import Role
-from ros_lint.workspace.model import per_package, per_workspace
+from ros_lint.workspace.usage.unused_find_package import not_seen_used
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.analysis.dependencies.tags import add_dependency, tag_for, tags_for
-from ros_lint.analysis.rule import Fix
+from ros_lint.analysis.finding import Fix
 
 if TYPE_CHECKING:
-    from ros_lint.analysis.rule import Edit
+    from ros_lint.base.edit import Edit
     from ros_lint.facts.manifest import Role
     from ros_lint.workspace.model import Package, Workspace
 

@@ -6,16 +6,14 @@ from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING
 
 from ros_lint.analysis.dependencies.find_package import finds_declared
-from ros_lint.analysis.rule import Edit
-from ros_lint.collectors.interfaces import naming as interface_names
+from ros_lint.analysis.dependencies.traceless import is_mostly_run
+from ros_lint.base.edit import Edit
 from ros_lint.collectors.manifest import edits as manifest_edits
 from ros_lint.facts.manifest import Depend, Role
-from ros_lint.facts.visibility import Facet
 from ros_lint.workspace.model import Package, Workspace
 
 if TYPE_CHECKING:
-    from ros_lint.knowledge.index import Released
-    from ros_lint.knowledge.world import World
+    pass
 
 
 def tag_for(package: Package, workspace: Workspace, name: str, role: Role) -> str:
@@ -93,149 +91,6 @@ def remove_dependency(package: Package, depend: Depend) -> tuple[Edit, ...]:
     """Return the edits that take a dependency out. The package has a manifest."""
     assert package.manifest is not None
     return (manifest_edits.remove(package.manifest, depend),)
-
-
-def is_unseen_by_name(world: World, name: str) -> bool:
-    """Whether a name alone says that it may do its work unseen: it is no package that is known, or a linter, a generator ..."""
-    return not world.is_package(name) or world.is_key(name) or sounds_unseen(world, name)
-
-
-def sounds_unseen(world: World, name: str) -> bool:
-    """Whether a package is called like those that do their work unseen. Whether one of the workspace gives macros is seen."""
-    names = world.knowledge.names
-    return names.works_unseen(name) and not (world.layer(name) == "workspace" and names.sounds_like_macros(name))
-
-
-def is_library(world: World, name: str) -> bool:
-    """Whether a name is a key of something that is compiled against, which launch files cannot use."""
-    return world.is_key(name) and not name.startswith("python")
-
-
-def works_unseen(package: Package, workspace: Workspace, name: str) -> bool:
-    """Whether a dependency of a package on a name can do its work without the name standing anywhere (reference, section F2).
-
-    True for what is no package that is known; for packages that bring others, give macros or plugins, or are not there whole;
-    for those whose name says that they stand for something else; and for what generated interfaces need. See
-    :func:`is_mostly_run`, too.
-    """
-    world = workspace.world
-    if is_unseen_by_name(workspace.world, name):
-        return True
-    if package.script and package.script.interfaces and name in interface_names.UNDERLYING:
-        return True
-    if world.plugins(name).names:
-        return True
-    mine = workspace.by_name.get(name, ())
-    if mine:
-        return any(_gives_macros(each) or not makes_something(each) or _lacks_parts(each, world) for each in mine)
-    return only_brings(world, name) or _stands_for_others(package, world, name)
-
-
-def only_brings(world: World, name: str) -> bool:
-    """Whether a released package is a metapackage: it says so, or has nothing but what it brings to be run."""
-    released = world.released(name)
-    if released is None or "m" in released.flags[1:]:
-        return released is not None
-    return bool(released.on("x")) and not released.on("beu") and _offers_nothing(world, released)
-
-
-def _stands_for_others(package: Package, world: World, name: str) -> bool:
-    """Whether a released metapackage that declares its members by ``<depend>`` brings one that the package uses.
-
-    It has the name of its repository, and what it brings is mostly from there.
-    """
-    released = world.released(name)
-    if released is None or released.repository != name or not _offers_nothing(world, released):
-        return False
-    brought = released.on("x")
-    members = {each for each in brought if (found := world.released(each)) and found.repository == name}
-    return 2 * len(members) > len(brought) and any(use.package in members for use in package.uses)
-
-
-def _offers_nothing(world: World, released: Released) -> bool:
-    """Whether nothing is known that a package of ament_cmake installs."""
-    if released.build_type != "ament_cmake" or released.interfaces:
-        return False
-    known = (world.executables, world.launch_files, world.components, world.plugins, world.python_modules, world.programs)
-    return not any(provides(released.name).possible for provides in known)
-
-
-def is_mostly_run(workspace: Workspace, name: str) -> bool:
-    """Whether released packages mostly declare a name without building against it, so that it may well leave no trace.
-
-    Not so of packages that give nothing but interfaces: this tells that Python code uses them, which has to name them.
-    """
-    world = workspace.world
-    if name in workspace.by_name or not world.is_package(name):
-        return False
-    released = world.released(name)
-    if released and released.interfaces and not runs(world, name):
-        return False
-    declared = world.knowledge.index.declared_as(name)
-    return 2 * sum(count for kinds, count in declared.items() if "b" not in kinds) > sum(declared.values())
-
-
-def runs(world: World, name: str) -> bool:
-    """Whether a package is known to have something to start or to load."""
-    offers = (world.executables, world.programs, world.launch_files, world.components, world.plugins)
-    return any(offer(name).names for offer in offers)
-
-
-def leaves_trace(package: Package, workspace: Workspace, name: str) -> bool:
-    """Whether a dependency leaves a trace if it is of any use: messages, and modules where no Python code could import them."""
-    world = workspace.world
-    released = world.released(name)
-    if released is None:
-        return False
-    no_python = not any(file.endswith(PYTHON_LIKE) for file in package.files)
-    return bool(released.interfaces) or (no_python and not runs(world, name) and bool(world.python_modules(name).names))
-
-
-PYTHON_LIKE = (".py", ".py.in", ".launch", ".launch.xml", ".launch.yaml")
-"""Files that can run Python code, or have it run."""
-
-
-def is_seen_whole(package: Package) -> bool:
-    """Whether so much is seen of a package that no more packages can be used in it than those that are found."""
-    return is_built_in_sight(package) and not package.hidden(Facet.USES)
-
-
-def is_built_in_sight(package: Package) -> bool:
-    """Whether so much is seen of a package that no more libraries can be used in it: launch files need none."""
-    manifest, script = package.manifest, package.script
-    if manifest is None or manifest.problems or script is None or script.problems:
-        return False
-    launched = {launch.path for launch in package.launch}
-    if any(opaque.span.path not in launched for opaque in package.hidden(Facet.USES)):
-        return False
-    return package.builds_with in ("ament_cmake", "ament_python") and builds_something(package)
-
-
-def makes_something(package: Package) -> bool:
-    """Whether a package builds or installs anything of its own, so that it does more than bring others along."""
-    script = package.script
-    if script is None or package.opaque or builds_something(package):
-        return True
-    by_rote = ("share/ament_index/", f"share/{package.name}/package.xml", f"share/{package.name}/cmake/")
-    return any(not provided.path.startswith(by_rote) for provided in script.provides)
-
-
-def builds_something(package: Package) -> bool:
-    """Whether a package has code: a package with launch files and data only may declare what these need in their own way."""
-    script = package.script
-    if script is None:
-        return False
-    made = script.targets or script.interfaces or script.python_packages or script.components
-    return bool(made) or any(provided.path.startswith("include/") for provided in script.provides)
-
-
-def _lacks_parts(package: Package, world: World) -> bool:
-    """Whether a submodule that is not cloned lies in a package: what that has may be called anything."""
-    return any(folder.rpartition("/")[2] in world.awaited.uncloned for folder in package.unseen)
-
-
-def _gives_macros(package: Package) -> bool:
-    return package.script is None or any(file.endswith((".cmake", ".cmake.in")) for file in package.files)
 
 
 def _is_tool(workspace: Workspace, name: str, needed: Role) -> bool:

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ros_lint.analysis.dependencies.unresolved import is_near_tool
+from ros_lint.analysis.memo import per_workspace
 from ros_lint.knowledge.spelling import VENDOR, may_be_package
-from ros_lint.workspace.model import Workspace, per_workspace
+from ros_lint.workspace.model import Workspace
 
 
 def may_bring(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:

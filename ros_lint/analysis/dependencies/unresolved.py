@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
+from ros_lint.analysis.memo import per_package, per_workspace
 from ros_lint.facts.manifest import Depend, Role
 from ros_lint.facts.sources import Use
-from ros_lint.workspace.model import Declared, Package, Workspace, per_package, per_workspace
+from ros_lint.workspace.model import Declared, Package, Workspace
 
 _BUILD_TYPES = frozenset({"ros.ament_cmake", "ros.ament_python", "ros.cmake"})
 

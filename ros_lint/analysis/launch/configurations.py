@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
-from ros_lint.analysis.launch.includes import Links, asked_by, everything, texts_of
+from ros_lint.analysis.launch.includes import Links, asked_by
 from ros_lint.base.text import Span
 from ros_lint.collectors.symbolic_text import configurations, is_plain
-from ros_lint.facts.launch import LaunchFile
+from ros_lint.facts.launch import LaunchFile, everything, texts_of
 
 
 class Names(NamedTuple):

@@ -7,8 +7,9 @@ from collections import Counter
 from collections.abc import Container, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
-from ros_lint.analysis.rule import Edit, Fix
+from ros_lint.analysis.finding import Fix
 from ros_lint.base.auxiliary_files import is_apart, is_copy, lies_apart
+from ros_lint.base.edit import Edit
 from ros_lint.base.text import Span
 from ros_lint.base.tree import within
 from ros_lint.facts.launch import LaunchFile, LaunchReference

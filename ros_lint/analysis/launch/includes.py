@@ -8,7 +8,7 @@ from typing import NamedTuple, TypeVar
 from ros_lint.base.text import Span
 from ros_lint.base.tree import parent, seen_from, within
 from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, fill, installed_place, is_plain, is_settled, named_in
-from ros_lint.facts.launch import LaunchAction, LaunchFile, LaunchValue
+from ros_lint.facts.launch import LaunchAction, LaunchFile, LaunchValue, everything, texts_of
 from ros_lint.facts.sources import ParameterFile
 from ros_lint.workspace.model import Package
 
@@ -153,13 +153,6 @@ class Links:
         return own
 
 
-def everything(actions: Iterable[LaunchAction]) -> Iterator[LaunchAction]:
-    """Yield actions and all those in them."""
-    for action in actions:
-        yield action
-        yield from everything(action.children)
-
-
 def asked_by(file: LaunchFile) -> set[str]:
     """Return the launch configurations that a file asks for, UNKNOWN among them if others may be meant."""
     found = set(file.asks)
@@ -169,25 +162,6 @@ def asked_by(file: LaunchFile) -> set[str]:
                 if not text.isascii():
                     found.update(name for name in named_in(text) or () if not name.startswith("$"))
     return found
-
-
-def texts_of(action: LaunchAction) -> Iterator[tuple[str, Span]]:
-    """Yield every text of an action and its conditions with its place, but for those of the actions in it."""
-    for value in values(action):
-        yield from ((text, value.span) for text in value.texts)
-    for condition in action.conditions:
-        yield from ((text, action.span) for text in condition.texts)
-
-
-def values(action: LaunchAction) -> Iterator[LaunchValue]:
-    """Yield every text of an action, but for those of the actions in it."""
-    for value in (action.package, action.target, action.value, action.name, action.namespace):
-        if value is not None:
-            yield value
-    for _, value in (*action.arguments, *action.parameters):
-        yield value
-    for pair in action.remappings:
-        yield from pair
 
 
 def defaults_of(file: LaunchFile) -> dict[str, tuple[str, ...]]:

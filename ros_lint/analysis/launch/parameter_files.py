@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.analysis.launch.includes import defaults_of, everything, filled, installed_below_share
+from ros_lint.analysis.launch.includes import defaults_of, filled, installed_below_share
+from ros_lint.facts.launch import everything
 
 if TYPE_CHECKING:
     from ros_lint.facts.launch import LaunchAction, LaunchFile, LaunchValue

@@ -5,7 +5,7 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from ros_lint.analysis.launch.includes import defaults_of, values
+from ros_lint.analysis.launch.includes import defaults_of
 from ros_lint.collectors.symbolic_text import (
     UNKNOWN,
     configurations,
@@ -16,6 +16,7 @@ from ros_lint.collectors.symbolic_text import (
     readable,
     share,
 )
+from ros_lint.facts.launch import values
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping

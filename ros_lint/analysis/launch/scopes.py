@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
-from ros_lint.analysis.launch.includes import Links, everything, texts_of
+from ros_lint.analysis.launch.includes import Links
 from ros_lint.collectors.symbolic_text import configurations
-from ros_lint.facts.launch import LaunchAction, LaunchFile
+from ros_lint.facts.launch import LaunchAction, LaunchFile, everything, texts_of
 
 
 class Include(NamedTuple):

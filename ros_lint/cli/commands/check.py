@@ -9,21 +9,22 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ros_lint import __version__
-from ros_lint.analysis.rule import Severity
+from ros_lint.analysis.finding import Severity
 from ros_lint.base.tree import Machine, RecordedTree, text_of
 from ros_lint.cli import session as opening
 from ros_lint.cli.progress import Progress
-from ros_lint.engine.report import Hidden, RefusalError, Report, Unseen
+from ros_lint.engine.check import check
+from ros_lint.engine.report import Report
+from ros_lint.engine.selection import Selection, select
+from ros_lint.errors import RefusalError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from ros_lint.cli.session import Asked, Opened
+    from ros_lint.cli.session import Asked
     from ros_lint.cli.settings import Settings
-    from ros_lint.engine import run as engine
     from ros_lint.engine.baseline import Baseline
     from ros_lint.reporters.ansi import Style
-    from ros_lint.workspace.model import Workspace
 
 Said = Mapping[str, Any]
 
@@ -129,12 +130,11 @@ def _checked(asked: Asked, progress: Progress) -> Report:
     return report
 
 
-def select(settings: Settings) -> engine.Selection:
+def select(settings: Settings) -> Selection:
     """Return the rules that the settings select. Raises SelectionError and PluginError."""
     from ros_lint.engine import registry
-    from ros_lint.engine import run as engine  # noqa: PLC0415  (all the rules, of which a kept report needs none)
 
-    return engine.select(
+    return select(
         registry.load(settings["plugins"]),
         chosen=settings["select"],
         added=settings["extend-select"],
@@ -142,32 +142,6 @@ def select(settings: Settings) -> engine.Selection:
         severities=settings["severity"],
         per_path=settings["per-path-ignores"],
         pedantic=settings["pedantic"],
-    )
-
-
-def check(opened: Opened, workspace: Workspace, selection: engine.Selection) -> Report:
-    """Return what the selected rules say of a workspace, suppressions and settings respected."""
-    from ros_lint.engine import registry
-    from ros_lint.engine import run as engine  # noqa: PLC0415
-
-    known = registry.load(opened.settings["plugins"])
-    checked = engine.check(workspace, selection.rules, opened.loader.suppressions(), known)
-    shown, hidden = engine.show(checked.issues, selection)
-    if checked.suppressed:
-        hidden = (*hidden, Hidden("suppressed by comments", len(checked.suppressed)))
-    return Report(
-        issues=shown,
-        rules=selection.rules,
-        packages=len(workspace.packages) + len(workspace.unusable),
-        target=workspace.target,
-        data_date=opened.knowledge.date,
-        version=__version__,
-        hidden=hidden,
-        not_checked=workspace.not_checked,
-        unseen=_unseen(workspace),
-        crashes=checked.crashes,
-        workspace=opened.roots[0] if len(opened.roots) == 1 else "",
-        warnings=opened.warnings,
     )
 
 
@@ -223,22 +197,3 @@ def _wants_color(settings: Settings) -> bool:
     if os.environ.get("FORCE_COLOR") or os.environ.get("CLICOLOR_FORCE"):
         return not settings["output"]
     return sys.stdout.isatty() and not settings["output"] and os.environ.get("TERM") != "dumb"
-
-
-def _unseen(workspace: Workspace) -> tuple[Unseen, ...]:
-    from ros_lint.facts.visibility import Facet  # noqa: PLC0415
-
-    words = {
-        Facet.USES: "used dependencies",
-        Facet.EXECUTABLES: "executables",
-        Facet.SHARE: "installed share files",
-        Facet.PYTHON: "Python modules",
-        Facet.LIBRARIES: "libraries",
-        Facet.INTERFACES: "interfaces",
-        Facet.COMPONENTS: "components",
-    }
-    blind = {
-        word: tuple([package.name or package.path for package in workspace.packages if package.hidden(facet)])
-        for facet, word in words.items()
-    }
-    return tuple(Unseen(word, packages) for word, packages in blind.items() if packages)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ros_lint.analysis.dependencies.explain import RULES, explain
-from ros_lint.analysis.rule import Confidence
+from ros_lint.analysis.finding import Confidence
 from ros_lint.engine import registry
 from ros_lint.workspace.model import Package, Workspace
 

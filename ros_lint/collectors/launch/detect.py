@@ -10,9 +10,6 @@ from __future__ import annotations
 import re
 from typing import Literal
 
-from ros_lint.base.text import Text
-from ros_lint.facts.launch import LaunchFile
-
 Language = Literal["python", "xml", "yaml"]
 
 NAMES = ("launch.py", "launch.xml", "launch.yaml", "launch.yml", ".launch")
@@ -68,26 +65,6 @@ def entries(text: str) -> frozenset[str]:
         if _DEFINED.match(text, line, match.start()):
             found.add(match[1])
     return frozenset(found)
-
-
-def collect(source: Text, language: Language) -> LaunchFile:
-    """Return what a launch file says. Never raises: what is wrong with the file is among its problems."""
-    found = _collect(source, language)
-    return found._replace(fills=True) if "allow_substs" in source.text else found
-
-
-def _collect(source: Text, language: Language) -> LaunchFile:
-    if language == "python":
-        from ros_lint.collectors.launch.python import collect as launch_py  # noqa: PLC0415  (most workspaces have files of one language)
-
-        return launch_py.collect(source)
-    if language == "xml":
-        from ros_lint.collectors.launch.markup import xml as launch_xml  # noqa: PLC0415
-
-        return launch_xml.collect(source)
-    from ros_lint.collectors.launch.markup import yaml as launch_yaml  # noqa: PLC0415
-
-    return launch_yaml.collect(source)
 
 
 def is_of_ros_1(text: str) -> bool:

@@ -11,7 +11,7 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from itertools import groupby, pairwise
 from typing import Final, NamedTuple
 
-from ros_lint.analysis.rule import Edit
+from ros_lint.base.edit import Edit
 from ros_lint.base.text import Span
 from ros_lint.collectors.manifest.xml import escaped
 from ros_lint.facts.manifest import Depend, Element, Manifest

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Final
 from ros_lint.facts.visibility import NewerSyntax, Problem
 
 if TYPE_CHECKING:
-    from ros_lint.engine.report import Target
+    from ros_lint.workspace.target import Target
 
 Version = tuple[int, int]
 

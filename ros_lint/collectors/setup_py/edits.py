@@ -5,7 +5,7 @@ from __future__ import annotations
 import posixpath
 from collections.abc import Iterable, Sequence
 
-from ros_lint.analysis.rule import Edit
+from ros_lint.base.edit import Edit
 from ros_lint.base.text import Span, beginning
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.setup_py import Slot

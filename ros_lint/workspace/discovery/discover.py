@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, NamedTuple
 from ros_lint.base.text import beginning, read
 from ros_lint.base.tree import is_below, join, parent, seen_from
 from ros_lint.collectors.manifest import collect as manifests
-from ros_lint.engine.report import NotChecked
 from ros_lint.facts.environment import ROS_2
 from ros_lint.workspace.discovery.identify import (
     SIGNS,
@@ -24,6 +23,7 @@ from ros_lint.workspace.discovery.identify import (
     ignored_everywhere,
     product,
 )
+from ros_lint.workspace.target import NotChecked
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

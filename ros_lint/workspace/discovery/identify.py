@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from ros_lint.base.text import Span, Text, beginning, read
 from ros_lint.base.tree import join
 from ros_lint.collectors.manifest import conditions
-from ros_lint.engine.report import NotChecked
 from ros_lint.facts.manifest import ColconSettings
+from ros_lint.workspace.target import NotChecked
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Mapping

@@ -4,24 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from typing import NamedTuple
 
 from ros_lint.base.tree import Tree, join, parent, text_of
-from ros_lint.engine.report import NotChecked
+from ros_lint.facts.repositories import Awaited
+from ros_lint.workspace.target import NotChecked
 
 _ENDINGS = (".repos", ".rosinstall", ".gitmodules")
-
-
-class Awaited(NamedTuple):
-    """Repositories that may still come to a workspace, by the names of their folders: mostly those of the packages in them."""
-
-    uncloned: frozenset[str] = frozenset()
-    """Submodules whose folders are empty. What they have is missing by no mistake: packages, Python modules, libraries."""
-    listed: frozenset[str] = frozenset()
-    """Those that ``*.repos`` and ``*.rosinstall`` have fetched, which whoever builds the workspace may have done or not."""
-
-
-NOTHING_AWAITED = Awaited()
 
 
 def find(tree: Tree, roots: Sequence[str], files: Iterable[str]) -> tuple[str, ...]:

@@ -12,20 +12,19 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from ros_lint.base.text import Span
 from ros_lint.base.tree import within
-from ros_lint.collectors.suffixes import HEADERS
-from ros_lint.facts.build import NOTHING_BUILT, REPOSITORIES, BuildScript
+from ros_lint.facts.build import REPOSITORIES
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.manifest import Role
-from ros_lint.facts.sources import FileFacts, Mention, Use, Via
-from ros_lint.facts.visibility import Opaque
+from ros_lint.facts.sources import Mention, Use, Via
 from ros_lint.knowledge.spelling import may_be_package
 from ros_lint.workspace.usage.file_roles import Liveness
 from ros_lint.workspace.usage.own_files import OwnFiles
+from ros_lint.workspace.usage.package_files import Source, include_index
 
 if TYPE_CHECKING:
+    from ros_lint.facts.repositories import Awaited
     from ros_lint.knowledge.providers import Providers
     from ros_lint.knowledge.world import Standing
-    from ros_lint.workspace.discovery.repository_lists import Awaited
 
 
 class Names(Protocol):
@@ -44,25 +43,6 @@ class Names(Protocol):
 
 _make = tuple.__new__
 """Makes a named tuple in half the time that its class takes."""
-
-
-class Source(NamedTuple):
-    """What evidence needs to know of one package."""
-
-    name: str
-    path: str
-    files: tuple[str, ...]
-    """Relative to the package."""
-    script: BuildScript | None
-    facts: Mapping[str, FileFacts]
-    """By path relative to the package."""
-    launch: tuple[LaunchFile, ...]
-    builds_with: str
-
-    @property
-    def built(self) -> BuildScript:
-        """Return the build script, one that builds and installs nothing where there is none."""
-        return self.script or NOTHING_BUILT
 
 
 _WORD = re.compile("[A-Za-z0-9]+")
@@ -357,34 +337,6 @@ def _launch_uses(launch: LaunchFile, role: Role, uses: _Uses, sure: bool) -> Non
             uses.put(
                 Use(package, (package,), role, what, "launch", reference.optional, reference.package_span, sure and answer.sure)
             )
-
-
-def include_index(sources: Iterable[Source]) -> dict[str, tuple[str, ...]]:
-    """Return, for every header below an ``include`` folder of the workspace, the packages that have it, by include path."""
-    found: dict[str, tuple[str, ...]] = {}
-    for source in sources:
-        for file in source.files:
-            if not file.endswith(HEADERS):
-                continue
-            _, marker, header = f"/{file}".partition("/include/")
-            if not marker:
-                continue
-            # include/<package>/<package>/x.hpp and include/<package>/x.hpp are both written <package>/x.hpp.
-            for spelling in {header, header.removeprefix(f"{source.name}/") if header.count("/") > 1 else header}:
-                have = found.get(spelling, ())
-                if source.name not in have:
-                    found[spelling] = (*have, source.name)
-    return found
-
-
-def opaque_of(source: Source) -> tuple[Opaque, ...]:
-    """Return everything that hides a side of the package."""
-    found: list[Opaque] = list(source.built.opaque)
-    for facts in source.facts.values():
-        found += facts.opaque
-    for launch in source.launch:
-        found += launch.opaque
-    return tuple(sorted(found, key=lambda opaque: (opaque.span, opaque.reason)))
 
 
 def satisfying(uses: Iterable[Use]) -> frozenset[str]:

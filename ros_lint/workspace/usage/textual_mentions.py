@@ -8,14 +8,15 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import accumulate
 from typing import TYPE_CHECKING
 
-from ros_lint.analysis.dependencies.find_package import not_seen_used
-from ros_lint.analysis.dependencies.tags import is_built_in_sight, is_unseen_by_name, sounds_unseen
 from ros_lint.base.text import Span, beginning, raw, span_in
 from ros_lint.base.tree import Tree, contents, join
 from ros_lint.facts.sources import Via
 from ros_lint.workspace.model import Package
-from ros_lint.workspace.usage.resolve import Source, satisfying, used_names
+from ros_lint.workspace.usage.package_files import Source
+from ros_lint.workspace.usage.resolve import satisfying, used_names
 from ros_lint.workspace.usage.unqualified_types import Types
+from ros_lint.workspace.usage.unused_find_package import not_seen_used
+from ros_lint.workspace.usage.visibility import is_built_in_sight, is_unseen_by_name, sounds_unseen
 
 if TYPE_CHECKING:
     from ros_lint.knowledge.world import World

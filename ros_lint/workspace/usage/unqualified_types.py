@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from ros_lint.base.text import Span
     from ros_lint.base.tree import Tree
-    from ros_lint.workspace.usage.resolve import Source
+    from ros_lint.workspace.usage.package_files import Source
 
 _CODE = (*HEADERS, *SOURCES)
 

@@ -5,14 +5,16 @@ from __future__ import annotations
 import posixpath
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.analysis.launch.includes import Links, Takes, everything, values
+from ros_lint.analysis.launch.includes import Links, Takes
 from ros_lint.base.suggestions import did_you_mean, similar
 from ros_lint.base.text import read
 from ros_lint.base.tree import seen_from, within
 from ros_lint.cli.session import UsageError
+from ros_lint.collectors.file_types import kind_of
 from ros_lint.collectors.symbolic_text import configurations, installed, share
+from ros_lint.facts.launch import everything, values
 from ros_lint.facts.visibility import Facet
-from ros_lint.workspace.collect import collect, kind_of
+from ros_lint.workspace.collect import collect
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from typing import Final
 
-from ros_lint.analysis.wording import few
+from ros_lint.base.suggestions import few
 from ros_lint.base.text import Span
 from ros_lint.collectors.cmake.commands.include import include_foreign, include_own
 from ros_lint.collectors.cmake.commands.include_directories import ALL_TARGETS, FOREIGN_VARIABLE, found_as, given, given_folders

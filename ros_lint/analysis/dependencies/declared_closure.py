@@ -1,0 +1,41 @@
+"""What the declared dependencies of a package provide transitively."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from ros_lint.analysis.dependencies.unknown_closure import may_bring
+from ros_lint.analysis.memo import per_package
+from ros_lint.facts.manifest import Role
+from ros_lint.knowledge.closure import Closure
+from ros_lint.workspace.model import Package, Workspace
+
+_ANY = ~Role(0)
+
+
+@per_package
+def all_declared(package: Package, workspace: Workspace) -> Closure:
+    """Return all that comes along with what is declared, members of groups included."""
+    return declared_closure(package, workspace, _ANY)
+
+
+def declared_closure(package: Package, workspace: Workspace, role: Role) -> Closure:
+    """Return all that comes along with what is declared for any part of a role, members of groups included."""
+    starts = [each.name for each in package.declared if role is _ANY or each.role & role]
+    for group in package.group_depends:
+        starts += workspace.world.group_members(group.name)
+    return workspace.world.closure(starts)
+
+
+def covered(package: Package, workspace: Workspace, names: Iterable[str], role: Role, *, surely: bool = False) -> bool:
+    """Whether one of the names comes along with something else that is declared for any part of a role.
+
+    Or whether it may, unless ``surely``.
+    """
+    names = frozenset(names)
+    starts = {each.name for each in package.declared if each.role & role and each.name not in names}
+    closure = workspace.world.closure(sorted(starts))
+    if any(name in closure for name in names):
+        return True
+    unknown = () if surely else closure.unknown
+    return bool(unknown) and any(may_bring(unknown, name, workspace) for name in names)

@@ -1,0 +1,102 @@
+"""Select rules, and decide which of their findings are shown."""
+
+from __future__ import annotations
+
+import fnmatch
+from collections.abc import Iterable, Mapping, Sequence
+from typing import NamedTuple
+
+from ros_lint.analysis.finding import Confidence, Severity
+from ros_lint.analysis.rule import Rule
+from ros_lint.engine.registry import matching, no_rule
+from ros_lint.engine.report import UNSURE, Hidden, Issue
+from ros_lint.errors import RefusalError
+
+
+class SelectionError(RefusalError):
+    """A rule that is asked for and does not exist."""
+
+
+class Selection(NamedTuple):
+    """Which rules run, and what of their findings is shown."""
+
+    rules: tuple[Rule, ...]
+    named: frozenset[str]
+    """Rules asked for by name: all their findings are shown, however sure."""
+    severities: Mapping[str, Severity]
+    pedantic: bool
+    ignores: tuple[tuple[str, frozenset[str]], ...]
+    """Path patterns, each with the names of rules ignored for files that match."""
+
+
+def select(
+    rules: Sequence[Rule],
+    *,
+    chosen: Sequence[str] = ("default",),
+    added: Sequence[str] = (),
+    ignored: Sequence[str] = (),
+    severities: Mapping[str, str] | None = None,
+    per_path: Mapping[str, Sequence[str]] | None = None,
+    pedantic: bool = False,
+) -> Selection:
+    """Return what to run. Raises SelectionError for a name that means no rule.
+
+    A rule whose severity is set in the settings is on, one that is set to off is not.
+    """
+    on: dict[str, Rule] = {}
+    named: set[str] = set()
+    for selector in (*(("all",) if pedantic else chosen), *added):
+        found = _matching(rules, selector)
+        on.update((rule.name, rule) for rule in found)
+        if selector not in ("all", "default"):
+            named.update(rule.name for rule in found)
+    levels: dict[str, Severity] = {}
+    for selector, word in (severities or {}).items():
+        for rule in _matching(rules, selector):
+            if word == "off":
+                on.pop(rule.name, None)
+            else:
+                on[rule.name] = rule
+                levels[rule.name] = Severity[word.upper()]
+    for selector in ignored:
+        for rule in _matching(rules, selector):
+            on.pop(rule.name, None)
+    ignores = tuple(
+        (pattern, frozenset(rule.name for selector in selectors for rule in _matching(rules, selector)))
+        for pattern, selectors in (per_path or {}).items()
+    )
+    ordered = tuple(rule for rule in rules if rule.name in on)
+    return Selection(ordered, frozenset(named), levels, pedantic, ignores)
+
+
+def show(issues: Iterable[Issue], selection: Selection) -> tuple[tuple[Issue, ...], tuple[Hidden, ...]]:
+    """Return what is shown, with the severities of the settings, and how much is hidden and why."""
+    shown: list[Issue] = []
+    unsure = ignored = 0
+    for issue in issues:
+        name = issue.rule.name
+        sure = issue.finding.confidence is Confidence.HIGH
+        if any(name in names and matches(issue.finding.span.path, pattern) for pattern, names in selection.ignores):
+            ignored += 1
+        elif not (sure or selection.pedantic or name in selection.named):
+            unsure += 1
+        elif name in selection.severities:
+            shown.append(issue._replace(finding=issue.finding._replace(severity=selection.severities[name])))
+        else:
+            shown.append(issue)
+    hidden = [Hidden(UNSURE, unsure), Hidden("ignored by per-path-ignores", ignored)]
+    return tuple(shown), tuple(entry for entry in hidden if entry.count)
+
+
+def matches(path: str, pattern: str) -> bool:
+    """Whether a pattern of the settings means a path: one of its folders, the file, or the whole path."""
+    pattern = pattern.rstrip("/")
+    if "/" in pattern:
+        return fnmatch.fnmatchcase(path, pattern) or fnmatch.fnmatchcase(path, f"{pattern}/*")
+    return any(fnmatch.fnmatchcase(part, pattern) for part in path.split("/"))
+
+
+def _matching(rules: Sequence[Rule], selector: str) -> tuple[Rule, ...]:
+    if found := matching(rules, selector):
+        return found
+    raise SelectionError(no_rule(rules, selector))

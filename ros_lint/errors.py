@@ -1,0 +1,7 @@
+"""Errors that end a run with a message for the user."""
+
+from __future__ import annotations
+
+
+class RefusalError(Exception):
+    """The tool cannot do what was asked for. The message names the reason, and the way out."""

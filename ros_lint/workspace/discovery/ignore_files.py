@@ -1,0 +1,37 @@
+"""The ``.gitignore`` files around the packages of a workspace."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+from ros_lint.base.gitignore import _NAME, Pattern, patterns
+from ros_lint.base.text import read
+from ros_lint.base.tree import Tree, folders_of, join, parent
+from ros_lint.workspace.target import NotChecked
+
+
+class Ignores(NamedTuple):
+    """What the ``.gitignore`` files of a workspace say, and those that cannot be read."""
+
+    patterns: tuple[Pattern, ...]
+    """Later patterns win."""
+    not_checked: tuple[NotChecked, ...]
+
+
+def find(tree: Tree, packages: Iterable[tuple[str, Iterable[str]]]) -> Ignores:
+    """Return the patterns for packages, given by folder with the files in it."""
+    paths = {_NAME}
+    for folder, files in packages:
+        paths.update([join(folder, file) for file in files if file.rpartition("/")[2] == _NAME])
+        paths.update([join(above, _NAME) for above in folders_of(folder)])
+    found: list[Pattern] = []
+    unread: list[NotChecked] = []
+    for path in sorted(paths, key=lambda path: (path.count("/"), path)):
+        try:
+            found += patterns(parent(path), read(path, tree.read(path)).text)
+        except (FileNotFoundError, NotADirectoryError):
+            continue
+        except OSError as error:
+            unread.append(NotChecked.of(path, error))
+    return Ignores(tuple(found), tuple(unread))
