@@ -98,7 +98,6 @@ from ros_lint.collectors.python.versions import STANDARD_LIBRARY, too_new
 from ros_lint.collectors.setup_py import edits as setup_edits
 from ros_lint.collectors.suffixes import HEADERS, INTERFACES
 from ros_lint.collectors.symbolic_text import agree, configurations, is_plain, renames
-from ros_lint.engine.suppressions import Outcome
 from ros_lint.facts.build import BuildScript, Component, LeftBehind, PluginClass, PluginFile, PluginLibrary, Provided, ScriptFile
 from ros_lint.facts.cmake import Call
 from ros_lint.facts.cmake import Target as BuildTarget
@@ -106,6 +105,7 @@ from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchFile, Lau
 from ros_lint.facts.manifest import Depend, Element, Manifest, Role
 from ros_lint.facts.setup_py import EntryPoint, PythonModule, Slot
 from ros_lint.facts.sources import MachinePath, Mention, PluginLoader, Registration, Use
+from ros_lint.facts.suppressions import SuppressionUse
 from ros_lint.facts.visibility import ANYTHING, Facet, Opaque, Problem
 from ros_lint.knowledge.providers import Meant
 from ros_lint.knowledge.spelling import VENDOR, may_be_package, near_names
@@ -169,7 +169,6 @@ __all__ = [
     "Mention",
     "Need",
     "Opaque",
-    "Outcome",
     "Package",
     "ParameterFiles",
     "PassedFile",
@@ -191,6 +190,7 @@ __all__ = [
     "Slot",
     "Span",
     "Stranger",
+    "SuppressionUse",
     "Target",
     "Use",
     "Workspace",

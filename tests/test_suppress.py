@@ -14,9 +14,10 @@ from ros_lint.analysis.finding import Finding, Fix, Severity
 from ros_lint.analysis.rule import Rule
 from ros_lint.base.text import Span, Text
 from ros_lint.collectors.comments import comments
+from ros_lint.collectors.suppressions import collect
 from ros_lint.engine import edits
 from ros_lint.engine.report import Issue
-from ros_lint.engine.suppressions import apply, collect
+from ros_lint.engine.suppressions import apply
 from ros_lint.facts.suppressions import Suppression
 
 RULES = tuple(
@@ -285,8 +286,8 @@ def test_apply() -> None:
     outcome = apply([wanted, other, elsewhere], found, RULES, NAMES)
     assert outcome.kept == (other, elsewhere)
     assert outcome.suppressed == ((wanted, found[0]),)
-    assert [[name.text for name in unused.names] for unused in outcome.unused] == [["Missing-File"]]
-    assert [(unknown.name.text, unknown.suggestion) for unknown in outcome.unknown] == [
+    assert [[name.text for name in unused.names] for unused in outcome.use.unused] == [["Missing-File"]]
+    assert [(unknown.name.text, unknown.suggestion) for unknown in outcome.use.unknown] == [
         ("nosuch", ""),
         ("unused-dependancy", "unused-dependency"),
         ("ROS999", ""),
@@ -301,7 +302,7 @@ def test_a_rule_that_did_not_run_leaves_nothing_unused() -> None:
 def test_two_suppressions_for_one_finding_are_both_used() -> None:
     found = collect(Text("a.py", "# ros-lint: ignore-file[ROS201]\nx\ny  # ros-lint: ignore[ROS201]\n"))
     outcome = apply([issue("undeclared-dependency", "a.py", 3)], found, RULES, NAMES)
-    assert (outcome.unused, outcome.kept) == ((), ())
+    assert (outcome.use.unused, outcome.kept) == ((), ())
 
 
 def test_what_is_said_about_a_suppression_can_be_suppressed() -> None:
@@ -311,8 +312,8 @@ def test_what_is_said_about_a_suppression_can_be_suppressed() -> None:
     for mark in ("x  # {}", "# {}\nx"):
         found = collect(Text("a.py", mark.format("ros-lint: ignore[ROS201, ROS901] so\n")))
         outcome = apply([], found, known, names)
-        assert [[name.text for name in unused.names] for unused in outcome.unused] == [["ROS201"]]
-        about = [Issue(judge, "p", Finding("", unused.names[0].span, "")) for unused in outcome.unused]
+        assert [[name.text for name in unused.names] for unused in outcome.use.unused] == [["ROS201"]]
+        about = [Issue(judge, "p", Finding("", unused.names[0].span, "")) for unused in outcome.use.unused]
         assert apply(about, found, known, names).kept == ()
 
 
@@ -330,7 +331,7 @@ def test_what_stays_is_what_no_suppression_covers(lines: list[str]) -> None:
     kept = tuple([each for each in issues if not any(one.covers(each) for one in covering)])
     outcome = apply(issues, found, RULES, NAMES)
     assert outcome.kept == kept
-    idle = {each.suppression for each in outcome.unused if each.names[0].text == "ROS204"}
+    idle = {each.suppression for each in outcome.use.unused if each.names[0].text == "ROS204"}
     assert idle == {each for each in covering if not each.problem and not any(map(each.covers, issues))}
 
 

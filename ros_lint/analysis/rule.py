@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from ros_lint.analysis.finding import Finding, Severity
 
 if TYPE_CHECKING:
-    from ros_lint.engine.suppressions import Outcome
+    from ros_lint.facts.suppressions import SuppressionUse
     from ros_lint.workspace.model import Package, Workspace
 
 
@@ -35,4 +35,4 @@ class Rule(NamedTuple):
     """Whether some of its findings carry a fix."""
     package: Callable[[Package, Workspace], Iterable[Finding]] | None = None
     workspace: Callable[[Workspace], Iterable[Finding]] | None = None
-    suppressions: Callable[[Outcome], Iterable[Finding]] | None = None
+    suppressions: Callable[[SuppressionUse], Iterable[Finding]] | None = None

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from ros_lint.base.edit import Edit
 from ros_lint.collectors.comments import comments
-from ros_lint.facts.suppressions import Name, Suppression
+from ros_lint.facts.suppressions import MARKER, Name, Suppression
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -25,8 +25,12 @@ _SIGN = re.compile(r"[ \t]*(?:#+|//+)?[ \t]*")
 _BLANK = re.compile(r"[ \t\f]*(?:\r\n|\r|\n|\Z)")
 
 
-def read(text: Text) -> Iterator[Suppression]:
-    """Yield the suppressions in the comments of a file, in order."""
+def collect(text: Text) -> tuple[Suppression, ...]:
+    """Return the suppressions in the comments of a file, in order."""
+    return tuple(_suppressions(text)) if MARKER in text.text else ()
+
+
+def _suppressions(text: Text) -> Iterator[Suppression]:
     whole = text.text
     ranges = comments(text)
     lines = {start: (text.position(start)[0], text.position(end)[0]) for start, end in ranges}

@@ -59,7 +59,7 @@ def check(workspace: Workspace, rules: Sequence[Rule], suppressions: Iterable[Su
         Issue(rule, owner(workspace, finding.span.path), finding)
         for rule in rules
         if rule.suppressions
-        for finding in rule.suppressions(outcome)
+        for finding in rule.suppressions(outcome.use)
     ]
     spared = suppress.apply(about_comments, heard, known, ran)  # a comment can speak for itself
     kept = tuple(sorted((*outcome.kept, *spared.kept), key=order))

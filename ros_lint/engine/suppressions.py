@@ -13,34 +13,21 @@ from itertools import accumulate
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.base.suggestions import similar
-from ros_lint.facts.suppressions import MARKER, Name, Suppression, Unknown, Unused, _lines
+from ros_lint.facts.suppressions import Name, Suppression, SuppressionUse, Unknown, Unused, lines_of
 
 if TYPE_CHECKING:
     from collections.abc import Container, Iterable
 
     from ros_lint.analysis.rule import Rule
-    from ros_lint.base.text import Text
     from ros_lint.engine.report import Issue
 
 
 class Outcome(NamedTuple):
-    """What suppressions did to the issues."""
+    """The effect of suppressions on issues."""
 
     kept: tuple[Issue, ...]
     suppressed: tuple[tuple[Issue, Suppression], ...]
-    unused: tuple[Unused, ...]
-    unknown: tuple[Unknown, ...]
-    broken: tuple[Suppression, ...]
-    """Those that have a problem."""
-
-
-def collect(text: Text) -> tuple[Suppression, ...]:
-    """Return the suppressions in the comments of a file, in order."""
-    if MARKER not in text.text:
-        return ()
-    from ros_lint.collectors.suppressions import read  # noqa: PLC0415  (most runs meet no suppression)
-
-    return tuple(read(text))
+    use: SuppressionUse
 
 
 def apply(
@@ -81,9 +68,11 @@ def apply(
     return Outcome(
         tuple(kept),
         tuple(suppressed),
-        tuple([Unused(each, left) for each, left in idle if left]),
-        tuple(unknown),
-        tuple([each for each in ordered if each.problem]),
+        SuppressionUse(
+            tuple([Unused(each, left) for each, left in idle if left]),
+            tuple(unknown),
+            tuple([each for each in ordered if each.problem]),
+        ),
     )
 
 
@@ -98,9 +87,9 @@ class _Heard:
 
     def about(self, issue: Issue) -> list[tuple[Suppression, Name]]:
         """Return what speaks for the place of an issue."""
-        first, last = _lines(issue.finding.span)
+        first, last = lines_of(issue.finding.span)
         near = self._entries[bisect_left(self._reach, first) : bisect_right(self._firsts, last)]
-        return [entry for entry in near if entry[0].covers(issue)]
+        return [entry for entry in near if entry[0].covers(issue.finding.span)]
 
 
 def _first_line(entry: tuple[Suppression, Name]) -> int:

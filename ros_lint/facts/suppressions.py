@@ -10,7 +10,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from ros_lint.base.text import Span
-    from ros_lint.engine.report import Issue
 
 
 MARKER = "ros-lint:"
@@ -40,13 +39,13 @@ class Suppression(NamedTuple):
     problem: str = ""
     """Why it suppresses nothing, as a message."""
 
-    def covers(self, issue: Issue) -> bool:
-        """Whether it speaks for the place of an issue, if not for its rule. Any line of the issue's place will do."""
-        if self.problem or issue.finding.span.path != self.span.path:
+    def covers(self, span: Span) -> bool:
+        """Return whether it applies to a span of its file: one common line is enough."""
+        if self.problem or span.path != self.span.path:
             return False
         if self.lines is None:
             return True
-        first, last = _lines(issue.finding.span)
+        first, last = lines_of(span)
         return first <= self.lines[1] and self.lines[0] <= last
 
     def without(self, names: Iterable[Name]) -> Edit:
@@ -72,6 +71,15 @@ class Unknown(NamedTuple):
     """The nearest name or code, or ""."""
 
 
-def _lines(span: Span) -> tuple[int, int]:
+def lines_of(span: Span) -> tuple[int, int]:
     """Return the first and the last line of a place: one that ends before the first column has nothing of its last line."""
     return span.line, span.end_line - 1 if span.end_column == 1 and span.end_line > span.line else span.end_line
+
+
+class SuppressionUse(NamedTuple):
+    """Which suppressions had no effect, and why."""
+
+    unused: tuple[Unused, ...]
+    unknown: tuple[Unknown, ...]
+    malformed: tuple[Suppression, ...]
+    """Those with a ``problem``."""

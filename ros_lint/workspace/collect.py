@@ -17,12 +17,10 @@ from ros_lint.base.tree import DiskTree, RecordedTree, Tree
 from ros_lint.collectors import machine_paths
 from ros_lint.collectors.cmake.syntax import Parsed
 from ros_lint.collectors.file_types import _SUFFIXES, Kind, kind_of
-from ros_lint.collectors.launch.collect import collect
 from ros_lint.collectors.suffixes import HEADERS, INTERFACES, SOURCES
-from ros_lint.engine import suppressions as suppress
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.sources import FileFacts, MachinePath
-from ros_lint.facts.suppressions import Suppression
+from ros_lint.facts.suppressions import MARKER, Suppression
 from ros_lint.facts.visibility import ANYTHING, Facet, Opaque
 from ros_lint.workspace.fact_cache import Cache
 
@@ -75,10 +73,11 @@ def collect(text: Text, kind: Kind) -> Collected:
     launch: LaunchFile | None = None
     commands: Parsed | None = None
     if kind in ("python", "xml", "yaml"):
-        from ros_lint.collectors.launch import detect as launch_files  # noqa: PLC0415
+        from ros_lint.collectors.launch import collect as launch_files  # noqa: PLC0415
+        from ros_lint.collectors.launch.detect import is_launch_file  # noqa: PLC0415
 
-        if language := launch_files.is_launch_file(text.path, text.text):
-            launch = collect(text, language)
+        if language := is_launch_file(text.path, text.text):
+            launch = launch_files.collect(text, language)
     if kind == "cpp":
         from ros_lint.collectors.cpp import collect as cpp  # noqa: PLC0415
 
@@ -105,7 +104,15 @@ def collect(text: Text, kind: Kind) -> Collected:
         facts = resources.collect(text)
     # Comments of MATLAB are not told from its code.
     paths = machine_paths.collect(text) if kind != "matlab" else ()
-    return Collected(facts, launch, commands, suppress.collect(text), paths)
+    return Collected(facts, launch, commands, _suppressions(text), paths)
+
+
+def _suppressions(text: Text) -> tuple[Suppression, ...]:
+    if MARKER not in text.text:
+        return ()
+    from ros_lint.collectors import suppressions  # noqa: PLC0415  (most files have none)
+
+    return suppressions.collect(text)
 
 
 def collect_all(tree: Tree, paths: Sequence[str], jobs: int, cache: Cache, tick: Callable[[int], None]) -> dict[str, Collected]:

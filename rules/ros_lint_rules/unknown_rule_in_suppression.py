@@ -30,13 +30,13 @@ from ros_lint.api import Finding, Rule, Severity, did_you_mean
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from ros_lint.api import Outcome
+    from ros_lint.api import SuppressionUse
 
 
-def check(outcome: Outcome) -> Iterator[Finding]:
-    for suppression in outcome.broken:
+def check(use: SuppressionUse) -> Iterator[Finding]:
+    for suppression in use.malformed:
         yield Finding(suppression.problem, suppression.span, ", ".join(name.text for name in suppression.names))
-    for _, name, suggestion in outcome.unknown:
+    for _, name, suggestion in use.unknown:
         hint = did_you_mean([suggestion] if suggestion else []) or "; `ros-lint rules` lists all rules"
         yield Finding(f"there is no rule '{name.text}'{hint}", name.span, name.text)
 

@@ -26,11 +26,11 @@ from ros_lint.api import Finding, Fix, Rule, Severity
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from ros_lint.api import Outcome
+    from ros_lint.api import SuppressionUse
 
 
 def check(outcome: Outcome) -> Iterator[Finding]:
-    for suppression, names in outcome.unused:
+    for suppression, names in use.unused:
         rules = " and ".join(f"'{name.text}'" for name in names)
         whole = len(names) == len(suppression.names)
         yield Finding(
