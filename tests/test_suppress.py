@@ -256,7 +256,7 @@ def test_ignore_file_in_the_wrong_place(path: str, source: str) -> None:
 def test_problems(comment: str, problem: str) -> None:
     found = one("a.py", f"import foo  # {comment}\n")
     assert problem in found.problem
-    assert apply([issue("missing-file", "a.py", 1)], [found], RULES, NAMES).broken == (found,)
+    assert apply([issue("missing-file", "a.py", 1)], [found], RULES, NAMES).use.malformed == (found,)
     assert len(apply([issue("unused-dependency", "a.py", 1)], [found], RULES, NAMES).kept) == 1
 
 
@@ -296,7 +296,7 @@ def test_apply() -> None:
 
 def test_a_rule_that_did_not_run_leaves_nothing_unused() -> None:
     found = collect(Text("a.py", "x  # ros-lint: ignore[ROS201]\n"))
-    assert apply([], found, RULES, NAMES - {"undeclared-dependency"}).unused == ()
+    assert apply([], found, RULES, NAMES - {"undeclared-dependency"}).use.unused == ()
 
 
 def test_two_suppressions_for_one_finding_are_both_used() -> None:
@@ -332,7 +332,7 @@ def test_what_stays_is_what_no_suppression_covers(lines: list[str]) -> None:
     outcome = apply(issues, found, RULES, NAMES)
     assert outcome.kept == kept
     idle = {each.suppression for each in outcome.use.unused if each.names[0].text == "ROS204"}
-    assert idle == {each for each in covering if not each.problem and not any(map(each.covers, issues))}
+    assert idle == {each for each in covering if not each.problem and not any(each.covers(spoken.finding.span) for spoken in issues)}
 
 
 @pytest.mark.parametrize("lines", ["x  # {mark}\n" * 4000, "# {mark}\n" * 4000, "# {mark}\n" + "# so\n" * 20000])
