@@ -63,22 +63,24 @@ from ros_lint.analysis.dependencies.unresolved import (
 )
 from ros_lint.analysis.finding import Confidence, Finding, Fix, Related, Severity
 from ros_lint.analysis.graph.cycles import Knot, knots
-from ros_lint.analysis.graph.dependency_graph import Edge, Graph, Reason
+from ros_lint.analysis.graph.dependency_graph import Edge, Graph, Reason, dependency_graph
 from ros_lint.analysis.launch.configurations import Families, asked_at, needed
 from ros_lint.analysis.launch.files import (
     Launchable,
     Programs,
     corrected,
+    files_looked_up,
     is_kept_back,
     is_launched,
     launch_suffix,
     launchable,
+    nodes_started,
     programs,
     referred,
     started,
     used_files,
 )
-from ros_lint.analysis.launch.includes import Links, defaults_of, filled
+from ros_lint.analysis.launch.includes import Links, defaults_of, filled, include_resolver
 from ros_lint.analysis.launch.parameter_files import Given, ParameterFiles
 from ros_lint.analysis.launch.runs import Broken, PassedFile, broken_expressions, launched, passed_files
 from ros_lint.analysis.launch.scopes import Include, Left, includes
@@ -217,10 +219,12 @@ __all__ = [
     "declared_closure",
     "declared_names",
     "defaults_of",
+    "dependency_graph",
     "did_you_mean",
     "evaluated_name",
     "everything",
     "few",
+    "files_looked_up",
     "filled",
     "finds_declared",
     "folders_of",
@@ -234,6 +238,7 @@ __all__ = [
     "has_extras",
     "has_header",
     "hidden",
+    "include_resolver",
     "includes",
     "installed_targets",
     "installs_built",
@@ -277,6 +282,7 @@ __all__ = [
     "needed",
     "needs",
     "node_targets",
+    "nodes_started",
     "passed_files",
     "per_package",
     "per_workspace",

@@ -1,8 +1,8 @@
 """What the tests of the launch collectors share."""
 
 from ros_lint.base.text import Text
+from ros_lint.collectors.launch import collect as launch_files
 from ros_lint.collectors.launch import detect as launch
-from ros_lint.collectors.launch.collect import collect
 from ros_lint.facts.launch import LaunchFile, LaunchReference
 
 
@@ -10,7 +10,7 @@ def collect(path: str, text: str) -> tuple[Text, LaunchFile]:
     source = Text(path, text)
     language = launch.is_launch_file(path, text)
     assert language is not None
-    return source, collect(source, language)
+    return source, launch_files.collect(source, language)
 
 
 def said(source: Text, found: LaunchFile) -> list[str]:

@@ -61,7 +61,7 @@ def test_no_name_of_any_module_leads_to_anything_but_facts() -> None:
     assert {
         ("ros_lint.engine.report", "Report"),
         ("ros_lint.facts.visibility", "Opaque"),
-        ("ros_lint.analysis.rule", "Severity"),
+        ("ros_lint.analysis.finding", "Severity"),
     } <= reached
     assert {module for module, _ in reached} == set(kept_files.MODULES)
 
@@ -81,15 +81,17 @@ def text(value: str) -> bytes:
     return b"X" + len(value.encode()).to_bytes(4, "little") + value.encode()
 
 
-SPAN = b"cros_lint.text\nSpan\n(" + text("a") + b"K\x01K\x01K\x01K\x01tR"
-MEMBER = b"cros_lint.rule\nSeverity\nK\x03\x85R"
-CLASS = b"cros_lint.rule\nSeverity\n"
+SPAN = b"cros_lint.base.text\nSpan\n(" + text("a") + b"K\x01K\x01K\x01K\x01tR"
+MEMBER = b"cros_lint.analysis.finding\nSeverity\nK\x03\x85R"
+CLASS = b"cros_lint.analysis.finding\nSeverity\n"
 STATE = b"}" + text("_value_") + b"K\x01s"
 SLOTS = b"N}" + text("__doc__") + b"K\x01s\x86"
 
 
 @pytest.mark.parametrize("state", [STATE, SLOTS], ids=["state", "slots"])
-@pytest.mark.parametrize("of", [SPAN, MEMBER, CLASS, b"cros_lint.text\nSpan\n"], ids=["fact", "member", "enumeration", "class"])
+@pytest.mark.parametrize(
+    "of", [SPAN, MEMBER, CLASS, b"cros_lint.base.text\nSpan\n"], ids=["fact", "member", "enumeration", "class"]
+)
 def test_no_object_takes_a_state(tmp_path: Path, of: bytes, state: bytes) -> None:
     before = [dict(vars(found)) for found in (Span, Severity, Severity.ERROR)]
     write(tmp_path / "kept", of + b".")

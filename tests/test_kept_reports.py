@@ -201,11 +201,12 @@ _RUN = _of_short("__import__('os').system('touch \"$PLANTED\"')")
 _NO_LISTS = pickle.dumps(("CMakeLists.txt", [((5, "\0"), 5)], 5), 2)
 PLANTED = {
     "a function of the system": b"cposix\nsystem\n" + _of_short('touch "$PLANTED"') + b"\x85R.",
-    "builtins of a module of facts": b"cros_lint.tree\nitemgetter\n" + _of_short("eval") + b"\x85R"
-    b"cros_lint.tree\n__builtins__\n\x85R" + _RUN + b"\x85R.",
-    "a name with dots": b"\x80\x04" + b"".join(b"\x8c" + bytes([len(name)]) + name for name in (b"ros_lint.base.tree", b"os.system"))
+    "builtins of a module of facts": b"cros_lint.base.tree\nitemgetter\n" + _of_short("eval") + b"\x85R"
+    b"cros_lint.base.tree\n__builtins__\n\x85R" + _RUN + b"\x85R.",
+    "a name with dots": b"\x80\x04"
+    + b"".join(b"\x8c" + bytes([len(name)]) + name for name in (b"ros_lint.base.tree", b"os.system"))
     + b"\x93" + _of_short('touch "$PLANTED"') + b"\x85R.",
-    "a class that has gone": b"cros_lint.facts.sight\nGone\n)R.",
+    "a class that has gone": b"cros_lint.facts.visibility\nGone\n)R.",
     "a class of a module that has gone": b"cros_lint.facts.gone\nGone\n)R.",
     "a text": pickle.dumps("text"),
     "a list of numbers": pickle.dumps([1, 2, 3]),

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from ros_lint.analysis.launch.includes import include_resolver
 from ros_lint.base.text import Text
 from ros_lint.cli.session import open_workspace
 from ros_lint.collectors.launch import detect as launch
@@ -256,7 +257,7 @@ def test_nothing_of_the_workspace_is_imported_or_run(tmp_path: Path) -> None:
     assert {file.language for file in found.launch if not file.helper} == {"python", "xml"}
     assert {reference.package for file in found.launch for reference in file.references} == {"a"}
     for file in found.launch:
-        expand(file, {}, workspace.links.included)
+        expand(file, {}, include_resolver(workspace).included)
     assert not Path(sprung).exists()
 
 

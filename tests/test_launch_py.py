@@ -3,8 +3,8 @@
 import pytest
 
 from ros_lint.base.text import read
+from ros_lint.collectors.launch import collect as launch_files
 from ros_lint.collectors.launch import detect as launch
-from ros_lint.collectors.launch.collect import collect
 from tests.launch_cases import collect, said, short
 
 HEAD = "def generate_launch_description():\n"
@@ -36,10 +36,10 @@ def test_comments_need_not_be_in_utf_8() -> None:
     """Python takes them as they are where it imports a file, which launch does, and refuses texts that are none."""
     body = b"    return [Node(package='a', executable='b')]  # caf\xe9\n"
     text = read("a.launch.py", f"from launch_ros.actions import Node\n# \n{HEAD}".encode().replace(b"# ", b"# \xa3\xba") + body)
-    found = collect(text, "python")
+    found = launch_files.collect(text, "python")
     assert said(text, found) == ["node a b"]
     assert not found.opaque
-    refused = collect(read("a.launch.py", HEAD.encode() + body.replace(b"'b'", b"'\xe9'")), "python")
+    refused = launch_files.collect(read("a.launch.py", HEAD.encode() + body.replace(b"'b'", b"'\xe9'")), "python")
     assert [problem.kind for problem in refused.problems] == ["syntax"]
     assert refused.opaque
 

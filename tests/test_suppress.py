@@ -38,7 +38,7 @@ def one(path: str, source: str) -> Suppression:
 
 
 def covered(found: Suppression, lines: int) -> list[int]:
-    return [n for n in range(1, lines + 1) if found.covers(issue("missing-file", found.span.path, n))]
+    return [n for n in range(1, lines + 1) if found.covers(issue("missing-file", found.span.path, n).finding.span)]
 
 
 # --- which comments count ------------------------------------------------------------------------------------------
@@ -192,10 +192,10 @@ def test_line_ends(newline: str) -> None:
 
 def test_any_line_of_a_finding_will_do() -> None:
     found = one("a.xml", f"<a>\n<b\n  c=''\n/> <!-- {MARK} -->\n<d/>\n</a>")
-    assert found.covers(issue("missing-file", "a.xml", 2, 4))
-    assert not found.covers(issue("missing-file", "a.xml", 2, 3))
-    assert not found.covers(issue("missing-file", "a.xml", 2, 4, end_column=1)), "it ends with line 3"
-    assert not found.covers(issue("missing-file", "other.xml", 2, 4))
+    assert found.covers(issue("missing-file", "a.xml", 2, 4).finding.span)
+    assert not found.covers(issue("missing-file", "a.xml", 2, 3).finding.span)
+    assert not found.covers(issue("missing-file", "a.xml", 2, 4, end_column=1).finding.span), "it ends with line 3"
+    assert not found.covers(issue("missing-file", "other.xml", 2, 4).finding.span)
 
 
 # --- the whole file ------------------------------------------------------------------------------------------------
@@ -219,7 +219,7 @@ def test_ignore_file(path: str, source: str) -> None:
     assert found.problem == ""
     assert found.lines is None
     assert found.reason == "vendored"
-    assert found.covers(issue("missing-file", path, 1000))
+    assert found.covers(issue("missing-file", path, 1000).finding.span)
 
 
 @pytest.mark.parametrize(
@@ -233,7 +233,7 @@ def test_ignore_file(path: str, source: str) -> None:
 def test_ignore_file_in_the_wrong_place(path: str, source: str) -> None:
     found = one(path, source)
     assert "in the first comments" in found.problem
-    assert not found.covers(issue("missing-file", path, 2))
+    assert not found.covers(issue("missing-file", path, 2).finding.span)
 
 
 # --- what is wrong with it -----------------------------------------------------------------------------------------
@@ -328,11 +328,12 @@ def test_what_stays_is_what_no_suppression_covers(lines: list[str]) -> None:
     ends = [(first, last) for first in range(1, len(lines) + 2) for last in (first, first + 2)]
     issues = [issue("unused-dependency", "a.py", first, last) for first, last in ends]
     covering = [each for each in found if any(name.text == "ROS204" for name in each.names)]
-    kept = tuple([each for each in issues if not any(one.covers(each) for one in covering)])
+    kept = tuple([each for each in issues if not any(one.covers(each.finding.span) for one in covering)])
     outcome = apply(issues, found, RULES, NAMES)
     assert outcome.kept == kept
     idle = {each.suppression for each in outcome.use.unused if each.names[0].text == "ROS204"}
-    assert idle == {each for each in covering if not each.problem and not any(each.covers(spoken.finding.span) for spoken in issues)}
+    idle_by_place = {each for each in covering if not any(each.covers(spoken.finding.span) for spoken in issues)}
+    assert idle == {each for each in idle_by_place if not each.problem}
 
 
 @pytest.mark.parametrize("lines", ["x  # {mark}\n" * 4000, "# {mark}\n" * 4000, "# {mark}\n" + "# so\n" * 20000])

@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros_lint import __version__
+from ros_lint.engine import registry
+from ros_lint.engine import run as engine
 from ros_lint.engine.report import Hidden, Report, Unseen
 from ros_lint.engine.selection import Selection, show
 
@@ -15,9 +17,6 @@ if TYPE_CHECKING:
 
 def check(opened: Opened, workspace: Workspace, selection: Selection) -> Report:
     """Return what the selected rules say of a workspace, suppressions and settings respected."""
-    from ros_lint.engine import registry
-    from ros_lint.engine import run as engine  # noqa: PLC0415
-
     known = registry.load(opened.settings["plugins"])
     checked = engine.check(workspace, selection.rules, opened.loader.suppressions(), known)
     shown, hidden = show(checked.issues, selection)

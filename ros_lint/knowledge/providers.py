@@ -6,7 +6,7 @@ The order is always workspace, underlay, index of the distribution, maps (refere
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple, Protocol
 
 from ros_lint.base.auxiliary_files import is_apart
 from ros_lint.knowledge.names import NOTHING_NEEDED
@@ -15,7 +15,14 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
     from ros_lint.facts.build import BuildScript
-    from ros_lint.knowledge.world import World
+    from ros_lint.knowledge import Knowledge
+    from ros_lint.knowledge.provides import Known
+    from ros_lint.knowledge.spelling import Spelling
+    from ros_lint.knowledge.underlays import Underlay
+
+
+Layer = Literal["workspace", "underlay", "index"]
+"""Where a package is taken from: the topmost layer that has it."""
 
 
 class Providers(NamedTuple):
@@ -49,13 +56,53 @@ class Meant(NamedTuple):
     and pip call it; one letter."""
 
 
+class Layers(Protocol):
+    """The look-ups that the resolution of names asks: :class:`ros_lint.knowledge.world.World` implements them."""
+
+    @property
+    def knowledge(self) -> Knowledge:
+        """Return the released world."""
+
+    @property
+    def underlays(self) -> Sequence[Underlay]:
+        """Return the underlays, the topmost first."""
+
+    @property
+    def spelling(self) -> Spelling:
+        """Return the index of similar names."""
+
+    def layer(self, name: str) -> Layer | None:
+        """Return the topmost layer that has a package, None if there is none."""
+
+    def is_package(self, name: str) -> bool:
+        """Return whether any layer has a package."""
+
+    def is_key(self, name: str) -> bool:
+        """Return whether a name is a rosdep key."""
+
+    def offering(self, module: str) -> tuple[str, ...]:
+        """Return the packages of the workspace that offer a Python module."""
+
+    def python_modules(self, name: str) -> Known:
+        """Return the top-level Python modules of a package."""
+
+    def by_cmake(self, name: str) -> Providers:
+        """Return the providers of the argument of find_package()."""
+
+    def by_folder(self, folder: str) -> Providers:
+        """Return the providers of headers below an include folder."""
+
+    def meant(self, name: str, *, python: bool) -> Meant | None:
+        """Return the name that an unknown name most likely means."""
+
+
 _NONE_NEEDED = Providers(none_needed=True)
 
 _RELEASED = re.compile(r"ros-[a-z]+-(?=[a-z])")
 """How what apt calls a package of a distribution begins."""
 
 
-def by_cmake(world: World, name: str) -> Providers:
+def by_cmake(world: Layers, name: str) -> Providers:
     """Return who provides the argument of find_package."""
     owners = _in_underlay(world, [underlay.cmake(name) for underlay in world.underlays])
     if world.layer(name) == "workspace":
@@ -69,13 +116,13 @@ def by_cmake(world: World, name: str) -> Providers:
     return found._replace(sure=world.knowledge.names.cmake_sure(name))
 
 
-def by_macro(world: World, package: str) -> Providers:
+def by_macro(world: Layers, package: str) -> Providers:
     """Return who provides the macros of a package."""
     names = world.knowledge.names.alternatives(package)
     return world.by_cmake(package) if len(names) == 1 else _of(world, names, keys=names)
 
 
-def by_include(world: World, header: str) -> Providers:
+def by_include(world: Layers, header: str) -> Providers:
     """Return who provides a header."""
     names = world.knowledge.names
     first, slash, rest = header.partition("/")
@@ -99,12 +146,12 @@ def by_include(world: World, header: str) -> Providers:
     return found._replace(sure=names.header_sure(header)) if by_map else found
 
 
-def by_folder(world: World, folder: str) -> Providers:
+def by_folder(world: Layers, folder: str) -> Providers:
     """Return who provides the headers below a folder that tells its package by its name."""
     return _of(world, (folder,))
 
 
-def by_import(world: World, module: str) -> Providers:
+def by_import(world: Layers, module: str) -> Providers:
     """Return who provides a Python module."""
     names = world.knowledge.names
     top = module.partition(".")[0]
@@ -120,7 +167,7 @@ def by_import(world: World, module: str) -> Providers:
     return _of(world, (*owners, *differing, *named, *keys), keys=keys)
 
 
-def _with_released(world: World, module: str, offering: tuple[str, ...]) -> tuple[str, ...]:
+def _with_released(world: Layers, module: str, offering: tuple[str, ...]) -> tuple[str, ...]:
     """Return the packages of the workspace that offer a module, and the one that everybody knows it of."""
     if module in offering or world.layer(module) == "workspace":
         return offering
@@ -175,7 +222,7 @@ _DATA = frozenset(
 """Folders of packages that are there for everything but modules."""
 
 
-def meant(world: World, name: str, *, python: bool) -> Meant | None:
+def meant(world: Layers, name: str, *, python: bool) -> Meant | None:
     """Return what an unknown name must mean, or None when there is any doubt.
 
     ``python`` says whether it is needed to run Python code, where find_package has no say.
@@ -207,14 +254,14 @@ def _bare(names: Iterable[str]) -> Iterator[str]:
     return (name.removeprefix("python3-") for name in names)
 
 
-def near(world: World, name: str, *, python: bool) -> tuple[str, ...]:
+def near(world: Layers, name: str, *, python: bool) -> tuple[str, ...]:
     """Return packages and keys that resemble an unknown name, nearest first, at most three."""
     sure = world.meant(name, python=python)
     found = _declarable(world, world.spelling.near(name))
     return tuple(dict.fromkeys([sure.name, *found] if sure else found))[:3]
 
 
-def _other_names(world: World, name: str, *, python: bool) -> Iterator[Meant | None]:
+def _other_names(world: Layers, name: str, *, python: bool) -> Iterator[Meant | None]:
     """Yield what the name stands for where it is right: as a CMake package, a module, a package of apt or pip."""
     names, rosdep = world.knowledge.names, world.knowledge.rosdep
     bare = name.removeprefix("python3-").removeprefix("python-").removesuffix("-pip").removesuffix("-python")
@@ -234,30 +281,30 @@ def _libraries(names: Iterable[str]) -> Iterator[str]:
     return (name for name in names if name != NOTHING_NEEDED and not name.endswith("_cmake_module"))
 
 
-def _first(world: World, names: Iterable[str], by: Literal["spelling", "cmake", "header", "python"]) -> Meant | None:
+def _first(world: Layers, names: Iterable[str], by: Literal["spelling", "cmake", "header", "python"]) -> Meant | None:
     found = _declarable(world, names)
     return Meant(found[0], by) if found else None
 
 
-def _only(world: World, keys: Iterable[str]) -> Meant | None:
+def _only(world: Layers, keys: Iterable[str]) -> Meant | None:
     found = _declarable(world, keys)
     return Meant(found[0], "system") if len(found) == 1 else None
 
 
-def _declarable(world: World, names: Iterable[str]) -> tuple[str, ...]:
+def _declarable(world: Layers, names: Iterable[str]) -> tuple[str, ...]:
     """Return those names that can stand in a manifest: packages, and keys with a rule for the distribution."""
     resolves = world.knowledge.resolves
     return tuple(name for name in names if world.is_package(name) or (world.is_key(name) and resolves(name) is not False))
 
 
-def _has_module(world: World, package: str) -> bool:
+def _has_module(world: Layers, package: str) -> bool:
     """Whether a package of the name of a module can be taken for its provider: not when it is known to have none."""
     if world.layer(package) == "workspace":
         return False  # its own word has been heard
     return world.is_package(package) and world.python_modules(package).ask(package) != "missing"
 
 
-def _in_underlay(world: World, owners: Sequence[tuple[str, ...]]) -> tuple[str, ...]:
+def _in_underlay(world: Layers, owners: Sequence[tuple[str, ...]]) -> tuple[str, ...]:
     """Return the owners in the topmost underlay that has any, without those that the workspace hides."""
     for found in owners:
         seen = tuple(name for name in found if world.layer(name) == "underlay")
@@ -266,7 +313,7 @@ def _in_underlay(world: World, owners: Sequence[tuple[str, ...]]) -> tuple[str, 
     return ()
 
 
-def _of(world: World, names: Iterable[str], keys: Iterable[str] = ()) -> Providers:
+def _of(world: Layers, names: Iterable[str], keys: Iterable[str] = ()) -> Providers:
     """Return the providers among names: packages that there are, and those of ``keys`` that are rosdep keys.
 
     Keys without a rule for the distribution come last, for what is to be declared must resolve.

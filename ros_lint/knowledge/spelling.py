@@ -102,7 +102,7 @@ class Spelling:
 
 
 def near_names(name: str, names: Iterable[str], most: int, least: float) -> list[str]:
-    """Return which of the names that look like another one, as :func:`ros_lint.base.suggestions.similar` says, may be meant by it.
+    """Return the names that an unknown name may mean: those similar to it (:func:`ros_lint.base.suggestions.similar`).
 
     Where both have words that the other one lacks, these must resemble each other: front_camera is not meant to be
     rear_camera, however much of it is the same. If there is one more besides, those that it lacks must begin like others:

@@ -15,7 +15,7 @@ from ros_lint.facts.repositories import NOTHING_AWAITED, Awaited
 from ros_lint.knowledge import providers
 from ros_lint.knowledge.closure import Closure, Reach
 from ros_lint.knowledge.index import RUNTIME
-from ros_lint.knowledge.providers import Meant, Providers
+from ros_lint.knowledge.providers import Layer, Meant, Providers
 from ros_lint.knowledge.provides import NOTHING_KNOWN
 from ros_lint.knowledge.spelling import Spelling
 
@@ -30,7 +30,6 @@ if TYPE_CHECKING:
 _SHARED = re.compile(r"lib(?!.*-dev\b).*[0-9][a-z]?\Z")
 """Names of system packages with shared libraries: they end with a version. Headers are in others."""
 
-Layer = Literal["workspace", "underlay", "index"]
 Standing = Literal["known", "elsewhere", "end-of-life", "unknown", "unknowable"]
 """What a declared name is: a package or key; a package of other distributions only; one of distributions at their end of
 life only; nothing that anybody knows; or nobody can tell, because there is no index of the distribution."""

@@ -18,10 +18,11 @@ from ros_lint.base import files
 from ros_lint.base.sealed import Sealed
 
 MODULES = (
-    "ros_lint.workspace.collect", "ros_lint.collectors.cmake.syntax", "ros_lint.facts.build", "ros_lint.facts.cmake",
-    "ros_lint.facts.interfaces", "ros_lint.facts.launch", "ros_lint.facts.manifest", "ros_lint.facts.setup_py",
-    "ros_lint.facts.visibility", "ros_lint.facts.sources", "ros_lint.engine.report", "ros_lint.analysis.rule", "ros_lint.engine.suppressions", "ros_lint.base.text",
-    "ros_lint.base.tree",
+    "ros_lint.analysis.finding", "ros_lint.analysis.rule", "ros_lint.base.edit", "ros_lint.base.text", "ros_lint.base.tree",
+    "ros_lint.collectors.cmake.syntax", "ros_lint.engine.report", "ros_lint.facts.build", "ros_lint.facts.cmake",
+    "ros_lint.facts.interfaces", "ros_lint.facts.launch", "ros_lint.facts.manifest", "ros_lint.facts.repositories",
+    "ros_lint.facts.setup_py", "ros_lint.facts.sources", "ros_lint.facts.suppressions", "ros_lint.facts.visibility", "ros_lint.workspace.collect",
+    "ros_lint.workspace.target",
 )  # fmt: skip
 """The modules with classes of facts and reports."""
 

@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 
 Facts = TypeVar("Facts")
 
+_SOURCES = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+"""The folder of the package ``ros_lint``."""
+
 _PARTS = 16
 """How many files keep the facts of a workspace."""
 
@@ -83,7 +86,7 @@ class Reports:
         self._start = f"{_digest(os.path.realpath(base))}-" if folder else ""
         self._folder = folder
         self._file = os.path.join(folder, f"{self._start}{_digest(asked)}.report") if folder else ""
-        own = files_below(os.path.dirname(os.path.abspath(__file__)))
+        own = files_below(_SOURCES)
         self._state = _state([*own, *data]) if folder else ""
 
     def __bool__(self) -> bool:
@@ -180,10 +183,9 @@ def _state(files: Iterable[str]) -> str:
 
 def _collectors() -> Iterator[str]:
     """Yield the files that the facts of a file depend on."""
-    here = os.path.dirname(os.path.abspath(__file__))
-    for place in (here, os.path.join(here, "facts"), os.path.join(here, "collectors")):
-        with os.scandir(place) as entries:
-            yield from [entry.path for entry in entries if entry.name.endswith(".py")]
+    for room in ("base", "facts", "collectors"):
+        yield from files_below(os.path.join(_SOURCES, room))
+    yield from (os.path.abspath(__file__), os.path.join(_SOURCES, "workspace", "collect.py"))
 
 
 def files_below(place: str) -> Iterator[str]:

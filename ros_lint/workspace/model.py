@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -14,15 +14,13 @@ from ros_lint.collectors.manifest import conditions
 from ros_lint.facts.build import NOTHING_BUILT, BuildScript, LeftBehind
 from ros_lint.facts.cmake import Call
 from ros_lint.facts.interfaces import InterfaceFile
-from ros_lint.facts.launch import LaunchFile, LaunchReference
+from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.manifest import ColconDepend, Depend, Manifest, Role
 from ros_lint.facts.sources import ImportedType, LookUp, MachinePath, ParameterFile, PluginLoader, Registration, Use
 from ros_lint.facts.visibility import Facet, Opaque
 from ros_lint.workspace.target import NotChecked, Target
 
 if TYPE_CHECKING:
-    from ros_lint.analysis.graph.dependency_graph import Graph
-    from ros_lint.analysis.launch.includes import Links
     from ros_lint.knowledge.provides import Offer
     from ros_lint.knowledge.world import World
 
@@ -202,13 +200,6 @@ class Workspace:
         return bool(self._ignores) and ignored.is_ignored(self._ignores, join(package.path, path))
 
     @cached_property
-    def started(self) -> Mapping[str, Mapping[str, Sequence[LaunchReference]]]:
-        """Where launch files start executables, by package and name."""
-        from ros_lint.analysis.launch.files import started  # noqa: PLC0415  (it looks at packages itself)
-
-        return started(self.packages)
-
-    @cached_property
     def loaded(self) -> Mapping[str, frozenset[str]]:
         """The component classes that launch files load, by package."""
         found: dict[str, frozenset[str]] = {}
@@ -218,27 +209,6 @@ class Workspace:
                     if reference.kind == "component":
                         found[reference.package] = found.get(reference.package, frozenset()) | {reference.name}
         return found
-
-    @cached_property
-    def links(self) -> Links:
-        """Which launch file means which other one."""
-        from ros_lint.analysis.launch.includes import Links  # noqa: PLC0415  (it looks at packages itself)
-
-        return Links(self.packages)
-
-    @cached_property
-    def looked_up(self) -> Mapping[str, Sequence[LookUp]]:
-        """The files that launch files and models need from the share directory of a package, by package."""
-        from ros_lint.analysis.launch.files import looked_up  # noqa: PLC0415
-
-        return looked_up(self.packages)
-
-    @cached_property
-    def graph(self) -> Graph:
-        """Who needs whom among the packages of the workspace, as colcon orders them."""
-        from ros_lint.analysis.graph.dependency_graph import build  # noqa: PLC0415  (networkx costs more than a run that asks for no graph)
-
-        return build(self.packages)
 
 
 def top_file(package: Package) -> str:

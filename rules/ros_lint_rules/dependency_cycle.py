@@ -30,13 +30,26 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Confidence, Edge, Finding, Graph, Knot, Reason, Related, Rule, Severity, Workspace, knots
+from ros_lint.api import (
+    Confidence,
+    Edge,
+    Finding,
+    Graph,
+    Knot,
+    Reason,
+    Related,
+    Rule,
+    Severity,
+    Workspace,
+    dependency_graph,
+    knots,
+)
 
 _MOST_NAMES = 10
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
-    graph = workspace.graph
+    graph = dependency_graph(workspace)
     for knot in knots(graph):
         edges = tuple(zip(knot.cycle, (*knot.cycle[1:], knot.cycle[0]), strict=True))
         anchor = next(edge for edge in edges if edge in knot.cut)

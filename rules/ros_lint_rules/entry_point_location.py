@@ -47,6 +47,7 @@ from ros_lint.api import (
     Severity,
     Workspace,
     few,
+    nodes_started,
     place_of,
     relative,
     setup_edits,
@@ -63,7 +64,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     outside = {p.path.rpartition("/")[2] for p in script.provides if p.path.startswith("bin/")} - inside
     using = {relative(package, use.span.path) for use in package.uses if use.package == "rclpy"}
     modules = {module.name: module.path for module in script.modules}
-    started = workspace.started.get(package.name, {})
+    started = nodes_started(workspace).get(package.name, {})
     nodes = [
         entry
         for entry in script.entry_points

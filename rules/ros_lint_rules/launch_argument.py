@@ -90,6 +90,7 @@ from ros_lint.api import (
     configurations,
     did_you_mean,
     everything,
+    include_resolver,
     includes,
     is_plain,
     launchable,
@@ -109,7 +110,7 @@ _DIGITS = re.compile(r"\d+")
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
-    links = workspace.links
+    links = include_resolver(workspace)
     files = [file for package in workspace.packages for file in package.launch]
     families, left = Families(files, links), Left(files, links)
     filled = frozenset(name for package in workspace.packages for file in package.parameter_files for name in file.asks)

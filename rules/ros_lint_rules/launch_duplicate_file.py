@@ -41,6 +41,7 @@ from ros_lint.api import (
     Workspace,
     beginning,
     from_base,
+    include_resolver,
     launchable,
     per_workspace,
 )
@@ -99,7 +100,7 @@ def _installed_repeatedly(package: Package) -> dict[str, list[Provided]]:
 def _included(workspace: Workspace) -> frozenset[str]:
     """Return the paths of the launch files that other launch files include."""
     files = (file for package in workspace.packages for file in package.launch)
-    return frozenset([inner.path for file in files for inner in workspace.links.includes(file)])
+    return frozenset([inner.path for file in files for inner in include_resolver(workspace).includes(file)])
 
 
 RULE = Rule(

@@ -39,6 +39,7 @@ from ros_lint.api import (
     agree,
     defaults_of,
     filled,
+    include_resolver,
     is_plain,
     launchable,
     launched,
@@ -72,7 +73,7 @@ class _Names:
     """Possible names of nodes, regardless of conditions: a cheap test before launch files are followed through includes."""
 
     def __init__(self, workspace: Workspace) -> None:
-        self._links = workspace.links
+        self._links = include_resolver(workspace)
         self._known: dict[str, frozenset[str]] = {}
 
     def repeated(self, file: LaunchFile) -> set[str]:

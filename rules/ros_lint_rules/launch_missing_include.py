@@ -61,6 +61,8 @@ from ros_lint.api import (
     Span,
     Workspace,
     did_you_mean,
+    files_looked_up,
+    include_resolver,
     is_apart,
     launchable,
     near_names,
@@ -92,7 +94,7 @@ def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     share = f"share/{package.name}/"
     installed = {p.source: p.path.removeprefix(share) for p in package.built.provides if p.source and not p.conditional}
-    used = {look_up.path for look_up in workspace.looked_up.get(package.name, ())}
+    used = {look_up.path for look_up in files_looked_up(workspace).get(package.name, ())}
     look_ups: dict[tuple[str, str], list[tuple[bool, Span]]] = {}
     for look_up in package.look_ups:
         file, path = relative(package, look_up.span.path), look_up.path.lstrip("/")
@@ -158,7 +160,7 @@ def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _passed(workspace: Workspace) -> Iterator[Finding]:
     """Yield the missing files that included launch files name with the arguments that they are passed."""
-    links = workspace.links
+    links = include_resolver(workspace)
     files = [(package, launch.file) for package in workspace.packages for launch in launchable(package)]
     including = [(package, file) for package, file in files if links.includes(file)]
     inner = {included.path for _, file in including for included in links.includes(file)}
@@ -214,7 +216,7 @@ class _Missing:
     def _is_missing(self, file: PassedFile) -> bool:
         if file.kind != "include" and not file.path.endswith(_WRITTEN):
             return False
-        if any(look_up.path == file.path for look_up in self._workspace.looked_up.get(file.package, ())):
+        if any(look_up.path == file.path for look_up in files_looked_up(self._workspace).get(file.package, ())):
             return False
         return _files_without(file.package, file.path, file.kind, self._workspace) is not None
 
@@ -251,7 +253,7 @@ def _kind(path: str) -> tuple[str, str]:
 
 def _is_left_over(file: str, owner: str, names: tuple[str, ...], workspace: Workspace) -> bool:
     """Return whether a file is not looked up, but others of its folder and suffix are: then the file is the one to suggest."""
-    wanted = {look_up.path for look_up in workspace.looked_up.get(owner, ())}
+    wanted = {look_up.path for look_up in files_looked_up(workspace).get(owner, ())}
     return file not in wanted and any(_kind(other) == _kind(file) for other in wanted.intersection(names))
 
 

@@ -57,6 +57,7 @@ from ros_lint.api import (
     called,
     cmake_edits,
     few,
+    nodes_started,
     place_of,
     relative,
     several,
@@ -70,7 +71,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if script is None or package.builds_with not in ("ament_cmake", "ament_python"):
         return
     files = {file.path: file for file in script.files}
-    started = workspace.started.get(package.name, {})
+    started = nodes_started(workspace).get(package.name, {})
     runs = {provided.path for provided in script.provides if provided.program}
     any_executable = any(
         provided.program and provided.source in files and files[provided.source].executable for provided in script.provides

@@ -63,6 +63,7 @@ from ros_lint.api import (
     launchable,
     left_out_nodes,
     node_targets,
+    nodes_started,
     programs_built,
     several,
     started,
@@ -87,7 +88,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     nodes = node_targets(package)
     forgotten = forgotten_nodes(package)
     left_out = left_out_nodes(package)
-    by_launch_files = workspace.started.get(package.name, {})
+    by_launch_files = nodes_started(workspace).get(package.name, {})
     for target in programs_built(script):
         installed = places.get(target.name, [])
         if not all(_is_outside_packages(folder) for folder, _, _ in installed):

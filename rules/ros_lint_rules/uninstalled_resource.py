@@ -67,6 +67,7 @@ from ros_lint.api import (
     Workspace,
     cmake_edits,
     few,
+    files_looked_up,
     folders_of,
     from_base,
     is_apart,
@@ -99,7 +100,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     looked_into: dict[str, Span] = {}
     files = frozenset(package.files)
     folders = frozenset(file.partition("/")[0] for file in package.files if _is_resource(file))
-    for look_up in workspace.looked_up.get(package.name, ()):
+    for look_up in files_looked_up(workspace).get(package.name, ()):
         path, span = look_up.path.rstrip("/"), look_up.span
         place = f"share/{package.name}/{path}"
         if place in installed or path.endswith(LAUNCH_NAMES):

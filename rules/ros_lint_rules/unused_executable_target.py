@@ -41,6 +41,7 @@ from ros_lint.api import (
     left_out_nodes,
     listed_to_install,
     may_run_built,
+    nodes_started,
 )
 
 
@@ -50,7 +51,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     excluded = {provided.target for provided in script.provides} | listed_to_install(package)
     excluded |= forgotten_nodes(package) | left_out_nodes(package)  # uninstalled-executable reports them
-    excluded.update(workspace.started.get(package.name, {}))
+    excluded.update(nodes_started(workspace).get(package.name, {}))
     for target in script.targets:
         if target.kind != "executable" or target.test or target.name in excluded:
             continue

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from ros_lint.api import SuppressionUse
 
 
-def check(outcome: Outcome) -> Iterator[Finding]:
+def check(use: SuppressionUse) -> Iterator[Finding]:
     for suppression, names in use.unused:
         rules = " and ".join(f"'{name.text}'" for name in names)
         whole = len(names) == len(suppression.names)

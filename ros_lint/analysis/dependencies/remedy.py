@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.analysis.dependencies.tags import add_dependency, tag_for, tags_for
 from ros_lint.analysis.finding import Fix
+from ros_lint.analysis.graph.dependency_graph import dependency_graph
 
 if TYPE_CHECKING:
     from ros_lint.base.edit import Edit
@@ -98,7 +99,7 @@ def circle(package: Package, workspace: Workspace, name: str) -> tuple[str, ...]
     In the workspace every tag counts, because colcon orders packages by all of them; otherwise the run-time dependencies of
     the released package, of any distribution if the target distribution has no such package.
     """
-    graph = workspace.graph if name in workspace.by_name else None
+    graph = dependency_graph(workspace) if name in workspace.by_name else None
     if graph is not None and name in graph.arcs and package.colcon_name in graph.closure(name):
         from ros_lint.base.graph_paths import paths  # noqa: PLC0415  (few needs are circular)
 

@@ -12,13 +12,14 @@ from functools import cached_property
 from heapq import heapify, heappop, heappush
 from typing import TYPE_CHECKING, NamedTuple
 
+from ros_lint.analysis.memo import per_workspace
 from ros_lint.facts.manifest import Role
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
     from ros_lint.base.text import Span
-    from ros_lint.workspace.model import Package
+    from ros_lint.workspace.model import Package, Workspace
 
 _CATEGORIES = {
     "depend": ("build", "run"),
@@ -131,6 +132,12 @@ class Graph:
         if name not in self._closures:
             self._closures[name] = reachable(self.arcs, name)
         return self._closures[name]
+
+
+@per_workspace
+def dependency_graph(workspace: Workspace) -> Graph:
+    """Return the dependency graph of the packages of a workspace, in the order of colcon."""
+    return build(workspace.packages)
 
 
 def build(packages: Iterable[Package]) -> Graph:

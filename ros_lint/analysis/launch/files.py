@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Container, Iterable, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from ros_lint.analysis.finding import Fix
+from ros_lint.analysis.memo import per_workspace
 from ros_lint.base.auxiliary_files import is_apart, is_copy, lies_apart
 from ros_lint.base.edit import Edit
 from ros_lint.base.text import Span
@@ -15,7 +16,7 @@ from ros_lint.base.tree import within
 from ros_lint.facts.launch import LaunchFile, LaunchReference
 from ros_lint.facts.sources import LookUp
 from ros_lint.facts.visibility import Facet
-from ros_lint.workspace.model import Package
+from ros_lint.workspace.model import Package, Workspace
 
 
 class Launchable(NamedTuple):
@@ -129,6 +130,18 @@ def is_kept_back(package: Package, path: str) -> bool:
         together[provided.span] > 1 and provided.source.rpartition("/")[0] == folder and provided.source.endswith(suffix)
         for provided in provides
     )
+
+
+@per_workspace
+def nodes_started(workspace: Workspace) -> Mapping[str, Mapping[str, Sequence[LaunchReference]]]:
+    """Return where launch files start executables, by package and name."""
+    return started(workspace.packages)
+
+
+@per_workspace
+def files_looked_up(workspace: Workspace) -> Mapping[str, Sequence[LookUp]]:
+    """Return the files that launch files and models need from the share directory of a package, by package."""
+    return looked_up(workspace.packages)
 
 
 def started(packages: Iterable[Package], *, kept_back: bool = False) -> dict[str, dict[str, list[LaunchReference]]]:

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple, TypeVar
 
+from ros_lint.analysis.memo import per_workspace
 from ros_lint.base.text import Span
 from ros_lint.base.tree import parent, seen_from, within
 from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, fill, installed_place, is_plain, is_settled, named_in
 from ros_lint.facts.launch import LaunchAction, LaunchFile, LaunchValue, everything, texts_of
 from ros_lint.facts.sources import ParameterFile
-from ros_lint.workspace.model import Package
+from ros_lint.workspace.model import Package, Workspace
 
 File = TypeVar("File", LaunchFile, ParameterFile)
 
@@ -189,3 +190,9 @@ def _required(actions: Iterable[LaunchAction]) -> Iterator[tuple[str, Span]]:
     for action in actions:
         if action.kind == "argument" and action.value is None and not action.conditions and action.target is not None:
             yield from ((text, action.span) for text in action.target.texts if is_plain(text))
+
+
+@per_workspace
+def include_resolver(workspace: Workspace) -> Links:
+    """Return which launch file of the workspace an include means."""
+    return Links(workspace.packages)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.analysis.launch.includes import defaults_of, filled, installed_below_share
+from ros_lint.analysis.launch.includes import defaults_of, filled, include_resolver, installed_below_share
 from ros_lint.facts.launch import everything
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ class ParameterFiles:
     """All parameter files of a workspace by where they are installed."""
 
     def __init__(self, workspace: Workspace) -> None:
-        self._links = workspace.links
+        self._links = include_resolver(workspace)
         self._by_path: dict[tuple[str, str], ParameterFile | None] = {}
         for package in workspace.packages:
             for file, path in installed_below_share(package, package.parameter_files):

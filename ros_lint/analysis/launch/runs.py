@@ -5,7 +5,7 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from ros_lint.analysis.launch.includes import defaults_of
+from ros_lint.analysis.launch.includes import defaults_of, include_resolver
 from ros_lint.collectors.symbolic_text import (
     UNKNOWN,
     configurations,
@@ -53,12 +53,12 @@ def launched(
     """Return what a launch file starts by itself, in brief, with those of the files that it includes that are to be followed."""
     from ros_lint.collectors.launch.expand import expand  # noqa: PLC0415  (most runs need nothing of it)
 
-    place = workspace.links.place(file)
+    place = include_resolver(workspace).place(file)
     if place is not None:
         file = file._replace(path=f"{share(place.package.name)}/{place.path}")
 
     def included(path: str) -> LaunchFile | None:
-        found = workspace.links.included(path)
+        found = include_resolver(workspace).included(path)
         return found if found is not None and follow(found) else None
 
     return expand(file, given, included, workspace.target.distro, brief=True)

@@ -13,9 +13,7 @@ from ros_lint.analysis.finding import Severity
 from ros_lint.base.tree import Machine, RecordedTree, text_of
 from ros_lint.cli import session as opening
 from ros_lint.cli.progress import Progress
-from ros_lint.engine.check import check
 from ros_lint.engine.report import Report
-from ros_lint.engine.selection import Selection, select
 from ros_lint.errors import RefusalError
 
 if TYPE_CHECKING:
@@ -24,6 +22,7 @@ if TYPE_CHECKING:
     from ros_lint.cli.session import Asked
     from ros_lint.cli.settings import Settings
     from ros_lint.engine.baseline import Baseline
+    from ros_lint.engine.selection import Selection
     from ros_lint.reporters.ansi import Style
 
 Said = Mapping[str, Any]
@@ -46,7 +45,7 @@ def run(said: Said) -> int:
             if asked.settings["fix"] or asked.settings["diff"]:
                 from ros_lint.engine import fixing as mend  # noqa: PLC0415
 
-                report, code = mend.run(opening.opened(asked, progress.tell), select(asked.settings))
+                report, code = mend.run(opening.opened(asked, progress.tell), _selection(asked.settings))
             else:
                 report, code = _checked(asked, progress), 0
             if asked.settings["write-baseline"]:
@@ -125,14 +124,17 @@ def _checked(asked: Asked, progress: Progress) -> Report:
     if kept := reports.fetch(recorded):
         return kept
     opened = opening.opened(asked, progress.tell, *(recorded if reports else disks))
-    report = check(opened, opened.loader.load(), select(asked.settings))
+    from ros_lint.engine.check import check  # noqa: PLC0415
+
+    report = check(opened, opened.loader.load(), _selection(asked.settings))
     reports.store(recorded, report)
     return report
 
 
-def select(settings: Settings) -> Selection:
+def _selection(settings: Settings) -> Selection:
     """Return the rules that the settings select. Raises SelectionError and PluginError."""
-    from ros_lint.engine import registry
+    from ros_lint.engine import registry  # noqa: PLC0415  (all the rules, of which a kept report needs none)
+    from ros_lint.engine.selection import select  # noqa: PLC0415
 
     return select(
         registry.load(settings["plugins"]),

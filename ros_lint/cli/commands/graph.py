@@ -14,6 +14,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal
 
 from ros_lint.analysis.graph.cycles import knots
+from ros_lint.analysis.graph.dependency_graph import dependency_graph
 from ros_lint.cli.commands.output import label, where
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ def run(workspace: Workspace, form: Format = "dot", *, metrics: bool = False) ->
 
     With metrics, JSON holds them beside the graph; the other formats give way to a table.
     """
-    graph = workspace.graph
+    graph = dependency_graph(workspace)
     figures = _measure(graph) if metrics else {}
     if form == "json":
         return _json(graph, figures), "", 0

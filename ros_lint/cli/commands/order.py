@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros_lint.analysis.graph.cycles import knots
+from ros_lint.analysis.graph.dependency_graph import dependency_graph
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -20,7 +21,7 @@ def run(workspace: Workspace) -> tuple[str, str, int]:
     The code is 1 when colcon would refuse the workspace: for a cycle, or for a name that several packages have. What
     can be ordered is printed all the same.
     """
-    graph = workspace.graph
+    graph = dependency_graph(workspace)
     said = [*_cycles(graph), *_left_out(graph), *_twice(graph)]
     return "".join(f"{name}\n" for name in graph.order.names), "".join(f"{line}\n" for line in said), int(bool(said))
 

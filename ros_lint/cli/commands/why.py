@@ -6,6 +6,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.analysis.dependencies.explain import used_in
+from ros_lint.analysis.graph.dependency_graph import dependency_graph
 from ros_lint.base.graph_paths import Paths, paths
 from ros_lint.base.suggestions import did_you_mean, similar
 
@@ -64,7 +65,7 @@ class _Model:
 
     def needs(self, name: str) -> tuple[str, ...]:
         if name not in self._needs:
-            found = set(self.workspace.graph.needs.get(name, ()))
+            found = set(dependency_graph(self.workspace).needs.get(name, ()))
             found.update(declared.name for declared in self._declared(name))
             if not self._packages(name):
                 found.update(self.workspace.world.depends(name, _TAGS.values()) or ())
@@ -73,7 +74,7 @@ class _Model:
 
     def lines(self, name: str, other: str) -> Iterator[_Line]:
         """Yield what makes an edge."""
-        graph = self.workspace.graph
+        graph = dependency_graph(self.workspace)
         if other in graph.needs.get(name, ()):
             for reason in graph.reasons((name, other)):
                 yield _Line(reason.tag, str(reason.span), "" if reason.certain else "if its condition is true")

@@ -1,6 +1,6 @@
 """What the released CMake code of ROS 2 provides: variables, and macros with what they do.
 
-The macros are written in CMake themselves, reduced to their effects, in ``data/ros_macros.cmake``; the evaluator runs them
+The macros are written in CMake themselves, reduced to their effects, in ``ros_macros.cmake``; the evaluator runs them
 in place of the real ones. See the head of that file.
 """
 
@@ -11,8 +11,6 @@ import re
 from collections.abc import Mapping
 from functools import cache
 from typing import Final, NamedTuple
-
-from ros_lint.knowledge.store import SHIPPED
 
 INSTALL_ARTIFACTS: Final = (
     "ARCHIVE", "LIBRARY", "RUNTIME", "OBJECTS", "FRAMEWORK", "BUNDLE", "PRIVATE_HEADER", "PUBLIC_HEADER", "RESOURCE",
@@ -124,7 +122,7 @@ def opaque_packages() -> frozenset[str]:
 
 @cache
 def _written() -> str:
-    with open(os.path.join(SHIPPED, "ros_macros.cmake"), encoding="utf-8") as file:
+    with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "ros_macros.cmake"), encoding="utf-8") as file:
         return file.read()
 
 

@@ -9,7 +9,7 @@ from ros_lint.base import python_parser as python_ast
 from ros_lint.base.python_nesting import DEEPEST, SYMBOLS, first_too_deep, may_be_paired
 from ros_lint.base.python_tokens import TemplateDepthError, Token, TokenError, tokens
 from ros_lint.base.text import Text
-from ros_lint.collectors.python import syntax as syntax
+from ros_lint.collectors.python import syntax
 from ros_lint.collectors.python.newer_syntax import brackets, rewrite
 from ros_lint.collectors.python.restored_tree import place_of, restore
 from ros_lint.collectors.python.syntax import NotPythonError, Parsed, TooDeepError

@@ -20,7 +20,7 @@ from ros_lint.collectors.python.syntax import NotPythonError, is_of_others, read
 from ros_lint.collectors.python.unbound_names import tried, unbound
 from ros_lint.collectors.setup_py import setup_cfg as setup_cfg_collector
 from ros_lint.collectors.setup_py.distribution import INSTALLED, Context, Distribution
-from ros_lint.collectors.setup_py.interpreter import library as library
+from ros_lint.collectors.setup_py.interpreter import library
 from ros_lint.collectors.setup_py.interpreter.files import Files
 from ros_lint.collectors.setup_py.interpreter.program import Program, Setup
 from ros_lint.collectors.setup_py.interpreter.values import Module, Value

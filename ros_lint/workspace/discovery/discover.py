@@ -1,7 +1,7 @@
 """Find the packages of a workspace and the files of each in one walk.
 
 Which folders are packages is what ``colcon list`` says: the crawl of colcon-recursive-crawl, the identification of
-:mod:`ros_lint.workspace.discovery.identify` (reference, section A6). Beyond colcon, products that are not marked as such are skipped.
+:mod:`ros_lint.workspace.discovery.identify`. Beyond colcon, build products without a marker are skipped.
 """
 
 from __future__ import annotations

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import Final, NamedTuple
 
 from ros_lint.collectors.python.exceptions import catching, kind_raised
-from ros_lint.collectors.setup_py.interpreter import library as library
+from ros_lint.collectors.setup_py.interpreter import library
 from ros_lint.collectors.setup_py.interpreter.expressions import Expressions
 from ros_lint.collectors.setup_py.interpreter.files import Files
 from ros_lint.collectors.setup_py.interpreter.operators import TooLargeError
