@@ -89,9 +89,9 @@ from ros_lint.analysis.rule import Rule
 from ros_lint.analysis.wording import several
 from ros_lint.base.auxiliary_files import is_apart, is_for_tests
 from ros_lint.base.edit import Edit
+from ros_lint.base.paths import folders_of
 from ros_lint.base.suggestions import did_you_mean, few, is_meant, similar
 from ros_lint.base.text import Span, beginning
-from ros_lint.base.tree import folders_of
 from ros_lint.collectors.interfaces import naming as interface_names
 from ros_lint.collectors.launch.detect import NAMES as LAUNCH_NAMES
 from ros_lint.collectors.manifest import conditions

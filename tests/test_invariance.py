@@ -12,7 +12,8 @@ from pathlib import Path
 import pytest
 
 from ros_lint.analysis.finding import Confidence
-from ros_lint.base.tree import DiskTree, MemoryTree, Tree, join
+from ros_lint.base.paths import join
+from ros_lint.base.tree import DiskTree, MemoryTree, Tree
 from ros_lint.engine import registry
 from ros_lint.engine import run as engine
 from ros_lint.knowledge.underlays import in_tree

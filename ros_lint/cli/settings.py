@@ -12,8 +12,8 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from ros_lint.base import files
+from ros_lint.base.paths import upwards
 from ros_lint.base.suggestions import did_you_mean, similar
-from ros_lint.base.tree import upwards
 from ros_lint.cli.options import BY_NAME, MOST, OPTIONS, Option
 from ros_lint.errors import RefusalError
 

@@ -16,8 +16,8 @@ from typing import NamedTuple
 
 from ros_lint.analysis.finding import Confidence
 from ros_lint.base.diff import line_before, unified_bytes
+from ros_lint.base.paths import join
 from ros_lint.base.text import Span, Text, read
-from ros_lint.base.tree import join
 from ros_lint.cli.session import Opened
 from ros_lint.engine import edits, registry
 from ros_lint.engine import run as engine

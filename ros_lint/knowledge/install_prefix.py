@@ -10,7 +10,7 @@ import re
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from ros_lint.base.tree import join
+from ros_lint.base.paths import join
 from ros_lint.collectors.launch import detect as launch
 
 if TYPE_CHECKING:

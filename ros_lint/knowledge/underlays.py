@@ -10,8 +10,9 @@ import re
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from ros_lint.base.paths import join
 from ros_lint.base.text import read as read_text
-from ros_lint.base.tree import Machine, join
+from ros_lint.base.tree import Machine
 from ros_lint.collectors.manifest import collect as manifests
 from ros_lint.knowledge.describe import context, describe
 from ros_lint.knowledge.index import RUNTIME, Released

@@ -9,8 +9,9 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
+from ros_lint.base.paths import join, parent, seen_from, within
 from ros_lint.base.text import Text, read
-from ros_lint.base.tree import Tree, join, parent, seen_from, within
+from ros_lint.base.tree import Tree
 from ros_lint.collectors.launch.presence_checks import DISTRIBUTIONS
 from ros_lint.collectors.launch.python.released_helpers import HELPERS
 from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, installed_place

@@ -10,8 +10,9 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from typing import NamedTuple
 
+from ros_lint.base.paths import join, within
 from ros_lint.base.text import Text, beginning
-from ros_lint.base.tree import OverlayTree, Tree, join, text_of, within
+from ros_lint.base.tree import OverlayTree, Tree, text_of
 from ros_lint.collectors.file_types import kind_of
 from ros_lint.collectors.manifest import conditions
 from ros_lint.facts.build import BuildScript

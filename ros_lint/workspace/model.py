@@ -8,8 +8,8 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros_lint.base import gitignore as ignored
+from ros_lint.base.paths import join, within
 from ros_lint.base.text import Span, beginning
-from ros_lint.base.tree import join, within
 from ros_lint.collectors.manifest import conditions
 from ros_lint.facts.build import NOTHING_BUILT, BuildScript, LeftBehind
 from ros_lint.facts.cmake import Call

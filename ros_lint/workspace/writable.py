@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from ros_lint.base.tree import Entry, Tree, is_below, join
+from ros_lint.base.paths import is_below, join
+from ros_lint.base.tree import Entry, Tree
 
 
 class Writable:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 
 from ros_lint.base.edit import Edit
-from ros_lint.base.tree import join
+from ros_lint.base.paths import join
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.cmake import Call
 from ros_lint.workspace.model import Package, Workspace, called

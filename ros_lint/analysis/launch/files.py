@@ -11,8 +11,8 @@ from ros_lint.analysis.finding import Fix
 from ros_lint.analysis.memo import per_workspace
 from ros_lint.base.auxiliary_files import is_apart, is_copy, lies_apart
 from ros_lint.base.edit import Edit
+from ros_lint.base.paths import within
 from ros_lint.base.text import Span
-from ros_lint.base.tree import within
 from ros_lint.facts.launch import LaunchFile, LaunchReference
 from ros_lint.facts.sources import LookUp
 from ros_lint.facts.visibility import Facet

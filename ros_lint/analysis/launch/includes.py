@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple, TypeVar
 
 from ros_lint.analysis.memo import per_workspace
+from ros_lint.base.paths import parent, seen_from, within
 from ros_lint.base.text import Span
-from ros_lint.base.tree import parent, seen_from, within
 from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, fill, installed_place, is_plain, is_settled, named_in
 from ros_lint.facts.launch import LaunchAction, LaunchFile, LaunchValue, everything, texts_of
 from ros_lint.facts.sources import ParameterFile

@@ -7,7 +7,8 @@ import sys
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from ros_lint.base.tree import repository_of, upwards
+from ros_lint.base.paths import upwards
+from ros_lint.base.tree import repository_of
 from ros_lint.cli.progress import Progress
 from ros_lint.cli.session import Opened, UsageError, open_workspace
 from ros_lint.cli.settings import ConfigError

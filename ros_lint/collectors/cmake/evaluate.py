@@ -6,8 +6,8 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Final
 
+from ros_lint.base.paths import is_outside, join
 from ros_lint.base.text import Span, beginning
-from ros_lint.base.tree import is_outside, join
 from ros_lint.collectors.cmake.commands import ament as cmake_ros
 from ros_lint.collectors.cmake.commands import basic as cmake_basic
 from ros_lint.collectors.cmake.commands import fetch_content as cmake_fetch

@@ -13,8 +13,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from typing import TYPE_CHECKING
 
+from ros_lint.base.paths import join
 from ros_lint.base.text import Span, beginning
-from ros_lint.base.tree import join
 from ros_lint.collectors.python.import_tree import walk
 from ros_lint.collectors.python.syntax import NotPythonError, is_of_others, read, refusal, span_of
 from ros_lint.collectors.python.unbound_names import tried, unbound

@@ -6,8 +6,9 @@ from collections.abc import Iterator, Sequence
 from itertools import chain
 from typing import TYPE_CHECKING
 
+from ros_lint.base.paths import join
 from ros_lint.base.text import beginning
-from ros_lint.base.tree import Tree, join
+from ros_lint.base.tree import Tree
 from ros_lint.collectors.cmake import calls as cmake_calls
 from ros_lint.collectors.python import top_level_names as python_names
 from ros_lint.collectors.setup_py import editable_lists as setup_layout

@@ -6,8 +6,9 @@ import re
 from collections.abc import Container, Iterator, Mapping, Sequence, Set
 
 from ros_lint.base.auxiliary_files import is_apart
+from ros_lint.base.paths import folders_of, join, parent, seen_from
 from ros_lint.base.text import Span, Text, from_raw, raw, span_in
-from ros_lint.base.tree import Tree, contents, folders_of, join, parent, seen_from, text_of
+from ros_lint.base.tree import Tree, contents, text_of
 from ros_lint.collectors.cmake.syntax import Parsed
 from ros_lint.collectors.launch.detect import is_of_ros_1
 from ros_lint.collectors.resources import plugin_descriptions as plugin_xml

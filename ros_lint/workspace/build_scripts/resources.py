@@ -6,8 +6,8 @@ import re
 from collections.abc import Iterable
 
 from ros_lint.base.auxiliary_files import is_apart
+from ros_lint.base.paths import folders_of, parent
 from ros_lint.base.text import raw
-from ros_lint.base.tree import folders_of, parent
 
 _FOLDERS = frozenset(
     {

@@ -7,7 +7,8 @@ from contextlib import suppress
 from functools import partial
 from typing import Final, NamedTuple
 
-from ros_lint.base.tree import Entry, Tree, is_below, join, text_of, within
+from ros_lint.base.paths import is_below, join, within
+from ros_lint.base.tree import Entry, Tree, text_of
 from ros_lint.collectors.cmake.evaluator.sources import Around, Sources
 from ros_lint.collectors.cmake.syntax import Parsed, parse
 from ros_lint.workspace.build_scripts.files import Executables, text_in

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from ros_lint.base.paths import is_below, join, parent, seen_from
 from ros_lint.base.text import beginning, read
-from ros_lint.base.tree import is_below, join, parent, seen_from
 from ros_lint.collectors.manifest import collect as manifests
 from ros_lint.facts.environment import ROS_2
 from ros_lint.workspace.discovery.identify import (

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from ros_lint.base.paths import join
 from ros_lint.base.text import Span, Text, beginning, read
-from ros_lint.base.tree import join
 from ros_lint.collectors.manifest import conditions
 from ros_lint.facts.manifest import ColconSettings
 from ros_lint.workspace.target import NotChecked

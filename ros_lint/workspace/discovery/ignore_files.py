@@ -6,8 +6,9 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 from ros_lint.base.gitignore import _NAME, Pattern, patterns
+from ros_lint.base.paths import folders_of, join, parent
 from ros_lint.base.text import read
-from ros_lint.base.tree import Tree, folders_of, join, parent
+from ros_lint.base.tree import Tree
 from ros_lint.workspace.target import NotChecked
 
 

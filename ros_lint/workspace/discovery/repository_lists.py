@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 
-from ros_lint.base.tree import Tree, join, parent, text_of
+from ros_lint.base.paths import join, parent
+from ros_lint.base.tree import Tree, text_of
 from ros_lint.facts.repositories import Awaited
 from ros_lint.workspace.target import NotChecked
 

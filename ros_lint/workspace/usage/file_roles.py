@@ -10,7 +10,7 @@ from functools import cached_property
 from itertools import accumulate
 
 from ros_lint.base import auxiliary_files as apart
-from ros_lint.base.tree import folders_of
+from ros_lint.base.paths import folders_of
 from ros_lint.collectors.suffixes import HEADERS, INTERFACES, SOURCES
 from ros_lint.facts.build import NOTHING_BUILT
 from ros_lint.facts.manifest import Role

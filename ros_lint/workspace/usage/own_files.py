@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 
+from ros_lint.base.paths import join, seen_from
 from ros_lint.base.text import Span
-from ros_lint.base.tree import join, seen_from
 from ros_lint.facts.build import NOTHING_BUILT, BuildScript, LeftBehind, Provided
 from ros_lint.facts.sources import FileFacts
 

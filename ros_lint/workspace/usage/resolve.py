@@ -10,8 +10,8 @@ import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
+from ros_lint.base.paths import within
 from ros_lint.base.text import Span
-from ros_lint.base.tree import within
 from ros_lint.facts.build import REPOSITORIES
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.manifest import Role

@@ -8,8 +8,9 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import accumulate
 from typing import TYPE_CHECKING
 
+from ros_lint.base.paths import join
 from ros_lint.base.text import Span, beginning, raw, span_in
-from ros_lint.base.tree import Tree, contents, join
+from ros_lint.base.tree import Tree, contents
 from ros_lint.facts.sources import Via
 from ros_lint.workspace.model import Package
 from ros_lint.workspace.usage.package_files import Source

@@ -10,8 +10,9 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
+from ros_lint.base.paths import join
 from ros_lint.base.text import raw
-from ros_lint.base.tree import contents, join
+from ros_lint.base.tree import contents
 from ros_lint.collectors.cpp import types as cpp_types
 from ros_lint.collectors.suffixes import HEADERS, SOURCES
 

@@ -6,9 +6,9 @@ import posixpath
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.analysis.launch.includes import Links, Takes
+from ros_lint.base.paths import seen_from, within
 from ros_lint.base.suggestions import did_you_mean, similar
 from ros_lint.base.text import read
-from ros_lint.base.tree import seen_from, within
 from ros_lint.cli.session import UsageError
 from ros_lint.collectors.file_types import kind_of
 from ros_lint.collectors.symbolic_text import configurations, installed, share

@@ -7,8 +7,8 @@ import re
 from itertools import accumulate, pairwise
 from typing import Final
 
-from ros_lint.base.tree import is_outside
-from ros_lint.base.tree import join as join_path
+from ros_lint.base.paths import is_outside
+from ros_lint.base.paths import join as join_path
 from ros_lint.collectors.cmake.commands.compiled_macros import released, run_released
 from ros_lint.collectors.cmake.commands.install_directory import unlisted
 from ros_lint.collectors.cmake.commands.targets import SOURCES

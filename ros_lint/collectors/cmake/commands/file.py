@@ -7,8 +7,8 @@ import re
 from itertools import pairwise
 from typing import Final
 
+from ros_lint.base.paths import is_outside, within
 from ros_lint.base.text import octets, raw
-from ros_lint.base.tree import is_outside, within
 from ros_lint.collectors.cmake.commands.basic import nothing
 from ros_lint.collectors.cmake.commands.targets import generate
 from ros_lint.collectors.cmake.evaluator.glob import of_paths

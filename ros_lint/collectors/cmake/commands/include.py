@@ -6,8 +6,8 @@ import posixpath
 import re
 from typing import Final
 
-from ros_lint.base.tree import is_outside, towards
-from ros_lint.base.tree import join as join_path
+from ros_lint.base.paths import is_outside, towards
+from ros_lint.base.paths import join as join_path
 from ros_lint.collectors.cmake.evaluator.flow import run_file
 from ros_lint.collectors.cmake.evaluator.run import Handler, Run
 from ros_lint.collectors.cmake.evaluator.sources import AROUND

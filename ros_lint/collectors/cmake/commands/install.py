@@ -7,7 +7,7 @@ import re
 from itertools import count
 from typing import Final
 
-from ros_lint.base.tree import join as join_path
+from ros_lint.base.paths import join as join_path
 from ros_lint.base.wildcards import LONGEST, spaced
 from ros_lint.collectors.cmake.commands.install_destinations import ANYWHERE, hide, place_of
 from ros_lint.collectors.cmake.commands.install_directory import install_directories

@@ -6,9 +6,9 @@ import posixpath
 import re
 from typing import Final, NamedTuple
 
+from ros_lint.base.paths import is_outside
+from ros_lint.base.paths import join as join_path
 from ros_lint.base.text import Span, octets
-from ros_lint.base.tree import is_outside
-from ros_lint.base.tree import join as join_path
 from ros_lint.collectors.cmake.commands.install_destinations import facet_of, hide, place_of
 from ros_lint.collectors.cmake.evaluator.arguments import sections
 from ros_lint.collectors.cmake.evaluator.glob import of_ends

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Final
 
-from ros_lint.base.tree import join as join_path
+from ros_lint.base.paths import join as join_path
 from ros_lint.collectors.cmake.commands.target_headers import DESTINATION, FILE_SET, installed_headers
 from ros_lint.collectors.cmake.commands.targets import output_name, real_target
 from ros_lint.collectors.cmake.evaluator.run import Run

@@ -6,8 +6,8 @@ import posixpath
 from collections.abc import Iterator
 from typing import Final
 
+from ros_lint.base.paths import join as join_path
 from ros_lint.base.text import Span
-from ros_lint.base.tree import join as join_path
 from ros_lint.collectors.cmake.evaluator.arguments import sections
 from ros_lint.collectors.cmake.evaluator.run import Run
 from ros_lint.collectors.cmake.evaluator.state import Properties

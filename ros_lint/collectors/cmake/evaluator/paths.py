@@ -8,8 +8,8 @@ from bisect import bisect_left
 from collections.abc import Sequence
 from functools import lru_cache
 
-from ros_lint.base.tree import is_outside, seen_from, towards, within
-from ros_lint.base.tree import join as join_path
+from ros_lint.base.paths import is_outside, seen_from, towards, within
+from ros_lint.base.paths import join as join_path
 from ros_lint.base.wildcards import LONGEST
 from ros_lint.collectors.cmake.evaluator.sources import AROUND, Sources
 from ros_lint.collectors.cmake.evaluator.state import Frame, State
