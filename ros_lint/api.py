@@ -12,309 +12,338 @@ from ros_lint.analysis.build.commands import (
     config_names,
     evaluated_name,
     has_extras,
-    hidden,
     installed_targets,
-    is_cut_short,
+    opaque_except_undefined_targets,
+    stops_early,
     unguarded_tests,
 )
 from ros_lint.analysis.build.targets import (
-    astray,
-    forgotten_nodes,
+    files_using_client_library,
     has_header,
+    install_arguments,
+    installed_to_bin_only,
     installs_built,
-    is_on_request,
-    is_shared_by_words,
-    left_out_nodes,
+    is_declared_shared,
+    is_optional_target,
+    libraries_in_libexec,
     library_calls,
-    library_of,
-    listed_to_install,
+    library_registering,
     may_run_built,
+    never_installed_nodes,
     node_targets,
+    partly_installed_nodes,
     programs_built,
     stem,
-    stranded,
-    with_client,
 )
-from ros_lint.analysis.dependencies.declared_closure import covered, declared_closure
-from ros_lint.analysis.dependencies.find_package import come_along, finds_declared, found_along, found_names, given_for
-from ros_lint.analysis.dependencies.load_bearing import Carried, carriers, found_for_nothing
-from ros_lint.analysis.dependencies.needs import Need, needs, wishes
-from ros_lint.analysis.dependencies.remedy import Advice, advice, availability, lacks_rule, naming
+from ros_lint.analysis.dependencies.declared_closure import declared_closure, provided_transitively
+from ros_lint.analysis.dependencies.find_package import (
+    find_package_closure,
+    finds_declared,
+    macro_packages,
+    names_searched,
+    partial_closure,
+)
+from ros_lint.analysis.dependencies.load_bearing import LostProvision, needed_transitively, unused_find_packages
+from ros_lint.analysis.dependencies.needs import Need, needs, optional_needs
+from ros_lint.analysis.dependencies.remedy import Remedy, availability_remark, is_unresolvable_key, naming_fix, remedy
 from ros_lint.analysis.dependencies.tags import add_dependency, change_dependency, remove_dependency, tag_for
-from ros_lint.analysis.dependencies.traceless import PYTHON_LIKE, is_library, is_mostly_run, leaves_trace, runs, works_unseen
+from ros_lint.analysis.dependencies.traceless import (
+    PYTHON_LIKE,
+    has_programs,
+    is_library,
+    is_mostly_runtime,
+    may_be_used_without_trace,
+    usage_is_visible,
+)
 from ros_lint.analysis.dependencies.undeclared import (
-    comes_elsewhere,
-    comes_with_launching,
-    is_miswritten,
-    is_somewhere,
-    tells,
+    exists_in_any_distro,
+    is_declared_misspelled,
+    is_part_of_launch,
+    manifest_is_complete,
+    provided_in_other_distros,
     undeclared,
 )
-from ros_lint.analysis.dependencies.unknown_closure import may_bring
+from ros_lint.analysis.dependencies.unknown_closure import may_provide
 from ros_lint.analysis.dependencies.unresolved import (
-    Stranger,
+    UnresolvedDependency,
     declared_names,
-    is_named,
-    is_near_tool,
-    meant,
-    misspelt,
-    strangers,
-    used_instead,
+    intended_names,
+    is_used_in_sources,
+    misspelled_names,
+    resembles_ament_package,
+    undeclared_match,
+    unresolved,
 )
 from ros_lint.analysis.finding import Confidence, Finding, Fix, Related, Severity
-from ros_lint.analysis.graph.cycles import Knot, knots
+from ros_lint.analysis.graph.cycles import Cycle, cycles
 from ros_lint.analysis.graph.dependency_graph import Edge, Graph, Reason, dependency_graph
-from ros_lint.analysis.launch.configurations import Families, asked_at, needed
+from ros_lint.analysis.launch.configurations import IncludeTree, read_sites, required_configurations
 from ros_lint.analysis.launch.files import (
-    Launchable,
-    Programs,
-    corrected,
+    InstalledPrograms,
+    PackageLaunchFile,
     files_looked_up,
-    is_kept_back,
-    is_launched,
+    installed_programs,
+    is_excluded_from_install,
+    is_launch_file,
     launch_suffix,
-    launchable,
+    node_references,
     nodes_started,
-    programs,
-    referred,
-    started,
+    package_launch_files,
+    references_by_name,
+    rename_fix,
     used_files,
 )
-from ros_lint.analysis.launch.includes import Links, defaults_of, filled, include_resolver
-from ros_lint.analysis.launch.parameter_files import Given, ParameterFiles
-from ros_lint.analysis.launch.runs import Broken, PassedFile, broken_expressions, launched, passed_files
-from ros_lint.analysis.launch.scopes import Include, Left, includes
-from ros_lint.analysis.memo import per_package, per_workspace
+from ros_lint.analysis.launch.includes import IncludeResolver, assigned_configurations, include_resolver, substitute
+from ros_lint.analysis.launch.parameter_files import NodeParameterFile, ParameterFiles
+from ros_lint.analysis.launch.runs import FailingExpression, PassedFile, expand_defaults, failing_expressions, passed_files
+from ros_lint.analysis.launch.scopes import PlacedInclude, ScopeLeaks, includes
+from ros_lint.analysis.memo import cached_by_package, cached_by_workspace
 from ros_lint.analysis.rule import Rule
-from ros_lint.analysis.wording import several
-from ros_lint.base.auxiliary_files import is_apart, is_for_tests
+from ros_lint.analysis.wording import first_related
+from ros_lint.base.auxiliary_files import is_auxiliary, is_for_tests
 from ros_lint.base.edit import Edit
 from ros_lint.base.paths import folders_of
-from ros_lint.base.suggestions import did_you_mean, few, is_meant, similar
-from ros_lint.base.text import Span, beginning
+from ros_lint.base.suggestions import ask_if_meant, did_you_mean, shorten_list, similar_names
+from ros_lint.base.text import Span, file_start
 from ros_lint.collectors.interfaces import naming as interface_names
-from ros_lint.collectors.launch.detect import NAMES as LAUNCH_NAMES
+from ros_lint.collectors.launch.detect import LAUNCH_FILE_NAMES
 from ros_lint.collectors.manifest import conditions
 from ros_lint.collectors.manifest import edits as manifest_edits
 from ros_lint.collectors.python.versions import STANDARD_LIBRARY, too_new
 from ros_lint.collectors.setup_py import edits as setup_edits
 from ros_lint.collectors.suffixes import HEADERS, INTERFACES
-from ros_lint.collectors.symbolic_text import agree, configurations, is_plain, renames
-from ros_lint.facts.build import BuildScript, Component, LeftBehind, PluginClass, PluginFile, PluginLibrary, Provided, ScriptFile
-from ros_lint.facts.cmake import Call
-from ros_lint.facts.cmake import Target as BuildTarget
-from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchFile, LaunchReference, LaunchValue, everything, texts_of
+from ros_lint.collectors.symbolic_text import are_consistent, configurations, is_node_renaming, is_plain
+from ros_lint.facts.build import (
+    BuildScript,
+    Component,
+    InstalledFile,
+    PluginClass,
+    PluginFile,
+    PluginLibrary,
+    ScriptFile,
+    UninstalledImport,
+)
+from ros_lint.facts.cmake import BuildTarget, Call
+from ros_lint.facts.launch import (
+    LaunchAction,
+    LaunchCondition,
+    LaunchFile,
+    LaunchReference,
+    LaunchValue,
+    values_of_action,
+    walk_actions,
+)
 from ros_lint.facts.manifest import Depend, Element, Manifest, Role
-from ros_lint.facts.setup_py import EntryPoint, PythonModule, Slot
+from ros_lint.facts.setup_py import EditableList, EntryPoint, PythonModule
 from ros_lint.facts.sources import MachinePath, Mention, PluginLoader, Registration, Use
 from ros_lint.facts.suppressions import SuppressionUse
-from ros_lint.facts.visibility import ANYTHING, Facet, Opaque, Problem
-from ros_lint.knowledge.providers import Meant
+from ros_lint.facts.visibility import ALL_FACETS, Facet, Opaque, Problem
+from ros_lint.knowledge.providers import Suggestion
 from ros_lint.knowledge.spelling import VENDOR, may_be_package, near_names
-from ros_lint.workspace.build_scripts.resources import uninstalled as uninstalled_resources
+from ros_lint.workspace.build_scripts.resources import uninstalled_resources
 from ros_lint.workspace.model import Declared, Package, Workspace, called, from_base, place_of, relative, top_file
-from ros_lint.workspace.target import Target
+from ros_lint.workspace.target import TargetDistro
 from ros_lint.workspace.usage.resolve import satisfying, used_names
 from ros_lint.workspace.usage.unused_find_package import generated_from
-from ros_lint.workspace.usage.visibility import is_built_in_sight, is_seen_whole, is_unseen_by_name, sounds_unseen
+from ros_lint.workspace.usage.visibility import is_build_visible, is_fully_visible, is_traceless_by_name, name_suggests_no_trace
 
 if TYPE_CHECKING:  # made only where it is asked for
     from ros_lint.collectors.launch.expand import Started as Started  # noqa: PLC0414
 
 __all__ = [
-    "ANYTHING",
+    "ALL_FACETS",
     "ENDS",
     "EXPORTING_PLUGINS",
     "FINDS_TESTS",
     "HEADERS",
     "INTERFACES",
-    "LAUNCH_NAMES",
+    "LAUNCH_FILE_NAMES",
     "LINTERS",
     "PYTHON_LIKE",
     "REGISTERING",
     "STANDARD_LIBRARY",
     "VENDOR",
-    "Advice",
-    "Broken",
     "BuildScript",
     "BuildTarget",
     "Call",
-    "Carried",
     "Component",
     "Confidence",
+    "Cycle",
     "Declared",
     "Depend",
     "Edge",
     "Edit",
+    "EditableList",
     "Element",
     "EntryPoint",
     "Facet",
-    "Families",
+    "FailingExpression",
     "Finding",
     "Fix",
-    "Given",
     "Graph",
-    "Include",
-    "Knot",
+    "IncludeResolver",
+    "IncludeTree",
+    "InstalledFile",
+    "InstalledPrograms",
     "LaunchAction",
     "LaunchCondition",
     "LaunchFile",
     "LaunchReference",
     "LaunchValue",
-    "Launchable",
-    "Left",
-    "LeftBehind",
-    "Links",
+    "LostProvision",
     "MachinePath",
     "Manifest",
-    "Meant",
     "Mention",
     "Need",
+    "NodeParameterFile",
     "Opaque",
     "Package",
+    "PackageLaunchFile",
     "ParameterFiles",
     "PassedFile",
+    "PlacedInclude",
     "PluginClass",
     "PluginFile",
     "PluginLibrary",
     "PluginLoader",
     "Problem",
-    "Programs",
-    "Provided",
     "PythonModule",
     "Reason",
     "Registration",
     "Related",
+    "Remedy",
     "Role",
     "Rule",
+    "ScopeLeaks",
     "ScriptFile",
     "Severity",
-    "Slot",
     "Span",
-    "Stranger",
+    "Suggestion",
     "SuppressionUse",
-    "Target",
+    "TargetDistro",
+    "UninstalledImport",
+    "UnresolvedDependency",
     "Use",
     "Workspace",
     "add_dependency",
-    "advice",
-    "agree",
-    "asked_at",
-    "astray",
-    "availability",
-    "beginning",
-    "broken_expressions",
+    "are_consistent",
+    "ask_if_meant",
+    "assigned_configurations",
+    "availability_remark",
+    "cached_by_package",
+    "cached_by_workspace",
     "called",
-    "carriers",
     "change_dependency",
     "cmake_edits",
-    "come_along",
-    "comes_elsewhere",
-    "comes_with_launching",
     "conditions",
     "config_names",
     "configurations",
-    "corrected",
-    "covered",
+    "cycles",
     "declared_closure",
     "declared_names",
-    "defaults_of",
     "dependency_graph",
     "did_you_mean",
     "evaluated_name",
-    "everything",
-    "few",
+    "exists_in_any_distro",
+    "expand_defaults",
+    "failing_expressions",
+    "file_start",
     "files_looked_up",
-    "filled",
+    "files_using_client_library",
+    "find_package_closure",
     "finds_declared",
+    "first_related",
     "folders_of",
-    "forgotten_nodes",
-    "found_along",
-    "found_for_nothing",
-    "found_names",
     "from_base",
     "generated_from",
-    "given_for",
     "has_extras",
     "has_header",
-    "hidden",
+    "has_programs",
     "include_resolver",
     "includes",
+    "install_arguments",
+    "installed_programs",
     "installed_targets",
+    "installed_to_bin_only",
     "installs_built",
+    "intended_names",
     "interface_names",
-    "is_apart",
-    "is_built_in_sight",
-    "is_cut_short",
+    "is_auxiliary",
+    "is_build_visible",
+    "is_declared_misspelled",
+    "is_declared_shared",
+    "is_excluded_from_install",
     "is_for_tests",
-    "is_kept_back",
-    "is_launched",
+    "is_fully_visible",
+    "is_launch_file",
     "is_library",
-    "is_meant",
-    "is_miswritten",
-    "is_mostly_run",
-    "is_named",
-    "is_near_tool",
-    "is_on_request",
+    "is_mostly_runtime",
+    "is_node_renaming",
+    "is_optional_target",
+    "is_part_of_launch",
     "is_plain",
-    "is_seen_whole",
-    "is_shared_by_words",
-    "is_somewhere",
-    "is_unseen_by_name",
-    "knots",
-    "lacks_rule",
+    "is_traceless_by_name",
+    "is_unresolvable_key",
+    "is_used_in_sources",
     "launch_suffix",
-    "launchable",
-    "launched",
-    "leaves_trace",
-    "left_out_nodes",
+    "libraries_in_libexec",
     "library_calls",
-    "library_of",
-    "listed_to_install",
+    "library_registering",
+    "macro_packages",
     "manifest_edits",
+    "manifest_is_complete",
     "may_be_package",
-    "may_bring",
+    "may_be_used_without_trace",
+    "may_provide",
     "may_run_built",
-    "meant",
-    "misspelt",
-    "naming",
+    "misspelled_names",
+    "name_suggests_no_trace",
+    "names_searched",
+    "naming_fix",
     "near_names",
-    "needed",
+    "needed_transitively",
     "needs",
+    "never_installed_nodes",
+    "node_references",
     "node_targets",
     "nodes_started",
+    "opaque_except_undefined_targets",
+    "optional_needs",
+    "package_launch_files",
+    "partial_closure",
+    "partly_installed_nodes",
     "passed_files",
-    "per_package",
-    "per_workspace",
     "place_of",
-    "programs",
     "programs_built",
-    "referred",
+    "provided_in_other_distros",
+    "provided_transitively",
+    "read_sites",
+    "references_by_name",
     "relative",
+    "remedy",
     "remove_dependency",
-    "renames",
-    "runs",
+    "rename_fix",
+    "required_configurations",
+    "resembles_ament_package",
     "satisfying",
     "setup_edits",
-    "several",
-    "similar",
-    "sounds_unseen",
-    "started",
+    "shorten_list",
+    "similar_names",
     "stem",
-    "stranded",
-    "strangers",
+    "stops_early",
+    "substitute",
     "tag_for",
-    "tells",
-    "texts_of",
     "too_new",
     "top_file",
     "undeclared",
+    "undeclared_match",
     "unguarded_tests",
     "uninstalled_resources",
+    "unresolved",
+    "unused_find_packages",
+    "usage_is_visible",
     "used_files",
-    "used_instead",
     "used_names",
-    "wishes",
-    "with_client",
-    "works_unseen",
+    "values_of_action",
+    "walk_actions",
 ]

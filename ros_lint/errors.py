@@ -3,5 +3,5 @@
 from __future__ import annotations
 
 
-class RefusalError(Exception):
+class UserError(Exception):
     """The tool cannot do what was asked for. The message names the reason, and the way out."""

@@ -21,14 +21,14 @@ from typing import NamedTuple
 
 from ros_lint.analysis.rule import Rule
 from ros_lint.base.diff import unified
-from ros_lint.base.text import Text, raw, read
+from ros_lint.base.text import Text, read, to_bytes
 from ros_lint.base.tree import MemoryTree, OverlayTree, Tree
 from ros_lint.engine import edits, registry
 from ros_lint.engine import run as engine
 from ros_lint.engine.report import Issue
 from ros_lint.knowledge.underlays import in_tree
 from ros_lint.workspace.loader import Loader
-from ros_lint.workspace.target import Target
+from ros_lint.workspace.target import TargetDistro
 
 FENCE = re.compile(
     r"^(?:`(?P<path>[^`\n]+)`\n+)?(?P<fence>`{3,})(?P<kind>\w*)\n(?P<body>.*?)^(?P=fence)$", re.MULTILINE | re.DOTALL
@@ -99,7 +99,7 @@ def issues_of(tree: Tree, case: Case, rule: Rule) -> tuple[Issue, ...]:
 
     A rule about suppressions hears what all rules say. Raises AssertionError with the traceback when a rule crashes.
     """
-    target = Target(case.distro, "--distro" if case.told else "default", case.told)
+    target = TargetDistro(case.distro, "--distro" if case.told else "default", case.told)
     underlays = (in_tree(tree, case.underlay, case.distro),) if case.underlay else ()
     loader = Loader(tree, ("",), target, underlays=underlays)
     every = registry.load()
@@ -132,7 +132,7 @@ def differences(case: Case, rule: Rule) -> Iterator[str]:
     if changed and not rule.fixable:
         yield "the rule has a fix, and is not marked as fixable"
     if changed:
-        after = OverlayTree(tree, {path: raw(text) for path, text in changed.items()})
+        after = OverlayTree(tree, {path: to_bytes(text) for path, text in changed.items()})
         again = issues_of(after, case, rule)
         yield from (f"{issue.finding.span}: still there after its fix" for issue in again if issue.finding.fix)
 

@@ -9,7 +9,7 @@ from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Use
 from ros_lint.workspace.loader import Loader
 from ros_lint.workspace.model import Workspace
-from ros_lint.workspace.target import Target
+from ros_lint.workspace.target import TargetDistro
 from tests.packages import manifest_text
 
 BUILT = Role.BUILD | Role.EXEC
@@ -21,7 +21,7 @@ INSTALLED = "install(DIRECTORY include/ DESTINATION include)\n"
 
 def loaded(files: Mapping[str, str], distro: str = "jazzy") -> Workspace:
     """Return the workspace that some files are, by their paths."""
-    return Loader(MemoryTree(files), ("",), Target(distro, "test")).load()
+    return Loader(MemoryTree(files), ("",), TargetDistro(distro, "test")).load()
 
 
 def load(lines: str, files: Mapping[str, str], depends: str = "") -> Workspace:

@@ -8,7 +8,7 @@ from ros_lint.base.text import Text
 from ros_lint.collectors.manifest import collect as manifests
 from ros_lint.collectors.manifest import conditions
 from ros_lint.facts.manifest import ROLES, ColconDepend, Depend, Manifest, Role
-from ros_lint.workspace.discovery.discover import Found
+from ros_lint.workspace.discovery.discover import DiscoveredPackage
 from ros_lint.workspace.model import Declared, Package
 
 CONTEXT = {"ROS_VERSION": "2", "ROS_PYTHON_VERSION": "3", "ROS_DISTRO": "jazzy", "DISABLE_GROUPS_WORKAROUND": "1"}
@@ -35,7 +35,7 @@ def package(
     return made(name, path, kind, manifest, tuple(extra))
 
 
-def found_package(found: Found, context: Mapping[str, str] = CONTEXT) -> Package:
+def found_package(found: DiscoveredPackage, context: Mapping[str, str] = CONTEXT) -> Package:
     """Return a package as far as discovery knows it."""
     made_of = made(found.name, found.path, found.type, found.manifest, found.colcon_depends, found.files, context)
     return made_of._replace(renamed=found.colcon_name if found.colcon_name != found.name else "")

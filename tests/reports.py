@@ -6,8 +6,8 @@ from ros_lint.analysis.finding import Confidence, Finding, Fix, Related, Severit
 from ros_lint.analysis.rule import Rule
 from ros_lint.base.edit import Edit
 from ros_lint.base.text import Span, Text, read
-from ros_lint.engine.report import Crash, Hidden, Issue, Report, Unseen
-from ros_lint.workspace.target import NotChecked, Target
+from ros_lint.engine.report import BlindSpot, Crash, HiddenCount, Issue, Report
+from ros_lint.workspace.target import TargetDistro, UnreadFile
 
 DOC = """
 ## What it finds
@@ -172,19 +172,19 @@ EVERYTHING = Report(
     issues=ISSUES,
     rules=RULES,
     packages=3,
-    target=Target("jazzy", "newest LTS"),
+    target=TargetDistro("jazzy", "newest LTS"),
     data_date="2026-11-01",
     version="0.1.0",
-    hidden=(Hidden("of lower confidence (shown with --pedantic)", 4), Hidden("suppressed by comments", 1)),
+    hidden=(HiddenCount("of lower confidence (shown with --pedantic)", 4), HiddenCount("suppressed by comments", 1)),
     not_checked=(
-        NotChecked("the file", "Permission denied", Span("ws/secret/package.xml", 1, 1, 1, 1)),
-        NotChecked("unknown-dependency", "there is no index for distribution jazzy", None),
+        UnreadFile("the file", "Permission denied", Span("ws/secret/package.xml", 1, 1, 1, 1)),
+        UnreadFile("unknown-dependency", "there is no index for distribution jazzy", None),
     ),
-    unseen=(Unseen("executables", ("bringup", "talker")), Unseen("used dependencies", ("talker",))),
+    unseen=(BlindSpot("executables", ("bringup", "talker")), BlindSpot("used dependencies", ("talker",))),
     crashes=(Crash("unused-dependency", "talker", TRACEBACK), Crash("dependency-cycle", "", TRACEBACK)),
     workspace="ws",
 )
-CLEAN = Report((), RULES, 1, Target("humble", "--distro"), "2026-11-01", "0.1.0")
+CLEAN = Report((), RULES, 1, TargetDistro("humble", "--distro"), "2026-11-01", "0.1.0")
 NOTHING = CLEAN._replace(packages=0)
 SOUND = EVERYTHING._replace(issues=tuple(issue for issue in ISSUES if issue.finding.span.path != "ws/gone"))
 """Without a finding about a file that is not there."""

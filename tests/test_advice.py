@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import pytest
 
-from ros_lint.analysis.dependencies.remedy import availability, naming
+from ros_lint.analysis.dependencies.remedy import availability_remark, naming_fix
 from ros_lint.base.edit import Edit
-from ros_lint.base.text import beginning
+from ros_lint.base.text import file_start
 from ros_lint.base.tree import MemoryTree
 from ros_lint.knowledge.underlays import in_tree
 from ros_lint.workspace.loader import Loader
 from ros_lint.workspace.model import Workspace
-from ros_lint.workspace.target import Target
+from ros_lint.workspace.target import TargetDistro
 from tests.packages import manifest_text
 
-EDIT = Edit(beginning("robot/package.xml"), "<depend>x</depend>")
+EDIT = Edit(file_start("robot/package.xml"), "<depend>x</depend>")
 
 
 def workspace(distro: str, *, told: bool) -> Workspace:
@@ -25,7 +25,7 @@ def workspace(distro: str, *, told: bool) -> Workspace:
         "opt/share/dolly/package.xml": manifest_text("dolly"),
     }
     tree = MemoryTree(files)
-    return Loader(tree, ("",), Target(distro, "test", told), underlays=[in_tree(tree, "opt", distro)]).load()
+    return Loader(tree, ("",), TargetDistro(distro, "test", told), underlays=[in_tree(tree, "opt", distro)]).load()
 
 
 @pytest.mark.parametrize(
@@ -51,20 +51,20 @@ def workspace(distro: str, *, told: bool) -> Workspace:
 def test_a_name_resolves_where_it_is_stated_or_everywhere(name: str, stated: str, assumed: str) -> None:
     for told, remark in ((True, stated), (False, assumed)):
         found = workspace("jazzy", told=told)
-        assert availability(found, name) == remark
-        fix = naming(found, name, "declare it", EDIT)
+        assert availability_remark(found, name) == remark
+        fix = naming_fix(found, name, "declare it", EDIT)
         assert fix is not None
         assert fix.safe is (not remark)
 
 
 def test_what_is_unsafe_anyway_stays_so() -> None:
-    fix = naming(workspace("jazzy", told=True), "rclcpp", "declare it", EDIT, safe=False)
+    fix = naming_fix(workspace("jazzy", told=True), "rclcpp", "declare it", EDIT, safe=False)
     assert fix is not None
     assert not fix.safe
-    assert naming(workspace("jazzy", told=True), "rclcpp", "declare it") is None
+    assert naming_fix(workspace("jazzy", told=True), "rclcpp", "declare it") is None
 
 
 def test_a_distribution_without_data() -> None:
     found = workspace("foxy", told=True)
-    remarks = [availability(found, name) for name in ("robot", "dolly", "eigen", "rclcpp")]
+    remarks = [availability_remark(found, name) for name in ("robot", "dolly", "eigen", "rclcpp")]
     assert remarks == ["", "", "", " (there are no data about foxy)"]

@@ -15,8 +15,8 @@ from ros_lint.analysis.rule import Rule
 from ros_lint.base.text import Span
 from ros_lint.engine import baseline
 from ros_lint.engine.baseline import BaselineError
-from ros_lint.engine.report import UNSURE, Crash, Hidden, Issue, Report
-from ros_lint.workspace.target import Target
+from ros_lint.engine.report import UNSURE, Crash, HiddenCount, Issue, Report
+from ros_lint.workspace.target import TargetDistro
 from tests.test_cli import DEMO, HEADLINES, run
 
 PLACE = Span("a/package.xml", 1, 1, 1, 2)
@@ -31,8 +31,8 @@ def issue(name: str, package: str, subject: str, *, sure: bool = True) -> Issue:
     return Issue(rule(name), package, finding)
 
 
-def report(*issues: Issue, ran: tuple[str, ...] = ("one", "two"), hidden: tuple[Hidden, ...] = ()) -> Report:
-    return Report(issues, tuple(map(rule, ran)), 1, Target("jazzy", "--distro"), "2026-01-01", "0", hidden)
+def report(*issues: Issue, ran: tuple[str, ...] = ("one", "two"), hidden: tuple[HiddenCount, ...] = ()) -> Report:
+    return Report(issues, tuple(map(rule, ran)), 1, TargetDistro("jazzy", "--distro"), "2026-01-01", "0", hidden)
 
 
 def kept(tmp_path: Path, found: Report, *folders: str) -> baseline.Baseline:
@@ -54,7 +54,7 @@ def test_what_is_written_hides_just_that(tmp_path_factory: pytest.TempPathFactor
     known = kept(tmp_path_factory.mktemp("known"), report(*issues))
     left = known.without(report(*issues), "known.json", (".",))
     assert (left.issues, left.warnings) == ((), ())
-    assert left.hidden == ((Hidden("listed in known.json", len(issues)),) if issues else ())
+    assert left.hidden == ((HiddenCount("listed in known.json", len(issues)),) if issues else ())
 
 
 @given(found, found)
@@ -77,7 +77,7 @@ def test_what_is_gone_is_told(tmp_path: Path) -> None:
 
 def test_nothing_is_gone_that_was_not_looked_for(tmp_path: Path) -> None:
     known = kept(tmp_path, report(issue("one", "a", "x"), issue("two", "b", "y", sure=False)))
-    assert not known.without(report(ran=("two",), hidden=(Hidden(UNSURE, 1),)), "k", (".",)).warnings
+    assert not known.without(report(ran=("two",), hidden=(HiddenCount(UNSURE, 1),)), "k", (".",)).warnings
     assert not known.without(report(), "k", ("src",)).warnings
     crashed = report(ran=("one",))._replace(crashes=(Crash("one", "a", "ValueError"),))
     assert not known.without(crashed, "k", (".",)).warnings

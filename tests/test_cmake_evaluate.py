@@ -6,7 +6,7 @@ import pytest
 
 from ros_lint.collectors.cmake.evaluate import evaluate
 from ros_lint.collectors.cmake.evaluator.sources import Sources
-from ros_lint.facts.visibility import ANYTHING, Facet
+from ros_lint.facts.visibility import ALL_FACETS, Facet
 from tests.cmake_runs import HEAD, hidden, mentioned, paths, run, sources
 
 
@@ -388,9 +388,9 @@ def test_a_file_in_a_folder_that_is_not_known(path: str, unsure: bool) -> None:
         ('ament_index_get_resource(AT at acme)\ninclude("${AT}/acme-version.cmake")', Facet.USES),
         ("include(${acme_DIR}/acme-version.cmake)", Facet.USES),
         ("include(${acme_DIR}/../more.cmake)", Facet.USES),
-        ('ament_index_get_resource(AT at acme)\ninclude("${AT}/${UNKNOWN}.cmake")', ANYTHING),
-        ("include(${CMAKE_CURRENT_BINARY_DIR}/made.cmake)", ANYTHING),
-        ("include(${acme_FILES}/acme-version.cmake)", ANYTHING),
+        ('ament_index_get_resource(AT at acme)\ninclude("${AT}/${UNKNOWN}.cmake")', ALL_FACETS),
+        ("include(${CMAKE_CURRENT_BINARY_DIR}/made.cmake)", ALL_FACETS),
+        ("include(${acme_FILES}/acme-version.cmake)", ALL_FACETS),
     ],
 )
 def test_scripts_of_other_packages_are_made_to_be_called(name: str, hides: Facet) -> None:

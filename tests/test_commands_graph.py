@@ -20,7 +20,7 @@ from ros_lint.knowledge import Knowledge
 from ros_lint.knowledge import underlays as underlay
 from ros_lint.knowledge.world import Member, World
 from ros_lint.workspace.model import Package, Workspace
-from ros_lint.workspace.target import Target
+from ros_lint.workspace.target import TargetDistro
 from tests.one_package import loaded
 from tests.packages import manifest_text, package
 
@@ -31,7 +31,7 @@ def workspace(packages: Iterable[Package], prefixes: Iterable[Path] = ()) -> Wor
     found = tuple(packages)
     members = [Member(each.name, each.manifest.version if each.manifest else "", {}) for each in found]
     underlays = underlay.read([str(prefix) for prefix in prefixes]) if prefixes else ()
-    return Workspace(found, (), World(members, underlays, Knowledge("jazzy")), Target("jazzy", "--distro"), ())
+    return Workspace(found, (), World(members, underlays, Knowledge("jazzy")), TargetDistro("jazzy", "--distro"), ())
 
 
 CHAIN = (

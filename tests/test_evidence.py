@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from ros_lint.analysis.dependencies.declared_closure import covered
+from ros_lint.analysis.dependencies.declared_closure import provided_transitively
 from ros_lint.analysis.dependencies.needs import needs
 from ros_lint.analysis.dependencies.undeclared import undeclared
-from ros_lint.analysis.dependencies.unknown_closure import may_bring
-from ros_lint.analysis.dependencies.unresolved import meant
+from ros_lint.analysis.dependencies.unknown_closure import may_provide
+from ros_lint.analysis.dependencies.unresolved import intended_names
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Use
 from ros_lint.workspace.model import Workspace
@@ -142,7 +142,7 @@ def test_what_a_wrong_name_must_mean_is_told_for_certain_by_that_name_alone(decl
     code = {"talker_dot_cpp": f"#include <{used}/msg/state.hpp>\n"}
     workspace = loaded(cmake("talker", f"<depend>{declared}</depend>", lines, **code))
     assert (used, False) in [(need.name, sure) for need, sure in undeclared(workspace.packages[0], workspace)]
-    assert used in meant(workspace.packages[0], workspace)
+    assert used in intended_names(workspace.packages[0], workspace)
 
 
 @pytest.mark.parametrize(("key", "library"), [("ffmpeg-dev", "FFMPEG"), ("python3-qt5-bindings", "Qt5")])
@@ -153,22 +153,22 @@ def test_any_key_that_installs_a_library_will_do(key: str, library: str) -> None
 
 def test_an_unknown_name_can_bring_some_things_only() -> None:
     workspace = loaded(cmake("talker", "", "") | cmake("base", "", ""))
-    assert not may_bring(("strange",), "base", workspace)  # a repository elsewhere needs none of this workspace
-    assert may_bring(("strange",), "rclcpp", workspace)
-    assert may_bring(("strange_msgs",), "std_msgs", workspace)
-    assert not may_bring(("strange_msgs",), "rclcpp", workspace)
-    assert may_bring(("acme_cmake",), "ament_cmake_auto", workspace)
-    assert not may_bring(("strange",), "ament_lint_auto", workspace)
-    assert not may_bring(("Eigen3", "python3-strange", "ament_python", "roscpp", "sensor_msg"), "rclcpp", workspace)
-    assert not may_bring(("rosidl_interface_packages",), "rosidl_default_generators", workspace)  # a group
+    assert not may_provide(("strange",), "base", workspace)  # a repository elsewhere needs none of this workspace
+    assert may_provide(("strange",), "rclcpp", workspace)
+    assert may_provide(("strange_msgs",), "std_msgs", workspace)
+    assert not may_provide(("strange_msgs",), "rclcpp", workspace)
+    assert may_provide(("acme_cmake",), "ament_cmake_auto", workspace)
+    assert not may_provide(("strange",), "ament_lint_auto", workspace)
+    assert not may_provide(("Eigen3", "python3-strange", "ament_python", "roscpp", "sensor_msg"), "rclcpp", workspace)
+    assert not may_provide(("rosidl_interface_packages",), "rosidl_default_generators", workspace)  # a group
 
 
 def test_a_tag_covers_what_comes_along_with_it_for_its_role() -> None:
     workspace = loaded(cmake("talker", "<build_depend>nav_msgs</build_depend><exec_depend>std_msgs</exec_depend>", ""))
     package = workspace.packages[0]
-    assert covered(package, workspace, ("geometry_msgs",), Role.BUILD)
-    assert not covered(package, workspace, ("geometry_msgs",), Role.EXEC)
-    assert not covered(package, workspace, ("nav_msgs",), Role.BUILD)  # only what something else brings
+    assert provided_transitively(package, workspace, ("geometry_msgs",), Role.BUILD)
+    assert not provided_transitively(package, workspace, ("geometry_msgs",), Role.EXEC)
+    assert not provided_transitively(package, workspace, ("nav_msgs",), Role.BUILD)  # only what something else brings
 
 
 def test_variables_of_ros_come_from_a_package() -> None:
@@ -237,24 +237,24 @@ def test_a_vendor_package_and_what_it_stands_for_have_the_same_macros() -> None:
 
 def test_what_hardly_anybody_brings_is_not_brought_by_a_stranger() -> None:
     workspace = loaded(cmake("talker", "", "") | cmake("base", "<depend>octomap_server</depend>", ""))
-    assert not may_bring(("acme_arm",), "depthimage_to_laserscan", workspace)
-    assert may_bring(("acme_laserscan",), "depthimage_to_laserscan", workspace)  # the same family
-    assert may_bring(("depthimage2",), "depthimage_to_laserscan", workspace)  # of another generation
-    assert may_bring(("acme_depthimages",), "depthimage_to_laserscan", workspace)  # or with a longer word
-    assert may_bring(("acme_arm",), "octomap_server", workspace)  # others of the workspace bring it
-    assert may_bring(("acme_arm",), "rviz_common", workspace)  # many do
-    assert may_bring(("acme_arm",), "protobuf", workspace)  # libraries come in many ways
-    assert not may_bring(("acme_arm",), "python3-websockets", workspace)
+    assert not may_provide(("acme_arm",), "depthimage_to_laserscan", workspace)
+    assert may_provide(("acme_laserscan",), "depthimage_to_laserscan", workspace)  # the same family
+    assert may_provide(("depthimage2",), "depthimage_to_laserscan", workspace)  # of another generation
+    assert may_provide(("acme_depthimages",), "depthimage_to_laserscan", workspace)  # or with a longer word
+    assert may_provide(("acme_arm",), "octomap_server", workspace)  # others of the workspace bring it
+    assert may_provide(("acme_arm",), "rviz_common", workspace)  # many do
+    assert may_provide(("acme_arm",), "protobuf", workspace)  # libraries come in many ways
+    assert not may_provide(("acme_arm",), "python3-websockets", workspace)
 
 
 def test_what_another_distribution_has_is_known_from_there() -> None:
     workspace = loaded(cmake("talker", "", ""), "lyrical")
     assert workspace.world.standing("gazebo_ros") == "elsewhere"
-    assert may_bring(("gazebo_ros",), "rclpy", workspace)
-    assert not may_bring(("gazebo_ros",), "rviz_common", workspace)
-    assert may_bring(("gazebo_ros",), "gazebo", workspace)
-    assert may_bring(("mocap4r2_msgs",), "rclcpp", workspace)  # though it is a package of messages
-    assert may_bring(("reach",), "ros_industrial_cmake_boilerplate", workspace)  # though it is no build tool
+    assert may_provide(("gazebo_ros",), "rclpy", workspace)
+    assert not may_provide(("gazebo_ros",), "rviz_common", workspace)
+    assert may_provide(("gazebo_ros",), "gazebo", workspace)
+    assert may_provide(("mocap4r2_msgs",), "rclcpp", workspace)  # though it is a package of messages
+    assert may_provide(("reach",), "ros_industrial_cmake_boilerplate", workspace)  # though it is no build tool
 
 
 def test_modules_with_parts_of_launch_files_are_less_than_sure() -> None:

@@ -6,7 +6,7 @@ from ros_lint.base.tree import MemoryTree
 from ros_lint.cli.commands import explain_package
 from ros_lint.workspace.loader import Loader
 from ros_lint.workspace.model import Workspace
-from ros_lint.workspace.target import Target
+from ros_lint.workspace.target import TargetDistro
 
 FILES = {
     "robot/package.xml": """\
@@ -31,7 +31,7 @@ ament_package()
 
 
 def workspace() -> Workspace:
-    return Loader(MemoryTree(FILES), ("",), Target("jazzy", "--distro")).load()
+    return Loader(MemoryTree(FILES), ("",), TargetDistro("jazzy", "--distro")).load()
 
 
 def test_every_part_has_its_line() -> None:
@@ -62,7 +62,7 @@ def test_a_name_that_is_mistyped() -> None:
 
 def test_either_name_of_a_package_that_colcon_calls_otherwise() -> None:
     renamed = {**FILES, "robot/colcon.pkg": '{"name": "vendor_robot"}\n'}
-    found = Loader(MemoryTree(renamed), ("",), Target("jazzy", "--distro")).load()
+    found = Loader(MemoryTree(renamed), ("",), TargetDistro("jazzy", "--distro")).load()
     for name in ("robot", "vendor_robot"):
         out, err, code = explain_package.run(found, name)
         assert (err, code) == ("", 0)

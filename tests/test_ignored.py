@@ -11,7 +11,7 @@ import pytest
 
 from ros_lint.base.gitignore import is_ignored, patterns
 from ros_lint.base.tree import MemoryTree
-from ros_lint.workspace.discovery.ignore_files import find
+from ros_lint.workspace.discovery.ignore_files import find_ignores
 
 NAMES = ("a", "b.so", "lib", "ab", "x y", "-", "é", "]b", "&")
 PIECES = (
@@ -48,7 +48,7 @@ def test_files_are_found_above_packages_and_in_them() -> None:
     tree = MemoryTree(
         {".gitignore": "*.so\n", "src/.gitignore": "!keep.so\n", "src/arm/.gitignore": "/made\n", "x/.gitignore": "*\n"}
     )
-    given = find(tree, [("src/arm", (".gitignore", "a.cpp"))]).patterns
+    given = find_ignores(tree, [("src/arm", (".gitignore", "a.cpp"))]).patterns
     assert is_ignored(given, "src/arm/lib/a.so")
     assert not is_ignored(given, "src/arm/lib/keep.so")
     assert is_ignored(given, "src/arm/made/a.yaml")

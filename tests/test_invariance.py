@@ -20,7 +20,7 @@ from ros_lint.knowledge.underlays import in_tree
 from ros_lint.testing import Case, read_cases
 from ros_lint.workspace.discovery.discover import discover
 from ros_lint.workspace.loader import Loader
-from ros_lint.workspace.target import Target
+from ros_lint.workspace.target import TargetDistro
 from tests.trees import Locked
 
 FIXTURES = Path(__file__).parent.parent / "fixtures"
@@ -33,7 +33,7 @@ ATTRIBUTE = re.compile(r"""\s+([\w:.-]+)\s*=\s*("[^"<]*"|'[^'<]*')""")
 
 def found(tree: Tree, case: Case, *, default: bool = False) -> Counter[tuple[str, str, str, str]]:
     """Return what is said of a case, or by ``default``: rule, package, subject and message of each finding."""
-    target = Target(case.distro, "--distro" if case.told else "default", case.told)
+    target = TargetDistro(case.distro, "--distro" if case.told else "default", case.told)
     underlays = (in_tree(tree, case.underlay, case.distro),) if case.underlay else ()
     loader = Loader(tree, ("",), target, underlays=underlays)
     checked = engine.check(loader.load(), RULES, loader.suppressions(), RULES)
@@ -128,7 +128,7 @@ def test_a_workspace_with_other_names_for_colcon(names: Callable[[Sequence[str]]
     demo = DiskTree(str(FIXTURES / "workspaces" / "demo"))
     files = {path: text.encode() for path, text in renamed(demo, names).items()}
     assert len(files) > 2
-    workspaces = [Loader(demo, ("",), Target("jazzy", "test")).load(changed) for changed in ({}, files)]
+    workspaces = [Loader(demo, ("",), TargetDistro("jazzy", "test")).load(changed) for changed in ({}, files)]
     own, other = ([package.colcon_name for package in workspace.packages] for workspace in workspaces)
     assert other == names(own)
     before, after = (engine.check(workspace, RULES, (), RULES) for workspace in workspaces)

@@ -20,7 +20,7 @@ import ros_lint
 from ros_lint.analysis.finding import Confidence, Severity
 from ros_lint.base import files
 from ros_lint.base.sealed import Sealed
-from ros_lint.base.text import Span, beginning
+from ros_lint.base.text import Span, file_start
 from ros_lint.facts.visibility import Facet, Opaque
 from ros_lint.workspace import cache_files as kept_files
 
@@ -101,7 +101,7 @@ def test_no_object_takes_a_state(tmp_path: Path, of: bytes, state: bytes) -> Non
     assert [dict(vars(found)) for found in (Span, Severity, Severity.ERROR)] == before
 
 
-KEPT = (beginning("a"), Facet.USES | Facet.SHARE, Severity.ERROR, {"b": [1, "c"]})
+KEPT = (file_start("a"), Facet.USES | Facet.SHARE, Severity.ERROR, {"b": [1, "c"]})
 
 
 class Place(NamedTuple):

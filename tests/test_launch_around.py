@@ -7,7 +7,7 @@ from ros_lint.base.tree import MemoryTree
 from ros_lint.collectors.launch import detect as launch
 from ros_lint.collectors.launch.collect import collect
 from ros_lint.collectors.symbolic_text import share
-from ros_lint.facts.build import BuildScript, Provided
+from ros_lint.facts.build import BuildScript, InstalledFile
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.workspace import launch_modules as launch_around
 
@@ -19,11 +19,13 @@ def start(name):
 """
 
 
-def _package(name: str, files: dict[str, str], provides: dict[str, str], modules: tuple[str, ...] = ()) -> launch_around.Around:
+def _package(
+    name: str, files: dict[str, str], provides: dict[str, str], modules: tuple[str, ...] = ()
+) -> launch_around.LaunchPackage:
     here = Span(f"{name}/CMakeLists.txt", 1, 1, 1, 1)
     script = BuildScript(
         f"{name}/CMakeLists.txt",
-        provides=tuple(Provided(path, source, False, False, here) for path, source in provides.items()),
+        provides=tuple(InstalledFile(path, source, False, False, here) for path, source in provides.items()),
         python_packages=modules,
     )
     found = []
@@ -31,12 +33,12 @@ def _package(name: str, files: dict[str, str], provides: dict[str, str], modules
         language = launch.is_launch_file(path, text)
         if language:
             found.append(collect(Text(f"{name}/{path}", text), language))
-    return launch_around.Around(name, name, tuple(files), script, tuple(found))
+    return launch_around.LaunchPackage(name, name, tuple(files), script, tuple(found))
 
 
-def _completed(*packages: tuple[launch_around.Around, dict[str, str]]) -> dict[str, LaunchFile]:
+def _completed(*packages: tuple[launch_around.LaunchPackage, dict[str, str]]) -> dict[str, LaunchFile]:
     tree = MemoryTree({f"{package.name}/{path}": text for package, files in packages for path, text in files.items()})
-    done = launch_around.completed(tree, [package for package, _ in packages], "jazzy")
+    done = launch_around.resolve_modules(tree, [package for package, _ in packages], "jazzy")
     return {file.path: file for files in done for file in files}
 
 
@@ -270,7 +272,7 @@ def generate_launch_description():
 """,
     }
     package = _package("app", files, {})
-    assert launch_around.completed(MemoryTree({}), [package], "jazzy") == [package.launch]
+    assert launch_around.resolve_modules(MemoryTree({}), [package], "jazzy") == [package.launch]
 
 
 def test_files_of_parameters_that_a_module_names() -> None:

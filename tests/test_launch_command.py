@@ -13,7 +13,7 @@ from ros_lint.cli.commands.launch.lookup import LookUp
 from ros_lint.cli.session import UsageError
 from ros_lint.knowledge.underlays import in_tree
 from ros_lint.workspace.loader import Loader
-from ros_lint.workspace.target import Target
+from ros_lint.workspace.target import TargetDistro
 from tests.packages import manifest_text
 
 INSTALLS = "project({0})\nfind_package(ament_cmake REQUIRED)\ninstall(DIRECTORY {1} DESTINATION share/{0})\nament_package()\n"
@@ -38,7 +38,7 @@ def ask(
     tree = MemoryTree(files)
     below = MemoryTree({f"opt/{path}": content for path, content in (underlay or {}).items()})
     underlays = (in_tree(below, "opt", "jazzy"),) if underlay else ()
-    loader = Loader(tree, ("",), Target("jazzy", "--distro"), underlays=underlays)
+    loader = Loader(tree, ("",), TargetDistro("jazzy", "--distro"), underlays=underlays)
     asked = understood(words, lambda path: path in files)
     workspace = loader.load()
     return answer(workspace, LookUp(workspace, tree), asked, "" if asked.package else asked.file, form)

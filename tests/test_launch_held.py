@@ -3,7 +3,7 @@
 import pytest
 
 from ros_lint.base.text import Text
-from ros_lint.collectors.launch.default_configurations import held
+from ros_lint.collectors.launch.default_configurations import default_configurations
 from ros_lint.collectors.launch.markup import xml as launch_xml
 
 
@@ -30,7 +30,7 @@ from ros_lint.collectors.launch.markup import xml as launch_xml
     ],
 )
 def test_values_and_whose_they_are(body: str, values: dict[str, tuple[str, ...]], own: set[str]) -> None:
-    found = held(launch_xml.collect(Text("a.launch.xml", f"<launch>{body}</launch>")).actions)
+    found = default_configurations(launch_xml.collect(Text("a.launch.xml", f"<launch>{body}</launch>")).actions)
     assert (dict(found.values), set(found.own)) == (values, own)
 
 
@@ -38,7 +38,7 @@ def test_what_depends_on_an_argument_is_not_the_files_own() -> None:
     body = (
         '<arg name="a" default="1"/><let name="b" value="$(var a)"/><let name="c" value="2"/><let name="d" value="$(var c)/x"/>'
     )
-    found = held(launch_xml.collect(Text("a.launch.xml", f"<launch>{body}</launch>")).actions)
+    found = default_configurations(launch_xml.collect(Text("a.launch.xml", f"<launch>{body}</launch>")).actions)
     assert found.own == {"c", "d"}
 
 

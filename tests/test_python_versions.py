@@ -13,7 +13,7 @@ from ros_lint.base.text import Text
 from ros_lint.collectors.launch.presence_checks import DISTRIBUTIONS
 from ros_lint.collectors.python.syntax import NotPythonError, parse, read, refusal
 from ros_lint.collectors.python.versions import PYTHON_OF, too_new
-from ros_lint.workspace.target import Target
+from ros_lint.workspace.target import TargetDistro
 
 NEWER = [
     ("def f[T](x: T) -> T: pass", "type parameter lists", (3, 12), "1:6"),
@@ -80,9 +80,9 @@ def test_constructs_by_distribution(distro: str, code: str, construct: str, vers
     syntax = read(Text("a.py", code + "\n")).newer
     runs = {"humble": "3.10", "jazzy": "3.12", "kilted": "3.12", "lyrical": "3.14", "rolling": "3.14"}[distro]
     said = f"{construct} need Python {version[0]}.{version[1]}; {distro} runs {runs}"
-    found = [problem.message for problem in too_new(syntax, Target(distro, "--distro"))]
+    found = [problem.message for problem in too_new(syntax, TargetDistro(distro, "--distro"))]
     assert (said in found) == (tuple(map(int, runs.split("."))) < version)
-    assert not list(too_new(syntax, Target(distro, "newest", told=False)))
+    assert not list(too_new(syntax, TargetDistro(distro, "newest", told=False)))
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from ros_lint.cli.commands.query import around, enclosing_workspace
+from ros_lint.cli.commands.query import current_workspace, enclosing_workspace
 
 
 def test_the_workspace_that_encloses_a_file(tmp_path: Path) -> None:
@@ -32,4 +32,4 @@ def test_the_workspace_around_the_current_folder(tmp_path: Path, monkeypatch: py
     (tmp_path / "ws" / "install").mkdir()
     for folder, found in ((package, tmp_path / "ws"), (package / "launch", tmp_path / "ws"), (tmp_path / "ws" / "src", ".")):
         monkeypatch.chdir(folder)
-        assert around() == str(found)
+        assert current_workspace() == str(found)

@@ -22,7 +22,7 @@ from ros_lint.reporters.fingerprint import line_hashes
 from ros_lint.reporters.frames import Mark, frame
 from ros_lint.reporters.github import command
 from ros_lint.reporters.text import render_issues
-from ros_lint.workspace.target import NotChecked
+from ros_lint.workspace.target import UnreadFile
 from tests.reports import ARM, EVERYTHING, ISSUES, REPORTS, SOURCES, texts
 
 GOLDEN = Path(__file__).parent / "golden"
@@ -96,7 +96,7 @@ def test_issues_alone_have_no_summary() -> None:
 
 @pytest.mark.parametrize("form", ["text", "concise", "github"])
 def test_long_lists_are_cut_and_say_so(form: str) -> None:
-    entries = tuple(NotChecked(f"file {n}", "gone", None) for n in range(30))
+    entries = tuple(UnreadFile(f"file {n}", "gone", None) for n in range(30))
     got = reporter(form)(EVERYTHING._replace(not_checked=entries), texts, Style())
     assert "and 20 more; --format json lists all of them" in got
 

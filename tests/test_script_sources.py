@@ -10,14 +10,14 @@ import pytest
 from ros_lint.base.tree import DiskTree, MemoryTree, Tree
 from ros_lint.facts.build import BuildScript
 from ros_lint.workspace.loader import Loader
-from ros_lint.workspace.target import Target
+from ros_lint.workspace.target import TargetDistro
 from tests.packages import manifest_text
 
 HEAD = "cmake_minimum_required(VERSION 3.8)\nproject(p)\nfind_package(ament_cmake REQUIRED)\n"
 
 
 def script_of(tree: Tree, path: str = "p") -> BuildScript:
-    (package,) = Loader(tree, (path,), Target("jazzy", "test")).load().packages
+    (package,) = Loader(tree, (path,), TargetDistro("jazzy", "test")).load().packages
     assert package.script is not None
     return package.script
 

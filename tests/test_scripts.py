@@ -8,10 +8,10 @@ from ros_lint.base.tree import MemoryTree
 from ros_lint.collectors.cmake import evaluate as cmake
 from ros_lint.engine import registry
 from ros_lint.engine import run as engine
-from ros_lint.facts.visibility import ANYTHING, Facet
+from ros_lint.facts.visibility import ALL_FACETS, Facet
 from ros_lint.workspace.loader import Loader
 from ros_lint.workspace.model import Workspace
-from ros_lint.workspace.target import Target
+from ros_lint.workspace.target import TargetDistro
 from tests.one_package import loaded
 from tests.trees import Locked
 
@@ -86,23 +86,23 @@ SETUP = {
 @pytest.mark.parametrize(
     ("locked", "build_type", "hides"),
     [
-        ("p/CMakeLists.txt", "ament_cmake", ANYTHING),
+        ("p/CMakeLists.txt", "ament_cmake", ALL_FACETS),
         ("p/src/a.cpp", "ament_cmake", Facet.USES | Facet.COMPONENTS),
         ("p/msg/A.msg", "ament_cmake", Facet.USES | Facet.INTERFACES),
         ("p/plugins.xml", "ament_cmake", Facet.USES | Facet.COMPONENTS),
         ("p/p/n.py", "ament_python", Facet.USES),
-        ("p/setup.py", "ament_python", ANYTHING),
-        ("p/setup.cfg", "ament_python", ANYTHING),
+        ("p/setup.py", "ament_python", ALL_FACETS),
+        ("p/setup.cfg", "ament_python", ALL_FACETS),
     ],
 )
 def test_a_file_that_nobody_may_read_hides_what_it_could_say(locked: str, build_type: str, hides: Facet) -> None:
     texts = {"p/package.xml": XML.format("p").replace("ament_cmake", build_type), **SETUP}
-    target = Target("jazzy", "test")
+    target = TargetDistro("jazzy", "test")
     seen = Loader(MemoryTree(texts), ("",), target).load().by_name["p"][0]
     workspace = Loader(Locked(texts, locked), ("",), target).load()
     package = workspace.by_name["p"][0]
     assert [(entry.what, entry.reason) for entry in workspace.not_checked] == [(locked, "Permission denied")]
-    assert not seen.hidden(ANYTHING)
+    assert not seen.hidden(ALL_FACETS)
     hidden = Facet(0)
     for opaque in package.opaque:
         hidden |= opaque.hides

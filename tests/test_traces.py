@@ -7,7 +7,7 @@ from ros_lint.collectors.cpp import collect as cpp
 from ros_lint.knowledge.names import Names
 from ros_lint.knowledge.store import Store
 from ros_lint.workspace.usage.package_files import Source
-from ros_lint.workspace.usage.textual_mentions import mentioned, traces
+from ros_lint.workspace.usage.textual_mentions import find_mentions, mentioned
 
 
 def test_a_name_leaves_traces_in_many_spellings() -> None:
@@ -16,7 +16,7 @@ def test_a_name_leaves_traces_in_many_spellings() -> None:
         ("b.cpp", b"auto message = tf2::toMsg(transform);\n"),
         ("c.yaml", b"key: my-own-tools\nother: nav_msgs_extra\n"),
     ]
-    found = traces(("acme_route_tools", "tf2_eigen", "my_own_tools", "route", "nav", "std_msgs", "xnav_msgs"), files)
+    found = find_mentions(("acme_route_tools", "tf2_eigen", "my_own_tools", "route", "nav", "std_msgs", "xnav_msgs"), files)
     assert {name: (span.path, span.line) for name, span in found.items()} == {
         "acme_route_tools": ("a.cpp", 2),
         "tf2_eigen": ("b.cpp", 1),
@@ -32,7 +32,9 @@ def test_a_namespace_is_written_from_within_another_and_a_library_without_saying
         ("b.cpp", b"namespace acme { route_tools::Route route; }\n"),
         ("c.cpp", b"#include <arm/arm.hpp>\nleg::Leg left;\n"),
     ]
-    found = traces(("acme_route_tools", "acme_tools", "acme_draw", "acme_line_tools", "libarm", "libleg", "libfoot"), files)
+    found = find_mentions(
+        ("acme_route_tools", "acme_tools", "acme_draw", "acme_line_tools", "libarm", "libleg", "libfoot"), files
+    )
     assert {name: (span.path, span.line) for name, span in found.items()} == {
         "acme_route_tools": ("b.cpp", 1),
         "libarm": ("c.cpp", 1),
@@ -44,7 +46,7 @@ def test_words_leave_traces_whatever_their_capitals() -> None:
     files = [("a.cpp", b"#include <cpprest/http_client.h>\n"), ("CMakeLists.txt", b"find_package(CHOLMOD)\n")]
     names = Names(Store())
     keys = ("libcpprest-dev", "suitesparse", "python3-open3d")
-    found = traces(keys, files, {key: names.called(key) for key in keys})
+    found = find_mentions(keys, files, {key: names.called(key) for key in keys})
     assert {name: (span.path, span.line) for name, span in found.items()} == {
         "libcpprest-dev": ("a.cpp", 1),
         "suitesparse": ("CMakeLists.txt", 1),
@@ -57,7 +59,7 @@ def test_what_an_include_names_is_a_trace_where_the_text_has_it() -> None:
     facts = {file: cpp.collect(read(f"talker/{file}", source)) for file in ("a.cpp", "readme.cpp")}
     package = Source("talker", "talker", tuple(facts), None, facts, (), "ament_cmake")
     found = mentioned(names, package, words, lambda file: file != "readme.cpp")
-    texts = traces(names, [("talker/a.cpp", source)], words)
+    texts = find_mentions(names, [("talker/a.cpp", source)], words)
     assert {name: span.line for name, span in found.items()} == {name: span.line for name, span in texts.items()}
     assert found.keys() == {"acme_route_tools", "acme_msgs", "eigen"}
     assert not mentioned(names, package, words, lambda file: False)

@@ -11,7 +11,7 @@ from ros_lint.workspace.model import Package, Workspace
 T = TypeVar("T")
 
 
-def per_workspace(function: Callable[[Workspace], T]) -> Callable[[Workspace], T]:
+def cached_by_workspace(function: Callable[[Workspace], T]) -> Callable[[Workspace], T]:
     """Make a pure function of a workspace remember what it says, for several rules ask the same."""
 
     @wraps(function)
@@ -24,7 +24,7 @@ def per_workspace(function: Callable[[Workspace], T]) -> Callable[[Workspace], T
     return remembering
 
 
-def per_package(function: Callable[[Package, Workspace], T]) -> Callable[[Package, Workspace], T]:
+def cached_by_package(function: Callable[[Package, Workspace], T]) -> Callable[[Package, Workspace], T]:
     """Make a pure function of a package and its workspace remember what it says, for several rules ask the same."""
 
     @wraps(function)

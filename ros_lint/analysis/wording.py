@@ -10,6 +10,6 @@ from ros_lint.analysis.finding import Related
 _MOST_RELATED = 4
 
 
-def several(places: Iterable[Related]) -> tuple[Related, ...]:
+def first_related(places: Iterable[Related]) -> tuple[Related, ...]:
     """Return the first four related places: more do not help the reader."""
     return tuple(islice(places, _MOST_RELATED))

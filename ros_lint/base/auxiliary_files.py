@@ -25,19 +25,19 @@ def is_for_tests(package: str) -> bool:
     return _OF_TESTS.search(package) is not None
 
 
-def is_apart(path: str) -> bool:
+def is_auxiliary(path: str) -> bool:
     """Return whether a file serves tests, shows something, is to be filled in, or kept for later, by its path."""
     name = path.rpartition("/")[2]
     of_tests = name.startswith("test_") or "_test." in name or ".test." in name
-    return of_tests or lies_apart(path) or is_copy(path) or _KEPT.search(name) is not None
+    return of_tests or in_auxiliary_folder(path) or is_backup_copy(path) or _KEPT.search(name) is not None
 
 
-def is_copy(path: str) -> bool:
+def is_backup_copy(path: str) -> bool:
     """Return whether a file is one that an editor or a file manager has copied, by its name: nobody is to start it."""
     return " " in path and _COPY.search(path) is not None
 
 
-def lies_apart(path: str) -> bool:
+def in_auxiliary_folder(path: str) -> bool:
     """Return the same by the folders alone: what is merely called a test is often one that people start by hand."""
     folders = path.split("/")[:-1]
     return not (TEST_FOLDERS.isdisjoint(folders) and _APART.isdisjoint(folders)) or "{" in path

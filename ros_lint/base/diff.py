@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 import re
 
-from ros_lint.base.text import raw
+from ros_lint.base.text import to_bytes
 
 
 def unified(path: str, before: str | None, after: str) -> str:
@@ -21,7 +21,7 @@ def unified(path: str, before: str | None, after: str) -> str:
 def unified_bytes(path: str, before: bytes | None, after: bytes) -> bytes:
     """Return what :func:`unified` does for two states of a file as they are on the disk, whatever their encoding."""
     was = None if before is None else before.decode("latin-1")  # a letter for each byte, for difflib compares texts
-    return unified(raw(path).decode("latin-1"), was, after.decode("latin-1")).encode("latin-1")
+    return unified(to_bytes(path).decode("latin-1"), was, after.decode("latin-1")).encode("latin-1")
 
 
 def _lines(text: str) -> list[str]:

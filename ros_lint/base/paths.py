@@ -12,13 +12,13 @@ def join(directory: str, name: str) -> str:
     return f"{directory}/{name}" if directory else name
 
 
-def seen_from(directory: str, path: str) -> str:
+def resolve(directory: str, path: str) -> str:
     """Return the path that a relative one, which may lead upwards, means from a directory."""
     return posixpath.normpath(join(directory, path))
 
 
-def towards(directory: str, path: str) -> str:
-    """Return the relative path, which may lead upwards, by which a directory means a path: the reverse of :func:`seen_from`."""
+def relative(directory: str, path: str) -> str:
+    """Return the relative path, which may lead upwards, by which a directory means a path: the reverse of :func:`resolve`."""
     return posixpath.relpath(f"/{path}", f"/{directory}")
 
 
@@ -27,7 +27,7 @@ def is_outside(path: str) -> bool:
     return path == ".." or path.startswith("../")
 
 
-def within(directory: str, path: str) -> str:
+def strip_folder(directory: str, path: str) -> str:
     """Return a path as it is in a directory that it lies in: the reverse of :func:`join`. Others stay as they are."""
     return path.removeprefix(f"{directory}/") if directory else path
 

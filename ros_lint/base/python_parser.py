@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import warnings
 
-from ros_lint.base.text import raw
+from ros_lint.base.text import to_bytes
 
 
 class TooDeepForPythonError(Exception):
@@ -28,7 +28,7 @@ def _module(text: str) -> ast.Module:
     try:
         return ast.parse(text, "")
     except UnicodeEncodeError:  # Python takes bytes that are no UTF-8 in comments of what it imports
-        return ast.parse(raw(text), "")
+        return ast.parse(to_bytes(text), "")
 
 
 def expression(text: str) -> ast.expr:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 
-def similar(name: str, names: Iterable[str], most: int = 1, least: float = 0.6) -> list[str]:
+def similar_names(name: str, names: Iterable[str], most: int = 1, least: float = 0.6) -> list[str]:
     """Return at most ``most`` of ``names`` that resemble ``name``, nearest first; ``least`` is the similarity, from 0 to 1."""
     from difflib import get_close_matches  # noqa: PLC0415  (slow to import, and needed for a slip only)
 
@@ -17,7 +17,7 @@ def did_you_mean(names: Sequence[str], after: str = "; ") -> str:
     return f"{after}did you mean {' or '.join(map(_quoted, names))}?" if names else ""
 
 
-def is_meant(names: Sequence[str]) -> str:
+def ask_if_meant(names: Sequence[str]) -> str:
     """Return the end of a message that suggests the first of some names; "" if there are none."""
     return did_you_mean(names[:1])
 
@@ -30,7 +30,7 @@ def _quoted(name: str) -> str:
 _MOST_NAMES = 3
 
 
-def few(names: Iterable[str]) -> str:
+def shorten_list(names: Iterable[str]) -> str:
     """Return the first three of some names, in quotes, and the number of the others."""
     names = list(names)
     first = ", ".join([f"'{name}'" for name in names[:_MOST_NAMES]])

@@ -46,7 +46,7 @@ class Span(NamedTuple):
         return self.path == other.path and self[1:3] <= other[1:3] and other[3:5] <= self[3:5]
 
 
-def beginning(path: str) -> Span:
+def file_start(path: str) -> Span:
     """Return the empty place at the beginning of a file: where to point when the file as a whole is meant."""
     return Span(path, 1, 1, 1, 1)
 
@@ -135,7 +135,7 @@ class Text:
         Raises UnicodeEncodeError when the encoding has no such character.
         """
         if self.codec == "utf-8":
-            return raw(text)
+            return to_bytes(text)
         return text.encode(self.codec)
 
     def _line_starts(self) -> list[int]:
@@ -190,7 +190,7 @@ def decode(data: bytes) -> tuple[str, str]:
                 return text, codec
         except (LookupError, UnicodeError):
             pass
-    return from_raw(data), "utf-8"
+    return from_bytes(data), "utf-8"
 
 
 def span_in(path: str, data: bytes, start: int, end: int) -> Span:
@@ -201,17 +201,17 @@ def span_in(path: str, data: bytes, start: int, end: int) -> Span:
     return Span(path, line, column + 1, line, column + 1 + width)
 
 
-def raw(text: str) -> bytes:
+def to_bytes(text: str) -> bytes:
     """Return a piece of a text, or a path, as the bytes that it is on the disk: what is no UTF-8 there stays as it is."""
     return text.encode("utf-8", "surrogateescape")
 
 
 def octets(text: str) -> str:
     """Return a text with one character for each of its bytes (:func:`raw`), for tools that match byte by byte."""
-    return text if text.isascii() else raw(text).decode("latin-1")
+    return text if text.isascii() else to_bytes(text).decode("latin-1")
 
 
-def from_raw(data: bytes) -> str:
+def from_bytes(data: bytes) -> str:
     """Return the piece of a text, or the path, that :func:`raw` made bytes of."""
     return data.decode("utf-8", "surrogateescape")
 

@@ -14,7 +14,7 @@ from typing import Literal, NamedTuple, Protocol
 
 from ros_lint.base import files
 from ros_lint.base.paths import is_below, join, parent, upwards
-from ros_lint.base.text import Text, raw, read
+from ros_lint.base.text import Text, read, to_bytes
 
 Kind = Literal["file", "directory", "other"]
 
@@ -338,4 +338,4 @@ class OverlayTree:
 
 
 def _bytes(content: str | bytes) -> bytes:
-    return content if isinstance(content, bytes) else raw(content)
+    return content if isinstance(content, bytes) else to_bytes(content)

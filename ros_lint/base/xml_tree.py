@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from typing import Any, Final, Protocol, TypeVar
 from xml.parsers import expat
 
-from ros_lint.base.text import from_raw, raw
+from ros_lint.base.text import from_bytes, to_bytes
 
 
 class XmlError(Exception):
@@ -59,7 +59,7 @@ def parse(text: str) -> Element:
 
 def parse_as(text: str, make: Callable[[str, dict[str, str], int], _E]) -> _E:
     """Return the root as an element of a kind of its own, made from tag, attributes and offset; else as :func:`parse`."""
-    data = unmarked(raw(text))
+    data = unmarked(to_bytes(text))
     offset = _Offsets(data).of
     parser = expat.ParserCreate("utf-8")  # the text is decoded already, whatever its declaration says
     parser.buffer_text = True
@@ -121,6 +121,6 @@ class _Offsets:
             return byte
         if byte < self._byte:
             self._byte = self._character = 0
-        self._character += len(from_raw(self._data[self._byte : byte]))
+        self._character += len(from_bytes(self._data[self._byte : byte]))
         self._byte = byte
         return self._character

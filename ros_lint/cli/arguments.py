@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable, Sequence
 from typing import Any, NoReturn
 
-from ros_lint.base.suggestions import did_you_mean, similar
+from ros_lint.base.suggestions import did_you_mean, similar_names
 from ros_lint.cli.options import BY_NAME, COMMANDS, OPTIONS, Option
 
 _COMMON = ("distro", "underlay", "config", "isolated", "jobs", "cache", "exclude", "progress")
@@ -25,7 +25,7 @@ class _Parser(argparse.ArgumentParser):
     def refuse(self, strange: Sequence[str]) -> NoReturn:
         """End because of arguments that mean nothing."""
         known = [text for action in self._actions for text in action.option_strings]
-        hint = did_you_mean(similar(strange[0].partition("=")[0], known))
+        hint = did_you_mean(similar_names(strange[0].partition("=")[0], known))
         self.error(f"unrecognized arguments: {' '.join(strange)}{hint}")
 
     def error(self, message: str) -> NoReturn:

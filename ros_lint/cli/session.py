@@ -6,16 +6,16 @@ import os
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ros_lint.base.suggestions import did_you_mean, similar
+from ros_lint.base.suggestions import did_you_mean, similar_names
 from ros_lint.base.tree import DiskTree, repository_of
 from ros_lint.cli.options import COMMANDS, OPTIONS
 from ros_lint.cli.settings import Settings, settle
 from ros_lint.engine.registry import BUILTIN
-from ros_lint.errors import RefusalError
+from ros_lint.errors import UserError
 from ros_lint.knowledge import Knowledge, distros, newest_lts
 from ros_lint.knowledge.store import user_directory
 from ros_lint.workspace import fact_cache as cache
-from ros_lint.workspace.target import Target
+from ros_lint.workspace.target import TargetDistro
 
 if TYPE_CHECKING:
     from ros_lint.base.tree import Tree
@@ -23,11 +23,11 @@ if TYPE_CHECKING:
     from ros_lint.workspace.loader import Loader, Progress
 
 
-class UsageError(RefusalError):
+class UsageError(UserError):
     """Something that was asked for cannot be done. The message names it, and the way out."""
 
 
-class Asked(NamedTuple):
+class Request(NamedTuple):
     """A workspace and settings that are known to make sense. Nothing has been read of it."""
 
     settings: Settings
@@ -37,7 +37,7 @@ class Asked(NamedTuple):
     """What was asked for, relative to the base."""
     inside: tuple[str, ...]
     """Absolute. The folders that links of the workspace may lead into: the repository, or what was asked for."""
-    target: Target
+    target: TargetDistro
     places: tuple[str, ...]
     """Folders with data of the released world that go before those shipped."""
     cache: str
@@ -50,7 +50,7 @@ class Asked(NamedTuple):
         return DiskTree(self.base, self.inside)
 
 
-class Opened(NamedTuple):
+class Session(NamedTuple):
     """A workspace that is ready to be loaded."""
 
     loader: Loader
@@ -63,15 +63,15 @@ class Opened(NamedTuple):
     warnings: tuple[str, ...]
 
 
-def open_workspace(said: Mapping[str, Any], environment: Mapping[str, str], progress: Progress) -> Opened:
+def open_workspace(said: Mapping[str, Any], environment: Mapping[str, str], progress: Progress) -> Session:
     """Return the workspace that the options name, not yet loaded.
 
     ``said`` is what :func:`ros_lint.cli.arguments.parse` gives. Raises UsageError, ConfigError and KnowledgeError.
     """
-    return opened(ask(said, environment), progress)
+    return open_session(parse_request(said, environment), progress)
 
 
-def ask(said: Mapping[str, Any], environment: Mapping[str, str]) -> Asked:
+def parse_request(said: Mapping[str, Any], environment: Mapping[str, str]) -> Request:
     """Return what the options name. Raises UsageError and ConfigError."""
     paths = [os.path.realpath(path) for path in said.get("paths") or ["."]]
     for path, written in zip(paths, said.get("paths") or ["."], strict=True):
@@ -87,10 +87,12 @@ def ask(said: Mapping[str, Any], environment: Mapping[str, str]) -> Asked:
     places = (user_directory(environment),)
     target, warnings = _target(settings, places)
     roots = tuple("" if path == base else os.path.relpath(path, base).replace(os.sep, "/") for path in paths)
-    return Asked(settings, base, roots, inside, target, places, cache.folder(environment) if settings["cache"] else "", warnings)
+    return Request(
+        settings, base, roots, inside, target, places, cache.folder(environment) if settings["cache"] else "", warnings
+    )
 
 
-def opened(asked: Asked, progress: Progress, workspace: Tree | None = None, machine: Tree | None = None) -> Opened:
+def open_session(asked: Request, progress: Progress, workspace: Tree | None = None, machine: Tree | None = None) -> Session:
     """Return a workspace that is ready to be loaded, from trees that stand for its base and the machine if need be.
 
     Raises UsageError and KnowledgeError.
@@ -111,10 +113,10 @@ def opened(asked: Asked, progress: Progress, workspace: Tree | None = None, mach
         cache=cache.Cache(asked.cache, _kept_by(asked)),
         progress=progress,
     )
-    return Opened(loader, settings, knowledge, base, asked.roots, (*asked.warnings, *unread))
+    return Session(loader, settings, knowledge, base, asked.roots, (*asked.warnings, *unread))
 
 
-def _kept_by(asked: Asked) -> str:
+def _kept_by(asked: Request) -> str:
     """Return the name by which the facts of files are kept: they depend on where links may lead."""
     return asked.base if asked.inside == (asked.base,) else os.pathsep.join((asked.base, *asked.inside))
 
@@ -130,7 +132,7 @@ _LIBRARIES = ("libcst", "networkx", "yaml")
 """What takes part in reading a workspace besides Python and our own code."""
 
 
-def reports(asked: Asked) -> cache.Reports:
+def reports(asked: Request) -> cache.Reports:
     """Return the reports that are kept of what is asked for.
 
     None are while plugins take part: nobody watches all the files that these are made of.
@@ -174,7 +176,7 @@ def _underlays(
     return tuple(found), tuple(warnings)
 
 
-def no_packages(asked: Asked | Opened) -> str:
+def no_packages(asked: Request | Session) -> str:
     """Return what to say when there is nothing to work on."""
     from ros_lint.workspace.discovery.discover import discover  # noqa: PLC0415  (a kept report comes without)
 
@@ -193,7 +195,7 @@ _MOST_SKIPPED = 3
 
 def _command(written: str) -> str:
     """Return a suggestion for a path that does not exist and resembles the name of a command."""
-    return next((f"; did you mean the command '{command}'?" for command in similar(written, COMMANDS)), "")
+    return next((f"; did you mean the command '{command}'?" for command in similar_names(written, COMMANDS)), "")
 
 
 def _base(paths: Sequence[str]) -> str:
@@ -205,18 +207,20 @@ def _base(paths: Sequence[str]) -> str:
     return repository_of(common) or common
 
 
-def _target(settings: Settings, places: Sequence[str]) -> tuple[Target, tuple[str, ...]]:
+def _target(settings: Settings, places: Sequence[str]) -> tuple[TargetDistro, tuple[str, ...]]:
     distro = settings["distro"]
     if not distro:
-        return Target(newest_lts(places), "newest LTS", told=False), ()
+        return TargetDistro(newest_lts(places), "newest LTS", told=False), ()
     known = [known.name for known in distros(places)]
     if distro in known:
-        return Target(distro, settings.origin("distro")), ()
+        return TargetDistro(distro, settings.origin("distro")), ()
     if settings.origin("distro") == "ROS_DISTRO":
-        return Target(distro, "ROS_DISTRO"), (f"unknown distribution '{distro}' in ROS_DISTRO; available: {', '.join(known)}",)
+        return TargetDistro(distro, "ROS_DISTRO"), (
+            f"unknown distribution '{distro}' in ROS_DISTRO; available: {', '.join(known)}",
+        )
     from ros_lint.knowledge.names import has_ended  # noqa: PLC0415
 
-    kind, hint = ("end-of-life", "") if has_ended(distro) else ("unknown", did_you_mean(similar(distro, known)))
+    kind, hint = ("end-of-life", "") if has_ended(distro) else ("unknown", did_you_mean(similar_names(distro, known)))
     available = f"(available: {', '.join(known)})"
     raise UsageError(f"{settings.origin('distro')}: {kind} distribution '{distro}'{hint} {available}")
 

@@ -13,9 +13,9 @@ from typing import Any, NamedTuple
 
 from ros_lint.base import files
 from ros_lint.base.paths import upwards
-from ros_lint.base.suggestions import did_you_mean, similar
+from ros_lint.base.suggestions import did_you_mean, similar_names
 from ros_lint.cli.options import BY_NAME, MOST, OPTIONS, Option
-from ros_lint.errors import RefusalError
+from ros_lint.errors import UserError
 
 _MOST_BYTES = 256 << 10
 """Of a configuration file. Many times as much as any has."""
@@ -27,7 +27,7 @@ _LONG_KEY = r"""(?:\.[ \t]*(?:[\w-]+|"(?:[^"\\\n]|\\.){0,50}"|'[^'\n]{0,50}')[ \
 """The rest of a key with more than 50 parts. The time that tomllib takes for a key grows with the square of the parts."""
 
 
-class ConfigError(RefusalError):
+class ConfigError(UserError):
     """Settings that cannot be used. The message names the place and the way out."""
 
 
@@ -157,7 +157,7 @@ def _checked(path: str, text: str, name: str, value: Any) -> Any:
         known = [option.name for option in OPTIONS if option.in_file]
         if option is not None:
             raise ConfigError(f"{_place(path, text, name)}: '{name}' is a command-line option, not a setting")
-        hint = did_you_mean(similar(name.replace("_", "-"), known)) or f"; available: {', '.join(known)}"
+        hint = did_you_mean(similar_names(name.replace("_", "-"), known)) or f"; available: {', '.join(known)}"
         raise ConfigError(f"{_place(path, text, name)}: unknown setting '{name}'{hint}")
     if complaint := _complaint(option, value):
         raise ConfigError(f"{_place(path, text, name)}: '{name}' {complaint}")
@@ -190,7 +190,7 @@ def _word_complaint(option: Option, value: Any) -> str:
     if not isinstance(value, str):
         return "must be a string"
     if option.choices and value not in option.choices:
-        hint = did_you_mean(similar(value, option.choices))
+        hint = did_you_mean(similar_names(value, option.choices))
         return f"must be one of {', '.join(option.choices)}, not {value!r}{hint}"
     return ""
 

@@ -180,7 +180,7 @@ def runs_xacro(text: str) -> bool:
     return text.startswith("xacro ") or _OF_XACRO in text
 
 
-def renames(word: str) -> bool:
+def is_node_renaming(word: str) -> bool:
     """Return whether a word of a command line may give a node another name or namespace (``-r __ns:=/front``)."""
     return any(mark in word for mark in _RENAMES)
 
@@ -293,7 +293,7 @@ def conditions_of(text: str) -> tuple[LaunchCondition, ...]:
     return text.conditions if isinstance(text, Conditional) else ()
 
 
-def agree(conditions: Iterable[LaunchCondition]) -> bool:
+def are_consistent(conditions: Iterable[LaunchCondition]) -> bool:
     """Return whether conditions can hold together: none is the opposite of another."""
     wanted: dict[tuple[tuple[str, ...], str | None], bool] = {}
     equal: dict[tuple[str, ...], str] = {}
@@ -328,7 +328,7 @@ def joined(rows: Iterable[tuple[str, ...]], function: Callable[[tuple[str, ...]]
     found: list[str] = []
     for choice in islice(product(*rows), _MOST_CHOICES):
         conditions = tuple(dict.fromkeys(condition for text in choice for condition in conditions_of(text)))
-        if conditions and not agree(conditions):
+        if conditions and not are_consistent(conditions):
             continue
         found.append(conditional(function(choice) if sum(map(len, choice)) <= LONGEST else UNKNOWN, conditions))
     texts = distinct(found)

@@ -15,8 +15,8 @@ from ros_lint.analysis.finding import Confidence
 from ros_lint.base import files
 from ros_lint.base.json_text import encode
 from ros_lint.engine import edits
-from ros_lint.engine.report import UNSURE, Hidden, Issue, Report
-from ros_lint.errors import RefusalError
+from ros_lint.engine.report import UNSURE, HiddenCount, Issue, Report
+from ros_lint.errors import UserError
 
 Key = tuple[str, str, str]
 """The name of the rule, the package, the subject."""
@@ -26,7 +26,7 @@ _MOST_BYTES = 64 << 20
 """Of a file: half a million findings."""
 
 
-class BaselineError(RefusalError):
+class BaselineError(UserError):
     """A file of known findings that cannot be read or written. The message names it, and the way out."""
 
 
@@ -52,7 +52,7 @@ class Baseline(NamedTuple):
         """
         counts = Counter(map(_key, report.issues))
         shown = tuple([issue for issue in report.issues if counts[_key(issue)] > self._number(_key(issue))])
-        hidden = Hidden(f"listed in {name}", len(report.issues) - len(shown))
+        hidden = HiddenCount(f"listed in {name}", len(report.issues) - len(shown))
         gone = self._gone(report, counts) if tuple(folders) == self.folders else 0
         return report._replace(
             issues=shown,

@@ -7,21 +7,21 @@ from typing import TYPE_CHECKING
 from ros_lint import __version__
 from ros_lint.engine import registry
 from ros_lint.engine import run as engine
-from ros_lint.engine.report import Hidden, Report, Unseen
+from ros_lint.engine.report import BlindSpot, HiddenCount, Report
 from ros_lint.engine.selection import Selection, show
 
 if TYPE_CHECKING:
-    from ros_lint.cli.session import Opened
+    from ros_lint.cli.session import Session
     from ros_lint.workspace.model import Workspace
 
 
-def check(opened: Opened, workspace: Workspace, selection: Selection) -> Report:
+def check(opened: Session, workspace: Workspace, selection: Selection) -> Report:
     """Return what the selected rules say of a workspace, suppressions and settings respected."""
     known = registry.load(opened.settings["plugins"])
     checked = engine.check(workspace, selection.rules, opened.loader.suppressions(), known)
     shown, hidden = show(checked.issues, selection)
     if checked.suppressed:
-        hidden = (*hidden, Hidden("suppressed by comments", len(checked.suppressed)))
+        hidden = (*hidden, HiddenCount("suppressed by comments", len(checked.suppressed)))
     return Report(
         issues=shown,
         rules=selection.rules,
@@ -38,7 +38,7 @@ def check(opened: Opened, workspace: Workspace, selection: Selection) -> Report:
     )
 
 
-def _unseen(workspace: Workspace) -> tuple[Unseen, ...]:
+def _unseen(workspace: Workspace) -> tuple[BlindSpot, ...]:
     from ros_lint.facts.visibility import Facet  # noqa: PLC0415
 
     words = {
@@ -54,4 +54,4 @@ def _unseen(workspace: Workspace) -> tuple[Unseen, ...]:
         word: tuple([package.name or package.path for package in workspace.packages if package.hidden(facet)])
         for facet, word in words.items()
     }
-    return tuple(Unseen(word, packages) for word, packages in blind.items() if packages)
+    return tuple(BlindSpot(word, packages) for word, packages in blind.items() if packages)

@@ -18,7 +18,7 @@ from ros_lint.analysis.finding import Confidence
 from ros_lint.base.diff import line_before, unified_bytes
 from ros_lint.base.paths import join
 from ros_lint.base.text import Span, Text, read
-from ros_lint.cli.session import Opened
+from ros_lint.cli.session import Session
 from ros_lint.engine import edits, registry
 from ros_lint.engine import run as engine
 from ros_lint.engine.check import check
@@ -41,7 +41,7 @@ class Mended(NamedTuple):
     """Issues whose fix was not made, at their place in the files as they are, and why."""
 
 
-def run(opened: Opened, selection: Selection) -> tuple[Report, int]:
+def run(opened: Session, selection: Selection) -> tuple[Report, int]:
     """Show or make the fixes. Returns the report of what is left, and 2 when files could not be written."""
     gc.enable()  # the workspace is loaded again and again, and what is left of the last time has to go
     proof = _Proof(opened, selection)
@@ -68,7 +68,7 @@ def _told(count: int, files: int) -> str:
     return f"fixed {count} finding{'s' * (count != 1)} in {files} file{'s' * (files != 1)}"
 
 
-def mend(opened: Opened, selection: Selection) -> Mended:
+def mend(opened: Session, selection: Selection) -> Mended:
     """Return every fix of the selected rules that can be proven, nothing written."""
     return _mended(_Proof(opened, selection))
 
@@ -143,7 +143,7 @@ class _Round:
             self.withheld[issue.identity] = (self._proof.as_it_is(self.changed, issue), reason)
 
 
-def diff(opened: Opened, changed: Mapping[str, bytes]) -> bytes:
+def diff(opened: Session, changed: Mapping[str, bytes]) -> bytes:
     """Return the changes as one patch."""
     return b"".join(unified_bytes(path, opened.loader.held.get(path), data) for path, data in sorted(changed.items()))
 
@@ -216,7 +216,7 @@ def _idle(had: Counter[str], after: Sequence[Issue], group: Sequence[Issue]) -> 
 class _Proof:
     """Loads and checks a workspace with changes, and says what is wrong with them."""
 
-    def __init__(self, opened: Opened, selection: Selection) -> None:
+    def __init__(self, opened: Session, selection: Selection) -> None:
         self._opened = opened
         self._selection = selection
         self._every = registry.load(opened.settings["plugins"])

@@ -14,14 +14,14 @@ from functools import lru_cache
 from types import ModuleType
 
 from ros_lint.analysis.rule import Rule
-from ros_lint.base.suggestions import did_you_mean, similar
-from ros_lint.errors import RefusalError
+from ros_lint.base.suggestions import did_you_mean, similar_names
+from ros_lint.errors import UserError
 
 GROUP = "ros_lint.rules"
 BUILTIN = "ros_lint_rules"
 
 
-class PluginError(RefusalError):
+class PluginError(UserError):
     """A plugin that cannot be loaded, or that brings a name or code which is taken."""
 
 
@@ -82,4 +82,4 @@ def matching(rules: Sequence[Rule], selector: str) -> tuple[Rule, ...]:
 def no_rule(rules: Sequence[Rule], selector: str) -> str:
     """Return what to say of a selector that means nothing."""
     words = [word for rule in rules for word in (rule.name, rule.code)]
-    return f"unknown rule '{selector}'{did_you_mean(similar(selector, [*words, 'all', 'default']))}"
+    return f"unknown rule '{selector}'{did_you_mean(similar_names(selector, [*words, 'all', 'default']))}"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.workspace.target import NotChecked, Target
+from ros_lint.workspace.target import TargetDistro, UnreadFile
 
 if TYPE_CHECKING:
     from ros_lint.analysis.finding import Finding, Severity
@@ -31,14 +31,14 @@ class Issue(NamedTuple):
 UNSURE = "of lower confidence (shown with --pedantic)"
 
 
-class Hidden(NamedTuple):
+class HiddenCount(NamedTuple):
     """Findings that are not shown. ``reason`` goes on from the count, as :data:`UNSURE` does."""
 
     reason: str
     count: int  # type: ignore[assignment]  # a tuple counts things as well
 
 
-class Unseen(NamedTuple):
+class BlindSpot(NamedTuple):
     """A side of packages that something opaque hides."""
 
     what: str
@@ -69,14 +69,14 @@ class Report(NamedTuple):
     """Those that ran, sorted by code."""
     packages: int
     """How many were checked. 0 means that nothing was."""
-    target: Target
+    target: TargetDistro
     data_date: str
     """Of what is known about the released world, as YYYY-MM-DD."""
     version: str
     """Of ros-lint."""
-    hidden: tuple[Hidden, ...] = ()
-    not_checked: tuple[NotChecked, ...] = ()
-    unseen: tuple[Unseen, ...] = ()
+    hidden: tuple[HiddenCount, ...] = ()
+    not_checked: tuple[UnreadFile, ...] = ()
+    unseen: tuple[BlindSpot, ...] = ()
     crashes: tuple[Crash, ...] = ()
     workspace: str = ""
     """The folder that was checked, relative to the base that paths are relative to; "" is the base."""

@@ -9,11 +9,11 @@ from typing import NamedTuple
 from ros_lint.analysis.finding import Confidence, Severity
 from ros_lint.analysis.rule import Rule
 from ros_lint.engine.registry import matching, no_rule
-from ros_lint.engine.report import UNSURE, Hidden, Issue
-from ros_lint.errors import RefusalError
+from ros_lint.engine.report import UNSURE, HiddenCount, Issue
+from ros_lint.errors import UserError
 
 
-class SelectionError(RefusalError):
+class SelectionError(UserError):
     """A rule that is asked for and does not exist."""
 
 
@@ -69,7 +69,7 @@ def select(
     return Selection(ordered, frozenset(named), levels, pedantic, ignores)
 
 
-def show(issues: Iterable[Issue], selection: Selection) -> tuple[tuple[Issue, ...], tuple[Hidden, ...]]:
+def show(issues: Iterable[Issue], selection: Selection) -> tuple[tuple[Issue, ...], tuple[HiddenCount, ...]]:
     """Return what is shown, with the severities of the settings, and how much is hidden and why."""
     shown: list[Issue] = []
     unsure = ignored = 0
@@ -84,7 +84,7 @@ def show(issues: Iterable[Issue], selection: Selection) -> tuple[tuple[Issue, ..
             shown.append(issue._replace(finding=issue.finding._replace(severity=selection.severities[name])))
         else:
             shown.append(issue)
-    hidden = [Hidden(UNSURE, unsure), Hidden("ignored by per-path-ignores", ignored)]
+    hidden = [HiddenCount(UNSURE, unsure), HiddenCount("ignored by per-path-ignores", ignored)]
     return tuple(shown), tuple(entry for entry in hidden if entry.count)
 
 

@@ -12,7 +12,7 @@ from bisect import bisect_left, bisect_right
 from itertools import accumulate
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.base.suggestions import similar
+from ros_lint.base.suggestions import similar_names
 from ros_lint.facts.suppressions import Name, Suppression, SuppressionUse, Unknown, Unused, lines_of
 
 if TYPE_CHECKING:
@@ -98,5 +98,5 @@ def _first_line(entry: tuple[Suppression, Name]) -> int:
 
 
 def _nearest(word: str, names: Iterable[str]) -> str:
-    close = similar(word.lower(), names)
+    close = similar_names(word.lower(), names)
     return (close[0].upper() if close[0].startswith("ros") and close[0][3:].isdigit() else close[0]) if close else ""

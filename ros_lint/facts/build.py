@@ -6,13 +6,13 @@ from collections.abc import Mapping
 from typing import Final, NamedTuple
 
 from ros_lint.base.text import Span
-from ros_lint.facts.cmake import Call, Target
-from ros_lint.facts.setup_py import EntryPoint, PythonModule, Slot, WrittenText
+from ros_lint.facts.cmake import BuildTarget, Call
+from ros_lint.facts.setup_py import EditableList, EntryPoint, PythonModule, WrittenText
 from ros_lint.facts.sources import Mention
 from ros_lint.facts.visibility import Facet, NewerSyntax, Opaque, Problem
 
 
-class Provided(NamedTuple):
+class InstalledFile(NamedTuple):
     """A file that the package installs."""
 
     path: str
@@ -95,7 +95,7 @@ class ScriptFile(NamedTuple):
     """Whether a script beside it imports it; sought only if it runs something and has no interpreter line."""
 
 
-class LeftBehind(NamedTuple):
+class UninstalledImport(NamedTuple):
     """An import in an installed program of what lies beside it in the sources, and not where it is installed."""
 
     program: str
@@ -131,8 +131,8 @@ class BuildScript(NamedTuple):
     version: str = ""
     version_span: Span | None = None
     mentions: tuple[Mention, ...] = ()
-    targets: tuple[Target, ...] = ()
-    provides: tuple[Provided, ...] = ()
+    targets: tuple[BuildTarget, ...] = ()
+    provides: tuple[InstalledFile, ...] = ()
     components: tuple[Component, ...] = ()
     entry_points: tuple[EntryPoint, ...] = ()
     python_packages: tuple[str, ...] = ()
@@ -153,7 +153,7 @@ class BuildScript(NamedTuple):
     """Modules that its entry points name."""
     plugins: tuple[PluginFile, ...] = ()
     """Its plugin descriptions."""
-    slots: tuple[Slot, ...] = ()
+    slots: tuple[EditableList, ...] = ()
     named: tuple[tuple[str, Span], ...] = ()
     """Resources that it does not install, each with a place where a text of the package names it in its folder."""
     files: tuple[ScriptFile, ...] = ()

@@ -8,7 +8,7 @@ from typing import Literal, NamedTuple
 from ros_lint.base.text import Span
 
 
-class Target(NamedTuple):
+class BuildTarget(NamedTuple):
     """An executable or a library that CMake builds."""
 
     name: str

@@ -140,14 +140,14 @@ class LaunchFile(NamedTuple):
     """What not every version of Python reads in a Python launch file."""
 
 
-def everything(actions: Iterable[LaunchAction]) -> Iterator[LaunchAction]:
+def walk_actions(actions: Iterable[LaunchAction]) -> Iterator[LaunchAction]:
     """Yield actions and all those in them."""
     for action in actions:
         yield action
-        yield from everything(action.children)
+        yield from walk_actions(action.children)
 
 
-def texts_of(action: LaunchAction) -> Iterator[tuple[str, Span]]:
+def values_of_action(action: LaunchAction) -> Iterator[tuple[str, Span]]:
     """Yield every text of an action and its conditions with its place, but for those of the actions in it."""
     for value in values(action):
         yield from ((text, value.span) for text in value.texts)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 
-class Awaited(NamedTuple):
+class ExpectedRepositories(NamedTuple):
     """Repositories that may still come to a workspace, by the names of their folders: mostly those of the packages in them."""
 
     uncloned: frozenset[str] = frozenset()
@@ -14,4 +14,4 @@ class Awaited(NamedTuple):
     """Those that ``*.repos`` and ``*.rosinstall`` have fetched, which whoever builds the workspace may have done or not."""
 
 
-NOTHING_AWAITED = Awaited()
+NOTHING_AWAITED = ExpectedRepositories()

@@ -35,7 +35,7 @@ class PythonModule(NamedTuple):
     """Whether it may have further names."""
 
 
-class Slot(NamedTuple):
+class EditableList(NamedTuple):
     """A list in ``setup.py`` that a fix can add an element to."""
 
     option: str

@@ -28,7 +28,7 @@ class Facet(Sealed, Flag):
     """Component and plugin classes."""
 
 
-ANYTHING = Facet.USES | Facet.EXECUTABLES | Facet.SHARE | Facet.PYTHON | Facet.LIBRARIES | Facet.INTERFACES | Facet.COMPONENTS
+ALL_FACETS = Facet.USES | Facet.EXECUTABLES | Facet.SHARE | Facet.PYTHON | Facet.LIBRARIES | Facet.INTERFACES | Facet.COMPONENTS
 
 
 class Opaque(NamedTuple):

@@ -33,7 +33,7 @@ _CONFIGURATION = re.compile(r"(.+)(?:Config|-config)\.cmake")
 _NO_MODULES = (".egg-info", ".dist-info", ".pth", ".egg-link")
 
 
-class Prefix:
+class InstallPrefix:
     """An install prefix: a folder of a tree. ``single`` tells that all of it belongs to its one package."""
 
     def __init__(self, tree: Tree, root: str, *, single: bool = False) -> None:
@@ -41,9 +41,9 @@ class Prefix:
         self.root = root
         self.single = single
 
-    def alone(self) -> Prefix:
+    def alone(self) -> InstallPrefix:
         """Return the same prefix as that of one package, if it has one."""
-        return Prefix(self._tree, self.root, single=len(self.packages) == 1)
+        return InstallPrefix(self._tree, self.root, single=len(self.packages) == 1)
 
     def read(self, path: str) -> bytes | None:
         """Return a file below the prefix, or None."""
@@ -217,7 +217,7 @@ class Prefix:
                     yield name
 
     def _is_launch(self, package: str, path: str) -> bool:
-        if path.endswith(launch.NAMES):
+        if path.endswith(launch.LAUNCH_FILE_NAMES):
             return True
         content = _LAUNCH_CONTENT.get(os.path.splitext(path)[1])
         if content is None or path == "package.xml":

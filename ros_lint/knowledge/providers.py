@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Literal, NamedTuple, Protocol
 
-from ros_lint.base.auxiliary_files import is_apart
+from ros_lint.base.auxiliary_files import is_auxiliary
 from ros_lint.knowledge.names import NOTHING_NEEDED
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ class Providers(NamedTuple):
         return bool(self.names) or self.none_needed
 
 
-class Meant(NamedTuple):
+class Suggestion(NamedTuple):
     """What somebody who wrote an unknown name must have meant."""
 
     name: str
@@ -92,7 +92,7 @@ class Layers(Protocol):
     def by_folder(self, folder: str) -> Providers:
         """Return the providers of headers below an include folder."""
 
-    def meant(self, name: str, *, python: bool) -> Meant | None:
+    def meant(self, name: str, *, python: bool) -> Suggestion | None:
         """Return the name that an unknown name most likely means."""
 
 
@@ -205,7 +205,7 @@ def _has_no_module(script: BuildScript, files: Iterable[str]) -> bool:
     """Whether a package surely offers no module: no file becomes one, and CMake finds nothing that binds other code."""
     if any(mention.name.lower().startswith(_BINDS) for mention in script.mentions if mention.via == "cmake"):
         return False
-    return not any(file.endswith(_MODULES) and not (is_apart(file) or ".launch." in file) for file in files)
+    return not any(file.endswith(_MODULES) and not (is_auxiliary(file) or ".launch." in file) for file in files)
 
 
 _BINDS = ("python", "pybind11", "nanobind", "swig")
@@ -222,7 +222,7 @@ _DATA = frozenset(
 """Folders of packages that are there for everything but modules."""
 
 
-def meant(world: Layers, name: str, *, python: bool) -> Meant | None:
+def meant(world: Layers, name: str, *, python: bool) -> Suggestion | None:
     """Return what an unknown name must mean, or None when there is any doubt.
 
     ``python`` says whether it is needed to run Python code, where find_package has no say.
@@ -230,24 +230,24 @@ def meant(world: Layers, name: str, *, python: bool) -> Meant | None:
     names = world.knowledge.names
     package = name.replace(".", "/").partition("/")[0]
     if package != name and world.is_package(package):  # a message, or a module: std_msgs/msg/String, rclpy.qos
-        return Meant(package, "spelling")
+        return Suggestion(package, "spelling")
     released = _RELEASED.match(name)
     package = name[released.end() :].replace("-", "_") if released else ""
     if package and world.is_package(package):  # ros-humble-tf2-ros
-        return Meant(package, "system")
+        return Suggestion(package, "system")
     libraries = () if python else tuple(_libraries(names.cmake(name)))
     if libraries:
         return _first(world, libraries, "cmake")  # nobody who builds against it means what pip calls so
     same = _declarable(world, world.spelling.same(name))
     if same:
-        return Meant(same[0], "spelling") if len(same) == 1 else None
+        return Suggestion(same[0], "spelling") if len(same) == 1 else None
     for found in _other_names(world, name, python=python):
         if found is not None:
             return found
     slips = _declarable(world, world.spelling.one_slip(name))
     if python:  # a library of that name is nothing to Python: pyaml is not yaml, but the module of it
         slips = _declarable(world, (slip if world.is_package(slip) else f"python3-{slip}" for slip in _bare(slips)))
-    return Meant(slips[0], "slip") if len(slips) == 1 else None
+    return Suggestion(slips[0], "slip") if len(slips) == 1 else None
 
 
 def _bare(names: Iterable[str]) -> Iterator[str]:
@@ -261,7 +261,7 @@ def near(world: Layers, name: str, *, python: bool) -> tuple[str, ...]:
     return tuple(dict.fromkeys([sure.name, *found] if sure else found))[:3]
 
 
-def _other_names(world: Layers, name: str, *, python: bool) -> Iterator[Meant | None]:
+def _other_names(world: Layers, name: str, *, python: bool) -> Iterator[Suggestion | None]:
     """Yield what the name stands for where it is right: as a CMake package, a module, a package of apt or pip."""
     names, rosdep = world.knowledge.names, world.knowledge.rosdep
     bare = name.removeprefix("python3-").removeprefix("python-").removesuffix("-pip").removesuffix("-python")
@@ -281,14 +281,14 @@ def _libraries(names: Iterable[str]) -> Iterator[str]:
     return (name for name in names if name != NOTHING_NEEDED and not name.endswith("_cmake_module"))
 
 
-def _first(world: Layers, names: Iterable[str], by: Literal["spelling", "cmake", "header", "python"]) -> Meant | None:
+def _first(world: Layers, names: Iterable[str], by: Literal["spelling", "cmake", "header", "python"]) -> Suggestion | None:
     found = _declarable(world, names)
-    return Meant(found[0], by) if found else None
+    return Suggestion(found[0], by) if found else None
 
 
-def _only(world: Layers, keys: Iterable[str]) -> Meant | None:
+def _only(world: Layers, keys: Iterable[str]) -> Suggestion | None:
     found = _declarable(world, keys)
-    return Meant(found[0], "system") if len(found) == 1 else None
+    return Suggestion(found[0], "system") if len(found) == 1 else None
 
 
 def _declarable(world: Layers, names: Iterable[str]) -> tuple[str, ...]:

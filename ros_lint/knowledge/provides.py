@@ -72,7 +72,7 @@ LAUNCH_ENDINGS = ("launch.py", "launch.xml", "launch.yaml", ".launch")
 """Which files the data count as launch files."""
 
 
-class Provided(NamedTuple):
+class ReleasedContents(NamedTuple):
     """What a package installs, as far as its sources tell."""
 
     name: str
@@ -97,7 +97,7 @@ class Provided(NamedTuple):
         )
 
 
-def parse(fields: list[str]) -> Provided:
+def parse(fields: list[str]) -> ReleasedContents:
     """Return what a line says that has been split at its tabs. Raises ValueError when it says nothing."""
     name, origin, *rest = fields
     found: dict[str, tuple[str, ...]] = {}
@@ -108,10 +108,10 @@ def parse(fields: list[str]) -> Provided:
         # A lone Y is the module that is called as the package.
         names = text.split(" ") if colon else [name]
         found[letter] = tuple(_apart(names) if letter == LETTERS["plugins"] else names)
-    return Provided(name, origin, found)
+    return ReleasedContents(name, origin, found)
 
 
-def render(provided: Provided) -> str:
+def render(provided: ReleasedContents) -> str:
     """Return the line of a package, without line end. The inverse of :func:`parse`."""
     fields = [provided.name, provided.origin]
     for letter in LETTERS.values():
@@ -141,13 +141,13 @@ def _together(plugins: Iterable[str]) -> tuple[str, ...]:
     return tuple(f"{base}={','.join(classes)}" for base, classes in found.items())
 
 
-def render_file(distro: str, packages: Iterable[Provided]) -> str:
+def render_file(distro: str, packages: Iterable[ReleasedContents]) -> str:
     """Return a whole ``.prov`` file."""
     lines = sorted(render(package) for package in packages)
     return "\n".join([f"#ros-provides 1 distro={distro} packages={len(lines)}", *lines, ""])
 
 
-class Provides(Entries[Provided]):
+class Provides(Entries[ReleasedContents]):
     """What the packages of one distribution install."""
 
     def __init__(self, table: Table) -> None:

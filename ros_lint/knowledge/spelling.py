@@ -12,7 +12,7 @@ from bisect import bisect_left
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from ros_lint.base.suggestions import similar
+from ros_lint.base.suggestions import similar_names
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -110,7 +110,7 @@ def near_names(name: str, names: Iterable[str], most: int, least: float) -> list
     arm, is neither.
     """
     words = _words(name)
-    found = [other for other in similar(name, names, most, least) if _may_be_meant(words, _words(other))]
+    found = [other for other in similar_names(name, names, most, least) if _may_be_meant(words, _words(other))]
     longer = [other for other in found if words < _words(other)]
     return [other for other in found if other not in longer] if len(longer) > 1 else found
 
@@ -119,8 +119,8 @@ def _may_be_meant(words: frozenset[str], others: frozenset[str]) -> bool:
     lacking, more = words - others, others - words
     if not (lacking and more):
         return True
-    if all(similar(word, lacking) for word in more):
-        return all(similar(word, more) for word in lacking)
+    if all(similar_names(word, lacking) for word in more):
+        return all(similar_names(word, more) for word in lacking)
     return all(any(word.startswith(other) or other.startswith(word) for other in more) for word in lacking)
 
 

@@ -13,7 +13,7 @@ from operator import gt
 from typing import TYPE_CHECKING, Generic, TypeVar
 
 from ros_lint.base import files
-from ros_lint.errors import RefusalError
+from ros_lint.errors import UserError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -25,7 +25,7 @@ _MOST_BYTES = 1 << 28
 SHIPPED = os.path.join(os.path.dirname(os.path.abspath(__file__)), "data")
 
 
-class KnowledgeError(RefusalError):
+class KnowledgeError(UserError):
     """A data file cannot be read, or is none. The message names the file and the way out."""
 
 

@@ -16,7 +16,7 @@ from ros_lint.base.tree import Machine
 from ros_lint.collectors.manifest import collect as manifests
 from ros_lint.knowledge.describe import context, describe
 from ros_lint.knowledge.index import RUNTIME, Released
-from ros_lint.knowledge.install_prefix import Prefix
+from ros_lint.knowledge.install_prefix import InstallPrefix
 from ros_lint.knowledge.provides import NOTHING_KNOWN, Known
 
 if TYPE_CHECKING:
@@ -40,7 +40,7 @@ class UnderlayError(Exception):
 class Installed:
     """A package of an underlay."""
 
-    def __init__(self, name: str, prefix: Prefix, distro: str) -> None:
+    def __init__(self, name: str, prefix: InstallPrefix, distro: str) -> None:
         self.name = name
         self.prefix = prefix
         self._distro = distro
@@ -109,7 +109,7 @@ class Installed:
 class Underlay:
     """A prefix, or the prefixes of all packages of one workspace. ``packages`` is sorted by name."""
 
-    def __init__(self, root: str, prefixes: Sequence[Prefix], distro: str = "") -> None:
+    def __init__(self, root: str, prefixes: Sequence[InstallPrefix], distro: str = "") -> None:
         self.root = root
         self._prefixes = tuple(prefixes)
         found: dict[str, Installed] = {}
@@ -159,13 +159,13 @@ def in_tree(tree: Tree, root: str, distro: str = "") -> Underlay:
     return Underlay(root, tuple(_prefixes(tree, root)), distro)
 
 
-def _prefixes(tree: Tree, root: str) -> Iterator[Prefix]:
+def _prefixes(tree: Tree, root: str) -> Iterator[InstallPrefix]:
     """Yield the prefixes at a place. Raises UnderlayError when there is none."""
     try:
         names = [entry.name for entry in tree.list(root) if entry.kind == "directory"]
     except OSError as error:
         raise UnderlayError(f"underlay {root} cannot be read: {error.strerror}") from error
-    prefix = Prefix(tree, root)
+    prefix = InstallPrefix(tree, root)
     layout = prefix.layout
     if prefix.packages == (os.path.basename(root),):
         yield prefix.alone()
@@ -173,7 +173,7 @@ def _prefixes(tree: Tree, root: str) -> Iterator[Prefix]:
     if prefix.packages or layout == "merged":
         yield prefix
         return
-    inner = [child for child in (Prefix(tree, join(root, name)) for name in names) if child.packages]
+    inner = [child for child in (InstallPrefix(tree, join(root, name)) for name in names) if child.packages]
     if inner and (layout == "isolated" or all(os.path.basename(child.root) in child.packages for child in inner)):
         # colcon makes one prefix per package.
         yield from (child.alone() for child in inner)

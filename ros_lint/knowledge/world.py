@@ -11,11 +11,11 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from ros_lint.collectors.interfaces.naming import GROUP
-from ros_lint.facts.repositories import NOTHING_AWAITED, Awaited
+from ros_lint.facts.repositories import NOTHING_AWAITED, ExpectedRepositories
 from ros_lint.knowledge import providers
 from ros_lint.knowledge.closure import Closure, Reach
 from ros_lint.knowledge.index import RUNTIME
-from ros_lint.knowledge.providers import Layer, Meant, Providers
+from ros_lint.knowledge.providers import Layer, Providers, Suggestion
 from ros_lint.knowledge.provides import NOTHING_KNOWN
 from ros_lint.knowledge.spelling import Spelling
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 _SHARED = re.compile(r"lib(?!.*-dev\b).*[0-9][a-z]?\Z")
 """Names of system packages with shared libraries: they end with a version. Headers are in others."""
 
-Standing = Literal["known", "elsewhere", "end-of-life", "unknown", "unknowable"]
+Resolution = Literal["known", "elsewhere", "end-of-life", "unknown", "unknowable"]
 """What a declared name is: a package or key; a package of other distributions only; one of distributions at their end of
 life only; nothing that anybody knows; or nobody can tell, because there is no index of the distribution."""
 
@@ -60,7 +60,7 @@ class World:
         members: Iterable[Member],
         underlays: Sequence[Underlay],
         knowledge: Knowledge,
-        awaited: Awaited = NOTHING_AWAITED,
+        awaited: ExpectedRepositories = NOTHING_AWAITED,
     ) -> None:
         self.underlays = tuple(underlays)
         self.knowledge = knowledge
@@ -74,7 +74,7 @@ class World:
                 self._installed.setdefault(name, installed)
         self._remembered: dict[tuple[str, str], Providers] = {}
         self._interfaces: dict[tuple[str, bool], frozenset[str]] = {}
-        self._meant: dict[tuple[str, bool], Meant | None] = {}
+        self._meant: dict[tuple[str, bool], Suggestion | None] = {}
         self._near: dict[tuple[str, bool], tuple[str, ...]] = {}
         self._is: dict[str, tuple[bool, bool]] = {}
         self._reach = Reach(self._brings)
@@ -104,7 +104,7 @@ class World:
         key = self.knowledge.rosdep.get(name)
         return key is not None and bool(key.apt) and all(map(_SHARED.match, key.apt))
 
-    def standing(self, name: str) -> Standing:
+    def standing(self, name: str) -> Resolution:
         """Return what a declared name is."""
         if self.is_package(name) or self.is_key(name):
             return "known"
@@ -308,7 +308,7 @@ class World:
         """Return the other distributions that have a package, oldest first."""
         return self.knowledge.elsewhere(name)
 
-    def meant(self, name: str, *, python: bool = False) -> Meant | None:
+    def meant(self, name: str, *, python: bool = False) -> Suggestion | None:
         """Return what an unknown name must mean, or None when there is any doubt: good enough for a fix.
 
         ``python`` says whether it is needed to run Python code.

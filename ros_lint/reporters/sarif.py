@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
 from ros_lint.base.json_text import encode
-from ros_lint.base.text import Span, Text, raw
+from ros_lint.base.text import Span, Text, to_bytes
 from ros_lint.reporters.fingerprint import line_hashes
 from ros_lint.reporters.sarif_rules import LEVELS, TOPICS, capital, descriptor, sentence, topic
 from ros_lint.reporters.summary import and_list, crashed, hidden_findings, some, told
@@ -199,7 +199,7 @@ def _location(span: Span) -> Object:
 
 def _uri(path: str) -> str:
     """Return the reference that a relative path is in a URI."""
-    return quote(raw(path), safe="/!$&'()*+,;=@") or "."
+    return quote(to_bytes(path), safe="/!$&'()*+,;=@") or "."
 
 
 def _region(span: Span) -> Object:

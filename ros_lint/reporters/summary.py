@@ -11,8 +11,8 @@ from ros_lint.reporters.ansi import Style, paint, safe
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from ros_lint.engine.report import Crash, Hidden, Report
-    from ros_lint.workspace.target import NotChecked
+    from ros_lint.engine.report import Crash, HiddenCount, Report
+    from ros_lint.workspace.target import UnreadFile
 
 _LISTED = 10
 """Entries of a list to show; the json format has all."""
@@ -57,12 +57,12 @@ def blind_spots(report: Report) -> Iterator[str]:
         yield f"Not fully analysed: {told_of}. {why}"
 
 
-def hidden_findings(hidden: Hidden) -> str:
+def hidden_findings(hidden: HiddenCount) -> str:
     """Return how many findings are hidden, and why."""
     return f"{count(hidden.count, 'finding')} {hidden.reason}"
 
 
-def told(entry: NotChecked) -> str:
+def told(entry: UnreadFile) -> str:
     """Return what was not checked, where, and why."""
     span = entry.span
     if span is None or span.path == entry.what:

@@ -12,7 +12,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
-from ros_lint.base.text import Text, beginning, read
+from ros_lint.base.text import Text, file_start, read
 from ros_lint.base.tree import DiskTree, RecordedTree, Tree
 from ros_lint.collectors import machine_paths
 from ros_lint.collectors.cmake.syntax import Parsed
@@ -21,7 +21,7 @@ from ros_lint.collectors.suffixes import HEADERS, INTERFACES, SOURCES
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.sources import FileFacts, MachinePath
 from ros_lint.facts.suppressions import MARKER, Suppression
-from ros_lint.facts.visibility import ANYTHING, Facet, Opaque
+from ros_lint.facts.visibility import ALL_FACETS, Facet, Opaque
 from ros_lint.workspace.fact_cache import Cache
 
 FAILED = "ros-lint failed on this file ({}); please report this bug"
@@ -47,7 +47,7 @@ _HIDES: dict[Kind, Facet] = {
     "program": Facet(0),  # mostly no program
     "config": Facet(0),  # only beside setup.py, where its evaluation tells of it
     "cpp": Facet.USES | Facet.COMPONENTS,
-    "cmake": ANYTHING,
+    "cmake": ALL_FACETS,
     "interface": Facet.USES | Facet.INTERFACES,
     "xml": Facet.USES | Facet.COMPONENTS,
 }
@@ -186,5 +186,5 @@ def _read_and_collect(tree: Tree, path: str, kind: Kind) -> Collected:
 
 def _unreadable(path: str, kind: Kind, reason: str) -> Collected:
     hides = _HIDES.get(kind, Facet.USES)
-    facts = FileFacts(opaque=(Opaque(hides, f"the file is not read: {reason}", beginning(path)),)) if hides else None
+    facts = FileFacts(opaque=(Opaque(hides, f"the file is not read: {reason}", file_start(path)),)) if hides else None
     return Collected(facts, unreadable=reason)

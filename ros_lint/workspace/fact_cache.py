@@ -14,7 +14,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from ros_lint import __version__
-from ros_lint.base.text import raw
+from ros_lint.base.text import to_bytes
 from ros_lint.workspace import cache_files as kept_files
 
 if TYPE_CHECKING:
@@ -153,7 +153,7 @@ def _bare(told: Any) -> Any:
 
 def _part(path: str) -> int:
     """Return which part keeps the facts of a file: that of its folder."""
-    return zlib.crc32(raw(path.rpartition("/")[0])) % _PARTS
+    return zlib.crc32(to_bytes(path.rpartition("/")[0])) % _PARTS
 
 
 def _stamp(tree: Tree, path: str) -> tuple[int, ...] | None:
@@ -166,7 +166,7 @@ def _stamp(tree: Tree, path: str) -> tuple[int, ...] | None:
 def _digest(text: str) -> str:
     import hashlib  # noqa: PLC0415
 
-    return hashlib.sha256(raw(text)).hexdigest()[:24]
+    return hashlib.sha256(to_bytes(text)).hexdigest()[:24]
 
 
 def _state(files: Iterable[str]) -> str:

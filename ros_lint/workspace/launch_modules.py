@@ -9,14 +9,14 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.base.paths import join, parent, seen_from, within
+from ros_lint.base.paths import join, parent, resolve, strip_folder
 from ros_lint.base.text import Text, read
 from ros_lint.base.tree import Tree
 from ros_lint.collectors.launch.presence_checks import DISTRIBUTIONS
 from ros_lint.collectors.launch.python.released_helpers import HELPERS
 from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, installed_place
 from ros_lint.facts.build import BuildScript
-from ros_lint.facts.launch import LaunchAction, LaunchFile, LaunchValue, everything
+from ros_lint.facts.launch import LaunchAction, LaunchFile, LaunchValue, walk_actions
 
 if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.values import Module
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 _MOST_BYTES = 1 << 18
 
 
-class Around(NamedTuple):
+class LaunchPackage(NamedTuple):
     """A package with what its launch files may read."""
 
     name: str
@@ -35,7 +35,7 @@ class Around(NamedTuple):
     launch: tuple[LaunchFile, ...]
 
 
-def completed(tree: Tree, packages: Sequence[Around], distro: str) -> list[tuple[LaunchFile, ...]]:
+def resolve_modules(tree: Tree, packages: Sequence[LaunchPackage], distro: str) -> list[tuple[LaunchFile, ...]]:
     """Return the launch files of each package, those followed again that want something which is there and may help.
 
     They refer to what they do in a distribution, if it is maintained.
@@ -55,11 +55,11 @@ def _under(distro: str, file: LaunchFile) -> LaunchFile:
 class _Places:
     """Finds modules and installed files in the sources of the workspace."""
 
-    def __init__(self, tree: Tree, packages: Sequence[Around]) -> None:
+    def __init__(self, tree: Tree, packages: Sequence[LaunchPackage]) -> None:
         self._tree = tree
-        self._by_name: dict[str, list[Around]] = {}
+        self._by_name: dict[str, list[LaunchPackage]] = {}
         self._by_path = {package.path: package for package in packages}
-        self._modules: dict[str, list[Around]] = {}
+        self._modules: dict[str, list[LaunchPackage]] = {}
         self._provides: dict[str, dict[str, str]] = {}
         self._trees: dict[str, Module | None] = {}
         self._on_path: set[str] = set()
@@ -70,7 +70,7 @@ class _Places:
             for top in dict.fromkeys(name.partition(".")[0] for name in script.python_packages) if script else ():
                 self._modules.setdefault(top, []).append(package)
 
-    def completed(self, file: LaunchFile, package: Around) -> LaunchFile:
+    def completed(self, file: LaunchFile, package: LaunchPackage) -> LaunchFile:
         """Return a launch file followed with what it wants, as it is where nothing of that is there."""
         text = self._text(file.path) if _is_open(file) else None
         if text is None or not any(self._module(want, text) or self._file(want, file, package) for want in file.wants):
@@ -130,7 +130,7 @@ class _Places:
             return found
         return _shortest(owners[0], rest) if len(owners) == 1 else ""
 
-    def _sought(self, module: str, importer: Text, package: Around) -> str:
+    def _sought(self, module: str, importer: Text, package: LaunchPackage) -> str:
         return self._existing(join(parent(importer.path), module), package) or _shortest(package, module)
 
     def _elsewhere(self, module: str, importer: Text) -> str:
@@ -139,7 +139,7 @@ class _Places:
         found = [path for one in named if (path := _shortest(one, module))]
         return found[0] if len(found) == 1 else ""
 
-    def _package_of(self, path: str) -> Around | None:
+    def _package_of(self, path: str) -> LaunchPackage | None:
         while path:
             path = parent(path)
             if path in self._by_path:
@@ -147,12 +147,12 @@ class _Places:
         return None
 
     @staticmethod
-    def _existing(module: str, package: Around) -> str:
-        return next((path for path in _sources(module) if within(package.path, path) in package.files), "")
+    def _existing(module: str, package: LaunchPackage) -> str:
+        return next((path for path in _sources(module) if strip_folder(package.path, path) in package.files), "")
 
     # --- files ----------------------------------------------------------------------------------------------------
 
-    def _file(self, path: str, file: LaunchFile, package: Around) -> str:
+    def _file(self, path: str, file: LaunchFile, package: LaunchPackage) -> str:
         """Return the source of an installed file, "" if it is not clear which one that is."""
         if path.startswith(f"{OWN_FOLDER}/"):
             return self._beside(path[len(OWN_FOLDER) + 1 :], file, package)
@@ -162,21 +162,21 @@ class _Places:
         owners = self._by_name.get(place.package, [])
         return self._provided(owners[0]).get(place.path, "") if len(owners) == 1 else ""
 
-    def _beside(self, path: str, file: LaunchFile, package: Around) -> str:
+    def _beside(self, path: str, file: LaunchFile, package: LaunchPackage) -> str:
         """Return the source of a file that is named from the folder of a launch file, where that is installed."""
         provided = self._provided(package)
         own = next((place for place, source in provided.items() if source == file.path), "")
         if own:
-            return provided.get(seen_from(parent(own), path), "")
-        source = seen_from(parent(file.path), path)
-        return source if within(package.path, source) in package.files else ""
+            return provided.get(resolve(parent(own), path), "")
+        source = resolve(parent(file.path), path)
+        return source if strip_folder(package.path, source) in package.files else ""
 
-    def _provided(self, package: Around) -> dict[str, str]:
+    def _provided(self, package: LaunchPackage) -> dict[str, str]:
         """Return the sources of what a package installs, by install path."""
         found = self._provides.get(package.path)
         if found is None:
             provides = package.script.provides if package.script else ()
-            found = {one.path: seen_from(package.path, one.source) for one in provides if one.source}
+            found = {one.path: resolve(package.path, one.source) for one in provides if one.source}
             self._provides[package.path] = found
         return found
 
@@ -187,7 +187,7 @@ def _is_open(file: LaunchFile) -> bool:
         return False
     if file.opaque or not HELPERS.keys().isdisjoint(file.wants):
         return True
-    return any(UNKNOWN in text for action in everything(file.actions) for value in _named_by(action) for text in value.texts)
+    return any(UNKNOWN in text for action in walk_actions(file.actions) for value in _named_by(action) for text in value.texts)
 
 
 def _named_by(action: LaunchAction) -> Iterator[LaunchValue]:
@@ -215,7 +215,7 @@ def _is_quoted(name: str, text: str) -> bool:
     return f"'{name}'" in text or f'"{name}"' in text
 
 
-def _shortest(package: Around, module: str) -> str:
+def _shortest(package: LaunchPackage, module: str) -> str:
     """Return the source of a module in a package: the one that lies least deep."""
     for name in _sources(module):
         found = [file for file in package.files if file == name or file.endswith(f"/{name}")]

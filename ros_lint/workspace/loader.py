@@ -10,8 +10,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from typing import NamedTuple
 
-from ros_lint.base.paths import join, within
-from ros_lint.base.text import Text, beginning
+from ros_lint.base.paths import join, strip_folder
+from ros_lint.base.text import Text, file_start
 from ros_lint.base.tree import OverlayTree, Tree, text_of
 from ros_lint.collectors.file_types import kind_of
 from ros_lint.collectors.manifest import conditions
@@ -31,11 +31,11 @@ from ros_lint.workspace.build_scripts import evaluate as scripts
 from ros_lint.workspace.build_scripts.sources import Parts
 from ros_lint.workspace.collect import Collected, collect_all
 from ros_lint.workspace.discovery import repository_lists as source_lists
-from ros_lint.workspace.discovery.discover import Found, Skipped, discover
-from ros_lint.workspace.discovery.ignore_files import find
+from ros_lint.workspace.discovery.discover import DiscoveredPackage, Skipped, discover
+from ros_lint.workspace.discovery.ignore_files import find_ignores
 from ros_lint.workspace.fact_cache import Cache
 from ros_lint.workspace.model import Declared, Package, Workspace
-from ros_lint.workspace.target import NotChecked, Target
+from ros_lint.workspace.target import TargetDistro, UnreadFile
 from ros_lint.workspace.usage import own_files, public_headers
 from ros_lint.workspace.usage import resolve as evidence
 from ros_lint.workspace.usage import textual_mentions as traces
@@ -51,7 +51,7 @@ _NO_ROLE = Role(0)
 class _Read(NamedTuple):
     """A package with the facts of its files."""
 
-    found: Found
+    found: DiscoveredPackage
     declared: tuple[Declared, ...]
     script: BuildScript | None
     facts: Mapping[str, FileFacts]
@@ -66,7 +66,7 @@ class Loader:
         self,
         tree: Tree,
         roots: Sequence[str],
-        target: Target,
+        target: TargetDistro,
         *,
         underlays: Sequence[Underlay] = (),
         knowledge: Knowledge | None = None,
@@ -113,7 +113,7 @@ class Loader:
         world = World(tuple(self._members(reads, discovery.rejected)), self._underlays, self._knowledge, awaited)
         packages = tuple(self._join(tree, reads, world, sources))
         unusable = tuple(self._unusable(manifest) for manifest in discovery.rejected if not self._exclude(manifest.path))
-        ignores = find(tree, ((found.path, found.files) for found in founds))
+        ignores = find_ignores(tree, ((found.path, found.files) for found in founds))
         unread = (*discovery.not_checked, *source_lists.unreadable(tree, lists), *ignores.not_checked, *_unreadable(collected))
         not_checked = tuple(dict.fromkeys((*unread, *_failed(reads))))
         return Workspace(packages, unusable, world, self.target, not_checked, lists, ignores.patterns)
@@ -139,10 +139,10 @@ class Loader:
         for path in sorted(collected):
             yield from collected[path].suppressions
 
-    def _without_excluded(self, found: Found) -> Found:
+    def _without_excluded(self, found: DiscoveredPackage) -> DiscoveredPackage:
         return found._replace(files=tuple(file for file in found.files if not self._exclude(join(found.path, file))))
 
-    def _collect(self, founds: Sequence[Found], changed: Mapping[str, bytes]) -> Mapping[str, Collected]:
+    def _collect(self, founds: Sequence[DiscoveredPackage], changed: Mapping[str, bytes]) -> Mapping[str, Collected]:
         paths = [join(found.path, file) for found in founds for file in found.files if kind_of(file)]
         if not self._collected:
             self._collected = collect_all(
@@ -157,7 +157,7 @@ class Loader:
         fresh = collect_all(OverlayTree(self.tree, changed), again, 1, Cache("", ""), lambda done: None)
         return {**self._collected, **fresh}
 
-    def _read(self, tree: Tree, founds: Sequence[Found], collected: Mapping[str, Collected]) -> list[_Read]:
+    def _read(self, tree: Tree, founds: Sequence[DiscoveredPackage], collected: Mapping[str, Collected]) -> list[_Read]:
         of_package = [
             {file: collected[path] for file in found.files if (path := join(found.path, file)) in collected} for found in founds
         ]
@@ -171,10 +171,10 @@ class Loader:
             for found, declared, files in zip(founds, declared_by, of_package, strict=True)
         ]
         built = scripts.evaluate(tree, parts, self.target.distro)
-        launch = launch_around.completed(
+        launch = launch_around.resolve_modules(
             tree,
             [
-                launch_around.Around(
+                launch_around.LaunchPackage(
                     found.name,
                     found.path,
                     found.files,
@@ -244,7 +244,7 @@ class Loader:
                 unusable_headers=public_headers.unusable(source.built, done.facts, found.files),
                 machine_paths=done.machine_paths,
                 compiled_along=own.compiled_along(),
-                left_behind=tuple(own_files.left_behind(found.files, source.built, done.facts)),
+                left_behind=tuple(own_files.uninstalled_imports(found.files, source.built, done.facts)),
                 renamed=found.colcon_name if found.colcon_name != found.name else "",
             )
             if package.registrations and done.script and done.script.plugins:
@@ -252,7 +252,7 @@ class Loader:
             if search:
                 package = package._replace(
                     traces=traces.of_package(tree, package, source, world, types),
-                    perhaps_used=traces.of_found(tree, package, source, world, types),
+                    perhaps_used=traces.possibly_used(tree, package, source, world, types),
                 )
             yield package
 
@@ -287,12 +287,12 @@ class Loader:
         )
 
 
-def _without_submodules(founds: Sequence[Found], folders: Sequence[str]) -> list[Found]:
+def _without_submodules(founds: Sequence[DiscoveredPackage], folders: Sequence[str]) -> list[DiscoveredPackage]:
     """Return the packages with submodules that are not cloned among what was not looked into."""
     result = []
     for found in founds:
         inside = [folder for folder in folders if folder.startswith(f"{found.path}/" if found.path else "")]
-        more = tuple(Skipped(within(found.path, folder), "the submodule is not cloned") for folder in inside)
+        more = tuple(Skipped(strip_folder(found.path, folder), "the submodule is not cloned") for folder in inside)
         result.append(found._replace(unseen=(*found.unseen, *more)) if more else found)
     return result
 
@@ -310,22 +310,22 @@ def _kinds(declared: Sequence[Declared]) -> dict[str, tuple[str, ...]]:
     return {kind: tuple(of_kind) for kind, of_kind in names.items()}
 
 
-def _unreadable(collected: Mapping[str, Collected]) -> Iterator[NotChecked]:
+def _unreadable(collected: Mapping[str, Collected]) -> Iterator[UnreadFile]:
     for path, c in sorted(collected.items()):
         if c.unreadable:
-            yield NotChecked(path, c.unreadable, beginning(path))
+            yield UnreadFile(path, c.unreadable, file_start(path))
         for fact in (c.facts, c.launch):
             yield from _unchecked(fact.opaque if fact is not None else ())
 
 
-def _failed(reads: Sequence[_Read]) -> Iterator[NotChecked]:
+def _failed(reads: Sequence[_Read]) -> Iterator[UnreadFile]:
     for done in reads:
         if done.script is not None and done.script.failed:
-            yield from (NotChecked(opaque.span.path, opaque.reason, opaque.span) for opaque in done.script.opaque)
+            yield from (UnreadFile(opaque.span.path, opaque.reason, opaque.span) for opaque in done.script.opaque)
         elif done.script is not None:
             yield from _unchecked(done.script.opaque)
 
 
-def _unchecked(opaque: Iterable[Opaque]) -> Iterator[NotChecked]:
+def _unchecked(opaque: Iterable[Opaque]) -> Iterator[UnreadFile]:
     """Yield the places that exceed a bound."""
-    yield from (NotChecked(one.span.path, one.reason, one.span) for one in opaque if one.unchecked)
+    yield from (UnreadFile(one.span.path, one.reason, one.span) for one in opaque if one.unchecked)

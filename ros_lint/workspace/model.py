@@ -8,17 +8,17 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros_lint.base import gitignore as ignored
-from ros_lint.base.paths import join, within
-from ros_lint.base.text import Span, beginning
+from ros_lint.base.paths import join, strip_folder
+from ros_lint.base.text import Span, file_start
 from ros_lint.collectors.manifest import conditions
-from ros_lint.facts.build import NOTHING_BUILT, BuildScript, LeftBehind
+from ros_lint.facts.build import NOTHING_BUILT, BuildScript, UninstalledImport
 from ros_lint.facts.cmake import Call
 from ros_lint.facts.interfaces import InterfaceFile
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.manifest import ColconDepend, Depend, Manifest, Role
 from ros_lint.facts.sources import ImportedType, LookUp, MachinePath, ParameterFile, PluginLoader, Registration, Use
 from ros_lint.facts.visibility import Facet, Opaque
-from ros_lint.workspace.target import NotChecked, Target
+from ros_lint.workspace.target import TargetDistro, UnreadFile
 
 if TYPE_CHECKING:
     from ros_lint.knowledge.provides import Offer
@@ -90,7 +90,7 @@ class Package(NamedTuple):
     """For each source that every build compiles, tests left out: the headers of the package that it certainly includes."""
     loaders: tuple[PluginLoader, ...] = ()
     """What its C++ sources load plugins by."""
-    left_behind: tuple[LeftBehind, ...] = ()
+    left_behind: tuple[UninstalledImport, ...] = ()
     """What its programs in Python import and that is not installed beside them."""
     imported_types: tuple[ImportedType, ...] = ()
     """Messages, services and actions that its Python files import by name."""
@@ -111,9 +111,9 @@ class Package(NamedTuple):
         if self.manifest is not None:
             return self.manifest.name_span
         if self.script is not None:
-            return beginning(self.script.path)
+            return file_start(self.script.path)
         first = next((file for file in self.files if file in ("CMakeLists.txt", "setup.py", "setup.cfg")), self.files[0])
-        return beginning(join(self.path, first))
+        return file_start(join(self.path, first))
 
     @property
     def built(self) -> BuildScript:
@@ -155,8 +155,8 @@ class Workspace:
         packages: tuple[Package, ...],
         unusable: tuple[Package, ...],
         world: World,
-        target: Target,
-        not_checked: tuple[NotChecked, ...],
+        target: TargetDistro,
+        not_checked: tuple[UnreadFile, ...],
         source_lists: tuple[str, ...] = (),
         ignores: tuple[ignored.Pattern, ...] = (),
     ) -> None:
@@ -230,7 +230,7 @@ def called(package: Package, *names: str, anywhere: bool = False) -> Iterator[Ca
 
 def relative(package: Package, path: str) -> str:
     """Return a path relative to the package."""
-    return within(package.path, path)
+    return strip_folder(package.path, path)
 
 
 def from_base(package: Package, path: str) -> str:
@@ -240,4 +240,4 @@ def from_base(package: Package, path: str) -> str:
 
 def place_of(package: Package, path: str) -> Span:
     """Return where to point when a file of the package as a whole is meant."""
-    return beginning(from_base(package, path))
+    return file_start(from_base(package, path))

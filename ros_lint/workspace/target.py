@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.base.text import beginning
+from ros_lint.base.text import file_start
 from ros_lint.facts.environment import ROS_2
 
 if TYPE_CHECKING:
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from ros_lint.base.text import Span
 
 
-class Target(NamedTuple):
+class TargetDistro(NamedTuple):
     """The ROS distribution that the workspace is checked for."""
 
     distro: str
@@ -28,7 +28,7 @@ class Target(NamedTuple):
         return {**ROS_2, "ROS_DISTRO": self.distro, "DISABLE_GROUPS_WORKAROUND": "1"}
 
 
-class NotChecked(NamedTuple):
+class UnreadFile(NamedTuple):
     """Something that the run could not look at: a file, or a whole class of questions."""
 
     what: str
@@ -36,6 +36,6 @@ class NotChecked(NamedTuple):
     span: Span | None
 
     @classmethod
-    def of(cls, path: str, error: OSError) -> NotChecked:
+    def of(cls, path: str, error: OSError) -> UnreadFile:
         """Return a file or folder that cannot be read. ``path`` is relative to the base, "" is the base."""
-        return cls(path or ".", error.strerror or str(error), beginning(path))
+        return cls(path or ".", error.strerror or str(error), file_start(path))

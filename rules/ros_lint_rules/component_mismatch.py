@@ -57,18 +57,18 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
-    astray,
     called,
     cmake_edits,
     did_you_mean,
     evaluated_name,
-    found_names,
-    is_apart,
-    library_of,
-    listed_to_install,
+    first_related,
+    install_arguments,
+    is_auxiliary,
+    libraries_in_libexec,
+    library_registering,
+    names_searched,
     relative,
-    several,
-    similar,
+    similar_names,
 )
 
 
@@ -79,7 +79,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     calls = called(package, "rclcpp_components_register_nodes")
     yield from (_confused(call, strays) for call in calls if (strays := _strays(call)))
     macros = [macro for macro in package.registrations if macro.kind == "component"]
-    macros = [macro for macro in macros if not is_apart(relative(package, macro.span.path))]
+    macros = [macro for macro in macros if not is_auxiliary(relative(package, macro.span.path))]
     names = {macro.name for macro in macros}
     registered = {component.name.removeprefix("::") for component in script.components}
     unregistered = [macro for macro in macros if macro.name not in registered]
@@ -87,7 +87,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if not macros and not _forgets_macro(package):
         lacking = []  # a macro of another package may expand to RCLCPP_COMPONENTS_REGISTER_NODE
     # One component without a macro and one compiled macro without a component belong together, whatever their names.
-    only = unregistered if len(lacking) == len(unregistered) == 1 and library_of(package, unregistered[0]) else []
+    only = unregistered if len(lacking) == len(unregistered) == 1 and library_registering(package, unregistered[0]) else []
     for component in lacking:
         alike = only or _alike(component, unregistered)
         unregistered = [macro for macro in unregistered if macro not in alike]
@@ -140,7 +140,7 @@ def _lost(script: BuildScript) -> Iterator[Finding]:
         "index; register it in the top CMakeLists.txt",
         first.span,
         first.name,
-        several(Related("also registered in a function or subfolder", other.span) for other in others),
+        first_related(Related("also registered in a function or subfolder", other.span) for other in others),
         confidence=Confidence.MEDIUM if first.conditional else Confidence.HIGH,
     )
 
@@ -152,7 +152,7 @@ def _alike(component: Component, macros: list[Registration]) -> list[Registratio
     if alike:
         return alike
     plain = {_plain(macro.name.rpartition("::")[2]): macro for macro in macros}
-    near = similar(_plain(last), plain, 1, 0.8)
+    near = similar_names(_plain(last), plain, 1, 0.8)
     return [plain[near[0]]] if near else []
 
 
@@ -164,7 +164,7 @@ def _without_macro(component: Component, alike: list[Registration]) -> Finding:
     hint = did_you_mean([alike[0].name]) if alike else f"; add RCLCPP_COMPONENTS_REGISTER_NODE({component.name})"
     place = component.span.inner(component.name) if len(alike) == 1 else None
     fix = Fix(f"write '{alike[0].name}'", (Edit(place, alike[0].name),)) if place else None
-    related = several(Related("the source registers this class", macro.span) for macro in alike)
+    related = first_related(Related("the source registers this class", macro.span) for macro in alike)
     subject = alike[0].name if alike else component.name
     return Finding(f"no source registers the component '{component.name}'{hint}", component.span, subject, related, fix)
 
@@ -172,9 +172,9 @@ def _without_macro(component: Component, alike: list[Registration]) -> Finding:
 def _unregistered(package: Package, macro: Registration, *, loaded: bool) -> Finding:
     script = package.script
     assert script is not None
-    library = library_of(package, macro)
+    library = library_registering(package, macro)
     command = f'rclcpp_components_register_nodes({library or "..."} "{macro.name}")'
-    usable = library and "rclcpp_components" in found_names(package, script)
+    usable = library and "rclcpp_components" in names_searched(package, script)
     fix = Fix.of(f"register '{macro.name}'", cmake_edits.at_end(script, command), safe=False) if usable else None
     return Finding(
         f"CMake does not register the component '{macro.name}'; add {command}",
@@ -191,8 +191,8 @@ def _libraries(package: Package) -> Iterator[Finding]:
     script = package.script
     assert script is not None
     files = {provided.path.rpartition("/")[2] for provided in script.provides}
-    listed = listed_to_install(package).union(provided.target for provided in script.provides)
-    elsewhere = astray(package, (".so",))
+    listed = install_arguments(package).union(provided.target for provided in script.provides)
+    elsewhere = libraries_in_libexec(package, (".so",))
     targets = {target.name: target for target in reversed(script.targets)}
     reported: set[str] = set()
     for call in called(package, *REGISTERING):

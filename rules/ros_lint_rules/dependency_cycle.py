@@ -32,17 +32,17 @@ from collections.abc import Iterator
 
 from ros_lint.api import (
     Confidence,
+    Cycle,
     Edge,
     Finding,
     Graph,
-    Knot,
     Reason,
     Related,
     Rule,
     Severity,
     Workspace,
+    cycles,
     dependency_graph,
-    knots,
 )
 
 _MOST_NAMES = 10
@@ -50,7 +50,7 @@ _MOST_NAMES = 10
 
 def check(workspace: Workspace) -> Iterator[Finding]:
     graph = dependency_graph(workspace)
-    for knot in knots(graph):
+    for knot in cycles(graph):
         edges = tuple(zip(knot.cycle, (*knot.cycle[1:], knot.cycle[0]), strict=True))
         anchor = next(edge for edge in edges if edge in knot.cut)
         here, *rest = graph.reasons(anchor)
@@ -70,21 +70,21 @@ def check(workspace: Workspace) -> Iterator[Finding]:
         )
 
 
-def _others(knot: Knot) -> str:
+def _others(knot: Cycle) -> str:
     if len(knot.names) == len(knot.cycle):
         return ""
     more = ", ..." if len(knot.names) > _MOST_NAMES else ""
     return f" ({len(knot.names)} packages depend on each other: {', '.join(knot.names[:_MOST_NAMES])}{more})"
 
 
-def _removal(knot: Knot, anchor: Edge, reason: Reason) -> str:
+def _removal(knot: Cycle, anchor: Edge, reason: Reason) -> str:
     more = len(knot.cut) - 1
     also = f" and {more} more dependenc{'ies' if more > 1 else 'y'} are" if more else " is"
     on = f"on '{anchor[1]}'" if reason.tag != "group_depend" else f"with its member '{anchor[1]}'"
     return f"this {_named(reason)} {on}{also}"
 
 
-def _reasons(graph: Graph, edge: Edge, knot: Knot) -> Iterator[Related]:
+def _reasons(graph: Graph, edge: Edge, knot: Cycle) -> Iterator[Related]:
     hint = "; remove this, too" if edge in knot.cut else ""
     for reason in graph.reasons(edge):
         yield Related(f"'{edge[0]}' depends on '{edge[1]}' by {_named(reason)}{hint}", reason.span)

@@ -49,7 +49,7 @@ from ros_lint.api import (
     Workspace,
     called,
     cmake_edits,
-    several,
+    first_related,
 )
 
 _ALWAYS = {
@@ -79,7 +79,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 fix = Fix.of(cmake_edits.LINKED, *cmake_edits.link_to_targets(calls, workspace), safe=False)
             elif name == "ament_export_interfaces":
                 fix = Fix("call ament_export_targets()", tuple(Edit(call.place, "ament_export_targets") for call in calls))
-            related = several(Related("also called here", call.place) for call in others)
+            related = first_related(Related("also called here", call.place) for call in others)
             yield Finding(f"{name}() is deprecated; {instead}", first.place, name, related, fix)
     dashed = [problem for problem in script.problems if problem.kind == "dashed-key"]
     if dashed:
@@ -93,7 +93,7 @@ def _dashed(keys: Sequence[Problem]) -> Finding:
     fix = Fix(f"write {better}", tuple(Edit(key.span, key.subject.replace("-", "_")) for key in keys))
     dashed = " and ".join(f"'{key}'" for key in dict.fromkeys(key.subject for key in keys))
     what = f"the keys {dashed} are" if others else f"the key {dashed} is"
-    related = several(Related("also deprecated", key.span) for key in others)
+    related = first_related(Related("also deprecated", key.span) for key in others)
     return Finding(f"{what} deprecated; write {better}", first.span, first.subject, related, fix)
 
 

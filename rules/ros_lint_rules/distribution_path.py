@@ -45,10 +45,10 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
-    is_apart,
-    is_launched,
+    first_related,
+    is_auxiliary,
+    is_launch_file,
     relative,
-    several,
     used_files,
 )
 
@@ -65,7 +65,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     by_path: dict[str, list[MachinePath]] = {}
     for machine in package.machine_paths:
         file = relative(package, machine.span.path)
-        if machine.distribution and not (is_apart(file) or file.endswith(_BUILDING) or _is_of_ros_1(machine, package)):
+        if machine.distribution and not (is_auxiliary(file) or file.endswith(_BUILDING) or _is_of_ros_1(machine, package)):
             by_path.setdefault(machine.path, []).append(machine)
     if not by_path:
         return
@@ -81,7 +81,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"'{path}' {where}; {_remedy(leads, first, package)}",
             first.span,
             path,
-            several(Related("also named here", place.span) for place in others),
+            first_related(Related("also named here", place.span) for place in others),
             confidence=Confidence.HIGH if sure else Confidence.MEDIUM,
         )
 
@@ -92,7 +92,7 @@ def _remedy(leads: re.Match[str], machine: MachinePath, package: Package) -> str
     if leads["program"]:
         return f"start it with ros2 run {leads['owner']} {leads['program']}, or as a node"
     name, rest, file = leads["package"], leads["file"], machine.span.path
-    if is_launched(package, machine.span.path) and not file.endswith(".py"):
+    if is_launch_file(package, machine.span.path) and not file.endswith(".py"):
         return f"write $(find-pkg-share {name})/{rest}"
     if file.endswith(".xacro"):
         return f"write $(find {name})/{rest}"
@@ -106,7 +106,7 @@ def _remedy(leads: re.Match[str], machine: MachinePath, package: Package) -> str
 
 
 def _is_of_ros_1(machine: MachinePath, package: Package) -> bool:
-    return machine.span.path.endswith(".launch") and not is_launched(package, machine.span.path)
+    return machine.span.path.endswith(".launch") and not is_launch_file(package, machine.span.path)
 
 
 RULE = Rule(

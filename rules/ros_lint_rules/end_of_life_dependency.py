@@ -39,11 +39,11 @@ from ros_lint.api import (
     Role,
     Rule,
     Severity,
-    Stranger,
+    UnresolvedDependency,
     Workspace,
     declared_names,
-    is_seen_whole,
-    strangers,
+    is_fully_visible,
+    unresolved,
 )
 
 
@@ -54,30 +54,30 @@ def check(workspace: Workspace) -> Iterator[Finding]:
             continue
         known_successor = world.successor(name)
         last = world.knowledge.names.end_of_life(name)[0]
-        for unresolved in strangers(name, packages):
-            successor = known_successor or _imported(unresolved, workspace)
-            unused = not unresolved.called_so and _is_unused(unresolved.package, name, successor)
-            remedy = _remedy(unresolved.package, successor, unused=unused)
+        for unresolved_dependency in unresolved(name, packages):
+            successor = known_successor or _imported(unresolved_dependency, workspace)
+            unused = not unresolved_dependency.called_so and _is_unused(unresolved_dependency.package, name, successor)
+            remedy = _remedy(unresolved_dependency.package, successor, unused=unused)
             yield Finding(
                 f"'{name}' was last released for {last} (as of {world.knowledge.date}); {remedy}",
-                unresolved.declared.depend.name_span,
+                unresolved_dependency.declared.depend.name_span,
                 name,
                 confidence=Confidence.HIGH if successor else Confidence.MEDIUM,
-                package=unresolved.package.name,
+                package=unresolved_dependency.package.name,
             )
 
 
-def _imported(unresolved: Stranger, workspace: Workspace) -> str:
+def _imported(unresolved_dependency: UnresolvedDependency, workspace: Workspace) -> str:
     """Return the rosdep key of a Python module with the declared name that the package imports, or ""."""
-    uses = [use for use in unresolved.called_so if use.package != unresolved.name]
-    if not unresolved.runs_python or not uses or any(use.via != "import" for use in uses):
+    uses = [use for use in unresolved_dependency.called_so if use.package != unresolved_dependency.name]
+    if not unresolved_dependency.runs_python or not uses or any(use.via != "import" for use in uses):
         return ""
     return uses[0].package if workspace.world.is_key(uses[0].package) else ""
 
 
 def _is_unused(package: Package, name: str, successor: str) -> bool:
     """Return whether a package that can be fully analysed uses neither a build dependency nor its successor."""
-    if not package.declares(name) & Role.BUILD or not is_seen_whole(package) or name in package.traces:
+    if not package.declares(name) & Role.BUILD or not is_fully_visible(package) or name in package.traces:
         return False
     return not any(successor in use.providers for use in package.uses)
 

@@ -46,12 +46,12 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
-    few,
+    first_related,
     nodes_started,
     place_of,
     relative,
     setup_edits,
-    several,
+    shorten_list,
 )
 
 
@@ -81,11 +81,11 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     edits = setup_edits.programs_to(script, package.name) if exists else (setup_edits.config(config, package.name),)
     names = [entry.name for entry in nodes]
     yield Finding(
-        f"{few(names)} {'are' if len(names) > 1 else 'is'} installed to bin/, where ros2 run does not look; "
+        f"{shorten_list(names)} {'are' if len(names) > 1 else 'is'} installed to bin/, where ros2 run does not look; "
         f"{'write' if exists else 'add a setup.cfg with'} install_scripts=$base/lib/{package.name}",
         config if exists else nodes[0].span,
         "setup.cfg",
-        several(Related("this entry point", entry.span) for entry in nodes[0 if exists else 1 :]),
+        first_related(Related("this entry point", entry.span) for entry in nodes[0 if exists else 1 :]),
         Fix.of(f"{'complete' if exists else 'add'} setup.cfg", *edits),
         Confidence.HIGH if sure else Confidence.MEDIUM,
     )
@@ -99,11 +99,11 @@ def _without_symlinks_only(package: Package, inside: Container[str]) -> Iterator
     if entries and "install.install_scripts" in folders and "develop.script_dir" not in folders:
         names = [entry.name for entry in entries]
         yield Finding(
-            f"colcon build --symlink-install puts {few(names)} into bin/, where ros2 run does not look; "
+            f"colcon build --symlink-install puts {shorten_list(names)} into bin/, where ros2 run does not look; "
             f"write script_dir=$base/lib/{package.name} under [develop], too",
             folders["install.install_scripts"],
             "setup.cfg",
-            several(Related("this entry point", entry.span) for entry in entries),
+            first_related(Related("this entry point", entry.span) for entry in entries),
             Fix.of("complete setup.cfg", *setup_edits.programs_to(script, package.name)),
             severity=Severity.WARNING,
         )

@@ -26,14 +26,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Finding, Package, Provided, Related, Rule, Severity, Span, Workspace, few, several
+from ros_lint.api import Finding, InstalledFile, Package, Related, Rule, Severity, Span, Workspace, first_related, shorten_list
 
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with not in ("ament_cmake", "ament_python"):
         return
-    by_path: dict[str, dict[str, Provided]] = {}
+    by_path: dict[str, dict[str, InstalledFile]] = {}
     for provided in script.provides:
         if provided.source and not (provided.conditional or provided.path.endswith("__init__.py")):
             by_path.setdefault(provided.path, {}).setdefault(provided.source, provided)
@@ -44,19 +44,19 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     yield from (_finding(paths, by_path[paths[0]]) for paths in by_place.values())
 
 
-def _finding(paths: list[str], sources: dict[str, Provided]) -> Finding:
+def _finding(paths: list[str], sources: dict[str, InstalledFile]) -> Finding:
     """Return the finding for the ``sources`` that are installed to the first path; the other paths have the same problem."""
     path, *more = paths
     *earlier, last = sources.values()
     both = " and ".join(f"'{source}'" for source in sources)
-    which = f"{both} are both" if len(sources) == 2 else f"{few(sources)} are all"
+    which = f"{both} are both" if len(sources) == 2 else f"{shorten_list(sources)} are all"
     places = {file.span: f"'{file.source}' is installed here" for file in reversed(earlier) if file.span != last.span}
-    also = f"; the same happens to {few(more)}" if more else ""
+    also = f"; the same happens to {shorten_list(more)}" if more else ""
     return Finding(
         f"{which} installed as {path}, so only the last one remains{also}",
         last.span,
         path,
-        several(Related(message, span) for span, message in sorted(places.items())),
+        first_related(Related(message, span) for span, message in sorted(places.items())),
     )
 
 

@@ -71,33 +71,33 @@ from typing import NamedTuple
 
 from ros_lint.api import (
     STANDARD_LIBRARY,
-    Broken,
     Confidence,
-    Families,
+    FailingExpression,
     Finding,
-    Include,
+    IncludeResolver,
+    IncludeTree,
     LaunchAction,
     LaunchFile,
-    Left,
-    Links,
+    PlacedInclude,
     Related,
     Rule,
+    ScopeLeaks,
     Severity,
     Span,
     Workspace,
-    asked_at,
-    broken_expressions,
     configurations,
     did_you_mean,
-    everything,
+    failing_expressions,
+    first_related,
     include_resolver,
     includes,
     is_plain,
-    launchable,
-    needed,
-    several,
-    similar,
-    texts_of,
+    package_launch_files,
+    read_sites,
+    required_configurations,
+    similar_names,
+    values_of_action,
+    walk_actions,
 )
 
 _MOST_MISSING = 2
@@ -112,14 +112,14 @@ _DIGITS = re.compile(r"\d+")
 def check(workspace: Workspace) -> Iterator[Finding]:
     links = include_resolver(workspace)
     files = [file for package in workspace.packages for file in package.launch]
-    families, left = Families(files, links), Left(files, links)
+    families, left = IncludeTree(files, links), ScopeLeaks(files, links)
     filled = frozenset(name for package in workspace.packages for file in package.parameter_files for name in file.asks)
     whole = not workspace.unread()
     for package in workspace.packages:
         required: dict[str, set[str]] = {}
         for file in package.launch:
             required.setdefault(_folder(file), set()).update(links.takes(file).required)
-        for launch in launchable(package):
+        for launch in package_launch_files(package):
             siblings = required[_folder(launch.file)]
             for finding in _of_file(launch.file, links, families, left, filled, siblings, whole=whole):
                 yield finding._replace(package=package.name)
@@ -131,9 +131,9 @@ def _folder(file: LaunchFile) -> str:
 
 def _of_file(
     file: LaunchFile,
-    links: Links,
-    families: Families,
-    left: Left,
+    links: IncludeResolver,
+    families: IncludeTree,
+    left: ScopeLeaks,
     filled: frozenset[str],
     siblings: Collection[str],
     *,
@@ -145,20 +145,20 @@ def _of_file(
     """
     for include in includes(file):
         yield from _of_include(include, file, links, families, left, filled)
-    for action in everything(file.actions):
+    for action in walk_actions(file.actions):
         if action.kind == "argument":
             yield from _of_choices(action)
     names, takes, above = families.names(file), links.takes(file), families.above(file)
     passed = {name for configuration in above for name in configuration.made}
     if whole:
         yield from _too_early(file, links, passed.union(*(configuration.declared for configuration in above)))
-    yield from (_failing(broken, sure=whole and broken.argument not in passed) for broken in broken_expressions(file))
+    yield from (_failing(broken, sure=whole and broken.argument not in passed) for broken in failing_expressions(file))
     if not (whole and names.whole and takes.complete):
         return
     known = {*names.declared, *names.made}.union(*([*configuration.declared, *configuration.made] for configuration in above))
     inside = _known_inside(file, links)
     unknown = names.asked - known - inside
-    missing = needed(file, unknown) if unknown else {}
+    missing = required_configurations(file, unknown) if unknown else {}
     for name, span in missing.items() if len(missing) <= _MOST_MISSING else ():
         yield _undeclared(name, span, sorted(names.declared), sure=not above)
     unused = names.declared.keys() - names.asked.union(inside, *(configuration.asked for configuration in above))
@@ -189,14 +189,14 @@ def _of_file(
 
 def _slips(file: LaunchFile, names: frozenset[str], declared: Mapping[str, Span]) -> Iterator[tuple[str, tuple[str, Span]]]:
     """Yield the names that are read with a default, each with the declared argument of a similar name and its place."""
-    for (name, has_default), span in asked_at(file, names).items() if names else ():
+    for (name, has_default), span in read_sites(file, names).items() if names else ():
         digits = _DIGITS.findall(name)
-        near = similar(name, [argument for argument in declared if _DIGITS.findall(argument) == digits], 1, 0.85)
+        near = similar_names(name, [argument for argument in declared if _DIGITS.findall(argument) == digits], 1, 0.85)
         if has_default and near:
             yield name, (near[0], span)
 
 
-def _too_early(file: LaunchFile, links: Links, above: Collection[str]) -> Iterator[Finding]:
+def _too_early(file: LaunchFile, links: IncludeResolver, above: Collection[str]) -> Iterator[Finding]:
     """Yield the arguments that are read before they are declared, because a launch file is processed in order.
 
     ``above``: names that files which include this one declare or set.
@@ -216,7 +216,7 @@ def _too_early(file: LaunchFile, links: Links, above: Collection[str]) -> Iterat
             "declare it earlier",
             first,
             name,
-            several(
+            first_related(
                 [
                     Related("declared here", declared[name][1]),
                     *(Related("also read here", span) for span, _ in others),
@@ -241,7 +241,9 @@ class _Early(NamedTuple):
 _OUTCOMES = {None: "the launch file stops", False: "the condition is never true", True: "the condition is always true"}
 
 
-def _asked_early(file: LaunchFile, links: Links, declared: Mapping[str, int], above: Collection[str]) -> Iterator[_Early]:
+def _asked_early(
+    file: LaunchFile, links: IncludeResolver, declared: Mapping[str, int], above: Collection[str]
+) -> Iterator[_Early]:
     """Yield the configurations that are read before their declaration; ``declared``: the index of the declaring action."""
     known = set(above)
     part = bool(links.takes(file).required)
@@ -254,7 +256,7 @@ def _asked_early(file: LaunchFile, links: Links, declared: Mapping[str, int], ab
                 if name in late and not has_default:
                     late.remove(name)
                     yield _Early(name, span, not part and not conditional, holds)
-        for inner in everything((action,)):
+        for inner in walk_actions((action,)):
             if inner.kind == "include" and (target := links.target(inner.target, file)) is not None:
                 known |= links.takes(target.file).known
             elif inner.kind == "include":
@@ -271,7 +273,7 @@ def _questions(action: LaunchAction) -> Iterator[tuple[str, Span, bool, bool | N
     """
     asking = {text for condition in action.conditions if condition.equals is None for text in condition.texts}
     comparing = [condition for condition in action.conditions if condition.equals is not None]
-    for text, span in texts_of(action):
+    for text, span in values_of_action(action):
         if text in asking or not any(text in condition.texts for condition in comparing):
             yield text, span, bool(action.conditions) and text not in asking, None
     for condition in comparing:
@@ -281,7 +283,7 @@ def _questions(action: LaunchAction) -> Iterator[tuple[str, Span, bool, bool | N
 
 def _empty(file: LaunchFile) -> Iterator[str]:
     """Yield the arguments with an empty default."""
-    for action in everything(file.actions):
+    for action in walk_actions(file.actions):
         if action.kind == "argument" and action.target is not None and action.value is not None and action.value.texts == ("",):
             yield from action.target.texts
 
@@ -292,13 +294,13 @@ def _is_of_launch(module: str) -> bool:
     return top in _QUIET or top in STANDARD_LIBRARY
 
 
-def _known_inside(file: LaunchFile, links: Links) -> frozenset[str]:
+def _known_inside(file: LaunchFile, links: IncludeResolver) -> frozenset[str]:
     """Return the names that the included files declare, set or read."""
     return frozenset().union(*(links.takes(inner).known for inner in links.includes(file)))
 
 
 def _undeclared(name: str, span: Span, declared: list[str], *, sure: bool) -> Finding:
-    near = similar(name, declared, 1, 0.85)
+    near = similar_names(name, declared, 1, 0.85)
     return Finding(
         f"launch configuration '{name}' is read, but nothing declares or sets it{did_you_mean(near)}",
         span,
@@ -323,7 +325,7 @@ def _of_choices(action: LaunchAction) -> Iterator[Finding]:
         )
 
 
-def _failing(broken: Broken, *, sure: bool) -> Finding:
+def _failing(broken: FailingExpression, *, sure: bool) -> Finding:
     reason = "not a valid Python expression"
     if broken.name:
         remedy = f"write {broken.name.capitalize()}" if broken.name in ("true", "false") else "put it in quotes"
@@ -338,11 +340,11 @@ def _failing(broken: Broken, *, sure: bool) -> Finding:
 
 
 def _of_include(
-    include: Include,
+    include: PlacedInclude,
     source: LaunchFile,
-    links: Links,
-    families: Families,
-    left: Left,
+    links: IncludeResolver,
+    families: IncludeTree,
+    left: ScopeLeaks,
     filled: frozenset[str],
 ) -> Iterator[Finding]:
     action = include.action
@@ -378,7 +380,7 @@ def _useless(file: str, name: str, place: Span, not_passed: frozenset[str], *, s
 
     ``alone``: no file includes the passing file and later contains something that may read the argument.
     """
-    near = similar(name, not_passed, 1, 0.85)
+    near = similar_names(name, not_passed, 1, 0.85)
     return Finding(
         f"'{file}' does not use the argument '{name}', so it has no effect{did_you_mean(near) or '; remove it'}",
         place,

@@ -30,20 +30,20 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from ros_lint.api import (
-    LAUNCH_NAMES,
+    LAUNCH_FILE_NAMES,
     Confidence,
     Finding,
+    InstalledFile,
     Package,
-    Provided,
     Related,
     Rule,
     Severity,
     Workspace,
-    beginning,
+    cached_by_workspace,
+    file_start,
     from_base,
     include_resolver,
-    launchable,
-    per_workspace,
+    package_launch_files,
 )
 
 
@@ -58,12 +58,12 @@ def check(workspace: Workspace) -> Iterator[Finding]:
             yield Finding(
                 f"'{package.name}' installs '{name}' more than once ({paths}), so ros2 launch {package.name} {name} fails; "
                 "rename one file, or install it only once",
-                beginning(sources[0]),
+                file_start(sources[0]),
                 name,
                 tuple(
                     Related("this installs it again", place.span)
                     if source == sources[0]
-                    else Related("the other file", beginning(source))
+                    else Related("the other file", file_start(source))
                     for place, source in zip(places[1:], sources[1:], strict=True)
                 ),
                 confidence=Confidence.MEDIUM if _is_set(repeated, places) else Confidence.HIGH,
@@ -71,7 +71,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
             )
 
 
-def _is_set(repeated: Mapping[str, Sequence[Provided]], places: Sequence[Provided]) -> bool:
+def _is_set(repeated: Mapping[str, Sequence[InstalledFile]], places: Sequence[InstalledFile]) -> bool:
     """Return whether neighbouring folders have several file names in common, as with one set of files for each robot."""
     folders = _folders(places)
     return len({folder.rpartition("/")[0] for folder in folders}) == 1 and any(
@@ -79,24 +79,24 @@ def _is_set(repeated: Mapping[str, Sequence[Provided]], places: Sequence[Provide
     )
 
 
-def _folders(places: Iterable[Provided]) -> set[str]:
+def _folders(places: Iterable[InstalledFile]) -> set[str]:
     return {place.path.rpartition("/")[0] for place in places}
 
 
-def _installed_repeatedly(package: Package) -> dict[str, list[Provided]]:
+def _installed_repeatedly(package: Package) -> dict[str, list[InstalledFile]]:
     """Return the launch files that a package installs more than once, by name."""
-    files = {launch.path for launch in launchable(package)}
-    names: dict[str, dict[str, Provided]] = {}
+    files = {launch.path for launch in package_launch_files(package)}
+    names: dict[str, dict[str, InstalledFile]] = {}
     for provided in package.built.provides if files else ():
         name = provided.path.rpartition("/")[2]
-        if provided.source not in files or provided.conditional or not name.endswith(LAUNCH_NAMES):
+        if provided.source not in files or provided.conditional or not name.endswith(LAUNCH_FILE_NAMES):
             continue
         if provided.path.startswith(f"share/{package.name}/"):
             names.setdefault(name, {}).setdefault(provided.path, provided)
     return {name: list(places.values()) for name, places in names.items() if len(places) > 1}
 
 
-@per_workspace
+@cached_by_workspace
 def _included(workspace: Workspace) -> frozenset[str]:
     """Return the paths of the launch files that other launch files include."""
     files = (file for package in workspace.packages for file in package.launch)

@@ -36,14 +36,14 @@ from ros_lint.api import (
     Severity,
     Span,
     Workspace,
-    agree,
-    defaults_of,
-    filled,
+    are_consistent,
+    assigned_configurations,
+    expand_defaults,
     include_resolver,
+    is_node_renaming,
     is_plain,
-    launchable,
-    launched,
-    renames,
+    package_launch_files,
+    substitute,
 )
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ Conditions = tuple[LaunchCondition, ...]
 def check(workspace: Workspace) -> Iterator[Finding]:
     names = _Names(workspace)
     for package in workspace.packages:
-        for launch in launchable(package):
+        for launch in package_launch_files(package):
             for finding in _of(launch.file, names, workspace):
                 yield finding._replace(package=package.name)
 
@@ -66,7 +66,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
 def _of(file: LaunchFile, names: _Names, workspace: Workspace) -> Iterator[Finding]:
     repeated = names.repeated(file)
     if repeated:
-        yield from _in_file(launched(file, workspace, lambda inner: not repeated.isdisjoint(names.of(inner))).started)
+        yield from _in_file(expand_defaults(file, workspace, lambda inner: not repeated.isdisjoint(names.of(inner))).started)
 
 
 class _Names:
@@ -86,7 +86,7 @@ class _Names:
         for names, conditions in self._parts(file, (), ()):
             for name in names - repeated:
                 earlier = seen.setdefault(name, [])
-                if any(agree((*conditions, *others)) for others in earlier):
+                if any(are_consistent((*conditions, *others)) for others in earlier):
                     repeated.add(name)
                 earlier.append(conditions)
         return repeated
@@ -98,13 +98,13 @@ class _Names:
     def _parts(
         self, file: LaunchFile, above: tuple[str, ...], conditions: Conditions
     ) -> Iterator[tuple[frozenset[str], Conditions]]:
-        defaults = defaults_of(file)
+        defaults = assigned_configurations(file)
         waiting = [(action, conditions) for action in file.actions]
         while waiting:
             action, outer = waiting.pop()
             inner = (*outer, *action.conditions)
             if action.kind in ("node", "component"):
-                yield frozenset(filled(action.name, defaults)), inner
+                yield frozenset(substitute(action.name, defaults)), inner
             elif action.kind == "include":
                 target = self._links.target(action.target, file)
                 if target is not None and target.file.path not in above:
@@ -164,7 +164,7 @@ def _full_name(started: Started) -> str:
     name, namespace = started.name[0], started.namespace[0]
     if not name or not is_plain(name) or not is_plain(namespace) or started.target[0] in _SHORT:
         return ""
-    if any(renames(text) for texts in started.words for text in texts):
+    if any(is_node_renaming(text) for texts in started.words for text in texts):
         return ""
     return f"/{namespace.strip('/')}/{name}".replace("//", "/")
 

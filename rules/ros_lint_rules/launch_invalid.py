@@ -68,10 +68,10 @@ from ros_lint.api import (
     Related,
     Rule,
     Severity,
-    Target,
+    TargetDistro,
     Workspace,
-    launchable,
-    several,
+    first_related,
+    package_launch_files,
     too_new,
 )
 
@@ -81,7 +81,7 @@ _MAY_BE_NEWER = frozenset({"unknown-tag", "unexpected-attribute", "unexpected-ch
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    for launch in launchable(package):
+    for launch in package_launch_files(package):
         newer = (*_newer(launch.file.newer, workspace.target), *too_new(launch.file.syntax, workspace.target))
         problems = (*launch.file.problems, *newer)
         if not problems:
@@ -91,7 +91,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             _message(first),
             first.span,
             launch.path,
-            several(Related(_also(first, other), other.span) for other in others),
+            first_related(Related(_also(first, other), other.span) for other in others),
             confidence=max(_confidence(problem, launch.path, workspace) for problem in problems),
             severity=Severity.WARNING if all(problem.kind == "substitution-as-text" for problem in problems) else None,
             fix=_fix(launch.path, problems),
@@ -110,7 +110,7 @@ def _is_for_old(path: str) -> bool:
     return _FOR_OLD.search(path.rpartition("/")[2]) is not None
 
 
-def _newer(problems: Iterable[Problem], target: Target) -> Iterator[Problem]:
+def _newer(problems: Iterable[Problem], target: TargetDistro) -> Iterator[Problem]:
     """Yield what was added after the chosen distribution; names of distributions are in alphabetical order."""
     if target.told and target.distro != "rolling":
         for problem in problems:

@@ -62,15 +62,15 @@ from ros_lint.api import (
     Workspace,
     did_you_mean,
     files_looked_up,
+    first_related,
     include_resolver,
-    is_apart,
-    launchable,
+    is_auxiliary,
     near_names,
+    package_launch_files,
     passed_files,
-    referred,
+    references_by_name,
     relative,
-    several,
-    similar,
+    similar_names,
 )
 
 _WRITTEN = (".yaml", ".yml", ".rviz", ".urdf", ".xacro", ".srdf", ".sdf", ".world", ".wbt", ".lua", ".launch", ".py", ".xml")
@@ -98,7 +98,7 @@ def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
     look_ups: dict[tuple[str, str], list[tuple[bool, Span]]] = {}
     for look_up in package.look_ups:
         file, path = relative(package, look_up.span.path), look_up.path.lstrip("/")
-        if file.endswith(_MODELS) and file in installed and look_up.package in workspace.by_name and not is_apart(file):
+        if file.endswith(_MODELS) and file in installed and look_up.package in workspace.by_name and not is_auxiliary(file):
             look_ups.setdefault((look_up.package, path), []).append((installed[file] not in used, look_up.span))
     groups: dict[tuple[str, str, bool], list[tuple[str, str, Span, list[Span]]]] = {}
     for (owner, path), named in look_ups.items():
@@ -117,7 +117,7 @@ def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"{_message(owner, path, len(more))}{hint}",
             first,
             path,
-            several(
+            first_related(
                 [
                     *(Related("also named here", place) for place in repeated),
                     *(Related(f"'{name}' does not exist either", place) for name, _, place, _ in more),
@@ -130,7 +130,7 @@ def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
     """Yield the missing files that launch files name themselves."""
-    for (owner, path), named in referred(package, ("include", "file")).items():
+    for (owner, path), named in references_by_name(package, ("include", "file")).items():
         references = [reference for reference in named if not (reference.optional or reference.asked)]
         if not references:
             continue
@@ -151,7 +151,7 @@ def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"{_message(owner, path)}{_hint(path, existing) or _owner(package, path, workspace)}",
             best.span,
             path,
-            several(Related("also named here", other.span) for other in others),
+            first_related(Related("also named here", other.span) for other in others),
             confidence=Confidence.HIGH
             if sure and not best.by_default and not _is_made(owner, path, workspace)
             else Confidence.MEDIUM,
@@ -161,7 +161,7 @@ def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
 def _passed(workspace: Workspace) -> Iterator[Finding]:
     """Yield the missing files that included launch files name with the arguments that they are passed."""
     links = include_resolver(workspace)
-    files = [(package, launch.file) for package in workspace.packages for launch in launchable(package)]
+    files = [(package, launch.file) for package in workspace.packages for launch in package_launch_files(package)]
     including = [(package, file) for package, file in files if links.includes(file)]
     inner = {included.path for _, file in including for included in links.includes(file)}
     missing = _Missing(workspace)
@@ -235,7 +235,7 @@ def _twin(path: str, names: tuple[str, ...]) -> str:
     """Return an installed file of the same folder and suffix with a nearly equal name, or ""."""
     folder, _, base = path.rpartition("/")
     siblings = [name.rpartition("/")[2] for name in names if _kind(name) == _kind(path)]
-    near = similar(base, siblings, 1, 0.8)
+    near = similar_names(base, siblings, 1, 0.8)
     return f"{folder}/{near[0]}".lstrip("/") if near else ""
 
 
@@ -308,7 +308,7 @@ def _hint(path: str, names: tuple[str, ...]) -> str:
     base = path.rpartition("/")[2]
     same = [name for name in names if name.rpartition("/")[2] == base]
     near = [name for name in near_names(path, names, 3, 0.8) if near_names(base, [name.rpartition("/")[2]], 1, 0.6)]
-    return did_you_mean(similar(path, same, 1, 0) or near[:1])
+    return did_you_mean(similar_names(path, same, 1, 0) or near[:1])
 
 
 RULE = Rule(

@@ -55,16 +55,16 @@ from ros_lint.api import (
     Severity,
     Span,
     Workspace,
-    advice,
-    comes_elsewhere,
-    comes_with_launching,
     declared_closure,
-    is_apart,
-    is_somewhere,
-    launchable,
-    may_bring,
+    exists_in_any_distro,
+    first_related,
+    is_auxiliary,
+    is_part_of_launch,
+    may_provide,
     needs,
-    several,
+    package_launch_files,
+    provided_in_other_distros,
+    remedy,
     undeclared,
 )
 
@@ -93,15 +93,15 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         what = f"'{name}'" if best.name in ("", name) else f"'{best.name}' of '{name}'"
         how = " under a condition" if best.conditional else ""
         how = " by the default of an argument" if best.package_by_default else how
-        remedy = advice(package, workspace, name, Role.EXEC)
+        proposal = remedy(package, workspace, name, Role.EXEC)
         needed = best.kind != "program" or not best.conditional
-        certain = readable and needed and remedy.certain and not may_bring(unknown, name, workspace)
+        certain = readable and needed and proposal.certain and not may_provide(unknown, name, workspace)
         yield Finding(
-            f"{what} is {_DONE[best.kind]} here{how}, but '{package.name}' {_declares(package, name)}{remedy.ending}",
+            f"{what} is {_DONE[best.kind]} here{how}, but '{package.name}' {_declares(package, name)}{proposal.ending}",
             best.package_span,
             name,
-            several(Related("also needed here", span) for span in _elsewhere(best.package_span, others)),
-            remedy.fix,
+            first_related(Related("also needed here", span) for span in _elsewhere(best.package_span, others)),
+            proposal.fix,
             Confidence.HIGH if certain and not _needs(workspace, name, package) else Confidence.MEDIUM,
         )
 
@@ -125,7 +125,7 @@ def _lacking(package: Package, workspace: Workspace) -> Iterator[tuple[str, list
     for name, references in named.items():
         if name in closure or name in reported:
             continue
-        if workspace.world.is_package(name) or not comes_elsewhere(package, workspace, name):
+        if workspace.world.is_package(name) or not provided_in_other_distros(package, workspace, name):
             yield name, references
 
 
@@ -138,7 +138,7 @@ def _in_wrong_tags(package: Package, workspace: Workspace) -> frozenset[str]:
     for need in needs(package, workspace):
         uses = [use for use in need.uses if use.sure and use.via in ("import", "package") and use.role & Role.EXEC]
         exported = any(use.sure and use.role & Role.EXPORT for use in need.uses)
-        if need.declared and (exported or (uses and not comes_with_launching(package, uses))):
+        if need.declared and (exported or (uses and not is_part_of_launch(package, uses))):
             names.update(need.declared)
     return frozenset(names)
 
@@ -165,14 +165,14 @@ def _elsewhere(best: Span, others: Sequence[LaunchReference]) -> Iterator[Span]:
 def _named(package: Package, workspace: Workspace) -> Mapping[str, list[LaunchReference]]:
     hidden = bool(package.hidden(Facet.SHARE))
     by_package: dict[str, list[LaunchReference]] = {}
-    for launch in launchable(package):
+    for launch in package_launch_files(package):
         if not (launch.installed or hidden):
             continue
         for reference in launch.file.references:
             name = reference.package
-            if is_apart(launch.path) and package.declares(name) & Role.TEST:
+            if is_auxiliary(launch.path) and package.declares(name) & Role.TEST:
                 continue
-            exists = workspace.world.is_key(name) if reference.kind == "program" else is_somewhere(name, workspace)
+            exists = workspace.world.is_key(name) if reference.kind == "program" else exists_in_any_distro(name, workspace)
             if name != package.name and not reference.optional and exists:
                 by_package.setdefault(name, []).append(reference)
     return by_package

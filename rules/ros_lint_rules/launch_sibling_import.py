@@ -29,14 +29,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Facet, Finding, Package, Rule, Severity, Workspace, launchable
+from ros_lint.api import Facet, Finding, Package, Rule, Severity, Workspace, package_launch_files
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if package.hidden(Facet.PYTHON):
         return
     files = frozenset(package.files)
-    for launch in launchable(package):
+    for launch in package_launch_files(package):
         folder = launch.path.rpartition("/")[0]
         for name, span in launch.file.imports:
             if name.startswith("."):

@@ -41,32 +41,37 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
-    corrected,
     did_you_mean,
-    few,
-    referred,
-    several,
-    similar,
+    first_related,
+    references_by_name,
+    rename_fix,
+    shorten_list,
+    similar_names,
 )
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    for (owner, name), references in referred(package, ("component",)).items():
+    for (owner, name), references in references_by_name(package, ("component",)).items():
         names = _names_without(owner, name, workspace)
         if names is None:
             continue
         best, *others = sorted(references, key=lambda reference: (reference.by_default, reference.span))
         meant = [other for other in names if other.lower() == name.lower()]
-        near = meant or [other for other in similar(name, names, 4, 0.75) if similar(_class(name), [_class(other)], 1, 0.75)][:2]
-        hint = did_you_mean(near) or (f"; it registers {few(names)}" if names else "; it registers no components")
+        near = (
+            meant
+            or [other for other in similar_names(name, names, 4, 0.75) if similar_names(_class(name), [_class(other)], 1, 0.75)][
+                :2
+            ]
+        )
+        hint = did_you_mean(near) or (f"; it registers {shorten_list(names)}" if names else "; it registers no components")
         only = meant[0] if len(meant) == 1 else ""
         sure = workspace.surely_lacks(owner, "components", name)
         yield Finding(
             f"'{owner}' does not register a component '{name}'{hint}",
             best.span,
             f"{owner}/{name}",
-            several(Related("also loaded here", other.span) for other in others),
-            corrected(f"load '{only}'", only, [(reference.span, reference.exact) for reference in references]),
+            first_related(Related("also loaded here", other.span) for other in others),
+            rename_fix(f"load '{only}'", only, [(reference.span, reference.exact) for reference in references]),
             Confidence.HIGH if sure and not best.by_default else Confidence.MEDIUM,
         )
 

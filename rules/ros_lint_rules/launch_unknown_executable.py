@@ -51,22 +51,22 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
-    corrected,
+    ask_if_meant,
     did_you_mean,
-    is_meant,
-    launchable,
+    first_related,
+    installed_programs,
+    installed_to_bin_only,
     near_names,
+    package_launch_files,
     place_of,
-    programs,
-    referred,
-    several,
-    stranded,
+    references_by_name,
+    rename_fix,
 )
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    idle = frozenset(launch.file.path for launch in launchable(package, apart=True) if not launch.run)
-    started = referred(package, ("node",), apart=True)
+    idle = frozenset(launch.file.path for launch in package_launch_files(package, apart=True) if not launch.run)
+    started = references_by_name(package, ("node",), apart=True)
     for (owner, name), references in started.items():
         if "/" in name:
             continue
@@ -85,8 +85,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"'{owner}' does not install an executable '{name}'{missing.hint}",
             best.span,
             name,
-            (*missing.related, *several(Related("also started here", reference.span) for reference in others)),
-            corrected(
+            (*missing.related, *first_related(Related("also started here", reference.span) for reference in others)),
+            rename_fix(
                 f"start '{missing.meant}'",
                 missing.meant,
                 [(reference.span, reference.exact) for reference in references],
@@ -122,8 +122,8 @@ def _missing(owner: str, name: str, workspace: Workspace) -> _Missing | None:
         )
     names: set[str] = set()
     for package in owners:
-        installed = programs(package)
-        if installed is None or name in installed.names or stranded(package, name) or _is_lost(package, name):
+        installed = installed_programs(package)
+        if installed is None or name in installed.names or installed_to_bin_only(package, name) or _is_lost(package, name):
             return None
         if name in installed.elsewhere:
             path = installed.elsewhere[name]
@@ -191,7 +191,7 @@ def _uninstalled_script(package: Package, name: str) -> _Missing | None:
 
 def _hint(name: str, meant: str, names: tuple[str, ...]) -> str:
     if meant:
-        return is_meant([meant])
+        return ask_if_meant([meant])
     near = near_names(name, names, 3, 0.6)
     if near:
         return did_you_mean(near)

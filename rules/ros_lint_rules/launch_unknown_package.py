@@ -63,16 +63,16 @@ from ros_lint.api import (
     Severity,
     Span,
     Workspace,
-    corrected,
+    ask_if_meant,
     declared_closure,
     did_you_mean,
-    few,
-    is_meant,
-    launchable,
+    first_related,
+    installed_programs,
     may_be_package,
-    may_bring,
-    programs,
-    several,
+    may_provide,
+    package_launch_files,
+    rename_fix,
+    shorten_list,
     tag_for,
 )
 
@@ -99,8 +99,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"there is no package '{name}'{verdict.hint}{hint}",
             best.reference.package_span,
             name,
-            several(Related("also named here", span) for span in spans[1:]),
-            corrected(
+            first_related(Related("also named here", span) for span in spans[1:]),
+            rename_fix(
                 f"write '{verdict.meant}' instead of '{name}'",
                 verdict.meant,
                 [(place.reference.package_span, place.reference.package_exact) for place in places],
@@ -139,7 +139,7 @@ def _never_comes(name: str, package: Package, workspace: Workspace) -> bool:
         return False
     closure = declared_closure(package, workspace, Role.EXEC | Role.EXPORT)
     replaced = bool(workspace.world.successor(name))
-    return name not in closure and (replaced or not may_bring(closure.unknown, name, workspace))
+    return name not in closure and (replaced or not may_provide(closure.unknown, name, workspace))
 
 
 class _Verdict(NamedTuple):
@@ -155,9 +155,9 @@ class _Verdict(NamedTuple):
 def _unknown(package: Package, workspace: Workspace) -> Iterator[tuple[str, list[_Place]]]:
     """Yield unknown package names with their places; those that start executables of this package are grouped separately."""
     unknown: dict[tuple[str, bool], list[_Place]] = {}
-    own = programs(package)
+    own = installed_programs(package)
     hidden = bool(package.hidden(Facet.SHARE))
-    for launch in launchable(package, apart=True):
+    for launch in package_launch_files(package, apart=True):
         idle = not (launch.installed or hidden)
         for reference in launch.file.references:
             name = reference.package
@@ -175,7 +175,7 @@ def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: W
     world = workspace.world
     meant = world.meant(name)
     if meant is not None and world.is_package(meant.name):
-        return _Verdict(is_meant([meant.name]), Confidence.HIGH, meant.name)
+        return _Verdict(ask_if_meant([meant.name]), Confidence.HIGH, meant.name)
     renamed = [other for other in workspace.by_name if other.endswith(f"_{name}")]
     if len(renamed) == 1 and _may_have(renamed[0], places, workspace, all):
         return _Verdict(f"; the workspace has '{renamed[0]}'", Confidence.HIGH, renamed[0])
@@ -187,13 +187,13 @@ def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: W
         return _Verdict(
             f" in {distro}, only in {', '.join(elsewhere)} (package index of {date})", Confidence.MEDIUM, resembles=False
         )
-    own = programs(package)
+    own = installed_programs(package)
     wanted = dict.fromkeys(place.reference.name for place in places)
     if own and own.names.issuperset(wanted) and places[0].reference.kind == "node":
-        return _Verdict(f"; '{package.name}' itself installs {few(list(wanted))}", Confidence.HIGH, package.name)
+        return _Verdict(f"; '{package.name}' itself installs {shorten_list(list(wanted))}", Confidence.HIGH, package.name)
     family = f"{package.name.partition('_')[0]}_{name}"
     if "_" in name and world.is_package(family) and _may_have(family, places, workspace, all):
-        return _Verdict(is_meant([family]), Confidence.HIGH, family)
+        return _Verdict(ask_if_meant([family]), Confidence.HIGH, family)
     ended = world.knowledge.names.end_of_life(name)
     if ended:
         successor = world.successor(name)
@@ -238,7 +238,7 @@ def _may_offer(other: str, reference: LaunchReference, workspace: Workspace) -> 
 
 
 def _may_start(package: Package, name: str) -> bool:
-    installed = programs(package)
+    installed = installed_programs(package)
     return installed is None or _has_like(name, (*installed.names, *installed.elsewhere))
 
 

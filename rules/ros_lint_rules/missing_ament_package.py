@@ -26,7 +26,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros_lint.api import (
-    ANYTHING,
+    ALL_FACETS,
     ENDS,
     Edit,
     Finding,
@@ -35,36 +35,36 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
-    beginning,
     called,
     config_names,
-    is_cut_short,
+    file_start,
+    stops_early,
     top_file,
 )
 
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
     script = package.script
-    if package.builds_with != "ament_cmake" or script is None or is_cut_short(script):
+    if package.builds_with != "ament_cmake" or script is None or stops_early(script):
         return
     if script.is_empty:
         yield Finding(
             "CMakeLists.txt contains no command, so nothing is built or installed and the package will not be found; write "
             "project(), the targets and ament_package()",
-            beginning(script.path),
+            file_start(script.path),
             "ament_package()",
         )
     if "project" not in script.calls:
         return
     if any(name in script.calls for name in ENDS) or any(call.name in ENDS for call in script.written):
         return
-    if any(opaque.span.path.endswith((".txt", ".cmake")) for opaque in package.hidden(ANYTHING)):
+    if any(opaque.span.path.endswith((".txt", ".cmake")) for opaque in package.hidden(ALL_FACETS)):
         return
     if any(provided.path.rpartition("/")[2] in config_names(package.name) for provided in script.provides):
         return
     yield Finding(
         "ament_package() is never called, so the installed package will not be found; call it at the end",
-        next((call.place for call in called(package, "project")), beginning(script.path)),
+        next((call.place for call in called(package, "project")), file_start(script.path)),
         "ament_package()",
         fix=_fix(package),
     )

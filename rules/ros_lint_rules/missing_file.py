@@ -50,10 +50,10 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
+    ask_if_meant,
     called,
     evaluated_name,
-    is_meant,
-    similar,
+    similar_names,
 )
 
 _KINDS = ("missing-file", "missing-folder", "missing-script", "file-is-directory")
@@ -145,9 +145,9 @@ def _hint(package: Package, path: str) -> str:
     folder, _, name = path.rpartition("/")
     same = [file for file in package.files if file.rpartition("/")[2] == name]
     if len(same) == 1:
-        return is_meant(same)
+        return ask_if_meant(same)
     siblings = [file.rpartition("/")[2] for file in package.files if file.rpartition("/")[0] == folder]
-    return is_meant([f"{folder}/{near}".lstrip("/") for near in similar(name, siblings, 1, 0.8)])
+    return ask_if_meant([f"{folder}/{near}".lstrip("/") for near in similar_names(name, siblings, 1, 0.8)])
 
 
 def _python_packages(package: Package) -> Iterator[Finding]:

@@ -51,18 +51,18 @@ from ros_lint.api import (
     Severity,
     Use,
     Workspace,
+    ask_if_meant,
     called,
     cmake_edits,
-    come_along,
     config_names,
-    few,
-    found_names,
-    is_cut_short,
-    is_meant,
-    misspelt,
+    find_package_closure,
+    first_related,
+    misspelled_names,
+    names_searched,
     relative,
-    several,
-    similar,
+    shorten_list,
+    similar_names,
+    stops_early,
 )
 
 _NO_EVIDENCE = ("export", "plugins", "helper")
@@ -76,11 +76,11 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     wrong = (problem for problem in script.refused if problem.kind == "no-package")
     yield from (Finding(problem.message, problem.span, problem.subject) for problem in wrong)
-    if is_cut_short(script) or script.hides(Facet.USES):
+    if stops_early(script) or script.hides(Facet.USES):
         return
-    found = found_names(package, script)
+    found = names_searched(package, script)
     spelt = {name.lower() for name in found}  # namespaces of targets may differ in case: RTABMap, rtabmap::core
-    along = come_along(workspace, found)
+    along = find_package_closure(workspace, found)
     yield from _no_packages(package, found, workspace)
     missing: dict[str, list[tuple[str, Related]]] = {}
     probable: set[str] = set()
@@ -105,7 +105,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"{what} needs '{name}', {why}; add find_package({name} REQUIRED) before it",
             first.span,
             name,
-            several(place for _, place in others),
+            first_related(place for _, place in others),
             confidence=Confidence.HIGH if sure else Confidence.MEDIUM,
             severity=None if sure else Severity.INFO,
         )
@@ -140,7 +140,7 @@ def _included(package: Package, along: frozenset[str] | None, workspace: Workspa
                 "the package to the target",
                 first.span,
                 name,
-                several(Related(f"also included here: {use.what}", use.span) for use in others),
+                first_related(Related(f"also included here: {use.what}", use.span) for use in others),
             )
 
 
@@ -154,7 +154,7 @@ def _no_packages(package: Package, found: frozenset[str], workspace: Workspace) 
     assert script is not None
     world = workspace.world
     targets = {target.name for target in script.targets}
-    spelt = {name.lower() for name in found}.union(name.lower() for name in misspelt(package, workspace).values())
+    spelt = {name.lower() for name in found}.union(name.lower() for name in misspelled_names(package, workspace).values())
     for call in called(package, *_TARGET_COMMANDS, anywhere=True):
         if _REPEATED.intersection(call.blocks):
             continue
@@ -165,7 +165,7 @@ def _no_packages(package: Package, found: frozenset[str], workspace: Workspace) 
         yield from _targets(call, {name: index for name, index in unknown.items() if name in targets})
         for name, index in unknown.items():
             if name not in targets and (names := _suggested(name, found)):
-                hint = f"; did you mean '{names[0]}' and '{names[1]}'?" if len(names) > 1 else is_meant(names)
+                hint = f"; did you mean '{names[0]}' and '{names[1]}'?" if len(names) > 1 else ask_if_meant(names)
                 yield Finding(
                     f"{call.name}() expects packages, but there is no find_package({name}){hint}",
                     call.span(index),
@@ -203,7 +203,7 @@ def _suggested(name: str, found: frozenset[str]) -> tuple[str, ...]:
     for end in range(1, len(name)):
         if name[:end] in found and name[end:] in found:
             return name[:end], name[end:]
-    return tuple(similar(name, sorted(found), 1, 0.9))
+    return tuple(similar_names(name, sorted(found), 1, 0.9))
 
 
 def _targets(call: Call, names: Mapping[str, int]) -> Iterator[Finding]:
@@ -213,11 +213,11 @@ def _targets(call: Call, names: Mapping[str, int]) -> Iterator[Finding]:
         are, it = ("are targets", "them") if others else ("is a target", "it")
         verb = "export" if call.name == _EXPORTS else "link"
         yield Finding(
-            f"{call.name}() expects packages, but {few(names)} {are} of this package; {verb} {it} with "
+            f"{call.name}() expects packages, but {shorten_list(names)} {are} of this package; {verb} {it} with "
             f"{_TARGET_COMMANDS[call.name]}()",
             call.span(at),
             name,
-            several(Related(f"also '{other}'", call.span(index)) for other, index in others),
+            first_related(Related(f"also '{other}'", call.span(index)) for other, index in others),
         )
 
 

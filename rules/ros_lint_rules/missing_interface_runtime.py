@@ -50,12 +50,12 @@ from ros_lint.api import (
     Workspace,
     add_dependency,
     called,
-    come_along,
+    find_package_closure,
     folders_of,
-    given_for,
     interface_names,
+    macro_packages,
     manifest_edits,
-    naming,
+    naming_fix,
     relative,
     undeclared,
 )
@@ -121,7 +121,7 @@ def _runtime(package: Package, workspace: Workspace, place: Span, sure: Confiden
         place,
         _RUNTIME,
         (),
-        naming(workspace, _RUNTIME, f"declare '{_RUNTIME}' as <{tag}>", *add_dependency(package, tag, _RUNTIME)),
+        naming_fix(workspace, _RUNTIME, f"declare '{_RUNTIME}' as <{tag}>", *add_dependency(package, tag, _RUNTIME)),
         Confidence.MEDIUM if provided else sure,
         Severity.INFO if provided else None,
     )
@@ -130,8 +130,8 @@ def _runtime(package: Package, workspace: Workspace, place: Span, sure: Confiden
 def _fields(package: Package, workspace: Workspace, place: Span, sure: Confidence) -> Iterator[Finding]:
     script = package.script
     assert script is not None
-    listed = frozenset(mention.name for mention in given_for(script, "interfaces"))
-    along = come_along(workspace, listed)
+    listed = frozenset(mention.name for mention in macro_packages(script, "interfaces"))
+    along = find_package_closure(workspace, listed)
     if along is None:
         return
     reported = set()

@@ -30,7 +30,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Facet, Finding, Fix, Package, Rule, Severity, Slot, Workspace, setup_edits
+from ros_lint.api import EditableList, Facet, Finding, Fix, Package, Rule, Severity, Workspace, setup_edits
 
 _MARKERS = "share/ament_index/resource_index/packages"
 
@@ -70,11 +70,11 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         )
 
 
-def _manifest(slot: Slot, package: str) -> str:
+def _manifest(slot: EditableList, package: str) -> str:
     return f"({setup_edits.joined(slot, package, 'share/')}, [{setup_edits.quoted(slot, 'package.xml')}])"
 
 
-def _add(slot: Slot, element: str) -> Fix:
+def _add(slot: EditableList, element: str) -> Fix:
     return Fix(f"add {element} to data_files", (setup_edits.add(slot, element),))
 
 

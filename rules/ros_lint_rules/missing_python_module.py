@@ -60,21 +60,21 @@ from typing import NamedTuple
 from ros_lint.api import (
     BuildScript,
     Confidence,
+    EditableList,
     Facet,
     Finding,
     Fix,
-    LeftBehind,
     Package,
     Related,
     Rule,
     Severity,
-    Slot,
     Span,
+    UninstalledImport,
     Workspace,
-    beginning,
     cmake_edits,
+    file_start,
+    first_related,
     setup_edits,
-    several,
 )
 
 _FIND = "find_package(ament_cmake_python REQUIRED)"
@@ -114,10 +114,10 @@ class _Lack(NamedTuple):
     sure: bool = True
 
 
-def _unlisted(package: Package, script: BuildScript, slot: Slot | None, as_data: Container[str]) -> Iterator[_Lack]:
+def _unlisted(package: Package, script: BuildScript, slot: EditableList | None, as_data: Container[str]) -> Iterator[_Lack]:
     """Yield the sub-packages of installed packages that are not installed, except folders that data_files installs."""
     installed = script.python_packages
-    place = slot.end if slot else (script.name_span or beginning(script.path))
+    place = slot.end if slot else (script.name_span or file_start(script.path))
     for name, folder in _packages(package):
         inside = name.rpartition(".")[0] in installed and f"{folder}/__init__.py" in package.files
         if inside and name not in installed and folder not in as_data:
@@ -134,7 +134,7 @@ def _of_entry_points(script: BuildScript) -> Iterator[_Lack]:
             yield _Lack(inside, module.path.rpartition("/")[0], message, entry.span)
 
 
-def _imported(imports: Iterable[LeftBehind], as_data: Container[str]) -> Iterator[_Lack]:
+def _imported(imports: Iterable[UninstalledImport], as_data: Container[str]) -> Iterator[_Lack]:
     """Yield the packages that installed modules import and that are not installed."""
     for item in imports:
         folder, name = item.source.rstrip("/"), item.module
@@ -143,13 +143,13 @@ def _imported(imports: Iterable[LeftBehind], as_data: Container[str]) -> Iterato
             yield _Lack(name, folder, message, item.span, item.sure)
 
 
-def _uninstalled_imports(package: Package, workspace: Workspace) -> Iterator[LeftBehind]:
+def _uninstalled_imports(package: Package, workspace: Workspace) -> Iterator[UninstalledImport]:
     """Yield the imports of modules that are not installed; they are uncertain if an unreadable file may change sys.path."""
     unread = workspace.unread(package)
     yield from (item._replace(sure=False) if unread else item for item in package.left_behind)
 
 
-def _remedy(package: Package, folder: str, name: str, slot: Slot | None) -> str:
+def _remedy(package: Package, folder: str, name: str, slot: EditableList | None) -> str:
     """Return the end of the message: how the folder becomes a Python package; "" if it is one."""
     if f"{folder}/__init__.py" in package.files:
         return ""
@@ -207,7 +207,7 @@ def _of_cmake(package: Package, workspace: Workspace) -> Iterator[Finding]:
         f"the Python package '{folder}/' is not installed{why}; add {call}",
         script.end,
         folder,
-        several(Related("imported here", use.span) for _, use in users),
+        first_related(Related("imported here", use.span) for _, use in users),
         Fix.of(f"install '{folder}/'", cmake_edits.at_end(script, f"{_FIND}\n{call}"), safe=False),
         Confidence.HIGH if users or f"{folder}/setup.cfg" in files else Confidence.MEDIUM,
         None if users else Severity.WARNING,
@@ -223,7 +223,7 @@ def _packages(package: Package) -> Iterator[tuple[str, str]]:
             yield ".".join(parts), folder
 
 
-def _fix(slot: Slot | None, name: str, package: str) -> Fix | None:
+def _fix(slot: EditableList | None, name: str, package: str) -> Fix | None:
     if slot is None:
         return None
     inside = name.startswith(f"{package}.")

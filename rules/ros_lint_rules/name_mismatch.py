@@ -44,9 +44,9 @@ from ros_lint.api import (
     Edit,
     Finding,
     Fix,
+    InstalledFile,
     Manifest,
     Package,
-    Provided,
     Related,
     Rule,
     Severity,
@@ -121,7 +121,7 @@ _PLACES = {
 }
 
 
-def _installed_for(provided: Provided) -> tuple[str, str]:
+def _installed_for(provided: InstalledFile) -> tuple[str, str]:
     """Return the package that an installed file is installed for and its kind, a key of _PLACES; ("", "") for other files."""
     folder, _, rest = provided.path.partition("/")
     name, _, file = rest.partition("/")

@@ -39,7 +39,19 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ros_lint.api import Confidence, Finding, Manifest, Package, Related, Rule, Severity, Workspace, few, is_apart, several
+from ros_lint.api import (
+    Confidence,
+    Finding,
+    Manifest,
+    Package,
+    Related,
+    Rule,
+    Severity,
+    Workspace,
+    first_related,
+    is_auxiliary,
+    shorten_list,
+)
 
 _DATA = re.compile(
     r"\..*|tests?|testing|fixtures|data|resources?|templates?|examples?|demos?|docs?|vendor|third_?party|3rdparty|external|contrib",
@@ -66,18 +78,18 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _all_hidden(package: Package, lost: list[Manifest]) -> Finding:
     """Return the finding for several packages below a folder that is one plain package because of its build script."""
-    names = few(nested.name for nested in lost)
+    names = shorten_list(nested.name for nested in lost)
     return Finding(
         f"colcon ignores {names}, because they are inside {_outer(package)}; {_remedy(package, lost, 'them')}",
         package.place,
         package.name,
-        several(Related("an ignored package", nested.name_span) for nested in lost),
+        first_related(Related("an ignored package", nested.name_span) for nested in lost),
     )
 
 
 def _is_lost(package: Package, nested: Manifest) -> bool:
     """Return whether a nested manifest is probably a package to be built, neither data nor of ROS 1."""
-    data = any(_DATA.fullmatch(folder) or is_apart(f"{folder}/") for folder in _between(package, nested))
+    data = any(_DATA.fullmatch(folder) or is_auxiliary(f"{folder}/") for folder in _between(package, nested))
     return not (data or _is_installed(package, nested) or package.builds_with == "catkin" or _is_of_ros_1(nested))
 
 

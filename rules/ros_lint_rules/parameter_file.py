@@ -37,29 +37,29 @@ from collections.abc import Iterator
 
 from ros_lint.api import (
     Finding,
-    Given,
+    NodeParameterFile,
     Package,
     ParameterFiles,
     Related,
     Rule,
     Severity,
     Workspace,
-    few,
+    first_related,
+    is_node_renaming,
     is_plain,
-    launchable,
-    renames,
-    several,
+    package_launch_files,
+    shorten_list,
 )
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
     files = ParameterFiles(workspace)
-    unmatched: list[tuple[Package, list[Given]]] = []
+    unmatched: list[tuple[Package, list[NodeParameterFile]]] = []
     used: set[str] = set()
     for package in workspace.packages:
-        for launch in launchable(package):
+        for launch in package_launch_files(package):
             rewrites = any(_rewrites(name) for name, _ in launch.file.imports)
-            by_file: dict[str, list[Given]] = {}
+            by_file: dict[str, list[NodeParameterFile]] = {}
             for passed in files.given(launch.file):
                 by_file.setdefault(passed.file.path, []).append(passed)
             for path, uses in by_file.items():
@@ -80,7 +80,7 @@ def _rewrites(module: str) -> bool:
     return module.startswith("nav2_common") or module.rpartition(".")[2] == "rewritten_yaml"
 
 
-def _flat(uses: list[Given]) -> Iterator[Finding]:
+def _flat(uses: list[NodeParameterFile]) -> Iterator[Finding]:
     nodes = [passed for passed in uses if passed.action.kind == "node"]
     if nodes:
         yield Finding(
@@ -93,9 +93,9 @@ def _flat(uses: list[Given]) -> Iterator[Finding]:
         )
 
 
-def _of_others(uses: list[Given]) -> Finding:
+def _of_others(uses: list[NodeParameterFile]) -> Finding:
     first = uses[0]
-    names = few(dict.fromkeys(name for name, _ in first.file.nodes))
+    names = shorten_list(dict.fromkeys(name for name, _ in first.file.nodes))
     return Finding(
         f"'{_name(first)}' has parameters for {names}, but none for the node '{_full_name(first)}', which receives it here; "
         "correct the name or write /**",
@@ -105,23 +105,23 @@ def _of_others(uses: list[Given]) -> Finding:
     )
 
 
-def _more(uses: list[Given]) -> tuple[Related, ...]:
-    return several(Related("also passed here", passed.value.span) for passed in uses[1:])
+def _more(uses: list[NodeParameterFile]) -> tuple[Related, ...]:
+    return first_related(Related("also passed here", passed.value.span) for passed in uses[1:])
 
 
-def _name(passed: Given) -> str:
+def _name(passed: NodeParameterFile) -> str:
     return passed.file.path.rpartition("/")[2]
 
 
-def _full_name(passed: Given) -> str:
+def _full_name(passed: NodeParameterFile) -> str:
     namespace = passed.namespaces[0].strip("/")
     return f"/{namespace}/{passed.names[0]}" if namespace else f"/{passed.names[0]}"
 
 
-def _may_be_of(passed: Given, rewrites: bool) -> bool:
+def _may_be_of(passed: NodeParameterFile, rewrites: bool) -> bool:
     """Return whether a file may have parameters for the node that receives it (``rclcpp::parameter_map_from``)."""
     words = (text for _, value in passed.action.arguments for text in value.texts)
-    if passed.action.children or _is_container(passed) or any(map(renames, words)):
+    if passed.action.children or _is_container(passed) or any(map(is_node_renaming, words)):
         return True
     if len(passed.names) != 1 or not passed.names[0] or not is_plain(passed.names[0]):
         return True
@@ -134,7 +134,7 @@ def _may_be_of(passed: Given, rewrites: bool) -> bool:
     return any("*" in name or name.count("/") > 1 for name in same)
 
 
-def _is_container(passed: Given) -> bool:
+def _is_container(passed: NodeParameterFile) -> bool:
     """Return whether a node is a component container: its command line applies to all components that it loads."""
     package = passed.action.package
     return package is not None and "rclcpp_components" in package.texts

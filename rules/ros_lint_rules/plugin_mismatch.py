@@ -65,18 +65,18 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
+    ask_if_meant,
+    cached_by_workspace,
     called,
     cmake_edits,
-    few,
-    hidden,
-    is_apart,
-    is_meant,
-    is_shared_by_words,
-    library_of,
-    per_workspace,
+    first_related,
+    is_auxiliary,
+    is_declared_shared,
+    library_registering,
+    opaque_except_undefined_targets,
     relative,
-    several,
-    similar,
+    shorten_list,
+    similar_names,
 )
 
 _SEEN = Facet.LIBRARIES | Facet.SHARE | Facet.COMPONENTS
@@ -84,10 +84,10 @@ _SEEN = Facet.LIBRARIES | Facet.SHARE | Facet.COMPONENTS
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
-    if script is None or package.builds_with != "ament_cmake" or hidden(package, _SEEN):
+    if script is None or package.builds_with != "ament_cmake" or opaque_except_undefined_targets(package, _SEEN):
         return
     all_macros = [macro for macro in package.registrations if macro.kind == "plugin"]
-    registered = [macro for macro in all_macros if not (is_apart(relative(package, macro.span.path)) or _is_no_plugin(macro))]
+    registered = [macro for macro in all_macros if not (is_auxiliary(relative(package, macro.span.path)) or _is_no_plugin(macro))]
     names = {macro.name for macro in registered}
     installed = script.installed
     exported = list(called(package, EXPORTING_PLUGINS, anywhere=True))
@@ -95,7 +95,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         yield from _unexported(package, workspace, registered)
         # A description that is not exported has no effect, and many remain from ROS 1.
         for plugin in script.plugins:
-            if plugin.path in installed and not is_apart(plugin.path):
+            if plugin.path in installed and not is_auxiliary(plugin.path):
                 for finding in _libraries(package, workspace, plugin, all_macros):
                     yield finding._replace(confidence=Confidence.MEDIUM)
         return
@@ -109,7 +109,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         for entry in library.classes
     }
     for plugin in script.plugins:
-        if is_apart(plugin.path):
+        if is_auxiliary(plugin.path):
             continue
         if plugin.path in installed:
             yield from _libraries(package, workspace, plugin, all_macros)
@@ -133,16 +133,16 @@ def _undescribed(package: Package, registered: list[Registration]) -> Iterator[F
     classes = [entry for plugin in descriptions.values() for library in plugin.libraries for entry in library.classes]
     known = {name.rpartition("::")[2] for entry in classes for name in (entry.type, entry.name.replace("/", "::"))}
     # A class next to a described one, or in a library that others link, may be a base class or a copy.
-    needed = {library_of(package, macro) for macro in registered if macro.name.rpartition("::")[2] in known}
+    needed = {library_registering(package, macro) for macro in registered if macro.name.rpartition("::")[2] in known}
     needed.update(name for target in package.built.targets for name, _ in target.links)
     for macro in registered:
-        library = library_of(package, macro)
+        library = library_registering(package, macro)
         if library and library not in needed:
             yield Finding(
                 f"'{macro.name}' is registered, but no exported plugin description lists it, so loaders do not find it",
                 macro.span,
                 macro.name,
-                several(Related("this description is exported", call.span(1)) for call in calls),
+                first_related(Related("this description is exported", call.span(1)) for call in calls),
             )
 
 
@@ -154,13 +154,13 @@ def _is_no_plugin(macro: Registration) -> bool:
     return macro.base.startswith("nodelet::") or macro.base in ("rclcpp::Node", "rclcpp_lifecycle::LifecycleNode")
 
 
-@per_workspace
+@cached_by_workspace
 def _registered_classes(workspace: Workspace) -> frozenset[str]:
     """Return the classes that the packages register."""
     return frozenset([macro.name for package in workspace.packages for macro in package.registrations])
 
 
-@per_workspace
+@cached_by_workspace
 def _loading(workspace: Workspace) -> dict[str, list[PluginLoader]]:
     """Return the loaders of all packages by the base class of the plugins that they load."""
     loaders: dict[str, list[PluginLoader]] = {}
@@ -187,10 +187,10 @@ def _wrongly_exported(package: Package, workspace: Workspace) -> Iterator[Findin
         if loaders and exported_for not in asked and not workspace.world.is_package(exported_for):
             fix = Fix(f"export it for '{asked[0]}'", (cmake_edits.write(call, 0, asked[0]),), safe=False)
             yield Finding(
-                f"'{path}' is exported for '{exported_for}', which is not a package; the loader searches for {few(asked)}",
+                f"'{path}' is exported for '{exported_for}', which is not a package; the loader searches for {shorten_list(asked)}",
                 call.span(0),
                 path,
-                several(Related("loaded here", loader.span) for loader in loaders),
+                first_related(Related("loaded here", loader.span) for loader in loaders),
                 fix if len(asked) == 1 else None,
             )
 
@@ -244,7 +244,7 @@ def _unexported(package: Package, workspace: Workspace, registered: list[Registr
             f"'{first.name}' is registered, but nothing loads plugins of '{base}'; remove the macro or export a description",
             first.span,
             "pluginlib",
-            several(Related("also registered here", macro.span) for macro in others),
+            first_related(Related("also registered here", macro.span) for macro in others),
             severity=Severity.INFO,
         )
         return
@@ -253,11 +253,13 @@ def _unexported(package: Package, workspace: Workspace, registered: list[Registr
         f"'{first.name}' is registered, but no plugin description is exported, so loaders do not find it; add {remedy}",
         first.span,
         plugin.path if plugin else "pluginlib",
-        several(Related("also registered here", macro.span) for macro in others)
+        first_related(Related("also registered here", macro.span) for macro in others)
         + ((Related("described here", plugin.span),) if plugin else ()),
         _export(package, plugin) if plugin else None,
         # A source that is not compiled may be unused; in a package without libraries, the library is yet to be added.
-        confidence=Confidence.HIGH if library_of(package, first) or not _builds_libraries(package) else Confidence.MEDIUM,
+        confidence=Confidence.HIGH
+        if library_registering(package, first) or not _builds_libraries(package)
+        else Confidence.MEDIUM,
     )
 
 
@@ -307,10 +309,10 @@ def _library(package: Package, plugin: PluginFile, library: PluginLibrary) -> It
     if name in built:
         message = f"the library '{name}' is built, but not installed to lib/"
         # The library may be static, or its file may have another name.
-        sure = Confidence.HIGH if is_shared_by_words(package, name) and library.classes else Confidence.MEDIUM
+        sure = Confidence.HIGH if is_declared_shared(package, name) and library.classes else Confidence.MEDIUM
     else:
-        near = similar(name, sorted(installed | built), 1, 0.8)
-        message = f"the package does not build a library '{name}'{is_meant(near)}"
+        near = similar_names(name, sorted(installed | built), 1, 0.8)
+        message = f"the package does not build a library '{name}'{ask_if_meant(near)}"
         sure = Confidence.HIGH if library.classes else Confidence.MEDIUM  # without classes nothing is loaded
     yield Finding(message, library.span, f"{plugin.path}#{library.path.rpartition('/')[2]}", confidence=sure)
 
@@ -343,7 +345,7 @@ def _class(package: Package, plugin: PluginFile, entry: PluginClass, registered:
         verb, hint = "registers or defines", "; remove the entry"
     else:
         hint = f"; add PLUGINLIB_EXPORT_CLASS({entry.type}, {entry.base}) to a source"
-    related = several(Related("registered here", macro.span) for macro in alike)
+    related = first_related(Related("registered here", macro.span) for macro in alike)
     yield Finding(
         f"no source {verb} '{entry.type}'{hint}",
         entry.span,
@@ -361,7 +363,7 @@ def _base(plugin: PluginFile, entry: PluginClass, macros: list[Registration]) ->
             "write the same base class in both places",
             entry.span,
             f"{plugin.path}#{entry.type}",
-            several(Related("registered here", macro.span) for macro in macros),
+            first_related(Related("registered here", macro.span) for macro in macros),
         )
 
 

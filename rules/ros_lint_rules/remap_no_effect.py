@@ -33,15 +33,15 @@ from ros_lint.api import (
     Severity,
     Span,
     Workspace,
-    everything,
     is_plain,
-    launchable,
+    package_launch_files,
+    walk_actions,
 )
 
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
-    for launch in launchable(package):
-        actions = list(everything(launch.file.actions))
+    for launch in package_launch_files(package):
+        actions = list(walk_actions(launch.file.actions))
         declarations = [action.target for action in actions if action.kind == "argument" and action.target is not None]
         arguments = {name for target in declarations for name in target.texts}
         findings: dict[Span, Finding] = {}  # a function that creates nodes may be called several times

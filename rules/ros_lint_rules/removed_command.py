@@ -49,8 +49,8 @@ from ros_lint.api import (
     Workspace,
     called,
     cmake_edits,
-    found_names,
-    several,
+    first_related,
+    names_searched,
 )
 
 _REMOVED = {"ament_target_dependencies": ("ament_cmake_target_dependencies", frozenset({"lyrical", "rolling"}))}
@@ -73,7 +73,7 @@ def _modules(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"'{_MODULE}' was removed in Bouncy, so setup.py stops here; list data_files and set install_scripts in setup.cfg",
             first.span,
             _MODULE,
-            several(Related("also here", mention.span) for mention in others),
+            first_related(Related("also here", mention.span) for mention in others),
         )
 
 
@@ -81,13 +81,13 @@ def _commands(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None:
         return
-    found = found_names(package, script)
+    found = names_searched(package, script)
     for name, (provider, distros) in _REMOVED.items():
         calls = [call for call in called(package, name, anywhere=True) if not call.blocks or call.test]
         if not calls or workspace.target.distro not in distros or provider in found:
             continue
         first, *others = calls
-        related = several(Related("also here", call.place) for call in others)
+        related = first_related(Related("also here", call.place) for call in others)
         yield Finding(
             f"{name}() was removed in {workspace.target.distro}; use target_link_libraries() with p::p or ${{p_TARGETS}}",
             first.place,

@@ -46,8 +46,8 @@ from ros_lint.api import (
     Edit,
     Finding,
     Fix,
+    InstalledFile,
     Package,
-    Provided,
     Related,
     Rule,
     ScriptFile,
@@ -56,11 +56,11 @@ from ros_lint.api import (
     Workspace,
     called,
     cmake_edits,
-    few,
+    first_related,
     nodes_started,
     place_of,
     relative,
-    several,
+    shorten_list,
 )
 
 _ENDINGS = (".py", ".sh", ".bash", ".rb", ".pl")
@@ -76,7 +76,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     any_executable = any(
         provided.program and provided.source in files and files[provided.source].executable for provided in script.provides
     )
-    without_bit: dict[Span, list[Provided]] = {}
+    without_bit: dict[Span, list[InstalledFile]] = {}
     for provided in script.provides:
         file = files.get(provided.source)
         folder, _, name = provided.path.rpartition("/")
@@ -114,9 +114,9 @@ def _line(package: Package, file: ScriptFile, name: str, started: bool, any_exec
         yield Finding(message, place, file.path, confidence=confidence, severity=Severity.WARNING)
 
 
-def _no_bit(package: Package, span: Span, scripts: list[Provided], files: dict[str, ScriptFile]) -> Finding:
+def _no_bit(package: Package, span: Span, scripts: list[InstalledFile], files: dict[str, ScriptFile]) -> Finding:
     names = sorted(dict.fromkeys(script.path.rpartition("/")[2] for script in scripts))
-    named = few(names)
+    named = shorten_list(names)
     installs = (call for call in called(package, "install", anywhere=True) if call.args)
     call = next((call for call in installs if call.whole.covers(span)), None)
     remedy, fix = "install(PROGRAMS)", None
@@ -134,7 +134,7 @@ def _no_bit(package: Package, span: Span, scripts: list[Provided], files: dict[s
         f"use {remedy}",
         span,
         relative(package, scripts[0].source),
-        several(Related("this script", place_of(package, script.source)) for script in scripts),
+        first_related(Related("this script", place_of(package, script.source)) for script in scripts),
         fix,
         _confidence(package, call),
     )

@@ -51,33 +51,33 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
-    advice,
-    comes_with_launching,
-    found_for_nothing,
-    meant,
+    first_related,
+    intended_names,
+    is_part_of_launch,
+    manifest_is_complete,
     needs,
-    several,
-    tells,
-    wishes,
+    optional_needs,
+    remedy,
+    unused_find_packages,
 )
 
 _LAUNCHER = "ros2launch"
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    if not tells(package):
+    if not manifest_is_complete(package):
         return
     declared = tuple(dict.fromkeys(declared.name for declared in package.declared))
-    unused = {mention.name for mention in found_for_nothing(package, workspace)}
-    misnamed = meant(package, workspace)
+    unused = {mention.name for mention in unused_find_packages(package, workspace)}
+    misnamed = intended_names(package, workspace)
     for need in needs(package, workspace):
         if need.declared or not need.brought or need.name in unused or _is_command(need):
             continue
         if any(misnamed.intersection(use.providers) for use in need.uses):
             continue
-        if not (_LAUNCHER in declared and comes_with_launching(package, need.uses)):
+        if not (_LAUNCHER in declared and is_part_of_launch(package, need.uses)):
             yield _finding(package, workspace, declared, need, Confidence.HIGH if need.sure else Confidence.MEDIUM)
-    for wish in wishes(package, workspace):
+    for wish in optional_needs(package, workspace):
         if wish.brought and not _is_command(wish):
             yield _finding(package, workspace, declared, wish, Confidence.LOW)._replace(fix=None)
 
@@ -93,14 +93,14 @@ def _finding(package: Package, workspace: Workspace, declared: Sequence[str], ne
     path = next((path for path in paths if path), (need.name,))
     name = path[-1]
     between = " > ".join(f"'{package_between}'" for package_between in path[:-1])
-    remedy = advice(package, workspace, name, need.role)
+    proposal = remedy(package, workspace, name, need.role)
     return Finding(
-        f"'{name}' is used here, but is only available through {between}{remedy.ending}",
+        f"'{name}' is used here, but is only available through {between}{proposal.ending}",
         best.span,
         name,
-        several(Related(f"also used here: {use.what}", use.span) for use in others),
-        remedy.fix,
-        confidence if remedy.certain else min(confidence, Confidence.MEDIUM),
+        first_related(Related(f"also used here: {use.what}", use.span) for use in others),
+        proposal.fix,
+        confidence if proposal.certain else min(confidence, Confidence.MEDIUM),
     )
 
 

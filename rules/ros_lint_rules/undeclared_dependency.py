@@ -80,33 +80,33 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
-    advice,
-    comes_with_launching,
-    is_miswritten,
-    is_somewhere,
-    several,
-    tells,
+    exists_in_any_distro,
+    first_related,
+    is_declared_misspelled,
+    is_part_of_launch,
+    manifest_is_complete,
+    optional_needs,
+    remedy,
     undeclared,
     unguarded_tests,
-    wishes,
 )
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    if not tells(package):
+    if not manifest_is_complete(package):
         return
     undeclared_needs = undeclared(package, workspace)
-    with_launch = {need.name for need, _ in undeclared_needs if comes_with_launching(package, need.uses)}
+    with_launch = {need.name for need, _ in undeclared_needs if is_part_of_launch(package, need.uses)}
     for need, sure in undeclared_needs:
         certain = sure and not (need.name == "launch" and "launch_ros" in with_launch)  # launch_ros provides launch
         problem = "is used here, but package.xml does not declare it"
         severity = Severity.INFO if need.name in with_launch else None
         finding = _finding(package, workspace, need, problem, Confidence.HIGH if certain else Confidence.MEDIUM)
-        if is_miswritten(package, workspace, need):  # another rule fixes the name
+        if is_declared_misspelled(package, workspace, need):  # another rule fixes the name
             message = f"'{need.name}' is used here, but package.xml declares it under a wrong name"
             finding = finding._replace(message=message, fix=None)
         yield finding._replace(severity=severity)
-    for wish in wishes(package, workspace):
+    for wish in optional_needs(package, workspace):
         if not wish.brought:
             problem = "is used here if it is available, but package.xml does not declare it"
             yield _finding(package, workspace, wish, problem, Confidence.LOW)._replace(fix=None)
@@ -117,21 +117,21 @@ def _finding(package: Package, workspace: Workspace, need: Need, problem: str, c
     best, *others = need.uses
     name = need.name
     role = Role.TEST if name in unguarded_tests(package) else need.role  # unguarded-test asks to move it to the tests
-    remedy = advice(package, workspace, name, role)
+    proposal = remedy(package, workspace, name, role)
     elsewhere = _elsewhere(name, workspace)
     condition, suggestion = _condition(package, name), _suggestion(name, workspace)
-    if remedy.circular:
-        message = f"'{name}' is used here, but cannot be declared: {remedy.obstacle}"
+    if proposal.circular:
+        message = f"'{name}' is used here, but cannot be declared: {proposal.obstacle}"
     elif elsewhere:
         message = f"'{name}' {problem}; {workspace.target.distro} has no such package, only {elsewhere}"
     elif suggestion:
         message = f"'{name}' is used here, but there is no such package; did you mean '{suggestion}'?"
-    elif remedy.obstacle:
-        message = f"'{name}' {problem}, and it cannot be declared: {remedy.obstacle}"
+    elif proposal.obstacle:
+        message = f"'{name}' {problem}, and it cannot be declared: {proposal.obstacle}"
     elif condition:
         message = f"'{name}' is used here, but package.xml declares it only under the condition '{condition}'; widen it"
     else:
-        message = f"'{name}' {problem}: add {remedy.written}"
+        message = f"'{name}' {problem}: add {proposal.written}"
         if _needs_back(name, package, workspace):
             message += (
                 f"; '{name}' also uses '{package.name}', but two packages cannot declare each other, "
@@ -141,9 +141,9 @@ def _finding(package: Package, workspace: Workspace, need: Need, problem: str, c
         message,
         best.span,
         name,
-        several(Related(f"also used here: {use.what}", use.span) for use in others),
-        None if elsewhere or condition or suggestion else remedy.fix,
-        confidence if remedy.certain else min(confidence, Confidence.MEDIUM),
+        first_related(Related(f"also used here: {use.what}", use.span) for use in others),
+        None if elsewhere or condition or suggestion else proposal.fix,
+        confidence if proposal.certain else min(confidence, Confidence.MEDIUM),
     )
 
 
@@ -176,7 +176,7 @@ def _elsewhere(name: str, workspace: Workspace) -> str:
     If no distribution is set, packages of all distributions are available.
     """
     world = workspace.world
-    if world.is_key(name) or is_somewhere(name, workspace):
+    if world.is_key(name) or exists_in_any_distro(name, workspace):
         return ""
     # A package that another one declares may be available as source.
     ended = () if world.is_declared(name) else world.knowledge.names.end_of_life(name)

@@ -44,7 +44,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 
 from ros_lint.api import (
-    ANYTHING,
+    ALL_FACETS,
     BuildScript,
     Call,
     Finding,
@@ -55,19 +55,19 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
+    ask_if_meant,
     called,
     cmake_edits,
     config_names,
     did_you_mean,
     evaluated_name,
-    few,
-    found_names,
+    first_related,
     has_extras,
-    hidden,
     installed_targets,
-    is_meant,
-    several,
-    similar,
+    names_searched,
+    opaque_except_undefined_targets,
+    shorten_list,
+    similar_names,
 )
 
 _USERS = (
@@ -87,7 +87,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if script is None or package.builds_with not in ("ament_cmake", "cmake"):
         return
     names = sorted({target.name for target in script.targets})
-    if hidden(package, ANYTHING):
+    if opaque_except_undefined_targets(package, ALL_FACETS):
         return
     defined = set(names)
     for call in called(package, *_DEFINING, anywhere=True):
@@ -100,16 +100,16 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             name = evaluated_name(package, call.texts[index])
             if name is None or call.blocks or name in defined or "::" in name:
                 continue
-            if call.name == "install" or not finds_unknown or similar(name, names, 1, 0.8):
+            if call.name == "install" or not finds_unknown or similar_names(name, names, 1, 0.8):
                 wrong.setdefault(name, []).append((call, index))
     for name, places in wrong.items():
         yield _finding(f"{places[0][0].name}() fails because '{name}' is not a target", name, names, places)
     for problem in script.refused:  # these include computed names
         name = problem.subject
         if problem.kind == "undefined-target" and name not in defined and name not in wrong:
-            near = similar(name, names, 1, 0.8)
+            near = similar_names(name, names, 1, 0.8)
             if near or not finds_unknown or workspace.world.is_package(name):  # targets do not have the plain name of a package
-                yield Finding(problem.message + is_meant(near), problem.span, name)
+                yield Finding(problem.message + ask_if_meant(near), problem.span, name)
     yield from _unfilled(package)
     yield from _of_others(package, script, workspace)
     yield from _no_libraries(package, defined)
@@ -139,7 +139,7 @@ def _unfilled(package: Package) -> Iterator[Finding]:
 
 def _of_others(package: Package, script: BuildScript, workspace: Workspace) -> Iterator[Finding]:
     """Yield findings for targets of other packages of the workspace that these packages do not export."""
-    found = found_names(package, script)
+    found = names_searched(package, script)
     wrong: dict[str, list[Mention]] = {}
     for mention in script.mentions:
         owner, colons, target = mention.name.partition("::")
@@ -150,18 +150,26 @@ def _of_others(package: Package, script: BuildScript, workspace: Workspace) -> I
     for owner, mentions in wrong.items():
         names = list(dict.fromkeys(mention.name.partition("::")[2] for mention in mentions))
         exported = sorted({target.target for other in workspace.by_name[owner] for target in other.built.exported})
-        near = similar(names[0], exported, 3, 0.6) if len(names) == 1 else []
-        hint = did_you_mean(near) if near else f"; it exports {few(exported)}" if exported else "; it exports no targets"
+        near = similar_names(names[0], exported, 3, 0.6) if len(names) == 1 else []
+        hint = did_you_mean(near) if near else f"; it exports {shorten_list(exported)}" if exported else "; it exports no targets"
         first, *more = [mention.span for mention in mentions]
-        related = [*several(Related("also linked here", span) for span in more), *_definitions(workspace.by_name[owner], names)]
+        related = [
+            *first_related(Related("also linked here", span) for span in more),
+            *_definitions(workspace.by_name[owner], names),
+        ]
         targets = "a target" if len(names) == 1 else "targets"
-        message = f"'{owner}' does not export {targets} {few(names)}{hint}"
+        message = f"'{owner}' does not export {targets} {shorten_list(names)}{hint}"
         yield Finding(message, first, f"{owner}::{names[0]}", tuple(related))
 
 
 def _may_export(package: Package, target: str) -> bool:
     script = package.script
-    if script is None or package.builds_with != "ament_cmake" or script.interfaces or hidden(package, ANYTHING):
+    if (
+        script is None
+        or package.builds_with != "ament_cmake"
+        or script.interfaces
+        or opaque_except_undefined_targets(package, ALL_FACETS)
+    ):
         return True
     if has_extras(package):
         return True
@@ -193,20 +201,20 @@ def _no_libraries(package: Package, defined: Collection[str]) -> Iterator[Findin
             name = evaluated_name(package, text)
             if name is None or call.blocks or name in defined:
                 continue
-            if name == evaluated_name(package, "${PROJECT_NAME}") or similar(name, libraries, 1, 0.9):
+            if name == evaluated_name(package, "${PROJECT_NAME}") or similar_names(name, libraries, 1, 0.9):
                 message = f"ament_export_libraries() exports '{name}', which is not a library of this package"
                 yield _finding(message, name, libraries, [(call, index)])._replace(severity=Severity.WARNING)
 
 
 def _finding(message: str, name: str, names: Sequence[str], places: list[tuple[Call, int]]) -> Finding:
-    near = similar(name, names, 1, 0.8)
+    near = similar_names(name, names, 1, 0.8)
     fix = None
     if near:
-        message += is_meant(near)
+        message += ask_if_meant(near)
         if all(call.texts[index] == name for call, index in places):
             fix = Fix(f"write '{near[0]}'", tuple(cmake_edits.write(call, index, near[0]) for call, index in places), safe=False)
     first, *others = [call.span(index) for call, index in places]
-    return Finding(message, first, name, several(Related("also here", span) for span in others), fix)
+    return Finding(message, first, name, first_related(Related("also here", span) for span in others), fix)
 
 
 RULE = Rule(

@@ -75,16 +75,16 @@ from ros_lint.api import (
     called,
     cmake_edits,
     evaluated_name,
-    few,
-    found_along,
-    found_names,
-    given_for,
+    first_related,
     has_extras,
-    is_cut_short,
-    may_bring,
+    macro_packages,
+    may_provide,
+    names_searched,
+    partial_closure,
     relative,
-    several,
+    shorten_list,
     stem,
+    stops_early,
 )
 
 _EXPORTS = frozenset({"ament_export_include_directories", "ament_export_targets", "ament_export_interfaces"})
@@ -101,21 +101,21 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for names, finding in all_findings:
         together = sure if finding.confidence is Confidence.HIGH else names
         edit = cmake_edits.export_dependencies(package, " ".join(names), together) if names else None
-        yield finding._replace(fix=Fix.of(f"export {few(names)}", edit, safe=False))
+        yield finding._replace(fix=Fix.of(f"export {shorten_list(names)}", edit, safe=False))
     yield from _without_components(package, workspace)
 
 
 def _is_seen(package: Package) -> bool:
     """Return whether the exports of a package are known completely and are written in its script."""
     script = package.script
-    if script is None or is_cut_short(script) or package.builds_with != "ament_cmake":
+    if script is None or stops_early(script) or package.builds_with != "ament_cmake":
         return False
     return not (script.hides(Facet.USES) or _EXPORTS_ALL.intersection(script.calls))
 
 
 def _exported(script: BuildScript) -> set[str]:
     """Return the packages that find_package() of this package also finds, by their CMake names."""
-    exported = {mention.name for mention in given_for(script, "export", "interfaces")}
+    exported = {mention.name for mention in macro_packages(script, "export", "interfaces")}
     return exported.union(mention.name for mention, _ in script.handed_on)
 
 
@@ -127,24 +127,24 @@ def _linked(package: Package, workspace: Workspace, reported: Container[str]) ->
     script = package.script
     if script is None or not _is_seen(package):
         return
-    found = found_names(package, script)
-    closure = found_along(workspace, _exported(script))
+    found = names_searched(package, script)
+    closure = partial_closure(workspace, _exported(script))
     places: dict[str, list[Span]] = {}
     for name, span in _linked_publicly(package, workspace):
         if name in found and name not in reported and workspace.world.is_package(name):
             places.setdefault(name, []).append(span)
     names = [name for name in places if name not in closure]
-    sure = [name for name in names if closure.complete or not may_bring(closure.unknown, name, workspace)]
+    sure = [name for name in names if closure.complete or not may_provide(closure.unknown, name, workspace)]
     usable = Confidence.HIGH if _has_headers(script) else Confidence.MEDIUM
     for group, confidence in ((sure, usable), ([name for name in names if name not in sure], Confidence.MEDIUM)):
         if not group:
             continue
         first, *others = [span for name in group for span in places[name]]
         message = (
-            f"an exported library links targets of {few(group)}, but packages that use this one do not find them; "
+            f"an exported library links targets of {shorten_list(group)}, but packages that use this one do not find them; "
             f"add ament_export_dependencies({' '.join(group)})"
         )
-        related = several(Related("also linked publicly", span) for span in others)
+        related = first_related(Related("also linked publicly", span) for span in others)
         yield tuple(group) if group is sure else (), Finding(message, first, group[0], related, confidence=confidence)
 
 
@@ -229,7 +229,7 @@ def _included(package: Package, workspace: Workspace) -> Iterator[tuple[tuple[st
     by_cmake = workspace.world.by_cmake
     exported = _exported(script)
     exported_packages = exported.union(*(by_cmake(name).names for name in exported))
-    finds = sorted(found_names(package, script))
+    finds = sorted(names_searched(package, script))
     usable = _compilable_elsewhere(package, workspace, script)
     for name, uses in _public_includes(package, workspace, script).items():
         found = [cmake for cmake in finds if cmake == name or name in by_cmake(cmake).names[:1]]
@@ -249,7 +249,7 @@ def _included(package: Package, workspace: Workspace) -> Iterator[tuple[tuple[st
                 f"'{name}' is included by this installed header, but not exported; {remedy}",
                 first.span,
                 name,
-                several(Related(f"also included here: {use.what}", use.span) for use in others),
+                first_related(Related(f"also included here: {use.what}", use.span) for use in others),
                 None,
                 confidence,
             ),
@@ -267,8 +267,8 @@ def _can_be_found(package: Package, workspace: Workspace, name: str) -> bool:
 def _confidence(package: Package, workspace: Workspace, name: str, exported: set[str], uses: list[Use]) -> Confidence:
     script = package.script
     assert script is not None
-    closure = found_along(workspace, exported)
-    if name in closure or (not closure.complete and may_bring(closure.unknown, name, workspace)):
+    closure = partial_closure(workspace, exported)
+    if name in closure or (not closure.complete and may_provide(closure.unknown, name, workspace)):
         return Confidence.MEDIUM
     if _internal_sources(package, script).issuperset([stem(use.span.path) for use in uses]):
         return Confidence.MEDIUM
@@ -313,7 +313,7 @@ def _public_includes(package: Package, workspace: Workspace, script: BuildScript
     """Return the ROS packages, and libraries with vendor packages, that installed headers include, with the uses."""
     is_package = workspace.world.is_package
     installed = _installed(script)
-    finds = found_names(package, script)
+    finds = names_searched(package, script)
     uses: dict[str, list[Use]] = {}
     for use in _includes(package):
         known = any(is_package(name) for name in use.providers if name == use.package or name.endswith(VENDOR))

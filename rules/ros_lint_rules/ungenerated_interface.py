@@ -70,16 +70,16 @@ from ros_lint.api import (
     Severity,
     Span,
     Workspace,
+    cached_by_package,
     called,
     did_you_mean,
-    few,
+    first_related,
     generated_from,
     interface_names,
-    per_package,
     place_of,
     relative,
-    several,
-    similar,
+    shorten_list,
+    similar_names,
 )
 
 _GENERATE = "rosidl_generate_interfaces"
@@ -136,7 +136,7 @@ def _of_python(package: Package) -> Iterator[Finding]:
         f"{'them' if others else 'it'} to an ament_cmake package",
         tag.span,
         files[0],
-        several(_here(package, file) for file in files),
+        first_related(_here(package, file) for file in files),
     )
 
 
@@ -185,7 +185,7 @@ def _missing(package: Package, workspace: Workspace) -> Iterator[Finding]:
             wrong,
             places[0],
             f"{used.maker}/{used.kind or 'msg'}/{used.name}",
-            several(related),
+            first_related(related),
             confidence=Confidence.MEDIUM if not makers and workspace.source_lists else Confidence.HIGH,
             severity=Severity.ERROR,
         )
@@ -250,7 +250,7 @@ def _wrong_released(used: _Used, workspace: Workspace) -> str | None:
     available = _names(known, used.kind, bool(used.header))
     if not known or _is_among(used, available):
         return None
-    if used.name not in _names(known, "", bool(used.header)) and not similar(used.name, available, 1, 0.88):
+    if used.name not in _names(known, "", bool(used.header)) and not similar_names(used.name, available, 1, 0.88):
         return None  # not a typo: a newer version may have the interface
     return _message(used, sorted(known), available, "have", "; correct the name")
 
@@ -268,7 +268,7 @@ def _message(used: _Used, interfaces: Sequence[str], available: Collection[str],
     elsewhere = next((f"{kind}/{form(name)}{used.header}" for kind, name in parts if form(name) == used.name), "")
     if elsewhere:
         return f"'{used.maker}' does not {verb} '{named}'; it has '{elsewhere}'"
-    near = similar(used.name, sorted(available))
+    near = similar_names(used.name, sorted(available))
     suggestion = did_you_mean([f"{name}{used.header}" for name in near])
     return f"'{used.maker}' does not {verb} '{named}'{suggestion or remedy}"
 
@@ -293,7 +293,7 @@ def _generated(name: str, workspace: Workspace) -> tuple[str, ...]:
     return next((package.built.interfaces for package in workspace.by_name.get(name, ())), ())
 
 
-@per_package
+@cached_by_package
 def _available(maker: Package, workspace: Workspace) -> Mapping[tuple[str, bool], frozenset[str]]:
     """Return the names of the interfaces of a package by kind, "" for any, and by whether they are written as in headers.
 
@@ -367,7 +367,7 @@ def _of_many(package: Package, calls: list[Call], files: list[str]) -> Finding:
         "add or remove them",
         calls[0].place,
         f"{files[0].partition('/')[0]}/",
-        several(_here(package, file) for file in files),
+        first_related(_here(package, file) for file in files),
         _fix(calls, files),
         Confidence.MEDIUM if calls[0].blocks else Confidence.HIGH,
     )
@@ -383,7 +383,7 @@ def _fix(calls: list[Call], files: list[str]) -> Fix | None:
             quote = '"' if span.end_column - span.column == len(call.texts[at]) + 2 else ""
             gap = " " if at and span.line == call.span(at - 1).line else "\n" + " " * (span.column - 1)
             added = "".join(f"{gap}{quote}{file}{quote}" for file in files)
-            return Fix(f"generate {few(files)}", (Edit(span.end(), added),), safe=False)
+            return Fix(f"generate {shorten_list(files)}", (Edit(span.end(), added),), safe=False)
     return None
 
 

@@ -57,17 +57,17 @@ from ros_lint.api import (
     called,
     cmake_edits,
     evaluated_name,
-    forgotten_nodes,
-    hidden,
+    files_using_client_library,
+    first_related,
     installed_targets,
-    launchable,
-    left_out_nodes,
+    never_installed_nodes,
+    node_references,
     node_targets,
     nodes_started,
+    opaque_except_undefined_targets,
+    package_launch_files,
+    partly_installed_nodes,
     programs_built,
-    several,
-    started,
-    with_client,
 )
 
 _BIN = ("bin", "${CMAKE_INSTALL_BINDIR}", "lib", "${CMAKE_INSTALL_LIBDIR}")
@@ -77,7 +77,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_cmake":
         return
-    unseen, own = hidden(package, Facet.EXECUTABLES), f"lib/{package.name}"
+    unseen, own = opaque_except_undefined_targets(package, Facet.EXECUTABLES), f"lib/{package.name}"
     if any("INSTALL_TO_PATH" in call.texts for call in called(package, "ament_auto_package", anywhere=True)):
         return
     places: dict[str, list[tuple[str, str, Span]]] = {}
@@ -86,22 +86,22 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             folder, _, name = provided.path.rpartition("/")
             places.setdefault(provided.target, []).append((folder, name, provided.span))
     nodes = node_targets(package)
-    forgotten = forgotten_nodes(package)
-    left_out = left_out_nodes(package)
+    forgotten = never_installed_nodes(package)
+    left_out = partly_installed_nodes(package)
     by_launch_files = nodes_started(workspace).get(package.name, {})
     for target in programs_built(script):
         installed = places.get(target.name, [])
         if not all(_is_outside_packages(folder) for folder, _, _ in installed):
             continue
         launched = by_launch_files.get(installed[0][1] if installed else target.name, ())
-        related = several(Related("started by a launch file here", reference.span) for reference in launched)
+        related = first_related(Related("started by a launch file here", reference.span) for reference in launched)
         sure = bool(launched or target.name in nodes)
         nowhere = all(folder in ("lib", f"bin/{package.name}") for folder, _, _ in installed)
         if installed and nowhere:
             sure = sure or all(
                 folder != "lib" or _installs_executables_only(package, span, script.targets) for folder, _, span in installed
             )
-        if installed and (sure or nowhere or any(file.startswith("include/") for file in with_client(package))):
+        if installed and (sure or nowhere or any(file.startswith("include/") for file in files_using_client_library(package))):
             folder, _, span = installed[0]
             finders = "ros2 run, launch and the shell" if nowhere else "ros2 run and launch"
             yield Finding(
@@ -131,10 +131,12 @@ def _is_outside_packages(folder: str) -> bool:
 
 def _kept_back(package: Package, name: str, launched: Sequence[LaunchReference], workspace: Workspace) -> bool:
     """Return whether only launch files that are not installed start the program, one of them excluded on purpose."""
-    if name not in started([package], kept_back=True).get(package.name, {}):
+    if name not in node_references([package], kept_back=True).get(package.name, {}):
         return False
     paths = {reference.span.path for reference in launched}
-    files = (launch for owner in workspace.packages for launch in launchable(owner) if launch.installed) if paths else ()
+    files = (
+        (launch for owner in workspace.packages for launch in package_launch_files(owner) if launch.installed) if paths else ()
+    )
     return not any(launch.file.path in paths for launch in files)
 
 

@@ -58,23 +58,23 @@ from ros_lint.api import (
     Facet,
     Finding,
     Fix,
+    InstalledFile,
     Package,
-    Provided,
     Related,
     Rule,
     Severity,
     Use,
     Workspace,
+    cached_by_workspace,
     called,
     cmake_edits,
     evaluated_name,
-    found_names,
+    first_related,
     has_extras,
-    hidden,
-    is_apart,
-    per_workspace,
+    is_auxiliary,
+    names_searched,
+    opaque_except_undefined_targets,
     relative,
-    several,
 )
 
 _LINKED = ("ament_export_interfaces", "ament_export_libraries", "ament_export_targets")
@@ -88,7 +88,7 @@ _EXPORTS = (
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
-    if script is None or package.builds_with != "ament_cmake" or hidden(package, Facet.LIBRARIES):
+    if script is None or package.builds_with != "ament_cmake" or opaque_except_undefined_targets(package, Facet.LIBRARIES):
         return
     headers = [file for file in package.files if file.startswith("include/") and file.endswith(HEADERS)]
     places = [provided.path for provided in script.provides]
@@ -138,7 +138,7 @@ def _is_loaded(package: Package, script: BuildScript) -> bool:
     """Return whether a library of the package may be loaded at run time instead of linked."""
     if any(True for _ in called(package, EXPORTING_PLUGINS, *REGISTERING, anywhere=True)):
         return True
-    return any(_GAZEBO.match(name) for name in found_names(package, script))
+    return any(_GAZEBO.match(name) for name in names_searched(package, script))
 
 
 def _name(path: str) -> str:
@@ -196,7 +196,7 @@ def _doubled(package: Package, script: BuildScript, wanted: list[tuple[Package, 
     )
 
 
-def _is_doubled(provided: Provided) -> bool:
+def _is_doubled(provided: InstalledFile) -> bool:
     """Return whether a file of include/ is installed with its whole path below another folder, in every build."""
     return provided.path.startswith("include/") and provided.path.endswith(f"/{provided.source}") and not provided.conditional
 
@@ -209,14 +209,14 @@ def _export_without_library(headers: Sequence[str], exports: Sequence[Call]) -> 
         "to use them with; remove the export",
         first.place,
         "include/",
-        several(Related("also exported here", call.place) for call in others),
+        first_related(Related("also exported here", call.place) for call in others),
         severity=Severity.WARNING,
     )
 
 
 def _unexported(package: Package, wanted: list[tuple[Package, Use]]) -> Iterator[Finding]:
     """Yield the missing export of headers that a package includes which finds this one."""
-    includes = [(other, use) for other, use in wanted if other.script and package.name in found_names(other, other.script)]
+    includes = [(other, use) for other, use in wanted if other.script and package.name in names_searched(other, other.script)]
     if includes and package.script and package.script.end:
         libraries = "" if any(True for _ in called(package, "ament_export_libraries")) else " and ament_export_libraries()"
         what = "no include directories" if any(name.startswith("ament_export_") for name in package.script.calls) else "nothing"
@@ -244,10 +244,10 @@ def _is_read(package: Package, call: Call) -> bool:
 
 
 def _included_here(wanted: list[tuple[Package, Use]]) -> tuple[Related, ...]:
-    return several(Related(f"included in '{other.name}'", use.span) for other, use in wanted)
+    return first_related(Related(f"included in '{other.name}'", use.span) for other, use in wanted)
 
 
-@per_workspace
+@cached_by_workspace
 def _includes(workspace: Workspace) -> Mapping[str, list[tuple[Package, Use]]]:
     """Return the includes of headers of other packages, by the name of the package that is included."""
     includes: dict[str, list[tuple[Package, Use]]] = {}
@@ -256,7 +256,7 @@ def _includes(workspace: Workspace) -> Mapping[str, list[tuple[Package, Use]]]:
             continue
         for use in package.uses:
             others = workspace.by_name.get(use.package, ()) if use.via == "include" and use.sure and not use.optional else ()
-            if others and use.package != package.name and not is_apart(relative(package, use.span.path)):
+            if others and use.package != package.name and not is_auxiliary(relative(package, use.span.path)):
                 includes.setdefault(use.package, []).append((package, use))
     return includes
 

@@ -43,15 +43,15 @@ from ros_lint.api import (
     Severity,
     Workspace,
     cmake_edits,
-    few,
+    first_related,
     folders_of,
+    is_excluded_from_install,
     is_for_tests,
-    is_kept_back,
     launch_suffix,
-    launchable,
+    package_launch_files,
     place_of,
     setup_edits,
-    several,
+    shorten_list,
 )
 
 
@@ -64,7 +64,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     missing: dict[str, list[str]] = {}
     kept: set[str] = set()
     names = {provided.path.rpartition("/")[2] for provided in script.provides}
-    for launch in launchable(package):
+    for launch in package_launch_files(package):
         folder, _, name = launch.path.rpartition("/")
         if launch.installed:
             kept.update(folders_of(launch.path))
@@ -72,7 +72,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             missing.setdefault(folder, []).append(launch.path)
     for folder, paths in _grouped(missing, kept).items():
         whole = folder not in kept and folder != ""
-        uninstalled = paths if whole else [path for path in paths if launch_suffix(path) and not is_kept_back(package, path)]
+        uninstalled = (
+            paths if whole else [path for path in paths if launch_suffix(path) and not is_excluded_from_install(package, path)]
+        )
         if uninstalled:
             yield _finding(package, folder, uninstalled, whole=whole)
 
@@ -90,7 +92,7 @@ def _finding(package: Package, folder: str, paths: Iterable[str], whole: bool) -
     script = package.script
     assert script is not None
     paths = sorted(paths)
-    named = few(path.rpartition("/")[2] for path in paths)
+    named = shorten_list(path.rpartition("/")[2] for path in paths)
     it = "it" if len(paths) == 1 else "them"
     if whole:
         what = f"'{folder}/' contains launch files ({named}), but is not installed"
@@ -100,7 +102,7 @@ def _finding(package: Package, folder: str, paths: Iterable[str], whole: bool) -
         f"{what}, so ros2 launch will not find {it}; install {'it' if whole else it} to share/{package.name}",
         setup_edits.place(script),
         folder or paths[0],
-        several(Related("this launch file", place_of(package, path)) for path in paths),
+        first_related(Related("this launch file", place_of(package, path)) for path in paths),
         _fix(package, folder, paths, whole),
     )
 

@@ -56,29 +56,29 @@ from ros_lint.api import (
     Severity,
     Span,
     Workspace,
-    astray,
     called,
     cmake_edits,
     evaluated_name,
-    found_names,
+    first_related,
     has_header,
-    hidden,
+    install_arguments,
     installs_built,
-    is_on_request,
-    is_shared_by_words,
+    is_declared_shared,
+    is_optional_target,
+    libraries_in_libexec,
     library_calls,
-    listed_to_install,
+    names_searched,
+    opaque_except_undefined_targets,
     relative,
-    several,
 )
 
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
     script = package.script
-    if script is None or package.builds_with != "ament_cmake" or hidden(package, Facet.LIBRARIES):
+    if script is None or package.builds_with != "ament_cmake" or opaque_except_undefined_targets(package, Facet.LIBRARIES):
         return
     installed = {provided.target for provided in script.provides}
-    listed = listed_to_install(package)
+    listed = install_arguments(package)
     components = {name for call in called(package, *REGISTERING, anywhere=True) for name in _names(package, call.texts[:1])}
     yield from _in_package_folder(package)
     for target in script.targets:
@@ -93,7 +93,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         users = [(name, span) for name, span in _linked_by(script, target.name) if name in installed]
         users = users if shared and not headers_only else []
         exported = _exported(package, target.name)
-        related = several(Related(f"linked by '{name}' here", span) for name, span in users)
+        related = first_related(Related(f"linked by '{name}' here", span) for name, span in users)
         if exported is not None:
             related += (Related("exported here", exported),)
         reason = f", although '{users[0][0]}' needs it at run time" if users else ", although it is exported" if exported else ""
@@ -111,7 +111,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
 def _in_package_folder(package: Package) -> Iterator[Finding]:
     """Yield the exported libraries that are installed where ament_cmake_export_libraries does not look for them."""
     loaded = EXPORTING_PLUGINS in package.built.calls
-    for name, place in astray(package, (".so", ".a")).items():
+    for name, place in libraries_in_libexec(package, (".so", ".a")).items():
         if exported := _exported(package, name):
             yield Finding(
                 f"the library '{name}' is exported, but installed to lib/{package.name}, where find_package() does not look; "
@@ -129,7 +129,7 @@ def _names(package: Package, texts: tuple[str, ...]) -> Iterator[str]:
 
 def _is_shared(package: Package, name: str) -> bool:
     """Return whether the library is certainly shared."""
-    packages = found_names(package, package.built)
+    packages = names_searched(package, package.built)
     for call in library_calls(package, name):
         kinds = {"STATIC", "OBJECT", "INTERFACE"}.intersection(call.texts)
         return "SHARED" in call.texts or (not kinds and "ament_cmake_ros" in packages)
@@ -144,7 +144,7 @@ def _is_for_others(package: Package, library: BuildTarget, *, loaded: bool) -> b
     """
     script = package.script
     assert script is not None
-    if is_on_request(package, library) or not is_shared_by_words(package, library.name):
+    if is_optional_target(package, library) or not is_declared_shared(package, library.name):
         return False
     installed = {provided.target for provided in script.provides if provided.target}
     uninstalled = {target.name for target in script.targets if target.kind == "executable" and target.name not in installed}

@@ -53,7 +53,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from ros_lint.api import (
-    LAUNCH_NAMES,
+    LAUNCH_FILE_NAMES,
     BuildScript,
     Confidence,
     Facet,
@@ -66,15 +66,15 @@ from ros_lint.api import (
     Span,
     Workspace,
     cmake_edits,
-    few,
     files_looked_up,
+    first_related,
     folders_of,
     from_base,
-    is_apart,
-    launchable,
+    is_auxiliary,
+    package_launch_files,
     relative,
     setup_edits,
-    several,
+    shorten_list,
     uninstalled_resources,
 )
 
@@ -103,7 +103,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for look_up in files_looked_up(workspace).get(package.name, ()):
         path, span = look_up.path.rstrip("/"), look_up.span
         place = f"share/{package.name}/{path}"
-        if place in installed or path.endswith(LAUNCH_NAMES):
+        if place in installed or path.endswith(LAUNCH_FILE_NAMES):
             continue
         if not (path in files or path in folders):
             if not workspace.is_made(package, path):  # else it is generated where it is needed
@@ -125,7 +125,7 @@ def _with_folders(paths: Iterable[str]) -> set[str]:
 
 def _is_resource(path: str) -> bool:
     """Return whether a file is in a folder that a launch file or program may look up as a whole."""
-    return "/" in path and path.lower().endswith(_RUN_TIME) and not is_apart(path)
+    return "/" in path and path.lower().endswith(_RUN_TIME) and not is_auxiliary(path)
 
 
 def _unit(path: str, kept: set[str]) -> str:
@@ -139,13 +139,13 @@ def _unit(path: str, kept: set[str]) -> str:
 def _looked_up(package: Package, script: BuildScript, unit: str, look_ups: list[tuple[str, Span]]) -> Finding:
     paths = sorted({path for path, _ in look_ups} - {unit.rstrip("/")})
     names = list(dict.fromkeys(map(_name, paths)))
-    inside = f"{few(names)} {'is' if len(names) == 1 else 'are'} looked up in it"
+    inside = f"{shorten_list(names)} {'is' if len(names) == 1 else 'are'} looked up in it"
     reason = inside if unit.endswith("/") and paths else "it is looked up at run time"
     return Finding(
         f"'{unit}' is not installed, but {reason}; install it to share/{package.name}",
         setup_edits.place(script),
         unit,
-        several(Related("looked up here", span) for _, span in look_ups),
+        first_related(Related("looked up here", span) for _, span in look_ups),
         _fix(package, script, unit),
     )
 
@@ -161,7 +161,7 @@ def _folders(
 
     ``reported``: top folders with findings already. ``looked_into``: folders in which a file is looked up that does not exist.
     """
-    launches = {launch.path for launch in launchable(package)}
+    launches = {launch.path for launch in package_launch_files(package)}
     places = dict(script.named)
     # A file that is installed from an unknown place, such as one of several folders, may be any file of that name.
     chosen = frozenset([_name(provided.path) for provided in script.provides if not provided.source])
@@ -204,13 +204,13 @@ class _FolderFindings:
         below = from_base(package, f"{folder}/")
         named = [file for file in files if file in places and not places[file].path.startswith(below)]
         looked_up = [file for file in named if (places[file].path, _name(file)) not in self._elsewhere]
-        examples = few(_name(file) for file in (*named, *(file for file in files if file not in places)))
+        examples = shorten_list(_name(file) for file in (*named, *(file for file in files if file not in places)))
         return Finding(
             f"'{folder}/' (contains {examples}) is not installed, so it will not be found at run time; "
             f"install it to share/{package.name}",
             setup_edits.place(script),
             f"{folder}/",
-            several(
+            first_related(
                 [Related(f"'{_name(file)}' is named here", places[file]) for file in looked_up]
                 or [
                     Related("a file is looked up in it here", self._looked_into[path])
@@ -254,7 +254,7 @@ def _makes_nothing(package: Package, script: BuildScript) -> bool:
 
     Packages named after tests or examples may use their files in the sources.
     """
-    return script.makes_nothing and not is_apart(f"{package.name.replace('_', '/')}/")
+    return script.makes_nothing and not is_auxiliary(f"{package.name.replace('_', '/')}/")
 
 
 def _only_files(package: Package, script: BuildScript) -> bool:

@@ -51,8 +51,8 @@ from ros_lint.api import (
     Severity,
     Workspace,
     cmake_edits,
-    hidden,
-    is_apart,
+    is_auxiliary,
+    opaque_except_undefined_targets,
     place_of,
     relative,
 )
@@ -60,7 +60,7 @@ from ros_lint.api import (
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
-    if script is None or hidden(package, Facet.EXECUTABLES | Facet.SHARE):
+    if script is None or opaque_except_undefined_targets(package, Facet.EXECUTABLES | Facet.SHARE):
         return
     if package.builds_with == "ament_python":
         yield from _of_setup(package)
@@ -73,7 +73,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     excluded |= {relative(package, use.span.path) for use in package.uses if standing(use.package) == "end-of-life"}
     with_nodes = Counter([file.rpartition("/")[0] for file in nodes & installed])
     candidates = [file for file in script.files if file.path not in excluded and file.shebang and file.main]
-    uninstalled = [file for file in candidates if not is_apart(file.path)]
+    uninstalled = [file for file in candidates if not is_auxiliary(file.path)]
     left_out = Counter([file.path.rpartition("/")[0] for file in uninstalled if file.executable and file.path in nodes])
     for file in uninstalled:
         folder = file.path.rpartition("/")[0]

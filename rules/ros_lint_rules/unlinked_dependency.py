@@ -56,10 +56,10 @@ from ros_lint.api import (
     cmake_edits,
     evaluated_name,
     finds_declared,
-    found_along,
-    found_names,
-    given_for,
-    may_bring,
+    macro_packages,
+    may_provide,
+    names_searched,
+    partial_closure,
     relative,
 )
 
@@ -70,10 +70,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     if script.hides(Facet.USES) or finds_declared(package):
         return
-    names = found_names(package, script)
+    names = names_searched(package, script)
     if any(other.hidden(Facet.USES) for name in names for other in workspace.by_name.get(name, ())):
         return  # its effect on packages that find it is unknown
-    interfaces = [mention.name for mention in given_for(script, "interfaces")]
+    interfaces = [mention.name for mention in macro_packages(script, "interfaces")]
     packages = [name for name in names if workspace.world.is_package(name) and not name.endswith(VENDOR)]
     uses = _includes(package, frozenset(packages))
     for target in script.targets:
@@ -103,10 +103,10 @@ def _unlinked(
     package: Package, workspace: Workspace, target: BuildTarget, linked: list[str], needed: dict[str, list[Use]]
 ) -> Iterator[Finding]:
     """Yield the packages that the sources of a target include, but that the target does not link."""
-    closure = found_along(workspace, linked)
+    closure = partial_closure(workspace, linked)
     alone = not any(name in closure for name in workspace.by_name)
     for name, uses in needed.items():
-        if name in closure or (not closure.complete and may_bring(closure.unknown, name, workspace)):
+        if name in closure or (not closure.complete and may_provide(closure.unknown, name, workspace)):
             continue
         first, *others = dict.fromkeys(uses)
         has_own_folder = _GENERATED.match(first.name) or (alone and name in workspace.by_name)

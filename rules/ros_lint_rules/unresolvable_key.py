@@ -27,7 +27,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Confidence, Finding, Rule, Severity, Stranger, Workspace, declared_names, lacks_rule, strangers
+from ros_lint.api import (
+    Confidence,
+    Finding,
+    Rule,
+    Severity,
+    UnresolvedDependency,
+    Workspace,
+    declared_names,
+    is_unresolvable_key,
+    unresolved,
+)
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
@@ -36,13 +46,13 @@ def check(workspace: Workspace) -> Iterator[Finding]:
         if world.is_package(name):
             continue
         if world.is_key(name):
-            if lacks_rule(workspace, name):
-                yield from (_key(stranger, workspace) for stranger in strangers(name, packages))
+            if is_unresolvable_key(workspace, name):
+                yield from (_key(stranger, workspace) for stranger in unresolved(name, packages))
         elif workspace.target.told and world.standing(name) == "elsewhere":
-            yield from (_package(stranger, workspace) for stranger in strangers(name, packages))
+            yield from (_package(stranger, workspace) for stranger in unresolved(name, packages))
 
 
-def _key(stranger: Stranger, workspace: Workspace) -> Finding:
+def _key(stranger: UnresolvedDependency, workspace: Workspace) -> Finding:
     name, knowledge, distro = stranger.name, workspace.world.knowledge, workspace.target.distro
     anywhere = knowledge.resolving(name)
     meant = workspace.world.meant(name, python=stranger.runs_python)
@@ -56,7 +66,7 @@ def _key(stranger: Stranger, workspace: Workspace) -> Finding:
     )
 
 
-def _package(stranger: Stranger, workspace: Workspace) -> Finding:
+def _package(stranger: UnresolvedDependency, workspace: Workspace) -> Finding:
     name, world, distro = stranger.name, workspace.world, workspace.target.distro
     others = ", ".join(world.where_else(name))
     return Finding(

@@ -44,7 +44,7 @@ from ros_lint.api import (
     Severity,
     Workspace,
     called,
-    found_names,
+    names_searched,
 )
 
 _AUTO = "ament_lint_auto"
@@ -92,7 +92,7 @@ def _none_to_run(package: Package, script: BuildScript) -> Iterator[Finding]:
     for_tests = [declared.depend for declared in package.declared if declared.depend.tag == "test_depend"]
     if _RUN not in script.calls or {depend.name for depend in for_tests} != {_AUTO}:
         return
-    packages = found_names(package, script).union(_looked_for(package)) - _BRING_NONE
+    packages = names_searched(package, script).union(_looked_for(package)) - _BRING_NONE
     if not any(map(_MAY_BRING.search, packages)):
         yield Finding(
             f"'{_AUTO}' runs the linters among the test dependencies, but package.xml declares none; add "

@@ -51,35 +51,35 @@ from ros_lint.api import (
     LINTERS,
     PYTHON_LIKE,
     BuildScript,
-    Carried,
     Confidence,
     Declared,
     Depend,
     Facet,
     Finding,
     Fix,
+    LostProvision,
     Package,
     Role,
     Rule,
     Severity,
     Workspace,
     called,
-    carriers,
     conditions,
+    has_programs,
     interface_names,
-    is_built_in_sight,
+    is_build_visible,
+    is_fully_visible,
     is_library,
-    is_mostly_run,
-    is_seen_whole,
-    is_unseen_by_name,
-    leaves_trace,
-    misspelt,
+    is_mostly_runtime,
+    is_traceless_by_name,
+    may_be_used_without_trace,
+    misspelled_names,
+    name_suggests_no_trace,
+    needed_transitively,
     remove_dependency,
-    runs,
     satisfying,
-    sounds_unseen,
+    usage_is_visible,
     used_names,
-    works_unseen,
 )
 
 _TAGS = ("depend", "build_depend")
@@ -90,7 +90,7 @@ _NO_TEST = FINDS_TESTS | {"enable_testing"}
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     yield from _no_member(package)
     unused = list(_unused(package, workspace))
-    carried = carriers(package, workspace, [declared for declared, _, _ in unused]) if unused else {}
+    carried = needed_transitively(package, workspace, [declared for declared, _, _ in unused]) if unused else {}
     for declared, reason, confidence in unused:
         depend = declared.depend
         name, sure = depend.name, confidence is Confidence.HIGH
@@ -129,7 +129,7 @@ def _no_member(package: Package) -> Iterator[Finding]:
             )
 
 
-def _message_if_carrying(package: Package, name: str, carried: Carried) -> str:
+def _message_if_carrying(package: Package, name: str, carried: LostProvision) -> str:
     """Return the message for an unused dependency that is the only source of a package that is used without a declaration."""
     if carried.package == package.name:
         return f"'{name}' is unused itself; the package uses '{carried.name}' through it; declare '{carried.name}' instead"
@@ -145,7 +145,7 @@ def _needless_tags(package: Package, workspace: Workspace, depend: Depend) -> It
     """Yield the <build_export_depend> and <exec_depend> tags that an unused <build_depend> leaves without purpose."""
     for other in package.tags(depend.name) if depend.tag == "build_depend" else ():
         tag = other.depend.tag
-        to_run = tag == "exec_depend" and not runs(workspace.world, depend.name)
+        to_run = tag == "exec_depend" and not has_programs(workspace.world, depend.name)
         if (tag == "build_export_depend" or to_run) and other.always:
             yield other.depend
 
@@ -153,28 +153,28 @@ def _needless_tags(package: Package, workspace: Workspace, depend: Depend) -> It
 def _unused(package: Package, workspace: Workspace) -> Iterator[tuple[Declared, str, Confidence]]:
     """Yield the tags of dependencies that nothing in the package uses, with the reason and the confidence."""
     script = package.script
-    if script is None or not is_built_in_sight(package):
+    if script is None or not is_build_visible(package):
         return
-    whole = is_seen_whole(package)
+    whole = is_fully_visible(package)
     unsure = workspace.unread() or _lacks_programs(package, script)
     world = workspace.world
     built = [declared.name for declared in package.declared if declared.depend.tag in _TAGS and declared.always]
     used = used_names(built, package.uses)
     libraries = satisfying(package.uses)
-    wrong = misspelt(package, workspace)
+    wrong = misspelled_names(package, workspace)
     for declared in package.declared:
         depend = declared.depend
         name = depend.name
-        if not declared.always or name in used or name in wrong or sounds_unseen(world, name):
+        if not declared.always or name in used or name in wrong or name_suggests_no_trace(world, name):
             continue
         if not (whole or is_library(world, name)):
             continue
-        unknown = is_unseen_by_name(world, name)
-        mostly_run = depend.tag in _TAGS and not unknown and is_mostly_run(workspace, name)
+        unknown = is_traceless_by_name(world, name)
+        mostly_run = depend.tag in _TAGS and not unknown and is_mostly_runtime(workspace, name)
         if depend.tag in _TAGS:
-            if name in package.traces or (name in libraries if unknown else works_unseen(package, workspace, name)):
+            if name in package.traces or (name in libraries if unknown else may_be_used_without_trace(package, workspace, name)):
                 continue
-            if mostly_run and not leaves_trace(package, workspace, name):
+            if mostly_run and not usage_is_visible(package, workspace, name):
                 continue
             reason = "nothing in the package uses it"
         elif depend.tag == "test_depend" and not (

@@ -35,27 +35,32 @@ from ros_lint.api import (
     Severity,
     Workspace,
     cmake_edits,
-    forgotten_nodes,
-    hidden,
-    is_on_request,
-    left_out_nodes,
-    listed_to_install,
+    install_arguments,
+    is_optional_target,
     may_run_built,
+    never_installed_nodes,
     nodes_started,
+    opaque_except_undefined_targets,
+    partly_installed_nodes,
 )
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
-    if script is None or package.builds_with != "ament_cmake" or hidden(package, Facet.EXECUTABLES) or may_run_built(script):
+    if (
+        script is None
+        or package.builds_with != "ament_cmake"
+        or opaque_except_undefined_targets(package, Facet.EXECUTABLES)
+        or may_run_built(script)
+    ):
         return
-    excluded = {provided.target for provided in script.provides} | listed_to_install(package)
-    excluded |= forgotten_nodes(package) | left_out_nodes(package)  # uninstalled-executable reports them
+    excluded = {provided.target for provided in script.provides} | install_arguments(package)
+    excluded |= never_installed_nodes(package) | partly_installed_nodes(package)  # uninstalled-executable reports them
     excluded.update(nodes_started(workspace).get(package.name, {}))
     for target in script.targets:
         if target.kind != "executable" or target.test or target.name in excluded:
             continue
-        if is_on_request(package, target):
+        if is_optional_target(package, target):
             continue
         fix = Fix.of(f"install '{target.name}'", cmake_edits.install_program(script, "TARGETS", target.name), safe=False)
         message = f"'{target.name}' is built, but neither installed nor a test; install it, or build it only on request"

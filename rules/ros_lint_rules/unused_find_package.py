@@ -29,15 +29,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Finding, Mention, Package, Related, Rule, Severity, Workspace, found_for_nothing, several
+from ros_lint.api import Finding, Mention, Package, Related, Rule, Severity, Workspace, first_related, unused_find_packages
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    for mention in found_for_nothing(package, workspace):
+    for mention in unused_find_packages(package, workspace):
         name = mention.name
         others = _also_named(package, mention)
         what = f"find_package({name})" + (f" and the other uses of '{name}' in the build script" if others else "")
-        related = several(Related(f"also named here: {other.what or other.name}", other.span) for other in others)
+        related = first_related(Related(f"also named here: {other.what or other.name}", other.span) for other in others)
         yield Finding(f"no code uses '{name}'; remove {what}", mention.span, name, related)
 
 

@@ -42,7 +42,7 @@ from ros_lint.api import (
     Workspace,
     conditions,
     place_of,
-    similar,
+    similar_names,
 )
 
 _TYPES = ("ament_cmake", "ament_python", "cmake", "catkin", "ament_cargo", "ament_gradle")
@@ -92,7 +92,7 @@ def _of_package(package: Package, manifest: Manifest, workspace: Workspace) -> I
 
 def _unknown(export: Element) -> Finding:
     name = export.text
-    close = [_MISTAKES[name]] if name in _MISTAKES else similar(name, _TYPES, 1, 0.8)
+    close = [_MISTAKES[name]] if name in _MISTAKES else similar_names(name, _TYPES, 1, 0.8)
     if not close:
         message = f"colcon itself has no build type '{name}'; write {_KNOWN}, or another type that it supports"
         return Finding(message, export.text_span, name, confidence=Confidence.MEDIUM)
@@ -110,7 +110,7 @@ def _without_script(package: Package, export: Element) -> Iterator[Finding]:
         fix = Fix(f"write '{other}'", (Edit(export.text_span, other),), safe=False)
         yield Finding(message, export.text_span, export.text, fix=fix)
     else:
-        near = similar(script.lower(), [file.lower() for file in package.files if "/" not in file], 1, 0.85)
+        near = similar_names(script.lower(), [file.lower() for file in package.files if "/" not in file], 1, 0.85)
         meant = next((file for file in package.files if near and file.lower() == near[0]), "")
         remedy = f"but the package has a '{meant}'; rename it to {script}" if meant else "which does not exist; add it"
         related = (Related("this file", place_of(package, meant)),) if meant else ()

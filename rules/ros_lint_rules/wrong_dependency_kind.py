@@ -69,13 +69,13 @@ from ros_lint.api import (
     Use,
     Workspace,
     change_dependency,
-    comes_with_launching,
-    covered,
+    first_related,
     is_for_tests,
-    is_unseen_by_name,
+    is_part_of_launch,
+    is_traceless_by_name,
     needs,
+    provided_transitively,
     relative,
-    several,
     tag_for,
     unguarded_tests,
 )
@@ -116,7 +116,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"'{name}' is declared as {written} only, {wrong.why}; write <{tag}>{name}</{tag}>",
             wrong.depends[0].span,
             name,
-            several(Related(f"used here: {use.what}", use.span) for use in wrong.uses),
+            first_related(Related(f"used here: {use.what}", use.span) for use in wrong.uses),
             Fix(f"declare '{name}' as <{tag}>", change_dependency(package, wrong.depends, tag, same_tag)),
             wrong.confidence,
         )
@@ -139,7 +139,7 @@ def _wrong(package: Package, workspace: Workspace) -> Iterator[_Wrong]:
         # A key for building and another one for running complement each other.
         names = dict.fromkeys((*need.declared, *(name for use in need.uses for name in use.providers if name in by_name)))
         tags = [declared for name in names for declared in by_name[name]]
-        if any(map(_is_for_all, tags)) or comes_with_launching(package, need.uses):
+        if any(map(_is_for_all, tags)) or is_part_of_launch(package, need.uses):
             continue
         exported = need._replace(uses=tuple(_exported_uses(package, need, assume_installed=False)))
         lacking = _lacks(package, workspace, exported, tags)
@@ -225,7 +225,9 @@ def _lacks(package: Package, workspace: Workspace, need: Need, tags: Sequence[De
         return any(use.sure and _is_about(use, role) for use in need.uses)
 
     def is_provided(enough: Role, *, surely: bool = False) -> bool:
-        return covered(package, workspace, {name for use in need.uses for name in use.providers}, enough, surely=surely)
+        return provided_transitively(
+            package, workspace, {name for use in need.uses for name in use.providers}, enough, surely=surely
+        )
 
     def missing(role: Role, enough: Role) -> bool:
         return not given & enough and is_used(role) and not is_provided(enough)
@@ -247,7 +249,7 @@ def _lacks(package: Package, workspace: Workspace, need: Need, tags: Sequence[De
         return _Lack(Role.BUILD, why, Confidence.MEDIUM if handed_on else Confidence.HIGH)
     world = workspace.world
     packages = [name for name in need.declared if world.is_package(name)]
-    if any(is_unseen_by_name(world, name) for name in packages):
+    if any(is_traceless_by_name(world, name) for name in packages):
         return None
     if packages and missing(Role.EXEC, _AFTERWARDS):
         return _Lack(Role.EXEC, "but it is needed at run time")

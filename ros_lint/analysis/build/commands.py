@@ -24,7 +24,7 @@ LINTERS = {
 """Linters, and the command of each."""
 
 
-def is_cut_short(script: BuildScript) -> bool:
+def stops_early(script: BuildScript) -> bool:
     """Whether CMake stops where a script is not to be seen: at a mistake in its syntax, a script or a folder that is not there.
 
     A file that is to be installed and is not there hides nothing.
@@ -69,7 +69,7 @@ _OWN_TARGET = re.compile(r"[^:\s]+")
 """The name of a target that is none of another package."""
 
 
-def hidden(package: Package, facet: Facet) -> tuple[Opaque, ...]:
+def opaque_except_undefined_targets(package: Package, facet: Facet) -> tuple[Opaque, ...]:
     """Return what hides a facet, leaving out targets that are installed and that nobody defines: these are mistakes."""
     return tuple(opaque for opaque in package.hidden(facet) if not _OWN_TARGET.fullmatch(opaque.undefined))
 

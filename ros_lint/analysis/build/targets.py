@@ -5,30 +5,30 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 
-from ros_lint.analysis.build.commands import evaluated_name, hidden
-from ros_lint.base.auxiliary_files import is_apart
+from ros_lint.analysis.build.commands import evaluated_name, opaque_except_undefined_targets
+from ros_lint.base.auxiliary_files import is_auxiliary
 from ros_lint.collectors.suffixes import HEADERS
-from ros_lint.facts.build import BuildScript, Provided
-from ros_lint.facts.cmake import Call, Target
+from ros_lint.facts.build import BuildScript, InstalledFile
+from ros_lint.facts.cmake import BuildTarget, Call
 from ros_lint.facts.sources import Registration
 from ros_lint.facts.visibility import Facet
 from ros_lint.workspace.model import Package, called, relative
 
 
-def programs_built(script: BuildScript) -> Iterator[Target]:
+def programs_built(script: BuildScript) -> Iterator[BuildTarget]:
     """Yield the executables that are built for use: no tests, nor what is called so."""
     for target in script.targets:
         if target.kind == "executable" and not target.test and "test" not in target.name:
             yield target
 
 
-def is_on_request(package: Package, target: Target) -> bool:
+def is_optional_target(package: Package, target: BuildTarget) -> bool:
     """Whether some builds leave out all that a target is made of, or it is an example."""
     wanted = bool(target.sources) and set(target.sources) == set(target.optional)
-    return wanted or is_apart(relative(package, target.span.path))
+    return wanted or is_auxiliary(relative(package, target.span.path))
 
 
-def stranded(package: Package, name: str) -> bool:
+def installed_to_bin_only(package: Package, name: str) -> bool:
     """Return whether a program that launch would not find is built, and goes to bin or nowhere: its own rules say so."""
     script = package.script
     if script is None:
@@ -53,14 +53,14 @@ def may_run_built(script: BuildScript) -> bool:
     return not _RUNS.isdisjoint(calls)
 
 
-def with_client(package: Package) -> frozenset[str]:
+def files_using_client_library(package: Package) -> frozenset[str]:
     """Return the C++ files that include a client library, relative to the package."""
     return frozenset(relative(package, use.span.path) for use in package.uses if use.via == "include" and use.package in _CLIENTS)
 
 
 def node_targets(package: Package) -> frozenset[str]:
     """Return the executables of which a source, or the header that is called as a source is, includes a client library."""
-    files = with_client(package)
+    files = files_using_client_library(package)
     return frozenset(
         target.name
         for target in package.built.targets
@@ -68,7 +68,7 @@ def node_targets(package: Package) -> frozenset[str]:
     )
 
 
-def has_header(target: Target, files: Iterable[str]) -> bool:
+def has_header(target: BuildTarget, files: Iterable[str]) -> bool:
     """Whether one of some files is a header that is called as a source of a target is."""
     stems = {stem(source) for source in target.sources}
     return any(file.endswith(HEADERS) and stem(file) in stems for file in files)
@@ -86,13 +86,13 @@ def library_calls(package: Package, name: str) -> Iterator[Call]:
             yield call
 
 
-def is_shared_by_words(package: Package, name: str) -> bool:
+def is_declared_shared(package: Package, name: str) -> bool:
     """Return whether every build makes a library a shared one, by the words of the command."""
     calls = library_calls(package, name)
     return any(not call.blocks and not {"SHARED", "MODULE"}.isdisjoint(call.texts) for call in calls)
 
 
-def library_of(package: Package, made: Registration) -> str:
+def library_registering(package: Package, made: Registration) -> str:
     """Return the library, tests aside, of which a source makes a class loadable; "" if there is none."""
     path = relative(package, made.span.path)
     for target in package.built.targets:
@@ -114,18 +114,18 @@ _GENERATED = "__rosidl_"
 """What stands in the names of the libraries of interfaces, and of no others."""
 
 
-def listed_to_install(package: Package) -> frozenset[str]:
+def install_arguments(package: Package) -> frozenset[str]:
     """Return every name among the arguments of install(): what stands there may be installed, whether or not it is seen."""
     texts = {text for call in called(package, "install", anywhere=True) for text in call.texts}
     return frozenset([name for text in texts if (name := evaluated_name(package, text))])
 
 
-def astray(package: Package, endings: tuple[str, ...]) -> dict[str, Provided]:
+def libraries_in_libexec(package: Package, endings: tuple[str, ...]) -> dict[str, InstalledFile]:
     """Return the libraries that every build installs to the folder of the programs and to no other, with the first place.
 
     Of the files of a library those count that have one of some endings.
     """
-    places: dict[str, list[Provided]] = {}
+    places: dict[str, list[InstalledFile]] = {}
     for provided in package.built.provides:
         if provided.target and provided.path.endswith(endings):
             places.setdefault(provided.target, []).append(provided)
@@ -137,36 +137,41 @@ def astray(package: Package, endings: tuple[str, ...]) -> dict[str, Provided]:
     }
 
 
-def forgotten_nodes(package: Package) -> frozenset[str]:
+def never_installed_nodes(package: Package) -> frozenset[str]:
     """Return the nodes of a package that installs nothing at all of what it builds: no tests, nothing that the build may run."""
     script = package.script
-    if script is None or hidden(package, Facet.EXECUTABLES) or installs_built(script) or may_run_built(script):
+    if (
+        script is None
+        or opaque_except_undefined_targets(package, Facet.EXECUTABLES)
+        or installs_built(script)
+        or may_run_built(script)
+    ):
         return frozenset()
     return node_targets(package).intersection(target.name for target in programs_built(script))
 
 
-def left_out_nodes(package: Package) -> frozenset[str]:
+def partly_installed_nodes(package: Package) -> frozenset[str]:
     """Return the nodes of every build that a package does not install, while it installs others of its nodes.
 
     No tests, examples or what measures, by the name or the folder of a source, and nothing that the build may run.
     """
     script = package.script
-    if script is None or hidden(package, Facet.EXECUTABLES) or may_run_built(script):
+    if script is None or opaque_except_undefined_targets(package, Facet.EXECUTABLES) or may_run_built(script):
         return frozenset()
     nodes = node_targets(package)
     installed = {provided.target for provided in script.provides if provided.target}
     if nodes.isdisjoint(installed):
         return frozenset()
-    left_out = nodes - installed - listed_to_install(package)
+    left_out = nodes - installed - install_arguments(package)
     return frozenset(
         target.name
         for target in programs_built(script)
-        if target.name in left_out and not is_on_request(package, target) and not _is_aside(target)
+        if target.name in left_out and not is_optional_target(package, target) and not _is_aside(target)
     )
 
 
 _ASIDE = re.compile(r"(?:^|_)(?:bench\w*|demo|dummy|example|mock|perf\w*|sample|try|tutorial)s?(?:_|$)|test", re.IGNORECASE)
 
 
-def _is_aside(target: Target) -> bool:
-    return bool(_ASIDE.search(target.name)) or any(is_apart(source) for source in target.sources)
+def _is_aside(target: BuildTarget) -> bool:
+    return bool(_ASIDE.search(target.name)) or any(is_auxiliary(source) for source in target.sources)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ros_lint.analysis.dependencies.unknown_closure import may_bring
-from ros_lint.analysis.memo import per_package
+from ros_lint.analysis.dependencies.unknown_closure import may_provide
+from ros_lint.analysis.memo import cached_by_package
 from ros_lint.facts.manifest import Role
 from ros_lint.knowledge.closure import Closure
 from ros_lint.workspace.model import Package, Workspace
@@ -13,7 +13,7 @@ from ros_lint.workspace.model import Package, Workspace
 _ANY = ~Role(0)
 
 
-@per_package
+@cached_by_package
 def all_declared(package: Package, workspace: Workspace) -> Closure:
     """Return all that comes along with what is declared, members of groups included."""
     return declared_closure(package, workspace, _ANY)
@@ -27,7 +27,9 @@ def declared_closure(package: Package, workspace: Workspace, role: Role) -> Clos
     return workspace.world.closure(starts)
 
 
-def covered(package: Package, workspace: Workspace, names: Iterable[str], role: Role, *, surely: bool = False) -> bool:
+def provided_transitively(
+    package: Package, workspace: Workspace, names: Iterable[str], role: Role, *, surely: bool = False
+) -> bool:
     """Whether one of the names comes along with something else that is declared for any part of a role.
 
     Or whether it may, unless ``surely``.
@@ -38,4 +40,4 @@ def covered(package: Package, workspace: Workspace, names: Iterable[str], role: 
     if any(name in closure for name in names):
         return True
     unknown = () if surely else closure.unknown
-    return bool(unknown) and any(may_bring(unknown, name, workspace) for name in names)
+    return bool(unknown) and any(may_provide(unknown, name, workspace) for name in names)

@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from ros_lint.analysis.dependencies.declared_closure import all_declared
-from ros_lint.analysis.dependencies.load_bearing import carriers
-from ros_lint.analysis.dependencies.remedy import circle
+from ros_lint.analysis.dependencies.load_bearing import needed_transitively
+from ros_lint.analysis.dependencies.remedy import cycle_through
 from ros_lint.analysis.dependencies.traceless import is_library
-from ros_lint.analysis.dependencies.undeclared import despite, only_launched, tells, undeclared
+from ros_lint.analysis.dependencies.undeclared import manifest_is_complete, only_launched, undeclared, uses_not_explained_by
 from ros_lint.analysis.finding import Confidence
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Use
 from ros_lint.facts.visibility import Facet
 from ros_lint.workspace.model import Package, Workspace
-from ros_lint.workspace.usage.visibility import builds_something, is_built_in_sight, is_unseen_by_name
+from ros_lint.workspace.usage.visibility import builds_something, is_build_visible, is_traceless_by_name
 
 _MOST = 5
 
@@ -70,7 +70,7 @@ _WORDS = (
 
 
 def _not_undeclared(package: Package, workspace: Workspace, name: str, uses: list[Use]) -> str:
-    if not tells(package):
+    if not manifest_is_complete(package):
         return "package.xml has errors"
     if package.declares(name):
         return "it is declared"
@@ -87,7 +87,7 @@ def _not_undeclared(package: Package, workspace: Workspace, name: str, uses: lis
         return f"a declared dependency provides it: {' -> '.join(way or (brought[0],))}; see rule transitive-dependency"
     if only_launched(package, uses):
         return "only launch files use it; see rule launch-outside-closure"
-    if way := circle(package, workspace, name):
+    if way := cycle_through(package, workspace, name):
         return f"it depends on this package, so declaring it would close a cycle: {' -> '.join(way)}"
     best = "' or '".join(dict.fromkeys(use.package for use in uses if use.package != name))
     return f"'{best}' is the better match for these uses" if best else "another declared dependency covers these uses"
@@ -100,7 +100,7 @@ def _unsure_undeclared(package: Package, workspace: Workspace, name: str, uses: 
     if not any(use.sure for use in own):
         return ", because no use is certain"
     unknown = all_declared(package, workspace).unknown
-    if despite(unknown, own, workspace):
+    if uses_not_explained_by(unknown, own, workspace):
         return ""
     return f", because the dependencies of {', '.join(unknown)} are unknown and may include it"
 
@@ -122,11 +122,11 @@ def _not_unused(package: Package, workspace: Workspace, name: str, uses: list[Us
     if name in package.traces:
         return f"its name appears here: {package.traces[name]}"
     hidden = _hidden(package)
-    if hidden and not (is_library(workspace.world, name) and is_built_in_sight(package)):
+    if hidden and not (is_library(workspace.world, name) and is_build_visible(package)):
         return hidden.removeprefix(", and ")
     if not builds_something(package):
         return "the package builds and installs no code of its own"
-    if not is_built_in_sight(package):
+    if not is_build_visible(package):
         return "its manifest or build script cannot be analysed"
     if not any(declared.depend.tag in ("depend", "build_depend") for declared in tags):
         return "a dependency with this tag may be used without any trace in the sources, or by tests"
@@ -134,11 +134,11 @@ def _not_unused(package: Package, workspace: Workspace, name: str, uses: list[Us
 
 
 def _unsure_unused(package: Package, workspace: Workspace, name: str) -> str:
-    carried = carriers(package, workspace, package.tags(name)).get(name)
+    carried = needed_transitively(package, workspace, package.tags(name)).get(name)
     if carried:
         where = "" if carried.package == package.name else f" for '{carried.package}'"
         return f", because only this dependency provides '{carried.name}'{where}"
-    return ", because it may be used without being named in the sources" if is_unseen_by_name(workspace.world, name) else ""
+    return ", because it may be used without being named in the sources" if is_traceless_by_name(workspace.world, name) else ""
 
 
 def _hidden(package: Package) -> str:

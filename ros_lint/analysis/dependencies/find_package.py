@@ -17,7 +17,7 @@ _FIND_DECLARED = frozenset({"ament_auto_find_build_dependencies", "autoware_pack
 _AT_BUILD = ("depend", "build_depend", "buildtool_depend")
 
 
-def found_names(package: Package, script: BuildScript) -> frozenset[str]:
+def names_searched(package: Package, script: BuildScript) -> frozenset[str]:
     """Return the names that find_package() is called with, also by those macros that find what the manifest declares."""
     names = {mention.name for mention in script.mentions if mention.via == "cmake"}
     calls = frozenset(script.calls)
@@ -33,16 +33,16 @@ def finds_declared(package: Package) -> bool:
     return package.script is not None and not _FIND_DECLARED.isdisjoint(package.script.calls)
 
 
-def come_along(workspace: Workspace, names: Iterable[str]) -> frozenset[str] | None:
+def find_package_closure(workspace: Workspace, names: Iterable[str]) -> frozenset[str] | None:
     """Return what is found together with names of find_package(), these included: what their packages bring along.
 
     None when nobody knows of one of them whose it is, or what it brings.
     """
-    closure = found_along(workspace, names)
+    closure = partial_closure(workspace, names)
     return closure.names.union(names) if closure.complete else None
 
 
-def found_along(workspace: Workspace, names: Iterable[str]) -> Closure:
+def partial_closure(workspace: Workspace, names: Iterable[str]) -> Closure:
     """Return what is found together with names of find_package(), as far as it is known whose they are and what they bring."""
     starts: set[str] = set()
     for name in names:
@@ -52,7 +52,7 @@ def found_along(workspace: Workspace, names: Iterable[str]) -> Closure:
     return workspace.world.closure(sorted(starts))
 
 
-def given_for(script: BuildScript, *purposes: Purpose) -> Iterator[Mention]:
+def macro_packages(script: BuildScript, *purposes: Purpose) -> Iterator[Mention]:
     """Yield the packages that macros are given by name for one of some purposes: ament_export_dependencies() those to export."""
     for mention in script.mentions:
         if mention.via == "target" and mention.purpose in purposes:

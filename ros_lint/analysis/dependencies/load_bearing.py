@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.analysis.dependencies.needs import needs
-from ros_lint.analysis.dependencies.traceless import is_mostly_run, works_unseen
-from ros_lint.analysis.memo import per_package, per_workspace
+from ros_lint.analysis.dependencies.traceless import is_mostly_runtime, may_be_used_without_trace
+from ros_lint.analysis.memo import cached_by_package, cached_by_workspace
 from ros_lint.facts.manifest import Role
-from ros_lint.workspace.usage.unused_find_package import not_seen_used
+from ros_lint.workspace.usage.unused_find_package import unused_in_sight
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -21,7 +21,7 @@ _RUN: Role = Role.EXEC | Role.EXPORT
 _TEST: Role = Role.TEST
 
 
-class Carried(NamedTuple):
+class LostProvision(NamedTuple):
     """Something that comes along with nothing else."""
 
     name: str
@@ -29,13 +29,13 @@ class Carried(NamedTuple):
     """Who uses it and does not declare it."""
 
 
-def carriers(package: Package, workspace: Workspace, unused: Sequence[Declared]) -> Mapping[str, Carried]:
+def needed_transitively(package: Package, workspace: Workspace, unused: Sequence[Declared]) -> Mapping[str, LostProvision]:
     """Return the names among unused dependencies that cannot go without a loss, each with what would be lost.
 
     A loss is something that this package, or another one of the workspace, uses without declaring it, and that comes along
     with nothing else. Where one of several will do, all but the last can go.
     """
-    found: dict[str, Carried] = {}
+    found: dict[str, LostProvision] = {}
     if not _lost(package, workspace, unused):  # nearly always: when all can go, each can
         return found
     by_name: dict[str, list[Declared]] = {}
@@ -53,14 +53,16 @@ def carriers(package: Package, workspace: Workspace, unused: Sequence[Declared])
     return found
 
 
-def _lost(package: Package, workspace: Workspace, removed: Sequence[Declared]) -> Carried | None:
+def _lost(package: Package, workspace: Workspace, removed: Sequence[Declared]) -> LostProvision | None:
     """Return something that is lost when dependency tags go, or None."""
     spans = {each.depend.span for each in removed}
     left = [each for each in package.declared if each.depend.span not in spans]
     return _lost_here(package, workspace, left, removed) or _lost_above(package, workspace, left, removed)
 
 
-def _lost_here(package: Package, workspace: Workspace, left: Sequence[Declared], removed: Sequence[Declared]) -> Carried | None:
+def _lost_here(
+    package: Package, workspace: Workspace, left: Sequence[Declared], removed: Sequence[Declared]
+) -> LostProvision | None:
     bring = workspace.world.closure
     brought = bring([each.name for each in removed])
     members = [name for group in package.group_depends for name in workspace.world.group_members(group.name)]
@@ -72,11 +74,13 @@ def _lost_here(package: Package, workspace: Workspace, left: Sequence[Declared],
         starts = [each.name for each in left if role is _TEST or each.role & wider]
         rest = bring([*starts, *members])
         if not any(each in rest for each in names):
-            return Carried(name, package.name)
+            return LostProvision(name, package.name)
     return None
 
 
-def _lost_above(package: Package, workspace: Workspace, left: Sequence[Declared], removed: Sequence[Declared]) -> Carried | None:
+def _lost_above(
+    package: Package, workspace: Workspace, left: Sequence[Declared], removed: Sequence[Declared]
+) -> LostProvision | None:
     world = workspace.world
     still = [each.name for each in left if each.role & _RUN]
     gone = frozenset(each.name for each in removed if each.role & _RUN).difference(still)
@@ -90,17 +94,17 @@ def _lost_above(package: Package, workspace: Workspace, left: Sequence[Declared]
                 continue
             rest = world.closure_without(starts, package.name, gone)
             if not any(each in rest for each in use.providers):
-                return Carried(name, other.name)
+                return LostProvision(name, other.name)
     return None
 
 
-@per_package
+@cached_by_package
 def hanging(package: Package, workspace: Workspace) -> tuple[Use, ...]:
     """Return the uses of what merely comes along with something that is declared."""
     return tuple([use for need in needs(package, workspace) if need.brought and not need.declared for use in need.uses])
 
 
-@per_workspace
+@cached_by_workspace
 def _hanging_by_name(workspace: Workspace) -> Mapping[str, Sequence[tuple[Package, Use]]]:
     """Return who hangs on what: for each name, one use of each package."""
     found: dict[str, list[tuple[Package, Use]]] = {}
@@ -112,15 +116,15 @@ def _hanging_by_name(workspace: Workspace) -> Mapping[str, Sequence[tuple[Packag
     return found
 
 
-@per_package
-def found_for_nothing(package: Package, workspace: Workspace) -> tuple[Mention, ...]:
+@cached_by_package
+def unused_find_packages(package: Package, workspace: Workspace) -> tuple[Mention, ...]:
     """Return each find_package() of a package that the code does not use, in no way that can be seen."""
     return tuple(
         [
             mention
-            for mention in not_seen_used(package)
+            for mention in unused_in_sight(package)
             if mention.name not in package.perhaps_used
-            and not works_unseen(package, workspace, mention.name)
-            and not is_mostly_run(workspace, mention.name)
+            and not may_be_used_without_trace(package, workspace, mention.name)
+            and not is_mostly_runtime(workspace, mention.name)
         ]
     )

@@ -9,8 +9,8 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import NamedTuple
 
 from ros_lint.analysis.dependencies.declared_closure import all_declared
-from ros_lint.analysis.dependencies.remedy import circle
-from ros_lint.analysis.memo import per_package
+from ros_lint.analysis.dependencies.remedy import cycle_through
+from ros_lint.analysis.memo import cached_by_package
 from ros_lint.base.text import Span
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Use, Via
@@ -51,7 +51,7 @@ _RANKS = {via: rank for rank, via in enumerate(_TELLING)}
 _TEST = Role.TEST
 
 
-@per_package
+@cached_by_package
 def needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
     """Return every need of a package, in the order of the best evidence. What it can do without is no need.
 
@@ -60,8 +60,8 @@ def needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
     return _gathered(package, workspace, [use for use in package.uses if not use.optional])
 
 
-@per_package
-def wishes(package: Package, workspace: Workspace) -> tuple[Need, ...]:
+@cached_by_package
+def optional_needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
     """Return what a package uses only if it is there and does not declare, in the order of the best evidence.
 
     Symbols are left out: in languages other than C++ they may as well come from elsewhere. So is what needs the package
@@ -70,7 +70,7 @@ def wishes(package: Package, workspace: Workspace) -> tuple[Need, ...]:
     needed = {name for use in package.uses if not use.optional for name in use.providers}
     uses = [use for use in package.uses if use.optional and use.via != "symbol" and needed.isdisjoint(use.providers)]
     found = [need for need in _gathered(package, workspace, uses) if not need.declared]
-    return tuple([need for need in found if not circle(package, workspace, need.name)])
+    return tuple([need for need in found if not cycle_through(package, workspace, need.name)])
 
 
 def _gathered(package: Package, workspace: Workspace, uses: Iterable[Use]) -> tuple[Need, ...]:

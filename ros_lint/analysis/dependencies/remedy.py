@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from ros_lint.workspace.model import Package, Workspace
 
 
-class Advice(NamedTuple):
+class Remedy(NamedTuple):
     """The remedy for an undeclared dependency, if there is one."""
 
     written: str
@@ -34,40 +34,40 @@ class Advice(NamedTuple):
         return f", and it cannot be declared: {self.obstacle}" if self.obstacle else f": add {self.written}"
 
 
-def advice(package: Package, workspace: Workspace, name: str, role: Role) -> Advice:
+def remedy(package: Package, workspace: Workspace, name: str, role: Role) -> Remedy:
     """Return the remedy for a needed package or key that is not declared. The package has a manifest."""
     tag = tag_for(package, workspace, name, role)
     written = " and ".join(f"<{each}>{name}</{each}>" for each in tags_for(package, tag))
-    if way := circle(package, workspace, name):
+    if way := cycle_through(package, workspace, name):
         between = f", through {' > '.join(way[1:-1])}" if len(way) > 2 else ""
-        return Advice(written, None, f"it depends on this package itself{between}", circular=True, certain=False)
+        return Remedy(written, None, f"it depends on this package itself{between}", circular=True, certain=False)
     usable = not (package.manifest and package.manifest.problems)
     if (bare := workspace.by_name.get(name)) and all(each.manifest is None for each in bare):
         obstacle = f"{bare[0].path} has no package.xml, so rosdep does not know it; add one"
-        return Advice(written, None, obstacle, circular=False, certain=usable)
-    if lacks_rule(workspace, name):
+        return Remedy(written, None, obstacle, circular=False, certain=usable)
+    if is_unresolvable_key(workspace, name):
         obstacle = f"rosdep has no rule for it{_where(workspace, name)}"
-        return Advice(written, None, obstacle, circular=False, certain=usable)
+        return Remedy(written, None, obstacle, circular=False, certain=usable)
     if is_of_pip(workspace, name):
         written += " (installed by pip: a released package cannot depend on it)"
-    written += availability(workspace, name)
+    written += availability_remark(workspace, name)
     if _is_exported(package, name):
         written += " (the tag in <export> declares nothing)"
     edits = add_dependency(package, tag, name) if usable else ()
-    fix = naming(workspace, name, f"declare '{name}' as <{tag}>", *edits)
-    return Advice(written, fix, "", circular=False, certain=usable)
+    fix = naming_fix(workspace, name, f"declare '{name}' as <{tag}>", *edits)
+    return Remedy(written, fix, "", circular=False, certain=usable)
 
 
-def naming(workspace: Workspace, name: str, title: str, *edits: Edit, safe: bool = True) -> Fix | None:
+def naming_fix(workspace: Workspace, name: str, title: str, *edits: Edit, safe: bool = True) -> Fix | None:
     """Return the fix that writes a name into a dependency tag, None where there are no edits.
 
     Every fix that does so is made here: it is safe only where rosdep resolves the name wherever the workspace is meant to be
     built, see :func:`availability`.
     """
-    return Fix.of(title, *edits, safe=safe and not availability(workspace, name))
+    return Fix.of(title, *edits, safe=safe and not availability_remark(workspace, name))
 
 
-def availability(workspace: Workspace, name: str) -> str:
+def availability_remark(workspace: Workspace, name: str) -> str:
     """Return the remark on where a name resolves, such as " (only in humble)", "" where it does so wherever it has to.
 
     It has to in the stated distribution, or in every active one where none was stated. A package of the workspace or of an
@@ -93,7 +93,7 @@ def availability(workspace: Workspace, name: str) -> str:
     return f" (only in {', '.join(there)})"
 
 
-def circle(package: Package, workspace: Workspace, name: str) -> tuple[str, ...]:
+def cycle_through(package: Package, workspace: Workspace, name: str) -> tuple[str, ...]:
     """Return a path by which a name depends on the package itself, both ends included, or ().
 
     In the workspace every tag counts, because colcon orders packages by all of them; otherwise the run-time dependencies of
@@ -116,7 +116,7 @@ def _is_exported(package: Package, name: str) -> bool:
     return any(element.tag.endswith("depend") and element.text.strip() == name for element in exports)
 
 
-def lacks_rule(workspace: Workspace, name: str) -> bool:
+def is_unresolvable_key(workspace: Workspace, name: str) -> bool:
     """Return whether a name is a rosdep key without a rule for the platform of the target distribution.
 
     If the user did not choose a distribution, a rule for the platform of any distribution is enough.

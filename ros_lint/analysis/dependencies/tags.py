@@ -6,7 +6,7 @@ from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING
 
 from ros_lint.analysis.dependencies.find_package import finds_declared
-from ros_lint.analysis.dependencies.traceless import is_mostly_run
+from ros_lint.analysis.dependencies.traceless import is_mostly_runtime
 from ros_lint.base.edit import Edit
 from ros_lint.collectors.manifest import edits as manifest_edits
 from ros_lint.facts.manifest import Depend, Role
@@ -50,7 +50,7 @@ def _depends_on_runs(package: Package, workspace: Workspace) -> bool:
         for name in use.providers:
             roles[name] = roles.get(name, use.role) | use.role
     names = [declared.depend.name for declared in package.declared if declared.depend.tag == "depend"]
-    return any(not roles[name] & _BUILDS if name in roles else is_mostly_run(workspace, name) for name in names)
+    return any(not roles[name] & _BUILDS if name in roles else is_mostly_runtime(workspace, name) for name in names)
 
 
 _BUILDS = Role.BUILD | Role.EXPORT | Role.TOOL

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from ros_lint.collectors.interfaces import naming as interface_names
 from ros_lint.workspace.model import Package, Workspace
-from ros_lint.workspace.usage.visibility import is_unseen_by_name, makes_something
+from ros_lint.workspace.usage.visibility import is_traceless_by_name, makes_something
 
 if TYPE_CHECKING:
     from ros_lint.knowledge.index import Released
@@ -18,15 +18,15 @@ def is_library(world: World, name: str) -> bool:
     return world.is_key(name) and not name.startswith("python")
 
 
-def works_unseen(package: Package, workspace: Workspace, name: str) -> bool:
+def may_be_used_without_trace(package: Package, workspace: Workspace, name: str) -> bool:
     """Whether a dependency of a package on a name can do its work without the name standing anywhere (reference, section F2).
 
     True for what is no package that is known; for packages that bring others, give macros or plugins, or are not there whole;
     for those whose name says that they stand for something else; and for what generated interfaces need. See
-    :func:`is_mostly_run`, too.
+    :func:`is_mostly_runtime`, too.
     """
     world = workspace.world
-    if is_unseen_by_name(workspace.world, name):
+    if is_traceless_by_name(workspace.world, name):
         return True
     if package.script and package.script.interfaces and name in interface_names.UNDERLYING:
         return True
@@ -67,7 +67,7 @@ def _offers_nothing(world: World, released: Released) -> bool:
     return not any(provides(released.name).possible for provides in known)
 
 
-def is_mostly_run(workspace: Workspace, name: str) -> bool:
+def is_mostly_runtime(workspace: Workspace, name: str) -> bool:
     """Whether released packages mostly declare a name without building against it, so that it may well leave no trace.
 
     Not so of packages that give nothing but interfaces: this tells that Python code uses them, which has to name them.
@@ -76,26 +76,26 @@ def is_mostly_run(workspace: Workspace, name: str) -> bool:
     if name in workspace.by_name or not world.is_package(name):
         return False
     released = world.released(name)
-    if released and released.interfaces and not runs(world, name):
+    if released and released.interfaces and not has_programs(world, name):
         return False
     declared = world.knowledge.index.declared_as(name)
     return 2 * sum(count for kinds, count in declared.items() if "b" not in kinds) > sum(declared.values())
 
 
-def runs(world: World, name: str) -> bool:
+def has_programs(world: World, name: str) -> bool:
     """Whether a package is known to have something to start or to load."""
     offers = (world.executables, world.programs, world.launch_files, world.components, world.plugins)
     return any(offer(name).names for offer in offers)
 
 
-def leaves_trace(package: Package, workspace: Workspace, name: str) -> bool:
+def usage_is_visible(package: Package, workspace: Workspace, name: str) -> bool:
     """Whether a dependency leaves a trace if it is of any use: messages, and modules where no Python code could import them."""
     world = workspace.world
     released = world.released(name)
     if released is None:
         return False
     no_python = not any(file.endswith(PYTHON_LIKE) for file in package.files)
-    return bool(released.interfaces) or (no_python and not runs(world, name) and bool(world.python_modules(name).names))
+    return bool(released.interfaces) or (no_python and not has_programs(world, name) and bool(world.python_modules(name).names))
 
 
 PYTHON_LIKE = (".py", ".py.in", ".launch", ".launch.xml", ".launch.yaml")

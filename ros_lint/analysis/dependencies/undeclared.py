@@ -7,15 +7,15 @@ from collections.abc import Iterable, Sequence
 from ros_lint.analysis.dependencies.declared_closure import all_declared
 from ros_lint.analysis.dependencies.needs import _TEST, Need, _rank, needs
 from ros_lint.analysis.dependencies.traceless import only_brings
-from ros_lint.analysis.dependencies.unknown_closure import may_bring
-from ros_lint.analysis.dependencies.unresolved import meant, misspelt
-from ros_lint.analysis.memo import per_package
+from ros_lint.analysis.dependencies.unknown_closure import may_provide
+from ros_lint.analysis.dependencies.unresolved import intended_names, misspelled_names
+from ros_lint.analysis.memo import cached_by_package
 from ros_lint.facts.sources import Use
 from ros_lint.knowledge.spelling import is_part
 from ros_lint.workspace.model import Package, Workspace
 
 
-def tells(package: Package) -> bool:
+def manifest_is_complete(package: Package) -> bool:
     """Whether the manifest tells all that is declared. One that colcon rejects does, if it was read to its end."""
     manifest = package.manifest
     return manifest is not None and all(problem.kind not in _CUT_SHORT for problem in manifest.problems)
@@ -25,7 +25,7 @@ _CUT_SHORT = frozenset({"bare-ampersand", "encoding", "entity", "invalid-xml", "
 """Problems of manifests after which nothing more was read, or something that is not meant."""
 
 
-@per_package
+@cached_by_package
 def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool], ...]:
     """Return the needs that nothing declared brings along, and whether that is sure.
 
@@ -37,7 +37,7 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
     """
     unknown = all_declared(package, workspace).unknown
     found = []
-    otherwise = meant(package, workspace).difference(misspelt(package, workspace).values())
+    otherwise = intended_names(package, workspace).difference(misspelled_names(package, workspace).values())
     missing = [
         need
         for need in needs(package, workspace)
@@ -50,19 +50,19 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
             continue
         sure = need.sure and any(use.via != "launch" or use.role is _TEST for use in need.uses)
         sure = sure and (need.name not in elsewhere or any(use.via in _BUILT and use.sure for use in need.uses))
-        sure = sure and not (_looks_into_nothing(need, workspace) or is_miswritten(package, workspace, need))
+        sure = sure and not (_looks_into_nothing(need, workspace) or is_declared_misspelled(package, workspace, need))
         if workspace.world.standing(need.name) != "known":
-            if comes_elsewhere(package, workspace, need.name) or _is_declared_as_key(package, workspace, need.name):
+            if provided_in_other_distros(package, workspace, need.name) or _is_declared_as_key(package, workspace, need.name):
                 continue
             sure = sure and not (workspace.target.told and workspace.world.where_else(need.name))
-        uses = despite(unknown, need.uses, workspace) if sure and unknown else need.uses
+        uses = uses_not_explained_by(unknown, need.uses, workspace) if sure and unknown else need.uses
         found.append((need._replace(uses=uses or need.uses), sure and bool(uses)))
     return tuple(found)
 
 
-def is_miswritten(package: Package, workspace: Workspace, need: Need) -> bool:
+def is_declared_misspelled(package: Package, workspace: Workspace, need: Need) -> bool:
     """Whether a slip in a declared name must mean what is needed: then that name is told, and what it means."""
-    names = set(misspelt(package, workspace).values())
+    names = set(misspelled_names(package, workspace).values())
     return any(names.intersection(use.providers) for use in need.uses)
 
 
@@ -81,13 +81,13 @@ def _is_declared_as_key(package: Package, workspace: Workspace, name: str) -> bo
     return any(workspace.world.is_key(each.name) and is_part(each.name, name) for each in package.declared)
 
 
-def is_somewhere(name: str, workspace: Workspace) -> bool:
+def exists_in_any_distro(name: str, workspace: Workspace) -> bool:
     """Whether there is a package of a name. If nobody said which distribution is meant, it may be one of any."""
     world = workspace.world
     return world.is_package(name) or (not workspace.target.told and bool(world.where_else(name)))
 
 
-def comes_elsewhere(package: Package, workspace: Workspace, name: str) -> bool:
+def provided_in_other_distros(package: Package, workspace: Workspace, name: str) -> bool:
     """Whether a package that only other distributions have comes along there with something that is declared."""
     starts = {each.name for each in package.declared}
     closure = all_declared(package, workspace)
@@ -122,7 +122,7 @@ def _comes_with(need: Need, others: Iterable[Need], workspace: Workspace) -> boo
     return any(need.name in workspace.world.closure((other.name,)) for other in others if other is not need)
 
 
-def despite(unknown: Sequence[str], uses: Iterable[Use], workspace: Workspace) -> tuple[Use, ...]:
+def uses_not_explained_by(unknown: Sequence[str], uses: Iterable[Use], workspace: Workspace) -> tuple[Use, ...]:
     """Return uses of a name, first those that no declared name of which nothing is known could satisfy.
 
     None at all if no sure one is among these. Each place has to be satisfied: a library may come with anything, which helps no
@@ -130,7 +130,7 @@ def despite(unknown: Sequence[str], uses: Iterable[Use], workspace: Workspace) -
     """
     uses = tuple(uses)
     answers = dict.fromkeys([use.providers for use in uses])
-    satisfied = {names: any(may_bring(unknown, name, workspace) for name in names) for names in answers}
+    satisfied = {names: any(may_provide(unknown, name, workspace) for name in names) for names in answers}
     if all(satisfied[use.providers] for use in uses if use.sure):
         return ()
     return tuple(sorted(uses, key=lambda use: satisfied[use.providers]))
@@ -151,7 +151,7 @@ _LAUNCH = frozenset({"launch", "launch_ros", "launch_xml", "launch_yaml", "ament
 """What ``ros2 launch`` brings along."""
 
 
-def comes_with_launching(package: Package, uses: Iterable[Use]) -> bool:
+def is_part_of_launch(package: Package, uses: Iterable[Use]) -> bool:
     """Whether only launch files import it, and it is part of whatever can launch them (reference, section E2, row 15)."""
     launched = {launch.path for launch in package.launch}
     return all(use.via == "import" and use.package in _LAUNCH and use.span.path in launched for use in uses)

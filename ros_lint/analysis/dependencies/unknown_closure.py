@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ros_lint.analysis.dependencies.unresolved import is_near_tool
-from ros_lint.analysis.memo import per_workspace
+from ros_lint.analysis.dependencies.unresolved import resembles_ament_package
+from ros_lint.analysis.memo import cached_by_workspace
 from ros_lint.knowledge.spelling import VENDOR, may_be_package
 from ros_lint.workspace.model import Workspace
 
 
-def may_bring(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
+def may_provide(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
     """Whether one of the declared names of which nothing is known could bring a package along.
 
     What comes from elsewhere needs none of this workspace: repositories do not need each other in a circle. A package of
@@ -81,7 +81,7 @@ _OF_TOOLS = ("ament", "cmake", "lint", "common", "tools", "test")
 """Parts of the names of packages that bring build tools, linters or what runs tests."""
 
 
-@per_workspace
+@cached_by_workspace
 def _found(workspace: Workspace) -> frozenset[str]:
     """Return what build scripts of ROS 2 do not do without."""
     scripts = [package.script for package in workspace.packages if package.builds_with == "ament_cmake" and package.script]
@@ -100,4 +100,4 @@ def _is_no_package(name: str, workspace: Workspace) -> bool:
     if gone:
         ported = name in _found(workspace) and not names.successor(name)
         return not ported and all(distro.startswith("ROS 1 ") for distro in gone)
-    return workspace.world.meant(name) is not None or is_near_tool(name, workspace)
+    return workspace.world.meant(name) is not None or resembles_ament_package(name, workspace)

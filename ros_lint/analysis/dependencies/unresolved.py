@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
-from ros_lint.analysis.memo import per_package, per_workspace
+from ros_lint.analysis.memo import cached_by_package, cached_by_workspace
 from ros_lint.facts.manifest import Depend, Role
 from ros_lint.facts.sources import Use
 from ros_lint.workspace.model import Declared, Package, Workspace
@@ -13,7 +13,7 @@ from ros_lint.workspace.model import Declared, Package, Workspace
 _BUILD_TYPES = frozenset({"ros.ament_cmake", "ros.ament_python", "ros.cmake"})
 
 
-class Stranger(NamedTuple):
+class UnresolvedDependency(NamedTuple):
     """A name that a package declares."""
 
     package: Package
@@ -39,7 +39,7 @@ class Stranger(NamedTuple):
         return called_so == {"import"}
 
 
-@per_workspace
+@cached_by_workspace
 def declared_names(workspace: Workspace) -> Mapping[str, Sequence[Package]]:
     """Return every name that has to resolve, with the packages that declare it.
 
@@ -59,46 +59,46 @@ def declared_names(workspace: Workspace) -> Mapping[str, Sequence[Package]]:
     return found
 
 
-def strangers(name: str, packages: Iterable[Package]) -> Iterator[Stranger]:
+def unresolved(name: str, packages: Iterable[Package]) -> Iterator[UnresolvedDependency]:
     """Yield a name once for each package that surely declares it: under no condition that nobody can evaluate."""
     for package in packages:
         tags = package.tags(name)
         first = next((declared for declared in tags if declared.certain), None)
         if first is not None:
             uses = [use for use in package.uses if use.name.startswith(name) and use.name.partition(".")[0] == name]
-            yield Stranger(package, first, tuple([declared.depend for declared in tags]), tuple(uses))
+            yield UnresolvedDependency(package, first, tuple([declared.depend for declared in tags]), tuple(uses))
 
 
-def is_near_tool(name: str, workspace: Workspace) -> bool:
+def resembles_ament_package(name: str, workspace: Workspace) -> bool:
     """Whether an unknown name is near one of ament: nearly everything of that is released, so it is a slip and no package."""
     return name.startswith("ament_") and any(near.startswith("ament_") for near in workspace.world.suggest(name))
 
 
-@per_package
-def meant(package: Package, workspace: Workspace) -> frozenset[str]:
+@cached_by_package
+def intended_names(package: Package, workspace: Workspace) -> frozenset[str]:
     """Return what a package must mean by those of its declared names that do not exist: nobody else need declare it."""
     found = (workspace.world.meant(each.name, python=each.runs_python) for each in _unknown(package, workspace))
-    return frozenset([what.name for what in found if what]).union(misspelt(package, workspace).values())
+    return frozenset([what.name for what in found if what]).union(misspelled_names(package, workspace).values())
 
 
-@per_package
-def misspelt(package: Package, workspace: Workspace) -> Mapping[str, str]:
+@cached_by_package
+def misspelled_names(package: Package, workspace: Workspace) -> Mapping[str, str]:
     """Return those of a package's declared names that must mean what it uses and does not declare, with what they mean."""
     found: dict[str, str] = {}
     for stranger in _unknown(package, workspace):
         if not workspace.world.meant(stranger.name, python=stranger.runs_python):
-            found[stranger.name] = used_instead(stranger, workspace)
+            found[stranger.name] = undeclared_match(stranger, workspace)
     return {name: what for name, what in found.items() if what}
 
 
-def _unknown(package: Package, workspace: Workspace) -> Iterator[Stranger]:
+def _unknown(package: Package, workspace: Workspace) -> Iterator[UnresolvedDependency]:
     known = declared_names(workspace)
     for name in dict.fromkeys([declared.name for declared in package.declared]):
         if workspace.world.standing(name) == "unknown" and package in known.get(name, ()):
-            yield from strangers(name, [package])
+            yield from unresolved(name, [package])
 
 
-def used_instead(stranger: Stranger, workspace: Workspace) -> str:
+def undeclared_match(stranger: UnresolvedDependency, workspace: Workspace) -> str:
     """Return what a name must mean that CMake does not know: the only one like it that is used and not declared, or "".
 
     The same words, in whatever order and however joined, are meant for sure; another name is where nothing but the manifest has
@@ -111,10 +111,10 @@ def used_instead(stranger: Stranger, workspace: Workspace) -> str:
     same = [other for other in lacking if _is_same(other, name)]
     if len(same) == 1 and name not in _mentioned(package):
         return same[0]
-    return lacking[0] if len(lacking) == 1 and not is_named(stranger) else ""
+    return lacking[0] if len(lacking) == 1 and not is_used_in_sources(stranger) else ""
 
 
-def is_named(stranger: Stranger) -> bool:
+def is_used_in_sources(stranger: UnresolvedDependency) -> bool:
     """Whether anything but the manifest names it, so that there may be such a package after all."""
     package, name = stranger.package, stranger.name
     return name in _mentioned(package) or name in package.traces or any(name in use.providers for use in package.uses)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.analysis.graph.dependency_graph import Arcs, Edge, Graph, components, is_acyclic, reverse
+from ros_lint.analysis.graph.dependency_graph import Edge, Edges, Graph, components, is_acyclic, reverse
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
@@ -15,7 +15,7 @@ _MOST_CUTS = 2
 """Up to this many edges the smallest cut is found in larger components, too."""
 
 
-class Knot(NamedTuple):
+class Cycle(NamedTuple):
     """Packages of which each needs all the others, directly or not."""
 
     names: tuple[str, ...]
@@ -28,15 +28,15 @@ class Knot(NamedTuple):
     """False when it is a knot only if a condition holds that nobody can evaluate here."""
 
 
-def knots(graph: Graph) -> Iterator[Knot]:
+def cycles(graph: Graph) -> Iterator[Cycle]:
     """Yield the knots of a graph, the certain ones first."""
     for found, arcs, certain in ((graph.cycles, graph.certain_arcs, True), (graph.possible_cycles, graph.arcs, False)):
         for names in found:
             inner = arcs_within(arcs, names)
-            yield Knot(names, shortest_cycle(inner), cheapest_cut(graph, inner), certain)
+            yield Cycle(names, shortest_cycle(inner), cheapest_cut(graph, inner), certain)
 
 
-def arcs_within(arcs: Mapping[str, Collection[str]], nodes: Collection[str]) -> Arcs:
+def arcs_within(arcs: Mapping[str, Collection[str]], nodes: Collection[str]) -> Edges:
     """Return the part of a graph that lies between some of its nodes."""
     return {name: frozenset(arcs[name]).intersection(nodes) for name in sorted(nodes)}
 
@@ -106,7 +106,7 @@ def _cost(graph: Graph, edge: Edge) -> int:
     return 3 if len(reasons) == 1 else 4
 
 
-def _cut_component(arcs: Arcs, weight: Callable[[Edge], int]) -> Iterable[Edge]:
+def _cut_component(arcs: Edges, weight: Callable[[Edge], int]) -> Iterable[Edge]:
     if len(arcs) <= _MOST_EXACT:
         return _cut_by_orders(arcs, weight)
     for depth in range(1, _MOST_CUTS + 1):
@@ -115,7 +115,7 @@ def _cut_component(arcs: Arcs, weight: Callable[[Edge], int]) -> Iterable[Edge]:
     return _cut_by_greed(arcs, weight)
 
 
-def _cut_by_orders(arcs: Arcs, weight: Callable[[Edge], int]) -> list[Edge]:
+def _cut_by_orders(arcs: Edges, weight: Callable[[Edge], int]) -> list[Edge]:
     """Weigh every order of the nodes: what is needed from a node further on has to be cut."""
     names = sorted(arcs)
     number = {name: index for index, name in enumerate(names)}
@@ -140,7 +140,7 @@ def _cut_by_orders(arcs: Arcs, weight: Callable[[Edge], int]) -> list[Edge]:
     return _against(arcs, order[::-1])
 
 
-def _cut_by_branching(arcs: Arcs, weight: Callable[[Edge], int], depth: int) -> list[Edge]:
+def _cut_by_branching(arcs: Edges, weight: Callable[[Edge], int], depth: int) -> list[Edge]:
     """Take out one edge of a shortest cycle after the other: one of them must go."""
     cycle = shortest_cycle(arcs)
     best: list[Edge] = []
@@ -157,7 +157,7 @@ def _cut_by_branching(arcs: Arcs, weight: Callable[[Edge], int], depth: int) -> 
     return best
 
 
-def _cut_by_greed(arcs: Arcs, weight: Callable[[Edge], int]) -> list[Edge]:
+def _cut_by_greed(arcs: Edges, weight: Callable[[Edge], int]) -> list[Edge]:
     """Order the nodes by what they are needed for and what they need (Eades, Lin and Smyth), and spare what can be."""
     cut = set(_against(arcs, _greedy_order(arcs, weight)))
     for edge in sorted(cut, key=lambda edge: (-weight(edge), edge)):
@@ -167,7 +167,7 @@ def _cut_by_greed(arcs: Arcs, weight: Callable[[Edge], int]) -> list[Edge]:
     return sorted(cut)
 
 
-def _greedy_order(arcs: Arcs, weight: Callable[[Edge], int]) -> list[str]:
+def _greedy_order(arcs: Edges, weight: Callable[[Edge], int]) -> list[str]:
     before = reverse(arcs)
     left = set(arcs)
     first: list[str] = []
@@ -189,6 +189,6 @@ def _greedy_order(arcs: Arcs, weight: Callable[[Edge], int]) -> list[str]:
     return first + last[::-1]
 
 
-def _against(arcs: Arcs, order: Sequence[str]) -> list[Edge]:
+def _against(arcs: Edges, order: Sequence[str]) -> list[Edge]:
     place = {name: index for index, name in enumerate(order)}
     return sorted((name, other) for name in arcs for other in arcs[name] if place[other] > place[name])

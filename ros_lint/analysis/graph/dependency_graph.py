@@ -12,7 +12,7 @@ from functools import cached_property
 from heapq import heapify, heappop, heappush
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.analysis.memo import per_workspace
+from ros_lint.analysis.memo import cached_by_workspace
 from ros_lint.facts.manifest import Role
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ _CATEGORIES = {
 Edge = tuple[str, str]
 """Who needs, and what is needed."""
 
-Arcs = dict[str, frozenset[str]]
+Edges = dict[str, frozenset[str]]
 """Successors by node, without reasons."""
 
 
@@ -81,12 +81,12 @@ class Graph:
         return self.needs[edge[0]][edge[1]]
 
     @cached_property
-    def arcs(self) -> Arcs:
+    def arcs(self) -> Edges:
         """All edges."""
         return {name: frozenset(others) for name, others in self.needs.items()}
 
     @cached_property
-    def certain_arcs(self) -> Arcs:
+    def certain_arcs(self) -> Edges:
         """The edges that do not hang on an unknown condition."""
         return {
             name: frozenset(other for other, reasons in others.items() if any(reason.certain for reason in reasons))
@@ -94,7 +94,7 @@ class Graph:
         }
 
     @cached_property
-    def needed_by(self) -> Arcs:
+    def needed_by(self) -> Edges:
         """All edges, the other way round."""
         return reverse(self.arcs)
 
@@ -134,7 +134,7 @@ class Graph:
         return self._closures[name]
 
 
-@per_workspace
+@cached_by_workspace
 def dependency_graph(workspace: Workspace) -> Graph:
     """Return the dependency graph of the packages of a workspace, in the order of colcon."""
     return build(workspace.packages)
@@ -192,7 +192,7 @@ def components(arcs: Mapping[str, Collection[str]]) -> tuple[tuple[str, ...], ..
     return tuple(sorted(tuple(sorted(nodes)) for nodes in found if len(nodes) > 1 or graph.has_edge(*nodes, *nodes)))
 
 
-def reverse(arcs: Mapping[str, Collection[str]]) -> Arcs:
+def reverse(arcs: Mapping[str, Collection[str]]) -> Edges:
     """Return the arcs the other way round."""
     found: dict[str, set[str]] = {name: set() for name in arcs}
     for name, others in arcs.items():

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
-from ros_lint.analysis.launch.includes import Links, asked_by
+from ros_lint.analysis.launch.includes import IncludeResolver, configurations_read
 from ros_lint.base.text import Span
 from ros_lint.collectors.symbolic_text import configurations, is_plain
-from ros_lint.facts.launch import LaunchFile, everything, texts_of
+from ros_lint.facts.launch import LaunchFile, values_of_action, walk_actions
 
 
-class Names(NamedTuple):
+class FileConfigurations(NamedTuple):
     """The launch configurations of one file."""
 
     declared: Mapping[str, Span]
@@ -26,13 +26,13 @@ class Names(NamedTuple):
     """Whether files of parameters, which anybody can replace by others, may ask for any name."""
 
 
-def names_of(file: LaunchFile) -> Names:
+def names_of(file: LaunchFile) -> FileConfigurations:
     """Return what a file itself does."""
     declared: dict[str, Span] = {}
     made: set[str] = set()
-    asked = asked_by(file)
+    asked = configurations_read(file)
     whole = not file.problems and not file.opaque and all(map(is_plain, asked))
-    for action in everything(file.actions):
+    for action in walk_actions(file.actions):
         if action.kind in ("include", "group"):
             made.update(name for name, _ in action.arguments)
         elif action.kind == "set" and action.target is not None:
@@ -40,29 +40,29 @@ def names_of(file: LaunchFile) -> Names:
         elif action.kind == "argument" and action.target is not None:
             declared.update((name, action.span) for name in action.target.texts if name not in declared)
     whole = whole and all(map(is_plain, (*made, *declared)))
-    return Names(declared, frozenset(made), frozenset(asked), whole, file.fills)
+    return FileConfigurations(declared, frozenset(made), frozenset(asked), whole, file.fills)
 
 
-def needed(file: LaunchFile, names: frozenset[str]) -> dict[str, Span]:
+def required_configurations(file: LaunchFile, names: frozenset[str]) -> dict[str, Span]:
     """Return those names that must be there, since the file has no default where it asks for them."""
-    return {name: span for (name, has_default), span in asked_at(file, names).items() if not has_default}
+    return {name: span for (name, has_default), span in read_sites(file, names).items() if not has_default}
 
 
-def asked_at(file: LaunchFile, names: frozenset[str]) -> dict[tuple[str, bool], Span]:
+def read_sites(file: LaunchFile, names: frozenset[str]) -> dict[tuple[str, bool], Span]:
     """Return where a file first asks for names, for each with and without a default."""
     found: dict[tuple[str, bool], Span] = {}
-    for action in everything(file.actions):
-        for text, span in texts_of(action):
+    for action in walk_actions(file.actions):
+        for text, span in values_of_action(action):
             for name, has_default, _ in configurations(text):
                 if name in names:
                     found.setdefault((name, bool(has_default)), span)
     return found
 
 
-class Families:
+class IncludeTree:
     """Who includes whom among the launch files of a workspace."""
 
-    def __init__(self, files: Iterable[LaunchFile], links: Links) -> None:
+    def __init__(self, files: Iterable[LaunchFile], links: IncludeResolver) -> None:
         self._names = {file.path: names_of(file) for file in files}
         self._includers: dict[str, set[str]] = {}
         self._included: dict[str, set[str]] = {}
@@ -75,7 +75,7 @@ class Families:
                 self._includers.setdefault(inner.path, set()).add(file.path)
                 self._included.setdefault(file.path, set()).add(inner.path)
 
-    def names(self, file: LaunchFile) -> Names:
+    def names(self, file: LaunchFile) -> FileConfigurations:
         """Return what a file itself does."""
         return self._names[file.path]
 
@@ -89,7 +89,7 @@ class Families:
             self._filled[path] = not related.isdisjoint(self._filling)
         return self._filled[path]
 
-    def above(self, file: LaunchFile) -> list[Names]:
+    def above(self, file: LaunchFile) -> list[FileConfigurations]:
         """Return the same of every file that includes it, itself or by way of others."""
         return [self._names[path] for path in sorted(_reached(self._includers, file.path))]
 

@@ -8,10 +8,10 @@ from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from ros_lint.analysis.finding import Fix
-from ros_lint.analysis.memo import per_workspace
-from ros_lint.base.auxiliary_files import is_apart, is_copy, lies_apart
+from ros_lint.analysis.memo import cached_by_workspace
+from ros_lint.base.auxiliary_files import in_auxiliary_folder, is_auxiliary, is_backup_copy
 from ros_lint.base.edit import Edit
-from ros_lint.base.paths import within
+from ros_lint.base.paths import strip_folder
 from ros_lint.base.text import Span
 from ros_lint.facts.launch import LaunchFile, LaunchReference
 from ros_lint.facts.sources import LookUp
@@ -19,7 +19,7 @@ from ros_lint.facts.visibility import Facet
 from ros_lint.workspace.model import Package, Workspace
 
 
-class Launchable(NamedTuple):
+class PackageLaunchFile(NamedTuple):
     """A launch file with its place in the package."""
 
     file: LaunchFile
@@ -30,7 +30,7 @@ class Launchable(NamedTuple):
     """Whether somebody runs it: people, unless it is a test, an example or a template; the tests of the package."""
 
 
-def launchable(package: Package, *, apart: bool = False) -> Iterator[Launchable]:
+def package_launch_files(package: Package, *, apart: bool = False) -> Iterator[PackageLaunchFile]:
     """Yield the launch files that are there to be launched: no mere helpers, and tests and examples only if asked for."""
     if not package.launch:  # so it is with most packages, and many rules ask
         return
@@ -39,18 +39,18 @@ def launchable(package: Package, *, apart: bool = False) -> Iterator[Launchable]
     tests = frozenset(script.runs or ())
     modules = tuple(f"{module.replace('.', '/')}/" for module in script.python_packages)
     for file in package.launch:
-        path = within(package.path, file.path)
+        path = strip_folder(package.path, file.path)
         if file.helper:
             continue
         is_installed = path in installed or path.startswith(modules)
         # What is merely called a test, and always installed, is for people to start.
-        started = is_installed and not (installed.get(path) or is_copy(path))
-        aside = file.test or (lies_apart(path) if started else is_apart(path))
+        started = is_installed and not (installed.get(path) or is_backup_copy(path))
+        aside = file.test or (in_auxiliary_folder(path) if started else is_auxiliary(path))
         if apart or not aside:
-            yield Launchable(file, path, is_installed, not aside or path in tests)
+            yield PackageLaunchFile(file, path, is_installed, not aside or path in tests)
 
 
-def is_launched(package: Package, path: str) -> bool:
+def is_launch_file(package: Package, path: str) -> bool:
     """Whether a file, by its path in the tree, is a launch file of ROS 2."""
     return any(launch.path == path for launch in package.launch)
 
@@ -61,22 +61,24 @@ def used_files(package: Package) -> frozenset[str]:
     modules = tuple([f"{module.replace('.', '/')}/" for module in script.python_packages])
     files = set(script.installed)
     files.update(source for target in script.targets if not target.test for source in target.sources)
-    files.update(launch.path for launch in launchable(package))
-    files.update(within(package.path, path) for path in (script.path, *(call.path for call in script.written)))
+    files.update(launch.path for launch in package_launch_files(package))
+    files.update(strip_folder(package.path, path) for path in (script.path, *(call.path for call in script.written)))
     return frozenset(files).union([file for file in package.files if file.startswith(modules)])
 
 
-def referred(package: Package, kinds: Container[str], *, apart: bool = False) -> dict[tuple[str, str], list[LaunchReference]]:
+def references_by_name(
+    package: Package, kinds: Container[str], *, apart: bool = False
+) -> dict[tuple[str, str], list[LaunchReference]]:
     """Return the references of some kinds in what :func:`launchable` yields, by the package and the name that they mean."""
     found: dict[tuple[str, str], list[LaunchReference]] = {}
-    for launch in launchable(package, apart=apart):
+    for launch in package_launch_files(package, apart=apart):
         for reference in launch.file.references:
             if reference.kind in kinds:
                 found.setdefault((reference.package, reference.name), []).append(reference)
     return found
 
 
-def corrected(title: str, text: str, places: Sequence[tuple[Span, bool]]) -> Fix | None:
+def rename_fix(title: str, text: str, places: Sequence[tuple[Span, bool]]) -> Fix | None:
     """Return the unsafe fix that writes a text at places, each with whether nothing but the name stands there.
 
     None where there is no text, or where something else stands at a place.
@@ -86,7 +88,7 @@ def corrected(title: str, text: str, places: Sequence[tuple[Span, bool]]) -> Fix
     return Fix.of(title, *(Edit(span, text) for span in dict.fromkeys(span for span, _ in places)), safe=False)
 
 
-class Programs(NamedTuple):
+class InstalledPrograms(NamedTuple):
     """What a package of the workspace installs to be started."""
 
     names: frozenset[str]
@@ -95,7 +97,7 @@ class Programs(NamedTuple):
     """Others by name: the path that they are installed to."""
 
 
-def programs(package: Package) -> Programs | None:
+def installed_programs(package: Package) -> InstalledPrograms | None:
     """Return what can be started from a package, None when that cannot be seen whole."""
     script = package.script
     if script is None or package.hidden(Facet.EXECUTABLES) or package.builds_with not in ("ament_cmake", "ament_python"):
@@ -108,7 +110,7 @@ def programs(package: Package) -> Programs | None:
             names.add(name)
         elif folder == "bin" or (folder.startswith("lib/") and not provided.importable):
             elsewhere.setdefault(name, provided.path)
-    return Programs(frozenset(names), elsewhere)
+    return InstalledPrograms(frozenset(names), elsewhere)
 
 
 _SUFFIX = re.compile(r"(?:[._-]?launch\.(?:py|xml|ya?ml)|\.launch)$")
@@ -120,7 +122,7 @@ def launch_suffix(path: str) -> str:
     return found[0] if found else ""
 
 
-def is_kept_back(package: Package, path: str) -> bool:
+def is_excluded_from_install(package: Package, path: str) -> bool:
     """Whether a launch file that is not installed is so on purpose: a rule that installs its like leaves it out."""
     folder, suffix, provides = path.rpartition("/")[0], launch_suffix(path), package.built.provides
     if not suffix:
@@ -132,19 +134,19 @@ def is_kept_back(package: Package, path: str) -> bool:
     )
 
 
-@per_workspace
+@cached_by_workspace
 def nodes_started(workspace: Workspace) -> Mapping[str, Mapping[str, Sequence[LaunchReference]]]:
     """Return where launch files start executables, by package and name."""
-    return started(workspace.packages)
+    return node_references(workspace.packages)
 
 
-@per_workspace
+@cached_by_workspace
 def files_looked_up(workspace: Workspace) -> Mapping[str, Sequence[LookUp]]:
     """Return the files that launch files and models need from the share directory of a package, by package."""
     return looked_up(workspace.packages)
 
 
-def started(packages: Iterable[Package], *, kept_back: bool = False) -> dict[str, dict[str, list[LaunchReference]]]:
+def node_references(packages: Iterable[Package], *, kept_back: bool = False) -> dict[str, dict[str, list[LaunchReference]]]:
     """Return the places where launch files start executables, by package and name; those of tests count, too.
 
     Either of launch files that are installed, or may have been forgotten, or of those which are ``kept_back``.
@@ -153,8 +155,8 @@ def started(packages: Iterable[Package], *, kept_back: bool = False) -> dict[str
     for package in packages:
         installed = package.built.installed if package.launch else ()
         for launch in package.launch:
-            path = within(package.path, launch.path)
-            if (path not in installed and is_kept_back(package, path)) is not kept_back:
+            path = strip_folder(package.path, launch.path)
+            if (path not in installed and is_excluded_from_install(package, path)) is not kept_back:
                 continue
             for reference in [reference for reference in launch.references if reference.kind == "node"]:
                 found.setdefault(reference.package, {}).setdefault(reference.name, []).append(reference)
@@ -165,12 +167,12 @@ def looked_up(packages: Iterable[Package]) -> dict[str, list[LookUp]]:
     """Return the files that launch files and models need from the share directory of a package, by package."""
     found: dict[str, list[LookUp]] = {}
     for package in packages:
-        for launch in launchable(package):
+        for launch in package_launch_files(package):
             for reference in launch.file.references:
                 if reference.kind in ("file", "include") and not reference.optional:
                     one = LookUp(reference.package, reference.name, reference.span)
                     found.setdefault(one.package, []).append(one)
         for look_up in package.look_ups:
-            if not is_apart(within(package.path, look_up.span.path)):
+            if not is_auxiliary(strip_folder(package.path, look_up.span.path)):
                 found.setdefault(look_up.package, []).append(look_up)
     return found

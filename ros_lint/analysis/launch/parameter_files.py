@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.analysis.launch.includes import defaults_of, filled, include_resolver, installed_below_share
-from ros_lint.facts.launch import everything
+from ros_lint.analysis.launch.includes import assigned_configurations, include_resolver, installed_below_share, substitute
+from ros_lint.facts.launch import walk_actions
 
 if TYPE_CHECKING:
     from ros_lint.facts.launch import LaunchAction, LaunchFile, LaunchValue
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from ros_lint.workspace.model import Workspace
 
 
-class Given(NamedTuple):
+class NodeParameterFile(NamedTuple):
     """A parameter file of the workspace that a launch file gives to a node or component."""
 
     action: LaunchAction
@@ -39,18 +39,18 @@ class ParameterFiles:
                 # Where one of two is installed, nobody knows which.
                 self._by_path[key] = None if key in self._by_path else file
 
-    def given(self, file: LaunchFile) -> Iterator[Given]:
+    def given(self, file: LaunchFile) -> Iterator[NodeParameterFile]:
         """Yield the parameter files that a launch file gives to nodes, as far as it is clear which these are."""
         defaults: Mapping[str, tuple[str, ...]] | None = None
-        for action in everything(file.actions):
+        for action in walk_actions(file.actions):
             for name, value in action.parameters if action.kind in ("node", "component") else ():
                 if name:
                     continue
                 if defaults is None:
-                    defaults = defaults_of(file)
-                texts = filled(value, defaults)
+                    defaults = assigned_configurations(file)
+                texts = substitute(value, defaults)
                 place = self._links.installed_at(texts[0], file) if len(texts) == 1 else None
                 found = self._by_path.get(place) if place is not None else None
                 if found is not None:
-                    names, namespaces = filled(action.name, defaults), filled(action.namespace, defaults)
-                    yield Given(action, value, found, names, namespaces or ("",))
+                    names, namespaces = substitute(action.name, defaults), substitute(action.namespace, defaults)
+                    yield NodeParameterFile(action, value, found, names, namespaces or ("",))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from ros_lint.analysis.launch.includes import defaults_of, include_resolver
+from ros_lint.analysis.launch.includes import assigned_configurations, include_resolver
 from ros_lint.collectors.symbolic_text import (
     UNKNOWN,
     configurations,
@@ -47,7 +47,7 @@ class PassedFile(NamedTuple):
     """False when it depends on something that is not known."""
 
 
-def launched(
+def expand_defaults(
     file: LaunchFile, workspace: Workspace, follow: Callable[[LaunchFile], bool], given: Mapping[str, str] = _NOTHING
 ) -> Expansion:
     """Return what a launch file starts by itself, in brief, with those of the files that it includes that are to be followed."""
@@ -69,10 +69,10 @@ def passed_files(file: LaunchFile, workspace: Workspace, *, settled: bool = Fals
 
     With ``settled`` only those that are the same whatever arguments it is launched with.
     """
-    found = launched(file, workspace, lambda inner: True)
+    found = expand_defaults(file, workspace, lambda inner: True)
     if settled:
         open_ = {argument.name: UNKNOWN for argument in found.arguments if not argument.given}
-        found = launched(file, workspace, lambda inner: True, open_)
+        found = expand_defaults(file, workspace, lambda inner: True, open_)
     for started in found.started:
         if started.via is None:
             continue
@@ -86,7 +86,7 @@ def passed_files(file: LaunchFile, workspace: Workspace, *, settled: bool = Fals
                     yield PassedFile(place.package, place.share, kind, started.span, started.via, started.depth, sure)
 
 
-class Broken(NamedTuple):
+class FailingExpression(NamedTuple):
     """An expression that Python cannot evaluate as long as an argument has its default."""
 
     argument: str
@@ -100,13 +100,13 @@ class Broken(NamedTuple):
     """Whether it lies in something that is done only under a condition."""
 
 
-def broken_expressions(file: LaunchFile) -> Iterator[Broken]:
+def failing_expressions(file: LaunchFile) -> Iterator[FailingExpression]:
     """Yield the expressions of a launch file that fail, for the defaults in them, when it is launched without arguments."""
     asked = list(_with_expressions(file))
-    defaults = defaults_of(file) if asked else {}
+    defaults = assigned_configurations(file) if asked else {}
     for text, span, conditional in asked:
         for argument, expression, name in _broken(text, defaults):
-            yield Broken(argument, readable(expression), name, span, conditional)
+            yield FailingExpression(argument, readable(expression), name, span, conditional)
 
 
 def _with_expressions(file: LaunchFile) -> Iterator[tuple[str, Span, bool]]:

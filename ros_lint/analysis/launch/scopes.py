@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
-from ros_lint.analysis.launch.includes import Links
+from ros_lint.analysis.launch.includes import IncludeResolver
 from ros_lint.collectors.symbolic_text import configurations
-from ros_lint.facts.launch import LaunchAction, LaunchFile, everything, texts_of
+from ros_lint.facts.launch import LaunchAction, LaunchFile, values_of_action, walk_actions
 
 
-class Include(NamedTuple):
+class PlacedInclude(NamedTuple):
     """An include in its place."""
 
     action: LaunchAction
@@ -20,38 +20,38 @@ class Include(NamedTuple):
     """Whether what it sets is left so at the end of the file."""
 
 
-def includes(file: LaunchFile) -> Iterator[Include]:
+def includes(file: LaunchFile) -> Iterator[PlacedInclude]:
     """Yield the includes of a file, in order."""
     return _includes(file.actions, (), leaves=True)
 
 
-def _includes(actions: Sequence[LaunchAction], after: Sequence[LaunchAction], *, leaves: bool) -> Iterator[Include]:
+def _includes(actions: Sequence[LaunchAction], after: Sequence[LaunchAction], *, leaves: bool) -> Iterator[PlacedInclude]:
     for index, action in enumerate(actions):
         if action.kind != "include" and not action.children:
             continue
-        later = [*everything(actions[index + 1 :]), *after]
+        later = [*walk_actions(actions[index + 1 :]), *after]
         if action.kind == "include":
-            yield Include(action, later, leaves)
+            yield PlacedInclude(action, later, leaves)
         scoped = action.has_scope
         yield from _includes(action.children, () if scoped else later, leaves=leaves and not scoped)
 
 
-class Left:
+class ScopeLeaks:
     """Answers for launch files of a workspace who may take what an include leaves set."""
 
-    def __init__(self, files: Iterable[LaunchFile], links: Links) -> None:
+    def __init__(self, files: Iterable[LaunchFile], links: IncludeResolver) -> None:
         self._links = links
-        self._above: dict[str, list[tuple[LaunchFile, Include]]] = {}
+        self._above: dict[str, list[tuple[LaunchFile, PlacedInclude]]] = {}
         for file in files:
             for include in includes(file):
                 if (target := links.target(include.action.target, file)) is not None:
                     self._above.setdefault(target.file.path, []).append((file, include))
 
-    def is_taken_later(self, name: str, include: Include, source: LaunchFile) -> bool:
+    def is_taken_later(self, name: str, include: PlacedInclude, source: LaunchFile) -> bool:
         """Whether what comes after an include in its file, ``source``, takes what it was given by a name, or may take it."""
         return any(self._may_take(action, name, source) for action in include.later)
 
-    def is_taken_above(self, name: str, include: Include, source: LaunchFile) -> bool:
+    def is_taken_above(self, name: str, include: PlacedInclude, source: LaunchFile) -> bool:
         """Whether a file that includes ``source``, itself or by way of others, goes on with what takes it, or may take it."""
         seen, waiting = {source.path}, [source.path] if include.leaves else []
         while waiting:
@@ -64,7 +64,7 @@ class Left:
         return False
 
     def _may_take(self, action: LaunchAction, name: str, source: LaunchFile) -> bool:
-        if any(name == asked for text, _ in texts_of(action) for asked, _, _ in configurations(text)):
+        if any(name == asked for text, _ in values_of_action(action) for asked, _, _ in configurations(text)):
             return True
         if action.kind != "include" or name in dict(action.arguments):
             return False

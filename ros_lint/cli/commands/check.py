@@ -14,12 +14,12 @@ from ros_lint.base.tree import Machine, RecordedTree, text_of
 from ros_lint.cli import session as opening
 from ros_lint.cli.progress import Progress
 from ros_lint.engine.report import Report
-from ros_lint.errors import RefusalError
+from ros_lint.errors import UserError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from ros_lint.cli.session import Asked
+    from ros_lint.cli.session import Request
     from ros_lint.cli.settings import Settings
     from ros_lint.engine.baseline import Baseline
     from ros_lint.engine.selection import Selection
@@ -36,7 +36,7 @@ def run(said: Said) -> int:
     progress = Progress(sys.stderr, wanted=said.get("progress", True))
     try:
         with progress:
-            asked = opening.ask(said, os.environ)
+            asked = opening.parse_request(said, os.environ)
             _warn(asked.settings.warnings)
             if asked.settings["show-settings"]:
                 print(asked.settings.show(), end="")
@@ -45,7 +45,7 @@ def run(said: Said) -> int:
             if asked.settings["fix"] or asked.settings["diff"]:
                 from ros_lint.engine import fixing as mend  # noqa: PLC0415
 
-                report, code = mend.run(opening.opened(asked, progress.tell), _selection(asked.settings))
+                report, code = mend.run(opening.open_session(asked, progress.tell), _selection(asked.settings))
             else:
                 report, code = _checked(asked, progress), 0
             if asked.settings["write-baseline"]:
@@ -53,7 +53,7 @@ def run(said: Said) -> int:
             if known is not None:
                 path = asked.settings["baseline"]
                 report = known.without(report, os.path.basename(path), _folders(asked, path))
-    except RefusalError as error:
+    except UserError as error:
         print(f"ros-lint: {error}", file=sys.stderr)
         return 2
     _warn((*report.warnings, *_alone(asked)))
@@ -81,7 +81,7 @@ def _known(settings: Settings) -> Baseline | None:
     return baseline.read(path)
 
 
-def _keep(report: Report, asked: Asked) -> int:
+def _keep(report: Report, asked: Request) -> int:
     """Write what was found to the file of known findings, unless it is not all that there is. Raises BaselineError."""
     from ros_lint.engine import baseline  # noqa: PLC0415
 
@@ -96,13 +96,13 @@ def _keep(report: Report, asked: Asked) -> int:
     return 0
 
 
-def _folders(asked: Asked, path: str) -> list[str]:
+def _folders(asked: Request, path: str) -> list[str]:
     """Return what was asked for, relative to the folder of a file."""
     folder = os.path.dirname(os.path.realpath(path))
     return [os.path.relpath(os.path.join(asked.base, root), folder).replace(os.sep, "/") for root in asked.roots]
 
 
-def _alone(asked: Asked) -> Iterator[str]:
+def _alone(asked: Request) -> Iterator[str]:
     """Yield what to say of a single package of a workspace or repository: the others are not known then."""
     root = os.path.join(asked.base, asked.roots[0]) if asked.roots[0] else asked.base
     manifest, repository = (os.path.join(root, name) for name in ("package.xml", ".git"))
@@ -116,14 +116,14 @@ def _alone(asked: Asked) -> Iterator[str]:
         yield f"'{what}' was checked without its sibling packages; run 'ros-lint {where}' for the whole workspace"
 
 
-def _checked(asked: Asked, progress: Progress) -> Report:
+def _checked(asked: Request, progress: Progress) -> Report:
     """Return the report of a run, or the one of an earlier run if nothing that it depends on has changed."""
     reports = opening.reports(asked)
     disks = asked.disk, Machine()
     recorded = [RecordedTree(disk) for disk in disks]
     if kept := reports.fetch(recorded):
         return kept
-    opened = opening.opened(asked, progress.tell, *(recorded if reports else disks))
+    opened = opening.open_session(asked, progress.tell, *(recorded if reports else disks))
     from ros_lint.engine.check import check  # noqa: PLC0415
 
     report = check(opened, opened.loader.load(), _selection(asked.settings))
@@ -156,7 +156,7 @@ def exit_code(report: Report, fail_on: str) -> int:
     return int(any(issue.severity >= Severity[fail_on.upper()] for issue in report.issues))
 
 
-def _print(report: Report, asked: Asked) -> int:
+def _print(report: Report, asked: Request) -> int:
     from ros_lint import reporters  # noqa: PLC0415
 
     settings = asked.settings

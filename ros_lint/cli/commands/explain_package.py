@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.base.suggestions import did_you_mean, similar
+from ros_lint.base.suggestions import did_you_mean, similar_names
 from ros_lint.cli.commands.output import where
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.visibility import Facet
@@ -150,4 +150,4 @@ def _json(workspace: Workspace, packages: Iterable[Package]) -> str:
 
 
 def _no_such(workspace: Workspace, name: str) -> str:
-    return f"ros-lint: the workspace has no package '{name}'{did_you_mean(similar(name, workspace.by_name, 2, 0.75))}\n"
+    return f"ros-lint: the workspace has no package '{name}'{did_you_mean(similar_names(name, workspace.by_name, 2, 0.75))}\n"

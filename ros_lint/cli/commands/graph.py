@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
-from ros_lint.analysis.graph.cycles import knots
+from ros_lint.analysis.graph.cycles import cycles
 from ros_lint.analysis.graph.dependency_graph import dependency_graph
 from ros_lint.cli.commands.output import label, where
 
@@ -110,7 +110,7 @@ def _json(graph: Graph, figures: Mapping[str, Metrics]) -> str:
             for edge in graph.edges
         ],
         "cycles": [
-            {"packages": knot.names, "cycle": knot.cycle, "cut": knot.cut, "certain": knot.certain} for knot in knots(graph)
+            {"packages": knot.names, "cycle": knot.cycle, "cut": knot.cut, "certain": knot.certain} for knot in cycles(graph)
         ],
     }
     return json.dumps(document, indent=2, ensure_ascii=False) + "\n"

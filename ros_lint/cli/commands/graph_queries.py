@@ -7,13 +7,13 @@ from typing import Any
 
 from ros_lint.cli.commands import explain_package, graph, order, overlay, why
 from ros_lint.cli.commands import explain_silence as silence
-from ros_lint.cli.commands.query import Answer, around, ask
-from ros_lint.cli.session import Opened, no_packages
+from ros_lint.cli.commands.query import CommandOutput, current_workspace, run_query
+from ros_lint.cli.session import Session, no_packages
 from ros_lint.workspace.model import Workspace
 
 Said = Mapping[str, Any]
 
-_COMMANDS: Mapping[str, Callable[[Workspace, Said], Answer]] = {
+_COMMANDS: Mapping[str, Callable[[Workspace, Said], CommandOutput]] = {
     "order": lambda workspace, said: order.run(workspace),
     "overlay": lambda workspace, said: overlay.run(workspace),
     "graph": lambda workspace, said: graph.run(workspace, said["format"], metrics=said.get("metrics", False)),
@@ -32,10 +32,10 @@ _WITH_SOURCES = ("explain-package", "why")
 def run(command: str, said: Said) -> int:
     """Answer one of the questions, print the answer, return the exit code."""
 
-    def answer(opened: Opened, workspace: Workspace) -> Answer:
+    def answer(opened: Session, workspace: Workspace) -> CommandOutput:
         out, err, code = _COMMANDS[command](workspace, said)
         return (out, err, code) if workspace.packages else (out, f"{err}{no_packages(opened)}\n", 2)
 
     if command in _WITH_SOURCES and not said.get("paths"):
-        said = {**said, "paths": [around()]}
-    return ask(said, answer, sources=command in _WITH_SOURCES)
+        said = {**said, "paths": [current_workspace()]}
+    return run_query(said, answer, sources=command in _WITH_SOURCES)

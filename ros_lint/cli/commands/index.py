@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ros_lint.base.auxiliary_files import TEST_FOLDERS
 from ros_lint.knowledge import index, provides, rosdep
 from ros_lint.knowledge import underlays as underlay
-from ros_lint.knowledge.provides import LETTERS, Provided
+from ros_lint.knowledge.provides import LETTERS, ReleasedContents
 from ros_lint.knowledge.refresh import rosdep_rules
 from ros_lint.knowledge.refresh import rosdistro as upstream
 from ros_lint.knowledge.store import KnowledgeError, Store, user_directory
@@ -91,7 +91,7 @@ def scan(prefixes: Sequence[str], distro: str, date: str = "") -> tuple[str, str
     return idx, provides.render_file(distro, (_provided(installed) for installed in found.values()))
 
 
-def _provided(installed: Installed) -> Provided:
+def _provided(installed: Installed) -> ReleasedContents:
     fields = {}
     for facet, letter in LETTERS.items():
         known = installed.known(facet)
@@ -106,7 +106,7 @@ def _provided(installed: Installed) -> Provided:
             names = tuple(name.replace(" ", "") for name in names)  # as the shipped data write them
         # Other names with a space could not be told apart in a line.
         fields[letter] = tuple(sorted(name for name in names if " " not in name))
-    return Provided(installed.name, "=", fields)
+    return ReleasedContents(installed.name, "=", fields)
 
 
 def _put(distro: str, to: str, idx: str, prov: str) -> None:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ros_lint.analysis.graph.cycles import knots
+from ros_lint.analysis.graph.cycles import cycles
 from ros_lint.analysis.graph.dependency_graph import dependency_graph
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from ros_lint.analysis.graph.cycles import Knot
+    from ros_lint.analysis.graph.cycles import Cycle
     from ros_lint.analysis.graph.dependency_graph import Graph
     from ros_lint.workspace.model import Workspace
 
@@ -27,13 +27,13 @@ def run(workspace: Workspace) -> tuple[str, str, int]:
 
 
 def _cycles(graph: Graph) -> Iterator[str]:
-    for knot in knots(graph):
+    for knot in cycles(graph):
         if knot.certain:
             yield f"no build order, because of a dependency cycle: {', '.join(knot.names)}"
             yield from _edges(graph, knot)
 
 
-def _edges(graph: Graph, knot: Knot) -> Iterator[str]:
+def _edges(graph: Graph, knot: Cycle) -> Iterator[str]:
     cycle = tuple(zip(knot.cycle, (*knot.cycle[1:], knot.cycle[0]), strict=True))
     yield f"  shortest cycle: {' -> '.join((*knot.cycle, knot.cycle[0]))}"
     for edge in (*cycle, *(edge for edge in knot.cut if edge not in cycle)):

@@ -10,16 +10,16 @@ from typing import Any
 from ros_lint.base.paths import upwards
 from ros_lint.base.tree import repository_of
 from ros_lint.cli.progress import Progress
-from ros_lint.cli.session import Opened, UsageError, open_workspace
+from ros_lint.cli.session import Session, UsageError, open_workspace
 from ros_lint.cli.settings import ConfigError
 from ros_lint.knowledge.store import KnowledgeError
 from ros_lint.workspace.model import Workspace
 
-Answer = tuple[str, str, int]
+CommandOutput = tuple[str, str, int]
 """What goes to standard output, what to standard error, and the exit code."""
 
 
-def ask(said: Mapping[str, Any], answer: Callable[[Opened, Workspace], Answer], *, sources: bool = True) -> int:
+def run_query(said: Mapping[str, Any], answer: Callable[[Session, Workspace], CommandOutput], *, sources: bool = True) -> int:
     """Print what is answered about the workspace that the options name. Returns the exit code, 2 when there is no answer.
 
     Without ``sources`` only manifests are read.
@@ -41,7 +41,7 @@ def ask(said: Mapping[str, Any], answer: Callable[[Opened, Workspace], Answer], 
     return code
 
 
-def around() -> str:
+def current_workspace() -> str:
     """Return the workspace that the current folder lies in, if it is in a package; else the current folder."""
     in_package = any(os.path.isfile(os.path.join(folder, "package.xml")) for folder in upwards(os.path.realpath(os.curdir)))
     return enclosing_workspace(os.path.join(os.curdir, "package.xml")) if in_package else os.curdir

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from ros_lint.analysis.dependencies.explain import used_in
 from ros_lint.analysis.graph.dependency_graph import dependency_graph
 from ros_lint.base.graph_paths import Paths, paths
-from ros_lint.base.suggestions import did_you_mean, similar
+from ros_lint.base.suggestions import did_you_mean, similar_names
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -139,5 +139,5 @@ def _is_known(workspace: Workspace, name: str) -> bool:
 
 
 def _no_such(workspace: Workspace, name: str) -> str:
-    near = [*similar(name, workspace.by_name, 2, 0.75), *workspace.world.suggest(name)]
+    near = [*similar_names(name, workspace.by_name, 2, 0.75), *workspace.world.suggest(name)]
     return f"ros-lint: unknown package or rosdep key '{name}'{did_you_mean(list(dict.fromkeys(near[:3])))}\n"

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Final
 
 from ros_lint.base.paths import is_outside, join
-from ros_lint.base.text import Span, beginning
+from ros_lint.base.text import Span, file_start
 from ros_lint.collectors.cmake.commands import ament as cmake_ros
 from ros_lint.collectors.cmake.commands import basic as cmake_basic
 from ros_lint.collectors.cmake.commands import fetch_content as cmake_fetch
@@ -34,9 +34,9 @@ from ros_lint.collectors.cmake.evaluator.state import MOST_CHARACTERS, STOP, Bud
 from ros_lint.collectors.cmake.evaluator.values import is_known
 from ros_lint.collectors.cmake.released_macros import macros
 from ros_lint.collectors.cmake.syntax import Command, is_template
-from ros_lint.facts.build import BuildScript, Exported, Provided
+from ros_lint.facts.build import BuildScript, Exported, InstalledFile
 from ros_lint.facts.sources import Mention
-from ros_lint.facts.visibility import ANYTHING, Facet, Opaque, Problem
+from ros_lint.facts.visibility import ALL_FACETS, Facet, Opaque, Problem
 
 for _module in (
     cmake_answers,
@@ -77,18 +77,18 @@ def evaluate(sources: Sources, distro: str = "", helpers: Mapping[str, Helper] =
     path = join(sources.path, _TOP)
     parsed = sources.scripts.get(_TOP)
     if parsed is None:
-        return BuildScript(path, opaque=(Opaque(ANYTHING, "there is no CMakeLists.txt to read", beginning(path)),))
+        return BuildScript(path, opaque=(Opaque(ALL_FACETS, "there is no CMakeLists.txt to read", file_start(path)),))
     frame = Frame(True, path, run.named(_TOP))
     try:
         ended = cmake_flow.run_file(run, parsed.commands, frame)
     except (BudgetError, RecursionError):
         run.frames[:] = [frame]
         run.characters = MOST_CHARACTERS  # for what is asked below
-        run.hide(ANYTHING, "the script runs longer than can be followed", frame.command and frame.command.place(path))
+        run.hide(ALL_FACETS, "the script runs longer than can be followed", frame.command and frame.command.place(path))
     else:
         run.frames[:] = [frame]
         if ended & STOP:
-            run.hide(ANYTHING, "the script stops with an error before its end", frame.command and frame.command.place(path))
+            run.hide(ALL_FACETS, "the script stops with an error before its end", frame.command and frame.command.place(path))
     return _result(run, path)
 
 
@@ -102,7 +102,7 @@ def _result(run: Run, path: str) -> BuildScript:
     for file, parsed in run.sources.scripts.items():
         if parsed.problems and not (is_template(file) or file in run.templates):
             problems += parsed.problems
-            facets = ANYTHING if file == _TOP else ANYTHING & ~Facet.INTERFACES
+            facets = ALL_FACETS if file == _TOP else ALL_FACETS & ~Facet.INTERFACES
             opaques += [Opaque(facets, "the file cannot be read to its end", problem.span) for problem in parsed.problems]
     calls = tuple(sorted([call for call in run.calls if not call.startswith("ros_lint_")]))
     return BuildScript(
@@ -205,7 +205,7 @@ def _is_known(run: Run, call: str) -> bool:
     return call in HANDLERS or call in run.procedures or released(call) is not None
 
 
-def _installed_files(run: Run) -> list[Provided]:
+def _installed_files(run: Run) -> list[InstalledFile]:
     files, generated = run.files, run.generated
     found = []
     for provided in run.installed:

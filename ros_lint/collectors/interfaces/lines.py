@@ -9,8 +9,8 @@ import re
 from bisect import bisect_right
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from ros_lint.base.suggestions import did_you_mean, similar
-from ros_lint.base.text import beginning
+from ros_lint.base.suggestions import did_you_mean, similar_names
+from ros_lint.base.text import file_start
 from ros_lint.collectors.interfaces import naming as interface_names
 from ros_lint.facts.interfaces import InterfaceFile, InterfaceProblem
 
@@ -97,7 +97,7 @@ def collect(source: Text) -> InterfaceFile:
     if not interface_names.is_message(name):
         better = f"{interface_names.camel(name)}.{suffix}"
         problems.append(
-            InterfaceProblem(f"'{name}' is not a valid interface name; rename the file to '{better}'", beginning(path))
+            InterfaceProblem(f"'{name}' is not a valid interface name; rename the file to '{better}'", file_start(path))
         )
     marks = [match.start() for match in _SEPARATES.finditer(text)]
     divided = len(marks) == _SEPARATORS[suffix]
@@ -158,7 +158,7 @@ def _separation(source: Text, text: str, suffix: str, marks: list[int]) -> Itera
             yield InterfaceProblem(message, source.span(*match.span()), instead)
     else:
         lacks = "a line '---' is" if wanted - len(marks) == 1 else "two lines '---' are"
-        yield InterfaceProblem(f"{lacks} missing; {parts}", beginning(source.path))
+        yield InterfaceProblem(f"{lacks} missing; {parts}", file_start(source.path))
 
 
 def _element(line: str) -> _Element | None:
@@ -244,7 +244,7 @@ def _type(kind: str) -> str:
     if slash and not interface_names.is_field(package):
         raise _WrongError(f"'{base}' is not a valid type; write a message of another package as package/Name", 0, base)
     if not interface_names.is_message(name):
-        near = [] if slash else similar(base, sorted(_PLAIN), 1, 0.7)
+        near = [] if slash else similar_names(base, sorted(_PLAIN), 1, 0.7)
         better = f"{package}{slash}{interface_names.camel(name)}"
         hint = did_you_mean(near) or (f"; names of messages look like '{better}'" if name.isidentifier() else "")
         raise _WrongError(f"there is no type '{base}'{hint}", 0, base)

@@ -9,7 +9,7 @@ from ros_lint.collectors.symbolic_text import UNKNOWN, is_plain, is_settled, nam
 from ros_lint.facts.launch import LaunchAction, LaunchCondition
 
 
-class Held(NamedTuple):
+class DefaultConfigurations(NamedTuple):
     """The launch configurations of one file by name."""
 
     values: Mapping[str, tuple[str, ...]]
@@ -22,7 +22,7 @@ class Held(NamedTuple):
         return _hangs_on(text, self.own)
 
 
-def held(actions: Iterable[LaunchAction]) -> Held:
+def default_configurations(actions: Iterable[LaunchAction]) -> DefaultConfigurations:
     """Return what launch configurations hold in a file, going by its arguments and by what it sets.
 
     What is set under a condition is one of several values, the only ones if another is set under the opposite.
@@ -55,7 +55,7 @@ def held(actions: Iterable[LaunchAction]) -> Held:
             given.update({name} - found.keys())
             texts = [*found.get(name, ()), *texts]
         found[name] = tuple(dict.fromkeys(texts))
-    return Held(found, _own(found, given))
+    return DefaultConfigurations(found, _own(found, given))
 
 
 _SOME_TIME = LaunchCondition((UNKNOWN,), None)

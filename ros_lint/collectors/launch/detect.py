@@ -12,7 +12,7 @@ from typing import Literal
 
 Language = Literal["python", "xml", "yaml"]
 
-NAMES = ("launch.py", "launch.xml", "launch.yaml", "launch.yml", ".launch")
+LAUNCH_FILE_NAMES = ("launch.py", "launch.xml", "launch.yaml", "launch.yml", ".launch")
 """How the names of files end that ``ros2 launch`` takes for launch files when it is given a name alone."""
 
 _PYTHON = re.compile(r"generate_(launch|test)_description\b")

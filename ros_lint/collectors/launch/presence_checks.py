@@ -9,7 +9,7 @@ from ros_lint.collectors.symbolic_text import asked_for, fill, is_settled, named
 from ros_lint.facts.launch import LaunchCondition
 
 
-def asks_first(conditions: Iterable[LaunchCondition]) -> bool:
+def is_guarded_by_presence(conditions: Iterable[LaunchCondition]) -> bool:
     """Return whether conditions ask if something is installed: what is under them is done without, whatever its name."""
     return any(condition.wanted and asked_for(text) for condition in conditions for text in condition.texts)
 

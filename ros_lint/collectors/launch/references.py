@@ -10,10 +10,10 @@ from types import MappingProxyType
 
 from ros_lint.base.text import Span
 from ros_lint.collectors import symbolic_text as launch_text
-from ros_lint.collectors.launch.default_configurations import held
+from ros_lint.collectors.launch.default_configurations import default_configurations
 from ros_lint.collectors.launch.expressions import evaluate
 from ros_lint.collectors.launch.path_values import Reads, values_of
-from ros_lint.collectors.launch.presence_checks import EVERYWHERE, asks_first, distributions_under
+from ros_lint.collectors.launch.presence_checks import EVERYWHERE, distributions_under, is_guarded_by_presence
 from ros_lint.collectors.symbolic_text import (
     UNKNOWN,
     Installed,
@@ -52,7 +52,7 @@ class References:
         self.problems: dict[Problem, None] = {}
         self._places = {package: span for package, span in places.items() if is_settled(package)}
         actions = tuple(actions)
-        self._held = held(actions)
+        self._held = default_configurations(actions)
         self._carriers = carriers_of_places(self._held.values)
         self._known: dict[str, tuple[str, ...]] = {}
         self._narrowed: Mapping[str, tuple[str, ...]] = {}
@@ -78,7 +78,7 @@ class References:
         """Go under conditions, or into a helper, for a while. Yields whether any distribution does."""
         before = self._asks, self._distros, self._narrowed, self._known, self._lent
         self._lent = lent
-        self._asks = self._asks or asks_first(conditions)
+        self._asks = self._asks or is_guarded_by_presence(conditions)
         self._distros &= distributions_under(conditions)
         self._narrow(conditions)
         try:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from typing import Final
 
-from ros_lint.base.suggestions import did_you_mean, similar
+from ros_lint.base.suggestions import did_you_mean, similar_names
 from ros_lint.collectors.manifest.xml import Document, Fault, Node, attribute, children, value
 from ros_lint.facts.manifest import Depend, Element
 
@@ -173,7 +173,7 @@ def _unknown_tag(node: Node, form: int) -> Fault:
     elif newer:
         way_out = f'raise the format to "{newer}"'
     else:
-        near = [f"<{known}>" for known in similar(tag, ALLOWED[form], 1, 0.75)]
+        near = [f"<{known}>" for known in similar_names(tag, ALLOWED[form], 1, 0.75)]
         way_out = did_you_mean(near, "") or "remove it, or move it into <export>"
     return Fault("unknown-tag", f"there is no <{tag}> in format {form} of package.xml; {way_out}", node.start, node.end, newer)
 

@@ -14,7 +14,7 @@ from typing import Final, NamedTuple
 
 from ros_lint.base.python_nesting import plain
 from ros_lint.base.python_tokens import Template, Token, template
-from ros_lint.base.text import raw
+from ros_lint.base.text import to_bytes
 
 _CLOSES: Final = {"(": ")", "[": "]", "{": "}"}
 _NEWLINE: Final = re.compile(r"\r\n|\r|\n")
@@ -260,7 +260,7 @@ def _pairs(words: Sequence[str]) -> Iterator[tuple[int, int]]:
 def _blanked(text: str, *, joined: bool = False) -> str:
     """Return blanks as wide as a text in bytes, line by line, ``joined`` by backslashes where no bracket joins the lines."""
     ends = _NEWLINE.findall(text)
-    lines = [" " * len(raw(line)) for line in _NEWLINE.split(text)]
+    lines = [" " * len(to_bytes(line)) for line in _NEWLINE.split(text)]
     return "".join(line + ("\\" if joined else "") + end for line, end in zip(lines, ends, strict=False)) + lines[-1]
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final
 
 from ros_lint.base.python_parser import literal
 from ros_lint.base.python_tokens import Piece, Template, Token, TokenError, template
-from ros_lint.base.text import raw
+from ros_lint.base.text import to_bytes
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -37,7 +37,7 @@ def restore(tree: ast.Module, source: Text, rewritten: Rewritten, expression: Ca
 def place_of(source: Text, offset: int) -> Place:
     """Return the place of an offset."""
     line, column = source.position(offset)
-    return line, len(raw(source.text[offset - column + 1 : offset]))
+    return line, len(to_bytes(source.text[offset - column + 1 : offset]))
 
 
 class _Restorer:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from ros_lint.base import python_parser as python_ast
 from ros_lint.base.python_nesting import DEEPEST, most_levels, nests_too_deep, plain
-from ros_lint.base.text import Span, Text, from_raw, raw
+from ros_lint.base.text import Span, Text, from_bytes, to_bytes
 from ros_lint.facts.visibility import Facet, NewerSyntax, Opaque, Problem
 
 # What only Python 2 reads. One is enough: such a file is not meant for the interpreter that looks at it.
@@ -197,7 +197,7 @@ def _offset(source: Text, line: int, column: int) -> int:
     start = source.offset(line, 1)
     piece = source.text[start : start + column]
     if not piece.isascii():
-        piece = from_raw(raw(piece)[:column])
+        piece = from_bytes(to_bytes(piece)[:column])
     return start + len(piece)
 
 

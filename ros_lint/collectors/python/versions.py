@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Final
 from ros_lint.facts.visibility import NewerSyntax, Problem
 
 if TYPE_CHECKING:
-    from ros_lint.workspace.target import Target
+    from ros_lint.workspace.target import TargetDistro
 
 Version = tuple[int, int]
 
@@ -41,7 +41,7 @@ MATH: Final = frozenset(dir(math)) | {"cbrt", "exp2", "fma", "sumprod"}
 """The names of the module math, in any version from 3.10 to 3.14."""
 
 
-def too_new(syntax: Iterable[NewerSyntax], target: Target) -> Iterator[Problem]:
+def too_new(syntax: Iterable[NewerSyntax], target: TargetDistro) -> Iterator[Problem]:
     """Yield the constructs that the Python of a distribution refuses. None where nobody chose the distribution."""
     runs = PYTHON_OF.get(target.distro) if target.told else None
     for construct, version, span in syntax:

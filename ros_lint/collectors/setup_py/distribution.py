@@ -11,7 +11,7 @@ from typing import NamedTuple
 from ros_lint.base.text import Span
 from ros_lint.collectors.setup_py.interpreter.files import Files
 from ros_lint.collectors.setup_py.interpreter.values import REST, Class, Globbed, Maybe, Unknown, Value
-from ros_lint.facts.build import Provided
+from ros_lint.facts.build import InstalledFile
 from ros_lint.facts.setup_py import EntryPoint
 from ros_lint.facts.visibility import Facet, Opaque, Problem
 
@@ -48,7 +48,7 @@ class Distribution:
     def __init__(self, context: Context, place: Callable[[Value, Span], Span]) -> None:
         self._context = context
         self._place = place
-        self.provides: list[Provided] = []
+        self.provides: list[InstalledFile] = []
         self.entry_points: list[EntryPoint] = []
         self.python_packages: list[str] = []
         self.moved: list[str] = []
@@ -195,7 +195,7 @@ class Distribution:
         runs = source in self._context.executables if program is None else program
         conditional = maybe or self._context.conditional
         span = self._place(value, self._context.call)
-        self.provides.append(Provided(posixpath.normpath(path), source, runs, conditional, span))
+        self.provides.append(InstalledFile(posixpath.normpath(path), source, runs, conditional, span))
 
     # --- entry points
 

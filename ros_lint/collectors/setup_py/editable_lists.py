@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from ros_lint.collectors.python.string_values import callee, dotted
 from ros_lint.collectors.python.syntax import NotPythonError, parse, span_of, start_of
-from ros_lint.facts.setup_py import Slot
+from ros_lint.facts.setup_py import EditableList
 
 if TYPE_CHECKING:
     from ros_lint.base.text import Text
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 _OPTIONS = ("data_files", "packages")
 
 
-def collect(source: Text, package: str) -> tuple[Slot, ...]:
+def collect(source: Text, package: str) -> tuple[EditableList, ...]:
     """Return the lists of ``data_files``, ``packages`` and console scripts, as far as they are written out.
 
     ``package`` is the name of the package, for the variable that holds it.
@@ -70,12 +70,12 @@ _COMMA = re.compile(r"(?:\s|#[^\n]*\n)*,")
 _REMARK = re.compile(r"[ \t]*#[^\n]*")
 
 
-def _slot(source: Text, option: str, found: ast.List, variable: str) -> Slot:
+def _slot(source: Text, option: str, found: ast.List, variable: str) -> EditableList:
     whole = span_of(source, found)
     close = source.offset(whole.end_line, whole.end_column) - 1
     if not found.elts:
         at = start_of(source, found) + 1
-        return Slot(option, source.span(at, at), True, None, 0, variable)
+        return EditableList(option, source.span(at, at), True, None, 0, variable)
     last = span_of(source, found.elts[-1])
     at = source.offset(last.end_line, last.end_column)
     comma = _COMMA.match(source.text, at, close)
@@ -85,7 +85,7 @@ def _slot(source: Text, option: str, found: ast.List, variable: str) -> Slot:
     if comma and (remark := _REMARK.match(source.text, end)):
         end = remark.end()
     written = source.text[start_of(source, found) : close]
-    return Slot(
+    return EditableList(
         option,
         source.span(end, end),
         comma is not None,

@@ -6,17 +6,17 @@ import posixpath
 from collections.abc import Iterable, Sequence
 
 from ros_lint.base.edit import Edit
-from ros_lint.base.text import Span, beginning
+from ros_lint.base.text import Span, file_start
 from ros_lint.facts.build import BuildScript
-from ros_lint.facts.setup_py import Slot
+from ros_lint.facts.setup_py import EditableList
 
 
-def slot(script: BuildScript, option: str) -> Slot | None:
+def slot(script: BuildScript, option: str) -> EditableList | None:
     """Return the list of an option, None when it is not written out or is empty."""
     return next((found for found in script.slots if found.option == option and found.size), None)
 
 
-def add(to: Slot, element: str) -> Edit:
+def add(to: EditableList, element: str) -> Edit:
     """Add an element after the last one: on a line of its own if that has one, and with a comma if that has one."""
     gap = " " if to.indent is None else f"\n{to.indent}"
     return Edit(to.end, f"{gap}{element}," if to.comma else f",{gap}{element}")
@@ -25,10 +25,10 @@ def add(to: Slot, element: str) -> Edit:
 def place(script: BuildScript) -> Span:
     """Return where a build script says what is installed: where a rule can be added, or else where it names the package."""
     found = slot(script, "data_files")
-    return script.end or (found.end if found else script.name_span) or beginning(script.path)
+    return script.end or (found.end if found else script.name_span) or file_start(script.path)
 
 
-def add_files(to: Slot, package: str, paths: Iterable[str], others: Sequence[str]) -> Edit:
+def add_files(to: EditableList, package: str, paths: Iterable[str], others: Sequence[str]) -> Edit:
     """Add to data_files what installs files of the package under their folders in the share directory.
 
     Those of a folder are globbed if setup.py globs: by their ending, unless another file of the folder, among ``others``, has
@@ -41,7 +41,7 @@ def add_files(to: Slot, package: str, paths: Iterable[str], others: Sequence[str
     return add(to, f",{gap}".join(_files(to, package, inner, others) for inner in by_folder.values()))
 
 
-def _files(to: Slot, package: str, paths: Sequence[str], others: Sequence[str]) -> str:
+def _files(to: EditableList, package: str, paths: Sequence[str], others: Sequence[str]) -> str:
     folder = posixpath.dirname(paths[0])
     target = joined(to, package, "share/", f"/{folder}" if folder else "")
     ending = _ending(paths)
@@ -60,7 +60,7 @@ def _ending(paths: Sequence[str]) -> str:
     return shared[shared.find(".") :] if "." in shared else ""
 
 
-def joined(to: Slot, package: str, before: str, after: str = "") -> str:
+def joined(to: EditableList, package: str, before: str, after: str = "") -> str:
     """Return an expression for a text with the name of the package in it, by the variable that holds it if there is one.
 
     It is put together as others in the list are. Slashes stand between what goes before, the name, and what comes after.
@@ -76,7 +76,7 @@ def joined(to: Slot, package: str, before: str, after: str = "") -> str:
     return " + ".join(part for part in (quoted(to, before) if before else "", name, quoted(to, after) if after else "") if part)
 
 
-def quoted(to: Slot, text: str) -> str:
+def quoted(to: EditableList, text: str) -> str:
     """Return a text as Python writes it, with the quotes of the list."""
     plain = repr(text)
     return plain if to.quote in plain[1:-1] or "\\" in plain else f"{to.quote}{text}{to.quote}"

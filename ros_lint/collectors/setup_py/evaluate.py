@@ -14,7 +14,7 @@ from collections.abc import Set as AbstractSet
 from typing import TYPE_CHECKING
 
 from ros_lint.base.paths import join
-from ros_lint.base.text import Span, beginning
+from ros_lint.base.text import Span, file_start
 from ros_lint.collectors.python.import_tree import walk
 from ros_lint.collectors.python.syntax import NotPythonError, is_of_others, read, refusal, span_of
 from ros_lint.collectors.python.unbound_names import tried, unbound
@@ -54,7 +54,7 @@ def evaluate(
     :mod:`ros_lint.collectors.setup_py.setup_cfg`.
     """
     first = setup_py or setup_cfg or pyproject
-    start = beginning(first.path if first else join(path_prefix, "setup.py"))
+    start = file_start(first.path if first else join(path_prefix, "setup.py"))
     cfg = setup_cfg_collector.collect(setup_cfg) if setup_cfg else None
     program = Program(name, Files(files))
     if setup_py is None:

@@ -7,7 +7,7 @@ from itertools import chain
 from typing import TYPE_CHECKING
 
 from ros_lint.base.paths import join
-from ros_lint.base.text import beginning
+from ros_lint.base.text import file_start
 from ros_lint.base.tree import Tree
 from ros_lint.collectors.cmake import calls as cmake_calls
 from ros_lint.collectors.python import top_level_names as python_names
@@ -15,11 +15,11 @@ from ros_lint.collectors.setup_py import editable_lists as setup_layout
 from ros_lint.collectors.setup_py import editable_texts as setup_texts
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.setup_py import PythonModule
-from ros_lint.facts.visibility import ANYTHING, Opaque
+from ros_lint.facts.visibility import ALL_FACETS, Opaque
 from ros_lint.workspace.build_scripts.files import Executables, text_in, with_files
 from ros_lint.workspace.build_scripts.sources import Parts, Surroundings, sources
 from ros_lint.workspace.collect import FAILED
-from ros_lint.workspace.discovery.discover import Found
+from ros_lint.workspace.discovery.discover import DiscoveredPackage
 
 if TYPE_CHECKING:
     from ros_lint.collectors.cmake.evaluator.sources import Helper
@@ -61,10 +61,10 @@ def _cmake(tree: Tree, parts: Parts, distro: str, helpers: dict[str, Helper], ar
 
 def _failed(parts: Parts, reason: str) -> BuildScript:
     path = join(parts.found.path, "CMakeLists.txt" if "CMakeLists.txt" in parts.commands else "setup.py")
-    return BuildScript(path, opaque=(Opaque(ANYTHING, reason, beginning(path)),), failed=True)
+    return BuildScript(path, opaque=(Opaque(ALL_FACETS, reason, file_start(path)),), failed=True)
 
 
-def _python(tree: Tree, found: Found) -> BuildScript | None:
+def _python(tree: Tree, found: DiscoveredPackage) -> BuildScript | None:
     if not {"setup.py", "setup.cfg"}.intersection(found.files) or found.type not in ("ros.ament_python", "python"):
         return None
     from ros_lint.collectors.setup_py import evaluate as setup_py  # noqa: PLC0415
@@ -74,7 +74,7 @@ def _python(tree: Tree, found: Found) -> BuildScript | None:
     slots = setup_layout.collect(setup, found.name) if setup else ()
     texts = setup_texts.collect(setup) if setup else ()
     unread = [join(found.path, file) for file, text in zip(_PYTHON, texts_read, strict=True) if not text and file in found.files]
-    opaque = [Opaque(ANYTHING, "it cannot be read", beginning(path)) for path in unread]
+    opaque = [Opaque(ALL_FACETS, "it cannot be read", file_start(path)) for path in unread]
     return script._replace(
         slots=slots,
         texts=(*script.texts, *texts),
@@ -83,7 +83,7 @@ def _python(tree: Tree, found: Found) -> BuildScript | None:
     )
 
 
-def _modules(tree: Tree, found: Found, script: BuildScript) -> Iterator[PythonModule]:
+def _modules(tree: Tree, found: DiscoveredPackage, script: BuildScript) -> Iterator[PythonModule]:
     """Yield the modules of the package that its entry points name."""
     files = frozenset(found.files)
     for name in dict.fromkeys(entry.module for entry in script.entry_points):

@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Container, Iterator, Mapping, Sequence, Set
 
-from ros_lint.base.auxiliary_files import is_apart
-from ros_lint.base.paths import folders_of, join, parent, seen_from
-from ros_lint.base.text import Span, Text, from_raw, raw, span_in
+from ros_lint.base.auxiliary_files import is_auxiliary
+from ros_lint.base.paths import folders_of, join, parent, resolve
+from ros_lint.base.text import Span, Text, from_bytes, span_in, to_bytes
 from ros_lint.base.tree import Tree, contents, text_of
 from ros_lint.collectors.cmake.syntax import Parsed
 from ros_lint.collectors.launch.detect import is_of_ros_1
@@ -15,7 +15,7 @@ from ros_lint.collectors.resources import plugin_descriptions as plugin_xml
 from ros_lint.facts.build import BuildScript, ScriptFile
 from ros_lint.facts.visibility import Facet
 from ros_lint.workspace.build_scripts import resources as resource_files
-from ros_lint.workspace.discovery.discover import Found
+from ros_lint.workspace.discovery.discover import DiscoveredPackage
 
 _PLUGIN_FILE = re.compile(r"plugin.*\.xml\Z", re.IGNORECASE)
 _SCRIPTS = re.compile(r"(?:scripts|nodes|bin|script)/[^/]+\Z")
@@ -29,7 +29,7 @@ _Texts = Sequence[tuple[str, bytes]]
 """Files of a package that can name resources, by their path in the tree, with what they hold."""
 
 
-def with_files(tree: Tree, found: Found, commands: Mapping[str, Parsed], script: BuildScript) -> BuildScript:
+def with_files(tree: Tree, found: DiscoveredPackage, commands: Mapping[str, Parsed], script: BuildScript) -> BuildScript:
     """Return a script with what is known of other files of its package: plugin descriptions, scripts, resources.
 
     ``commands`` are its CMake files, by path relative to the package.
@@ -50,11 +50,11 @@ def with_files(tree: Tree, found: Found, commands: Mapping[str, Parsed], script:
     files = [_script_file(file, text, file in executables) for file, text in texts.items()]
     files = [file._replace(helper=_is_helper(file, texts)) for file in files]
     files = _with_runs(tree, found, script, files)
-    missing = {} if script.hides(Facet.SHARE) else resource_files.uninstalled(found.files, script.installed)
+    missing = {} if script.hides(Facet.SHARE) else resource_files.uninstalled_resources(found.files, script.installed)
     if not (plugins or files or missing):
         return script
     texts_that_name = contents(tree, found.path, filter(resource_files.may_name, found.files)) if missing else ()
-    every = [(path, data) for path, data in texts_that_name if not (b"<launch" in data and is_of_ros_1(from_raw(data)))]
+    every = [(path, data) for path, data in texts_that_name if not (b"<launch" in data and is_of_ros_1(from_bytes(data)))]
     macros = _source_folders(commands) if missing else None
     naming = [(path, data) for path, data in every if not (macros and macros.search(data))]
     in_sources = [data for _, data in every if macros and macros.search(data)]
@@ -66,7 +66,7 @@ def with_files(tree: Tree, found: Found, commands: Mapping[str, Parsed], script:
         inputs=(
             *_inputs(commands, missing, [file.path for file in files]),
             *_read_in_sources(found, missing, [*naming, *pages]),
-            *(f"{folder}/" for folder in missing if any(b'"/%s/' % raw(folder) in data for data in in_sources)),
+            *(f"{folder}/" for folder in missing if any(b'"/%s/' % to_bytes(folder) in data for data in in_sources)),
         ),
     )
 
@@ -91,14 +91,14 @@ def _source_folders(scripts: Mapping[str, Parsed]) -> re.Pattern[bytes] | None:
     """Return what finds the macros in code that hold the folder of the sources, None if CMake defines none."""
     commands = (command for parsed in scripts.values() for command in parsed.commands if command.name in _DEFINE)
     found = {match[1] for command in commands for argument in command.args if (match := _HOLDS_SOURCES.match(argument[0]))}
-    return re.compile(rb"\b(?:%s)\b" % b"|".join(sorted(map(raw, found)))) if found else None
+    return re.compile(rb"\b(?:%s)\b" % b"|".join(sorted(map(to_bytes, found)))) if found else None
 
 
 _DEFINE = frozenset({"add_compile_definitions", "add_definitions", "target_compile_definitions"})
 _HOLDS_SOURCES = re.compile(r"(?:-D)?(\w+)=[\\\"]*\$\{\w*_SOURCE_DIR\}")
 
 
-def _read_in_sources(found: Found, missing: Mapping[str, Sequence[str]], naming: _Texts) -> Iterator[str]:
+def _read_in_sources(found: DiscoveredPackage, missing: Mapping[str, Sequence[str]], naming: _Texts) -> Iterator[str]:
     """Yield the folders of resources that a text names where they lie in sources, as ``/home/me/src/robot/maps/hall``.
 
     Not what is in such a folder itself: xacro writes into a model from what file it has made it.
@@ -106,16 +106,16 @@ def _read_in_sources(found: Found, missing: Mapping[str, Sequence[str]], naming:
     if not missing:
         return
     top = found.path.rpartition("/")[2] or found.name
-    folders = b"|".join([re.escape(raw(folder)) for folder in missing])
-    place = re.compile(rb"(?<=[\w.~}-])(?<!\bshare)/%s/(%s)(?![\w.-])" % (re.escape(raw(top)), folders))
+    folders = b"|".join([re.escape(to_bytes(folder)) for folder in missing])
+    place = re.compile(rb"(?<=[\w.~}-])(?<!\bshare)/%s/(%s)(?![\w.-])" % (re.escape(to_bytes(top)), folders))
     part = re.compile(rb"(?<=[\"'])(%s)(?=[\"'])" % folders)
-    below = b"/%s/" % raw(top)
+    below = b"/%s/" % to_bytes(top)
     for path, data in naming:
         if below in data:  # the pattern takes a hundred times as long
-            named = {from_raw(hit[1]) for hit in place.finditer(data)}
+            named = {from_bytes(hit[1]) for hit in place.finditer(data)}
             yield from (f"{folder}/" for folder in sorted(named) if not path.startswith(f"{join(found.path, folder)}/"))
         if _OF_SOURCES.search(data) and not path.endswith(".md"):
-            yield from (f"{from_raw(hit[1])}/" for hit in part.finditer(data) if _is_below_sources(data, hit.start()))
+            yield from (f"{from_bytes(hit[1])}/" for hit in part.finditer(data) if _is_below_sources(data, hit.start()))
 
 
 _OF_SOURCES = re.compile(rb"[\"']src[\"']\s*,\s*[\"']")
@@ -134,11 +134,13 @@ def _may_be_read(path: str, entered: Sequence[str]) -> bool:
     return name != "CMakeLists.txt" or not folder or any("$" in text or text.endswith(inner) for text in entered)
 
 
-def _named(tree: Tree, found: Found, missing: Mapping[str, Sequence[str]], naming: _Texts) -> Iterator[tuple[str, Span]]:
+def _named(
+    tree: Tree, found: DiscoveredPackage, missing: Mapping[str, Sequence[str]], naming: _Texts
+) -> Iterator[tuple[str, Span]]:
     """Yield the resources that are not installed and that a text of the package names, with the first place."""
     left: dict[str, tuple[bytes, bytes]] = {}
     for file in (file for files in missing.values() for file in files[:_MOST_RESOURCES]):
-        folder, _, name = raw(file).rpartition(b"/")
+        folder, _, name = to_bytes(file).rpartition(b"/")
         left[file] = folder.rpartition(b"/")[2], name
     if any(map(_is_picture, left)):  # most pictures are there for the documentation
         for _, page in contents(tree, found.path, (file for file in found.files if file.endswith(".md"))):
@@ -170,12 +172,12 @@ def _looks_up(path: str, data: bytes, resource: str, hit: re.Match[bytes]) -> bo
         return False  # it is sought where the program is started
     if _is_below_sources(data, hit.start()):
         return False
-    above = raw(parent(parent(resource)).rpartition("/")[2])
+    above = to_bytes(parent(parent(resource)).rpartition("/")[2])
     before = _BEFORE.search(data, max(hit.start() - 80, 0), hit.start()) if above else None
     return before is None or before[1] == above
 
 
-def _with_runs(tree: Tree, found: Found, script: BuildScript, files: list[ScriptFile]) -> list[ScriptFile]:
+def _with_runs(tree: Tree, found: DiscoveredPackage, script: BuildScript, files: list[ScriptFile]) -> list[ScriptFile]:
     """Return the scripts of a package with where they are started, and with modules that are, if they are not installed.
 
     CMake installs what lies among scripts; setup.py also makes programs of the modules that its entry points name.
@@ -189,7 +191,7 @@ def _with_runs(tree: Tree, found: Found, script: BuildScript, files: list[Script
     named = {entry.module.replace(".", "/") for entry in script.entry_points}
     inside = (file for file in found.files if file.startswith(f"{found.name}/") and file.endswith(".py"))
     modules = [file for file in inside if file.removesuffix(".py") not in named]
-    lost = [f for f in (*modules, *_programs(found.files, ())) if names.isdisjoint(_called(f)) and not is_apart(f)]
+    lost = [f for f in (*modules, *_programs(found.files, ())) if names.isdisjoint(_called(f)) and not is_auxiliary(f)]
     run = _run(tree, found, lost, _PAGES) if lost else {}
     texts = {path: text for path in run if (text := text_in(tree, found, path))}
     executables = Executables(tree, found)
@@ -208,21 +210,21 @@ def _called(program: str) -> tuple[str, str]:
     return name, name.removesuffix(".py")
 
 
-def _run(tree: Tree, found: Found, programs: Sequence[str], endings: tuple[str, ...]) -> dict[str, Span]:
+def _run(tree: Tree, found: DiscoveredPackage, programs: Sequence[str], endings: tuple[str, ...]) -> dict[str, Span]:
     """Return where a text of the package starts programs with ``ros2 run``, by their paths: a script, or a page that tells how.
 
     With or without their ending, for who installs a program may rename it. The pages of the folders above count, too.
     """
     names = {program.rpartition("/")[2]: program for program in programs}
     names = {**{name.removesuffix(".py"): program for name, program in names.items()}, **names}
-    words = b"|".join([re.escape(raw(name)) for name in names])
-    command = re.compile(rb"\bros2 run +%s +(%s)(?![\w-]|\.\w)" % (re.escape(raw(found.name)), words))
+    words = b"|".join([re.escape(to_bytes(name)) for name in names])
+    command = re.compile(rb"\bros2 run +%s +(%s)(?![\w-]|\.\w)" % (re.escape(to_bytes(found.name)), words))
     above = [join(folder, "README.md") for folder in (*folders_of(found.path), "")] if found.path else []
     told = [file for file in found.files if file.endswith(endings) and not file.startswith("CHANGELOG")]
     places: dict[str, Span] = {}
     for path, data in (*contents(tree, found.path, told), *contents(tree, "", above)):
         for hit in command.finditer(data) if b"ros2 run" in data else ():
-            places.setdefault(names[from_raw(hit[1])], span_in(path, data, *hit.span(1)))
+            places.setdefault(names[from_bytes(hit[1])], span_in(path, data, *hit.span(1)))
     return places
 
 
@@ -262,7 +264,7 @@ def _script_file(path: str, text: Text, executable: bool) -> ScriptFile:
     return ScriptFile(path, shebang, bool(shebang) and first.endswith("\r\n"), main, executable)
 
 
-def text_in(tree: Tree, found: Found, file: str) -> Text | None:
+def text_in(tree: Tree, found: DiscoveredPackage, file: str) -> Text | None:
     """Return the text of a file of a package, None if it has none, or it cannot be read."""
     return text_of(tree, join(found.path, file)) if file in found.files else None
 
@@ -270,13 +272,13 @@ def text_in(tree: Tree, found: Found, file: str) -> Text | None:
 class Executables(Set[str]):
     """The files of a package, and those around it, that have the executable bit. The system is asked when a script is."""
 
-    def __init__(self, tree: Tree, found: Found) -> None:
+    def __init__(self, tree: Tree, found: DiscoveredPackage) -> None:
         self._tree = tree
         self._found = found
 
     def __contains__(self, file: object) -> bool:
         try:
-            return self._tree.stamp(seen_from(self._found.path, str(file))).executable
+            return self._tree.stamp(resolve(self._found.path, str(file))).executable
         except OSError:
             return False
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
-from ros_lint.base.auxiliary_files import is_apart
+from ros_lint.base.auxiliary_files import is_auxiliary
 from ros_lint.base.paths import folders_of, parent
-from ros_lint.base.text import raw
+from ros_lint.base.text import to_bytes
 
 _FOLDERS = frozenset(
     {
@@ -26,7 +26,7 @@ _OF_EXPORTER = re.compile(r"/joint_names_[\w.-]+\.yaml\Z")
 """What the exporter of SolidWorks writes beside a URDF, for controllers of ROS 1: nothing of ROS 2 reads it."""
 
 
-def uninstalled(files: Iterable[str], sources: Iterable[str]) -> dict[str, list[str]]:
+def uninstalled_resources(files: Iterable[str], sources: Iterable[str]) -> dict[str, list[str]]:
     """Return the topmost folders of a package of which nothing is installed, with their resources.
 
     ``files`` are those of the package, ``sources`` those that it installs; both relative to it.
@@ -40,7 +40,7 @@ def uninstalled(files: Iterable[str], sources: Iterable[str]) -> dict[str, list[
         top = top.lower()
         if not (top in _FOLDERS or (top == "launch" and file.endswith(".launch"))) or not rest:
             continue
-        if not (_FILES.search(file) or file.endswith(".launch")) or file.endswith("/CMakeLists.txt") or is_apart(file):
+        if not (_FILES.search(file) or file.endswith(".launch")) or file.endswith("/CMakeLists.txt") or is_auxiliary(file):
             continue
         if "/." in file or _OF_EXPORTER.search(file):  # hidden: kept by an editor or a tool for itself
             continue
@@ -59,7 +59,7 @@ _MAY_NAME = (
 def may_name(file: str) -> bool:
     """Return whether a text can be one that looks up files: a program, a launch file, a model, parameters."""
     name = file.rpartition("/")[2]
-    return file.endswith(_MAY_NAME) and name not in ("package.xml", "setup.py") and not is_apart(file)
+    return file.endswith(_MAY_NAME) and name not in ("package.xml", "setup.py") and not is_auxiliary(file)
 
 
 def pattern_of(file: str) -> re.Pattern[bytes]:
@@ -69,5 +69,5 @@ def pattern_of(file: str) -> re.Pattern[bytes]:
     """
     folder, _, name = file.rpartition("/")
     inner = folder.rpartition("/")[2]
-    words = (re.escape(raw(inner)), re.escape(raw(name)))
+    words = (re.escape(to_bytes(inner)), re.escape(to_bytes(name)))
     return re.compile(rb"(?<![\w-])(?<![\w.~-]/)%s[\"'/, \t\r\n)(]{1,24}(%s)(?![\w-])" % words)

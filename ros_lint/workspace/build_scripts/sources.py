@@ -7,12 +7,12 @@ from contextlib import suppress
 from functools import partial
 from typing import Final, NamedTuple
 
-from ros_lint.base.paths import is_below, join, within
+from ros_lint.base.paths import is_below, join, strip_folder
 from ros_lint.base.tree import Entry, Tree, text_of
 from ros_lint.collectors.cmake.evaluator.sources import Around, Sources
 from ros_lint.collectors.cmake.syntax import Parsed, parse
 from ros_lint.workspace.build_scripts.files import Executables, text_in
-from ros_lint.workspace.discovery.discover import NEVER, Found
+from ros_lint.workspace.discovery.discover import NEVER, DiscoveredPackage
 
 _MOST_ENTRIES: Final = 10_000
 """Below a folder outside of the files of a package. Nobody installs more, but he may install all that is there."""
@@ -21,7 +21,7 @@ _MOST_ENTRIES: Final = 10_000
 class Parts(NamedTuple):
     """What the scripts of a package can see of it."""
 
-    found: Found
+    found: DiscoveredPackage
     commands: Mapping[str, Parsed]
     """Its CMake files, by path relative to the package."""
     depends: Mapping[str, tuple[str, ...]]
@@ -119,7 +119,7 @@ def sources(tree: Tree, parts: Parts, around: Surroundings) -> Sources:
 class _Scripts(Mapping[str, Parsed]):
     """The CMake files of a package. Others are read when they are asked for: a script may have any name."""
 
-    def __init__(self, tree: Tree, found: Found, parsed: Mapping[str, Parsed]) -> None:
+    def __init__(self, tree: Tree, found: DiscoveredPackage, parsed: Mapping[str, Parsed]) -> None:
         self._tree = tree
         self._found = found
         self._parsed = dict(parsed)
@@ -142,8 +142,8 @@ class _Scripts(Mapping[str, Parsed]):
         return len(self._parsed)
 
 
-def _look(found: Found, around: Surroundings, folder: str) -> list[str]:
+def _look(found: DiscoveredPackage, around: Surroundings, folder: str) -> list[str]:
     """Return the files below a folder of a package that was not looked into, nothing where not all are in sight."""
     if any(skipped.path == folder and skipped.link for skipped in found.unseen):
         return []
-    return [within(found.path, file) for file in around.below(join(found.path, folder))]
+    return [strip_folder(found.path, file) for file in around.below(join(found.path, folder))]

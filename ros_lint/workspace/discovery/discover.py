@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.base.paths import is_below, join, parent, seen_from
-from ros_lint.base.text import beginning, read
+from ros_lint.base.paths import is_below, join, parent, resolve
+from ros_lint.base.text import file_start, read
 from ros_lint.collectors.manifest import collect as manifests
 from ros_lint.facts.environment import ROS_2
 from ros_lint.workspace.discovery.identify import (
@@ -23,7 +23,7 @@ from ros_lint.workspace.discovery.identify import (
     ignored_everywhere,
     product,
 )
-from ros_lint.workspace.target import NotChecked
+from ros_lint.workspace.target import UnreadFile
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -55,7 +55,7 @@ class Skipped(NamedTuple):
     """Whether it is a link that is not followed, for what is behind it is met elsewhere or does not belong here."""
 
 
-class Found(NamedTuple):
+class DiscoveredPackage(NamedTuple):
     """A package of the workspace, before anything but its manifest has been read."""
 
     path: str
@@ -82,11 +82,11 @@ class Found(NamedTuple):
 class Discovery(NamedTuple):
     """What a walk found. Everything is sorted by path."""
 
-    packages: tuple[Found, ...]
+    packages: tuple[DiscoveredPackage, ...]
     rejected: tuple[Manifest, ...]
     """Manifests that colcon cannot use, in folders that are no package in another way."""
     skipped: tuple[Skipped, ...]
-    not_checked: tuple[NotChecked, ...]
+    not_checked: tuple[UnreadFile, ...]
 
 
 def discover(tree: Tree, roots: Sequence[str], context: Mapping[str, str] = _CONTEXT) -> Discovery:
@@ -104,10 +104,10 @@ class _Walk:
         self._tree = tree
         self._context = context
         self._base = tree.identity("")
-        self._packages: list[Found] = []
+        self._packages: list[DiscoveredPackage] = []
         self._rejected: list[Manifest] = []
         self._skipped: list[Skipped] = []
-        self._not_checked: list[NotChecked] = []
+        self._not_checked: list[UnreadFile] = []
         self._settings = Settings({}, {})
 
     def run(self, roots: Sequence[str]) -> Discovery:
@@ -119,7 +119,7 @@ class _Walk:
             tuple(sorted(self._packages, key=lambda found: found.path)),
             tuple(sorted(self._rejected, key=lambda manifest: manifest.path)),
             tuple(sorted(self._skipped)),
-            tuple(sorted(self._not_checked, key=lambda item: (item.span or beginning(""), item.what))),
+            tuple(sorted(self._not_checked, key=lambda item: (item.span or file_start(""), item.what))),
         )
 
     def _crawl(self, root: str, visited: set[str]) -> None:
@@ -159,7 +159,7 @@ class _Walk:
             files.gather(entries, identity)
             self._not_checked += files.not_checked
             self._packages.append(
-                Found(
+                DiscoveredPackage(
                     path,
                     manifest.name if manifest and manifest.name else found.name,
                     found.name,
@@ -179,7 +179,7 @@ class _Walk:
         try:
             return self._tree.list(path)
         except OSError as error:
-            self._not_checked.append(NotChecked.of(path, error))
+            self._not_checked.append(UnreadFile.of(path, error))
             return None
 
     def _read_meta(self, places: Sequence[str]) -> Settings:
@@ -191,7 +191,7 @@ class _Walk:
             by_name.update(meta.by_name)
             folder = parent(meta.path)
             for path, values in meta.by_path:
-                by_identity[self._tree.identity(seen_from(folder, path))] = values
+                by_identity[self._tree.identity(resolve(folder, path))] = values
         return Settings(by_name, by_identity)
 
     def _meta(self, place: str) -> ColconMeta | None:
@@ -211,9 +211,9 @@ class _Walk:
         except FileNotFoundError:
             return None  # in the folder of that name
         except OSError as error:
-            self._not_checked.append(NotChecked.of(path, error))
+            self._not_checked.append(UnreadFile.of(path, error))
         except colcon_yaml.ColconYamlError as error:
-            self._not_checked.append(NotChecked(path, str(error), error.span))
+            self._not_checked.append(UnreadFile(path, str(error), error.span))
         return None
 
 
@@ -229,7 +229,7 @@ class _Files:
         self.found: list[str] = []
         self.nested: list[Manifest] = []
         self.unseen: list[Skipped] = []
-        self.not_checked: list[NotChecked] = []
+        self.not_checked: list[UnreadFile] = []
 
     def gather(self, entries: Sequence[Entry], identity: str) -> None:
         """Collect what lies below the folder of the package. ``crossed`` are the folders with the links on the way."""
@@ -254,7 +254,7 @@ class _Files:
         try:
             entries = self._tree.list(path)
         except OSError as error:
-            self.not_checked.append(NotChecked.of(path, error))
+            self.not_checked.append(UnreadFile.of(path, error))
             self.unseen.append(Skipped(child, "it cannot be read"))
             return None
         if _APART.isdisjoint([entry[0] for entry in entries]):
@@ -295,7 +295,7 @@ class _Files:
         try:
             self.nested.append(manifests.collect(read(path, self._tree.read(path))))
         except OSError as error:
-            self.not_checked.append(NotChecked.of(path, error))
+            self.not_checked.append(UnreadFile.of(path, error))
 
     def _not_followed(self, target: str, crossed: tuple[str, ...]) -> str:
         """Return why a link is not followed, or "". ``crossed`` are the folders with it and the links on the way."""

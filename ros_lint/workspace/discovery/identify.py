@@ -9,10 +9,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.base.paths import join
-from ros_lint.base.text import Span, Text, beginning, read
+from ros_lint.base.text import Span, Text, file_start, read
 from ros_lint.collectors.manifest import conditions
 from ros_lint.facts.manifest import ColconSettings
-from ros_lint.workspace.target import NotChecked
+from ros_lint.workspace.target import UnreadFile
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Mapping
@@ -119,7 +119,7 @@ class Folder:
         self.path = path
         self.identity = identity
         self.names = names
-        self.not_checked: list[NotChecked] = []
+        self.not_checked: list[UnreadFile] = []
         self._texts: dict[str, Text | None] = {}
 
     def text(self, name: str) -> Text | None:
@@ -138,7 +138,7 @@ class Folder:
 
     def cannot(self, path: str, reason: str, span: Span | None = None) -> None:
         """Note a file that could not be looked at."""
-        self.not_checked.append(NotChecked(path, reason, span or beginning(path)))
+        self.not_checked.append(UnreadFile(path, reason, span or file_start(path)))
 
 
 def build_type(manifest: Manifest, context: Mapping[str, str]) -> str:

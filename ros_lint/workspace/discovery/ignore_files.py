@@ -9,7 +9,7 @@ from ros_lint.base.gitignore import _NAME, Pattern, patterns
 from ros_lint.base.paths import folders_of, join, parent
 from ros_lint.base.text import read
 from ros_lint.base.tree import Tree
-from ros_lint.workspace.target import NotChecked
+from ros_lint.workspace.target import UnreadFile
 
 
 class Ignores(NamedTuple):
@@ -17,22 +17,22 @@ class Ignores(NamedTuple):
 
     patterns: tuple[Pattern, ...]
     """Later patterns win."""
-    not_checked: tuple[NotChecked, ...]
+    not_checked: tuple[UnreadFile, ...]
 
 
-def find(tree: Tree, packages: Iterable[tuple[str, Iterable[str]]]) -> Ignores:
+def find_ignores(tree: Tree, packages: Iterable[tuple[str, Iterable[str]]]) -> Ignores:
     """Return the patterns for packages, given by folder with the files in it."""
     paths = {_NAME}
     for folder, files in packages:
         paths.update([join(folder, file) for file in files if file.rpartition("/")[2] == _NAME])
         paths.update([join(above, _NAME) for above in folders_of(folder)])
     found: list[Pattern] = []
-    unread: list[NotChecked] = []
+    unread: list[UnreadFile] = []
     for path in sorted(paths, key=lambda path: (path.count("/"), path)):
         try:
             found += patterns(parent(path), read(path, tree.read(path)).text)
         except (FileNotFoundError, NotADirectoryError):
             continue
         except OSError as error:
-            unread.append(NotChecked.of(path, error))
+            unread.append(UnreadFile.of(path, error))
     return Ignores(tuple(found), tuple(unread))

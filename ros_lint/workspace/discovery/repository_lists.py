@@ -7,8 +7,8 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from ros_lint.base.paths import join, parent
 from ros_lint.base.tree import Tree, text_of
-from ros_lint.facts.repositories import Awaited
-from ros_lint.workspace.target import NotChecked
+from ros_lint.facts.repositories import ExpectedRepositories
+from ros_lint.workspace.target import UnreadFile
 
 _ENDINGS = (".repos", ".rosinstall", ".gitmodules")
 
@@ -35,7 +35,7 @@ def find(tree: Tree, roots: Sequence[str], files: Iterable[str]) -> tuple[str, .
     return tuple(sorted(found))
 
 
-def unreadable(tree: Tree, lists: Iterable[str]) -> Iterator[NotChecked]:
+def unreadable(tree: Tree, lists: Iterable[str]) -> Iterator[UnreadFile]:
     """Yield the lists that cannot be read, such as a FIFO of that name."""
     for path in lists:
         try:
@@ -43,7 +43,7 @@ def unreadable(tree: Tree, lists: Iterable[str]) -> Iterator[NotChecked]:
         except FileNotFoundError:
             continue  # a link to nothing
         except OSError as error:
-            yield NotChecked.of(path, error)
+            yield UnreadFile.of(path, error)
 
 
 _SUBMODULE = re.compile(r"^[ \t]*path[ \t]*=[ \t]*(.+?)[ \t\r]*$", re.MULTILINE)
@@ -64,11 +64,11 @@ def submodules(tree: Tree, lists: Iterable[str]) -> tuple[str, ...]:
 _REPOSITORY = re.compile(r"^[ \t]+['\"]?([\w./+-]+?)['\"]?[ \t]*:[ \t\r]*$|\blocal-name:[ \t]*['\"]?([\w./+-]+)", re.MULTILINE)
 
 
-def awaited(tree: Tree, lists: Iterable[str], submodules: Iterable[str]) -> Awaited:
+def awaited(tree: Tree, lists: Iterable[str], submodules: Iterable[str]) -> ExpectedRepositories:
     """Return what the lists of a workspace name, and the submodules that are not cloned yet."""
     texts = [text.text for path in lists if not path.endswith(".gitmodules") and (text := text_of(tree, path))]
     found = (match[1] or match[2] for text in texts for match in _REPOSITORY.finditer(text))
-    return Awaited(_names(submodules), _names(folder.rstrip("/") for folder in found))
+    return ExpectedRepositories(_names(submodules), _names(folder.rstrip("/") for folder in found))
 
 
 def _names(folders: Iterable[str]) -> frozenset[str]:

@@ -49,7 +49,7 @@ PRODUCTION = Role.BUILD | Role.EXEC
 PUBLIC = Role.BUILD | Role.EXPORT | Role.EXEC
 
 
-class Liveness:
+class FileRoles:
     """Answers for the files of one package. Paths are relative to it; ``launched`` are its launch files."""
 
     def __init__(self, own: OwnFiles, launched: Collection[str]) -> None:
@@ -124,7 +124,7 @@ class Liveness:
             alive = not (self._sees_compiled or resource or self._is_left_out(path) or _OF_OTHERS & folders)
             return Role.TEST, (taken or self._may_be_launched(path)) if python else alive
         if path in self._launched and (path in self._installed or path in self._installed_python):
-            return Role.EXEC, not apart.is_copy(path)
+            return Role.EXEC, not apart.is_backup_copy(path)
         idle = bool(_IDLE_FOLDERS & folders)
         if path in self._launched:
             return Role.EXEC, not (self._sees_share or idle)

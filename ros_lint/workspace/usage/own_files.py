@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 
-from ros_lint.base.paths import join, seen_from
+from ros_lint.base.paths import join, resolve
 from ros_lint.base.text import Span
-from ros_lint.facts.build import NOTHING_BUILT, BuildScript, LeftBehind, Provided
+from ros_lint.facts.build import NOTHING_BUILT, BuildScript, InstalledFile, UninstalledImport
 from ros_lint.facts.sources import FileFacts
 
 _SHADOWED = frozenset({"launch"})
@@ -124,7 +124,7 @@ class OwnFiles:
         end = f"/{header}"
         if len(candidates) == 1 and f"/{candidates[0]}".endswith(end):
             return candidates
-        beside = seen_from(folder, header) if "." in header[:2] else join(folder, header)
+        beside = resolve(folder, header) if "." in header[:2] else join(folder, header)
         if beside in candidates:
             return (beside,)
         return tuple([file for file in candidates if file == header or file.endswith(end)])
@@ -178,7 +178,7 @@ def _module(path: str) -> str:
     return path.removeprefix("src/").removesuffix(".py").removesuffix("/__init__").replace("/", ".")
 
 
-def left_behind(files: Sequence[str], script: BuildScript, facts: Mapping[str, FileFacts]) -> Iterator[LeftBehind]:
+def uninstalled_imports(files: Sequence[str], script: BuildScript, facts: Mapping[str, FileFacts]) -> Iterator[UninstalledImport]:
     """Yield the imports of programs in Python that work among the sources, and not where the program is installed.
 
     Python looks for modules beside the program that it starts, beside what a link to it points to (reference, section D4.4).
@@ -199,7 +199,7 @@ def left_behind(files: Sequence[str], script: BuildScript, facts: Mapping[str, F
         for module, beside, span in _beside(source, facts[source], known, folders):
             there = f"{program[: program.rfind('/') + 1]}{module}"
             if f"{there}.py" not in installed and f"{there}/" not in installed:
-                yield LeftBehind(program, module, beside, span, not facts[source].sets_path)
+                yield UninstalledImport(program, module, beside, span, not facts[source].sets_path)
     names = {path.rpartition("/")[2] for path in installed}
     setting = [path for path, each in facts.items() if each.sets_path] if modules else []
     for name, source in modules:
@@ -208,10 +208,10 @@ def left_behind(files: Sequence[str], script: BuildScript, facts: Mapping[str, F
             continue  # mostly to find these
         for module, beside, span in _beside(source, facts[source], known, folders):
             if f"{module}.py" not in names:
-                yield LeftBehind(name, module, beside, span, sure=True)
+                yield UninstalledImport(name, module, beside, span, sure=True)
 
 
-def _unlisted(files: Sequence[str], script: BuildScript, facts: Mapping[str, FileFacts]) -> Iterator[LeftBehind]:
+def _unlisted(files: Sequence[str], script: BuildScript, facts: Mapping[str, FileFacts]) -> Iterator[UninstalledImport]:
     """Yield the imports, in Python packages that a setup.py installs, of what lies in a folder that is not among them.
 
     What an entry point names is sure to be started.
@@ -235,7 +235,7 @@ def _unlisted(files: Sequence[str], script: BuildScript, facts: Mapping[str, Fil
                 name = name.rpartition(".")[0]
             source = f"{top}{name.replace('.', '/')}"
             if name not in packages and name.partition(".")[0] in packages and source in folders:
-                yield LeftBehind(path, name, f"{source}/", mention.span, path in started)
+                yield UninstalledImport(path, name, f"{source}/", mention.span, path in started)
 
 
 def _beside(source: str, facts: FileFacts, files: Container[str], folders: Container[str]) -> Iterator[tuple[str, str, Span]]:
@@ -250,6 +250,6 @@ def _beside(source: str, facts: FileFacts, files: Container[str], folders: Conta
             yield module, beside, span
 
 
-def _is_program(provided: Provided) -> bool:
+def _is_program(provided: InstalledFile) -> bool:
     """Whether an installed file in Python is one that is started, in every build."""
     return provided.path.startswith("lib/") and not (provided.test or provided.importable)

@@ -10,21 +10,21 @@ import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
-from ros_lint.base.paths import within
+from ros_lint.base.paths import strip_folder
 from ros_lint.base.text import Span
 from ros_lint.facts.build import REPOSITORIES
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Mention, Use, Via
 from ros_lint.knowledge.spelling import may_be_package
-from ros_lint.workspace.usage.file_roles import Liveness
+from ros_lint.workspace.usage.file_roles import FileRoles
 from ros_lint.workspace.usage.own_files import OwnFiles
 from ros_lint.workspace.usage.package_files import Source, include_index
 
 if TYPE_CHECKING:
-    from ros_lint.facts.repositories import Awaited
+    from ros_lint.facts.repositories import ExpectedRepositories
     from ros_lint.knowledge.providers import Providers
-    from ros_lint.knowledge.world import Standing
+    from ros_lint.knowledge.world import Resolution
 
 
 class Names(Protocol):
@@ -35,10 +35,10 @@ class Names(Protocol):
     def by_include(self, header: str) -> Providers: ...
     def by_import(self, module: str) -> Providers: ...
     def is_package(self, name: str) -> bool: ...
-    def standing(self, name: str) -> Standing: ...
+    def standing(self, name: str) -> Resolution: ...
     def is_declared(self, name: str) -> bool: ...
     @property
-    def awaited(self) -> Awaited: ...
+    def awaited(self) -> ExpectedRepositories: ...
 
 
 _make = tuple.__new__
@@ -174,9 +174,9 @@ _WHAT: Mapping[Via, str] = {
 
 def resolve(source: Source, resolver: Resolver, own: OwnFiles) -> tuple[Use, ...]:
     """Return every use of another package, sorted by place, given what names mean files of the package itself."""
-    launched = frozenset(within(source.path, launch.path) for launch in source.launch)
-    tests = frozenset(within(source.path, launch.path) for launch in source.launch if launch.test)
-    alive = Liveness(own, launched)
+    launched = frozenset(strip_folder(source.path, launch.path) for launch in source.launch)
+    tests = frozenset(strip_folder(source.path, launch.path) for launch in source.launch if launch.test)
+    alive = FileRoles(own, launched)
     uses = _Uses(source, own, alive, resolver)
     forgone = own.forgone(_lenient(source, alive))
     _add_script(source, uses)
@@ -192,7 +192,7 @@ def resolve(source: Source, resolver: Resolver, own: OwnFiles) -> tuple[Use, ...
             mentions = [mention for mention in mentions if mention.via != "package" or mention.purpose == "plugins"]
         uses.add(path, mentions, role, _TEST if role is _TEST else _LOOKED_UP, sure)
     for launch in source.launch:
-        path = within(source.path, launch.path)
+        path = strip_folder(source.path, launch.path)
         if alive.is_foreign(path):
             continue
         role, sure = alive.place(path)
@@ -212,16 +212,16 @@ def _add_script(source: Source, uses: _Uses) -> None:
         ours = by_role.setdefault((mention.span.path, role), [])
         ours.append(mention._replace(optional=True) if only_named else mention)
     for (path, role), mentions in by_role.items():
-        uses.add(within(source.path, path), mentions, role, role, sure=True)
+        uses.add(strip_folder(source.path, path), mentions, role, role, sure=True)
     for mention, always in source.built.handed_on:
-        uses.add(within(source.path, mention.span.path), [mention], Role.EXPORT, Role.EXPORT, always)
+        uses.add(strip_folder(source.path, mention.span.path), [mention], Role.EXPORT, Role.EXPORT, always)
     _unspoken(source, uses)
 
 
 class _Uses:
     """The uses found in a package so far. Of two of one package in one place by one way the last counts."""
 
-    def __init__(self, source: Source, own: OwnFiles, alive: Liveness, resolver: Resolver) -> None:
+    def __init__(self, source: Source, own: OwnFiles, alive: FileRoles, resolver: Resolver) -> None:
         self.package = source.name
         self.resolver = resolver
         self._own = own
@@ -302,7 +302,7 @@ class _Uses:
         return self._own.has_module(top, path) or (top in _BUILD_MODULES and path.endswith("setup.py"))
 
 
-def _lenient(source: Source, alive: Liveness) -> list[str]:
+def _lenient(source: Source, alive: FileRoles) -> list[str]:
     """Return the files of the package that import something and go on without, tests aside."""
     return [path for path, facts in source.facts.items() if facts.caught and alive.place(path)[0] is not _TEST]
 

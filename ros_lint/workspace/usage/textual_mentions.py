@@ -9,15 +9,15 @@ from itertools import accumulate
 from typing import TYPE_CHECKING
 
 from ros_lint.base.paths import join
-from ros_lint.base.text import Span, beginning, raw, span_in
+from ros_lint.base.text import Span, file_start, span_in, to_bytes
 from ros_lint.base.tree import Tree, contents
 from ros_lint.facts.sources import Via
 from ros_lint.workspace.model import Package
 from ros_lint.workspace.usage.package_files import Source
 from ros_lint.workspace.usage.resolve import satisfying, used_names
 from ros_lint.workspace.usage.unqualified_types import Types
-from ros_lint.workspace.usage.unused_find_package import not_seen_used
-from ros_lint.workspace.usage.visibility import is_built_in_sight, is_unseen_by_name, sounds_unseen
+from ros_lint.workspace.usage.unused_find_package import unused_in_sight
+from ros_lint.workspace.usage.visibility import is_build_visible, is_traceless_by_name, name_suggests_no_trace
 
 if TYPE_CHECKING:
     from ros_lint.knowledge.world import World
@@ -31,7 +31,7 @@ _NO_TRACE = ("changelog", "readme", "license", "licence", "contributing", "quali
 
 def of_package(tree: Tree, package: Package, source: Source, world: World, types: Types) -> Mapping[str, Span]:
     """Return a place for every declared name that stands in a text of the package though nothing in it is seen to use it."""
-    if not is_built_in_sight(package):
+    if not is_build_visible(package):
         return {}
     built = [d.name for d in package.declared if d.depend.tag in ("depend", "build_depend") and d.always]
     used, satisfied = used_names(built, package.uses), satisfying(package.uses)
@@ -39,13 +39,13 @@ def of_package(tree: Tree, package: Package, source: Source, world: World, types
     wanted = [
         name
         for name in dict.fromkeys(built)
-        if not (name in used or sounds_unseen(world, name) or (name in satisfied and is_unseen_by_name(world, name)))
+        if not (name in used or name_suggests_no_trace(world, name) or (name in satisfied and is_traceless_by_name(world, name)))
     ]
     libraries = {name: names.called(name) for name in wanted if world.is_key(name)}
     found = mentioned(wanted, source, libraries, _may_trace) if wanted else {}
     left = [name for name in wanted if name not in found]
     if left:
-        found = {**found, **traces(left, _contents(tree, package, package.files), libraries)}
+        found = {**found, **find_mentions(left, _contents(tree, package, package.files), libraries)}
         left = [name for name in left if name not in found]
     if left:
         found = {**found, **types.used(source, left)}
@@ -63,7 +63,7 @@ def _started(names: Sequence[str], tree: Tree, package: Package) -> dict[str, Sp
         try:
             data = tree.read(path)
         except OSError:
-            return dict.fromkeys(names, beginning(path))
+            return dict.fromkeys(names, file_start(path))
         for match in _START.finditer(data) if b"ros2 " in data else ():
             name = match[1].decode()
             if name in names:
@@ -76,19 +76,19 @@ _START = re.compile(rb"ros2 +(?:run|launch) +([a-z][a-z0-9_]*)")
 """A command line, as people are told to type it."""
 
 
-def of_found(tree: Tree, package: Package, source: Source, world: World, types: Types) -> frozenset[str]:
+def possibly_used(tree: Tree, package: Package, source: Source, world: World, types: Types) -> frozenset[str]:
     """Return the packages that CMake finds and that are used all the same, it seems, though no code is seen to use them.
 
     Their name stands in a text, build scripts aside, for namespaces are often known by way of a header of another package;
     or the script takes more of them than what is linked; or they may have a header that nobody is known to have.
     """
-    wanted = [each.name for each in not_seen_used(package) if not is_unseen_by_name(world, each.name)]
+    wanted = [each.name for each in unused_in_sight(package) if not is_traceless_by_name(world, each.name)]
     if not wanted:
         return frozenset()
     scripts, others = ([file for file in package.files if file.endswith(_OF_BUILD) is of_build] for of_build in (True, False))
-    found = frozenset(traces(wanted, _contents(tree, package, others), whole=True))
+    found = frozenset(find_mentions(wanted, _contents(tree, package, others), whole=True))
     commands = b"\n".join([data for _, data in _contents(tree, package, scripts)])
-    found |= {name for name in wanted if re.search(_VARIABLE % re.escape(raw(name)), commands)}
+    found |= {name for name in wanted if re.search(_VARIABLE % re.escape(to_bytes(name)), commands)}
     if len(found) < len(wanted):
         folders = _unknown_folders(package, source)
         found |= {name for name in wanted if any(f"{name}_".startswith(f"{folder}_") for folder in folders)}
@@ -107,7 +107,7 @@ def unwritten(tree: Tree, package: Package) -> frozenset[str]:
     if not wanted:
         return frozenset()
     sources = [file for file in package.files if file.endswith(_OF_CODE) or file.endswith(_OF_BUILD)]
-    words = {name: word for name in wanted if (word := raw(name.rpartition("::")[2]))}
+    words = {name: word for name in wanted if (word := to_bytes(name.rpartition("::")[2]))}
     for _, data in contents(tree, package.path, sources):
         if _PUT_TOGETHER.search(data):
             return frozenset()
@@ -156,7 +156,7 @@ def _may_trace(file: str) -> bool:
     return not (name == "package.xml" or name.startswith(_NO_TRACE) or name.endswith(_NO_TEXT))
 
 
-def traces(
+def find_mentions(
     names: Sequence[str],
     files: Iterable[tuple[str, bytes]],
     words: Mapping[str, Sequence[str]] | None = None,
@@ -203,7 +203,7 @@ def _traces_in(
     lower = data.lower() if words else b""
     for name in names:
         if name in words:
-            places = ((lower.find(raw(word.lower())), raw(word)) for word in words[name])
+            places = ((lower.find(to_bytes(word.lower())), to_bytes(word)) for word in words[name])
         else:
             places = ((_find_word(data, spelling, _JOINING if whole else b""), spelling) for spelling in _written(name, data))
         start, spelling = next((place for place in places if place[0] >= 0), (-1, b""))
@@ -229,8 +229,8 @@ def mentioned(
         for mention in facts.mentions
         if mention[1] in _AS_WRITTEN  # by index: there are ten thousands
     ]
-    lines = raw("\n".join([mention[0] for mention in mentions]))
-    return {name: mentions[span.line - 1].span for name, span in traces(names, [("", lines)], words).items()}
+    lines = to_bytes("\n".join([mention[0] for mention in mentions]))
+    return {name: mentions[span.line - 1].span for name, span in find_mentions(names, [("", lines)], words).items()}
 
 
 _AS_WRITTEN: frozenset[Via] = frozenset({"include", "import", "symbol"})
@@ -241,7 +241,7 @@ def _written(name: str, data: bytes) -> Iterator[bytes]:
     """Yield those spellings of a name whose end stands somewhere: names begin alike, and what few have is found faster."""
     there: dict[bytes, bool] = {}
     for spelling in _spellings(name):
-        written = raw(spelling)
+        written = to_bytes(spelling)
         end = _SEPARATOR.split(written, maxsplit=1)[-1]
         if end not in there:
             there[end] = end in data

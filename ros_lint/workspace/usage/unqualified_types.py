@@ -11,7 +11,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from ros_lint.base.paths import join
-from ros_lint.base.text import raw
+from ros_lint.base.text import to_bytes
 from ros_lint.base.tree import contents
 from ros_lint.collectors.cpp import types as cpp_types
 from ros_lint.collectors.suffixes import HEADERS, SOURCES
@@ -63,7 +63,7 @@ class Types:
         code: dict[str, bytes] = {}
         found: dict[str, Span] = {}
         for name, wanted in sought.items():
-            tail = raw(name.partition("_")[2])
+            tail = to_bytes(name.partition("_")[2])
             for word in (*sorted(wanted.types), *([tail] if tail in wanted.spaces else [])):
                 having = [(path, text) for path, text in texts if word in text]  # few have it, and this is fast
                 code.update((path, cpp_types.code(text)) for path, text in having if path not in code)

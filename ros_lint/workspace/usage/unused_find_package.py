@@ -10,7 +10,7 @@ from ros_lint.facts.visibility import Facet
 from ros_lint.workspace.model import Package, relative
 
 
-def not_seen_used(package: Package) -> Iterator[Mention]:
+def unused_in_sight(package: Package) -> Iterator[Mention]:
     """Yield the first find_package() of each name that is needed, tests aside, and that no code is seen to use.
 
     That targets are linked or exported is no use by code; plugins that macros are given by name are, and interfaces, unless

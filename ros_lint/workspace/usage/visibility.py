@@ -11,23 +11,23 @@ if TYPE_CHECKING:
     from ros_lint.knowledge.world import World
 
 
-def is_unseen_by_name(world: World, name: str) -> bool:
+def is_traceless_by_name(world: World, name: str) -> bool:
     """Whether a name alone says that it may do its work unseen: it is no package that is known, or a linter, a generator ..."""
-    return not world.is_package(name) or world.is_key(name) or sounds_unseen(world, name)
+    return not world.is_package(name) or world.is_key(name) or name_suggests_no_trace(world, name)
 
 
-def sounds_unseen(world: World, name: str) -> bool:
+def name_suggests_no_trace(world: World, name: str) -> bool:
     """Whether a package is called like those that do their work unseen. Whether one of the workspace gives macros is seen."""
     names = world.knowledge.names
     return names.works_unseen(name) and not (world.layer(name) == "workspace" and names.sounds_like_macros(name))
 
 
-def is_seen_whole(package: Package) -> bool:
+def is_fully_visible(package: Package) -> bool:
     """Whether so much is seen of a package that no more packages can be used in it than those that are found."""
-    return is_built_in_sight(package) and not package.hidden(Facet.USES)
+    return is_build_visible(package) and not package.hidden(Facet.USES)
 
 
-def is_built_in_sight(package: Package) -> bool:
+def is_build_visible(package: Package) -> bool:
     """Whether so much is seen of a package that no more libraries can be used in it: launch files need none."""
     manifest, script = package.manifest, package.script
     if manifest is None or manifest.problems or script is None or script.problems:

@@ -10,11 +10,11 @@ import os
 import sys
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ros_lint.base.suggestions import did_you_mean, similar
+from ros_lint.base.suggestions import did_you_mean, similar_names
 from ros_lint.cli.commands.launch import formats as launch_formats
 from ros_lint.cli.commands.launch.lookup import LookUp
-from ros_lint.cli.commands.query import Answer, around, ask, enclosing_workspace
-from ros_lint.cli.session import Opened, UsageError
+from ros_lint.cli.commands.query import CommandOutput, current_workspace, enclosing_workspace, run_query
+from ros_lint.cli.session import Session, UsageError
 from ros_lint.collectors.launch.expand import Expansion, expand
 from ros_lint.collectors.symbolic_text import readable
 
@@ -38,16 +38,16 @@ def run(said: Mapping[str, Any]) -> int:
     """Answer the question, print the answer, return the exit code."""
     try:
         asked = understood(said["words"], os.path.isfile)
-        paths = said.get("paths") or [around() if asked.package else enclosing_workspace(asked.file)]
+        paths = said.get("paths") or [current_workspace() if asked.package else enclosing_workspace(asked.file)]
     except UsageError as error:
         print(f"ros-lint: {error}", file=sys.stderr)
         return 2
 
-    def answered(opened: Opened, workspace: Workspace) -> Answer:
+    def answered(opened: Session, workspace: Workspace) -> CommandOutput:
         path = "" if asked.package else os.path.relpath(os.path.realpath(asked.file), opened.base).replace(os.sep, "/")
         return answer(workspace, LookUp(workspace, opened.loader.tree), asked, path, said["format"])
 
-    return ask({**said, "paths": paths}, answered)
+    return run_query({**said, "paths": paths}, answered)
 
 
 def understood(words: Sequence[str], is_file: Callable[[str], bool]) -> Asked:
@@ -96,7 +96,7 @@ def _doubts(file: LaunchFile, look_up: LookUp, expansion: Expansion, given: Mapp
     for name in given:
         if name in known:
             continue
-        near = similar(name, declared, 1, 0.75)
+        near = similar_names(name, declared, 1, 0.75)
         hint = did_you_mean(near) or (f"; available: {', '.join(declared)}" if declared else "; it declares none")
         if takes.complete or near:
             raise UsageError(f"{file.path} has no argument '{name}'{hint}")

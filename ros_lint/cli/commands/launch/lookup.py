@@ -5,14 +5,14 @@ from __future__ import annotations
 import posixpath
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.analysis.launch.includes import Links, Takes
-from ros_lint.base.paths import seen_from, within
-from ros_lint.base.suggestions import did_you_mean, similar
+from ros_lint.analysis.launch.includes import AcceptedArguments, IncludeResolver
+from ros_lint.base.paths import resolve, strip_folder
+from ros_lint.base.suggestions import did_you_mean, similar_names
 from ros_lint.base.text import read
 from ros_lint.cli.session import UsageError
 from ros_lint.collectors.file_types import kind_of
 from ros_lint.collectors.symbolic_text import configurations, installed, share
-from ros_lint.facts.launch import everything, values
+from ros_lint.facts.launch import values, walk_actions
 from ros_lint.facts.visibility import Facet
 from ros_lint.workspace.collect import collect
 
@@ -39,7 +39,7 @@ class LookUp:
         self._workspace = workspace
         self._tree = tree
         self._sources = {file.path: file for package in workspace.packages for file in package.launch}
-        self._links = Links(workspace.packages)
+        self._links = IncludeResolver(workspace.packages)
         self._found: dict[str, LaunchFile | Absent] = {}
 
     @property
@@ -47,7 +47,7 @@ class LookUp:
         """Return the files that were included, in the order in which they were met."""
         return tuple(file for file in self._found.values() if not isinstance(file, Absent))
 
-    def takes(self, file: LaunchFile) -> Takes:
+    def takes(self, file: LaunchFile) -> AcceptedArguments:
         """Return what a file, and those of the workspace that it includes, do with launch configurations."""
         return self._links.takes(file)
 
@@ -55,7 +55,7 @@ class LookUp:
         """Return the launch configurations that a file, or one that was followed from it, asks for."""
         found: set[str] = set()
         for one in (file, *self.followed):
-            for action in everything(one.actions):
+            for action in walk_actions(one.actions):
                 texts = [text for value in values(action) for text in value.texts]
                 texts += [text for condition in action.conditions for text in condition.texts]
                 found.update(name for text in texts for name, *_ in configurations(text))
@@ -111,9 +111,11 @@ class LookUp:
         for one in packages:
             source = next((file.path for file in one.launch if file.path.rpartition("/")[2] == name), "")
             if source:
-                return f"'{package}' has {within(one.path, source)}, but does not install it; use 'ros-lint launch {source}'"
+                return (
+                    f"'{package}' has {strip_folder(one.path, source)}, but does not install it; use 'ros-lint launch {source}'"
+                )
         names = sorted({path.rpartition("/")[2] for path in paths if "launch" in path})
-        hint = did_you_mean(similar(name, names)) or f"; available: {', '.join(names) or 'none'}"
+        hint = did_you_mean(similar_names(name, names)) or f"; available: {', '.join(names) or 'none'}"
         return f"'{package}' does not install a launch file '{name}'{hint}"
 
     # --- files that are included ----------------------------------------------------------------------------------
@@ -142,7 +144,7 @@ class LookUp:
                 if provided.path == path:
                     if not provided.source:
                         return Absent("it is generated when the package is built", surely=False)
-                    source = seen_from(one.path, provided.source)
+                    source = resolve(one.path, provided.source)
                     return self._sources.get(source) or self._read(source)
         if packages:
             if any(one.script is None or one.hidden(Facet.SHARE, path) for one in packages):

@@ -17,9 +17,9 @@ from ros_lint.collectors.cmake.evaluator.flow import HANDLERS
 from ros_lint.collectors.cmake.evaluator.run import Handler, Run
 from ros_lint.collectors.cmake.evaluator.state import Properties
 from ros_lint.collectors.cmake.evaluator.values import FILE, HOLE, MAYBE, elements, is_known, sure
-from ros_lint.facts.build import Component, Provided
+from ros_lint.facts.build import Component, InstalledFile
 from ros_lint.facts.sources import Purpose
-from ros_lint.facts.visibility import ANYTHING, Facet
+from ros_lint.facts.visibility import ALL_FACETS, Facet
 
 _PRODUCER = re.compile(r"install|program|executable|node|script|package|component|launch|resource|share|deploy|xacro|module")
 """Names of unknown commands that may well install something."""
@@ -49,7 +49,7 @@ def foreign(run: Run, name: str, args: list[str]) -> int | None:
         run.wild = True
         run.builds = run.builds or _BUILDER.search(name) is not None
         if _PRODUCER.search(name):
-            hidden = ANYTHING
+            hidden = ALL_FACETS
         elif _is_given_data(run, args):
             hidden |= Facet.SHARE
     run.hide(hidden, f"what {name}() does is not known")
@@ -112,7 +112,7 @@ def _interfaces(run: Run, args: list[str]) -> None:
             # rosidl_adapter puts what it makes into the folder of its kind, wherever the definition lies
             places = [(folder, "idl", written)] if suffix == "idl" else [(kind, suffix, written), (suffix, "idl", "")]
             for place, end, made in places:
-                run.installed.append(Provided(f"share/{package}/{place}/{stem}.{end}", made, False, conditional, span))
+                run.installed.append(InstalledFile(f"share/{package}/{place}/{stem}.{end}", made, False, conditional, span))
     if not run.muted and len(args) > 1:
         run.python_packages[package] = None
     elif not run.wild:
@@ -147,7 +147,7 @@ def _python(run: Run, args: list[str]) -> None:
                 run.python_packages[f"{name}.{inner.replace('/', '.')}"] = None
         path = join_path(join_path(base, args[0]), file[skip:])
         if is_known(path) and not file.endswith((".pyc", ".pyo")):
-            run.installed.append(Provided(path, run.listed(file), False, conditional, span))
+            run.installed.append(InstalledFile(path, run.listed(file), False, conditional, span))
 
 
 def _scripts(run: Run, args: list[str]) -> None:
@@ -159,7 +159,7 @@ def _scripts(run: Run, args: list[str]) -> None:
         run.hide(Facet.EXECUTABLES, "the console_scripts of a setup.cfg cannot be read")
         return
     for name in console_scripts(text):
-        run.installed.append(Provided(join_path(destination, name), "", True, run.conditional or run.testing, run.here()))
+        run.installed.append(InstalledFile(join_path(destination, name), "", True, run.conditional or run.testing, run.here()))
 
 
 def console_scripts(text: str) -> list[str]:
@@ -180,7 +180,7 @@ def _provide(run: Run, args: list[str]) -> None:
     path = run.destination(args[0])
     if path is not None and not run.muted:
         program = "program" in args[1:]
-        run.installed.append(Provided(path, "", program, run.conditional or run.testing, run.here()))
+        run.installed.append(InstalledFile(path, "", program, run.conditional or run.testing, run.here()))
 
 
 def _headers(run: Run, args: list[str]) -> None:
@@ -208,7 +208,7 @@ def _package(run: Run, args: list[str]) -> None:
     if is_known(name):
         found = [(f"share/{name}/package.xml", "package.xml")] if "package.xml" in run.files else []
         found += [(f"share/ament_index/resource_index/packages/{name}", ""), (f"share/{name}/cmake/{name}Config.cmake", "")]
-        run.installed += [Provided(path, source, False, conditional, span) for path, source in found]
+        run.installed += [InstalledFile(path, source, False, conditional, span) for path, source in found]
     if run.registered and not any(variable.startswith(_REGISTERED) for scope in run.scopes for variable in scope):
         for number, scope in enumerate(run.registered):
             if not any(scope is seen for seen in run.scopes):
@@ -246,7 +246,7 @@ def _extras(run: Run, name: str, files: list[str], conditional: bool) -> None:
         elif path is not None or not is_known(written):
             continue
         installed = f"share/{name}/cmake/{written.removesuffix('.in')}"
-        run.installed.append(Provided(installed, source or "", False, conditional or not certain, run.where(file)))
+        run.installed.append(InstalledFile(installed, source or "", False, conditional or not certain, run.where(file)))
 
 
 def _end(run: Run) -> None:

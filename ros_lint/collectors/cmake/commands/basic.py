@@ -28,7 +28,7 @@ from ros_lint.collectors.cmake.evaluator.values import (
     split,
 )
 from ros_lint.collectors.cmake.syntax import parse
-from ros_lint.facts.visibility import ANYTHING
+from ros_lint.facts.visibility import ALL_FACETS
 
 
 def _set(run: Run, args: list[str]) -> None:
@@ -264,7 +264,7 @@ def _language(run: Run, args: list[str]) -> int | None:
         return run_file(run, commands, Frame(False, frame.path, frame.file, provider=frame.provider))
     if mode in ("CALL", "EVAL", "DEFER"):
         run.open_world = run.wild = run.builds = True
-        run.hide(ANYTHING, f"what cmake_language({mode}) runs is not known")
+        run.hide(ALL_FACETS, f"what cmake_language({mode}) runs is not known")
     elif len(args) > 1:
         run.set(args[-1], HOLE)
     return None

@@ -7,8 +7,8 @@ import re
 from itertools import pairwise
 from typing import Final
 
-from ros_lint.base.paths import is_outside, within
-from ros_lint.base.text import octets, raw
+from ros_lint.base.paths import is_outside, strip_folder
+from ros_lint.base.text import octets, to_bytes
 from ros_lint.collectors.cmake.commands.basic import nothing
 from ros_lint.collectors.cmake.commands.targets import generate
 from ros_lint.collectors.cmake.evaluator.glob import of_paths
@@ -89,7 +89,7 @@ def _glob(run: Run, args: list[str], recurse: bool) -> None:
         found += _matches(run, pattern, recurse, folders)
     if relative is not None:
         found = [_relative(path, relative) for path in found]
-    run.set(args[0], HOLE if HOLE in found else join(sorted(dict.fromkeys(found), key=raw)))
+    run.set(args[0], HOLE if HOLE in found else join(sorted(dict.fromkeys(found), key=to_bytes)))
 
 
 def _matches(run: Run, pattern: str, recurse: bool, folders: bool) -> list[str]:
@@ -103,7 +103,7 @@ def _matches(run: Run, pattern: str, recurse: bool, folders: bool) -> list[str]:
     if folder is None or (is_outside(folder) and not run.below(folder)):
         return [HOLE]
     whole = of_paths(parts[fixed:], recurse=recurse)
-    files = [within(folder, file) for file in run.below(folder)]
+    files = [strip_folder(folder, file) for file in run.below(folder)]
     run.charge(SLOW * len(files))
     found = [file for file in files if whole.fullmatch(octets(file))]
     if folders:

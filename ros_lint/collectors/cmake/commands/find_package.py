@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from typing import Final
 
-from ros_lint.base.suggestions import few
+from ros_lint.base.suggestions import shorten_list
 from ros_lint.base.text import Span
 from ros_lint.collectors.cmake.commands.include import include_foreign, include_own
 from ros_lint.collectors.cmake.commands.include_directories import ALL_TARGETS, FOREIGN_VARIABLE, found_as, given, given_folders
@@ -15,7 +15,7 @@ from ros_lint.collectors.cmake.evaluator.values import ATOM, FOREIGN, HOLE, TREE
 from ros_lint.collectors.cmake.released_macros import VISIBILITY
 from ros_lint.collectors.cmake.syntax import QUOTED, UNQUOTED
 from ros_lint.facts.sources import Purpose
-from ros_lint.facts.visibility import ANYTHING, Facet, Problem
+from ros_lint.facts.visibility import ALL_FACETS, Facet, Problem
 
 _FOREIGN_TARGET = re.compile(r"(?<!\w)(?<!::)[A-Za-z_][\w.+-]*::[\w.+:-]*\w")
 
@@ -144,7 +144,7 @@ def _doubt(run: Run, command: str, given: Mapping[str, Span]) -> None:
     targets = [name for name in given if "::" in name] if command.startswith("ament_") else []
     if targets:
         are = "is a target" if len(targets) == 1 else "are targets"
-        _refuse(run, command, f"{few(targets)} {are}", given[targets[0]], targets[0])
+        _refuse(run, command, f"{shorten_list(targets)} {are}", given[targets[0]], targets[0])
     own = run.sources.name
     asked = own in given and command == "ament_target_dependencies"
     if asked and own not in run.packages and run.normal(f"{own}_FOUND") is None:
@@ -254,7 +254,7 @@ def _hide(run: Run, args: list[str]) -> None:
     """``ros_lint_hide(facets reason)``."""
     facet = Facet(0)
     for name in split(args[0]):
-        facet |= ANYTHING if name == "ANYTHING" else Facet[name]
+        facet |= ALL_FACETS if name == "ANYTHING" else Facet[name]
     run.hide(facet, args[1])
 
 

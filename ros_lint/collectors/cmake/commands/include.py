@@ -6,7 +6,7 @@ import posixpath
 import re
 from typing import Final
 
-from ros_lint.base.paths import is_outside, towards
+from ros_lint.base.paths import is_outside, relative
 from ros_lint.base.paths import join as join_path
 from ros_lint.collectors.cmake.evaluator.flow import run_file
 from ros_lint.collectors.cmake.evaluator.run import Handler, Run
@@ -14,7 +14,7 @@ from ros_lint.collectors.cmake.evaluator.sources import AROUND
 from ros_lint.collectors.cmake.evaluator.state import NEXT, Frame, Variables
 from ros_lint.collectors.cmake.evaluator.values import ATOM, BINARY, FOREIGN, HOLE, PREFIX, TREE, is_fixed
 from ros_lint.collectors.cmake.syntax import Command, Parsed
-from ros_lint.facts.visibility import ANYTHING, Facet
+from ros_lint.facts.visibility import ALL_FACETS, Facet
 
 
 def _include(run: Run, args: list[str]) -> int | None:
@@ -29,7 +29,7 @@ def _include(run: Run, args: list[str]) -> int | None:
     if not is_fixed(name):
         if _is_registered(run):
             return _skip(run, "a file that another package has registered")
-        run.hide(ANYTHING, "include() of a file whose name is not known")
+        run.hide(ALL_FACETS, "include() of a file whose name is not known")
         run.open_world = True
         return None
     return _include_file(run, name, optional)
@@ -64,7 +64,7 @@ def _include_file(run: Run, name: str, optional: bool) -> int | None:
         return None
     run.open_world = run.wild = run.builds = True
     shown = run.relative(name) or name.replace(BINARY, "the build folder").replace("\1", "")
-    run.hide(ANYTHING, f"include() of {shown} cannot be followed")
+    run.hide(ALL_FACETS, f"include() of {shown} cannot be followed")
     return None
 
 
@@ -79,7 +79,7 @@ def _run_script(run: Run, path: str, parsed: Parsed) -> int | None:
     if around:
         run.around.append(parsed)
         if parsed.problems:
-            run.hide(ANYTHING, f"{path} cannot be read to its end")
+            run.hide(ALL_FACETS, f"{path} cannot be read to its end")
     frame = Frame(not around, run.place(path), run.named(path), provider=AROUND if around else "")
     return run_file(run, parsed.commands, frame)
 
@@ -155,7 +155,7 @@ def _add_subdirectory(run: Run, args: list[str]) -> int | None:
     parsed = run.script(script) if path is not None else None
     if path is None or (parsed is None and is_outside(path)):
         run.open_world = run.wild = run.builds = True
-        run.hide(ANYTHING, "add_subdirectory() of a folder that is not in sight")
+        run.hide(ALL_FACETS, "add_subdirectory() of a folder that is not in sight")
         return None
     if not (run.unsure or run.muted or is_outside(path)):
         run.entered[path] = None
@@ -167,7 +167,7 @@ def _add_subdirectory(run: Run, args: list[str]) -> int | None:
     if parsed is None:
         if run.is_folder(path):
             run.open_world = run.wild = run.builds = True
-            run.hide(ANYTHING, f"add_subdirectory() of {path}, which has no CMakeLists.txt in sight", inside=path)
+            run.hide(ALL_FACETS, f"add_subdirectory() of {path}, which has no CMakeLists.txt in sight", inside=path)
         else:
             run.problem("missing-folder", f"add_subdirectory({path}): the folder does not exist", run.where(name), path)
         return None
@@ -188,7 +188,7 @@ _TOP: Final = "CMakeLists.txt"
 def _built_in(run: Run, path: str, args: list[str]) -> str:
     """Return where a folder is built: below where the current one is, as the arguments behind its name say, or as its path."""
     told = next((arg for arg in args if arg not in ("EXCLUDE_FROM_ALL", "SYSTEM")), "")
-    below = told or towards(run.place(run.directory), run.place(path))
+    below = told or relative(run.place(run.directory), run.place(path))
     if not is_fixed(below) or (is_outside(below) and not told):
         return HOLE
     return below if below.startswith("/") else posixpath.normpath(f"{run.places['CMAKE_CURRENT_BINARY_DIR']}/{below}")

@@ -16,7 +16,7 @@ from ros_lint.collectors.cmake.evaluator.arguments import sections, with_one_des
 from ros_lint.collectors.cmake.evaluator.run import Handler, Run
 from ros_lint.collectors.cmake.evaluator.values import ATOM, HOLE, is_fixed, is_known, sure
 from ros_lint.collectors.cmake.released_macros import INSTALL_ARTIFACTS
-from ros_lint.facts.build import Provided
+from ros_lint.facts.build import InstalledFile
 
 _OF_TARGETS: Final = frozenset({"ARCHIVE", "LIBRARY", "RUNTIME"})
 _FILE_WORDS: Final = {
@@ -88,10 +88,10 @@ def _install_file(run: Run, value: str, path: str, program: bool, certain: bool,
             return
         run.missing.append((source, span, conditional))
         if source not in run.generated:
-            run.installed.append(Provided(path, source, program, True, span))
+            run.installed.append(InstalledFile(path, source, program, True, span))
             return
         source = ""
-    run.installed.append(Provided(path, source or "", program, conditional, span, test=run.testing))
+    run.installed.append(InstalledFile(path, source or "", program, conditional, span, test=run.testing))
 
 
 def _may_lie(run: Run, value: str) -> bool:

@@ -14,7 +14,7 @@ from ros_lint.collectors.cmake.evaluator.arguments import sections
 from ros_lint.collectors.cmake.evaluator.glob import of_ends
 from ros_lint.collectors.cmake.evaluator.run import Run
 from ros_lint.collectors.cmake.evaluator.values import ATOM, FILE, HOLE, is_known, sure
-from ros_lint.facts.build import Provided
+from ros_lint.facts.build import InstalledFile
 from ros_lint.facts.visibility import Facet
 
 _WORDS: Final = {
@@ -102,7 +102,7 @@ def _install_directory(run: Run, value: str, source: str, target: str, rule: _Ru
                 continue
             program = program if given is None else given
         path = f"{start}{file[skip:]}"
-        run.installed.append(Provided(path, run.listed(file), program, conditional, span, test=run.testing))
+        run.installed.append(InstalledFile(path, run.listed(file), program, conditional, span, test=run.testing))
 
 
 def _made(run: Run, folder: str) -> tuple[list[str], bool]:
@@ -124,7 +124,7 @@ def _install_configured(run: Run, value: str, destination: str, rule: _Rule) -> 
         inner = path if not folder else path[len(folder) + 1 :] if path.startswith(f"{folder}/") else ""
         if inner and _chosen(inner, plain.rstrip("/"), rule)[0]:
             conditional = run.conditional or run.testing or not certain or not always
-            run.installed.append(Provided(join_path(target, inner), "", False, conditional, span))
+            run.installed.append(InstalledFile(join_path(target, inner), "", False, conditional, span))
 
 
 def unlisted(run: Run, source: str, facet: Facet, span: Span) -> list[str]:

@@ -12,7 +12,7 @@ from ros_lint.collectors.cmake.evaluator.run import Run
 from ros_lint.collectors.cmake.evaluator.state import InstalledTarget, Properties
 from ros_lint.collectors.cmake.evaluator.values import is_known, sure
 from ros_lint.collectors.cmake.released_macros import INSTALL_ARTIFACTS, INSTALL_TARGETS_WORDS, VARIABLES
-from ros_lint.facts.build import Provided
+from ros_lint.facts.build import InstalledFile
 from ros_lint.facts.visibility import Facet, Opaque
 
 
@@ -64,7 +64,7 @@ def install_targets(run: Run, args: list[str]) -> None:
 _PYTHON: Final = f"{VARIABLES['PYTHON_INSTALL_DIR']}/"
 
 
-def installed_targets(run: Run) -> Iterator[Provided]:
+def installed_targets(run: Run) -> Iterator[InstalledFile]:
     """Return the files of the targets that were installed, after the whole script has run."""
     for installed in run.installed_targets:
         name, span, conditional = installed.target, installed.span, installed.conditional
@@ -75,7 +75,7 @@ def installed_targets(run: Run) -> Iterator[Provided]:
             reason = f"what the target {name} is, is not known"
             run.opaques.setdefault(Opaque(Facet.EXECUTABLES | Facet.LIBRARIES, reason, span, name))
             if installed.executables is not None:  # should it be there after all, it is most likely a program
-                yield Provided(join_path(installed.executables, name), "", True, True, span, name)
+                yield InstalledFile(join_path(installed.executables, name), "", True, True, span, name)
             continue
         yield from installed_headers(run, name, target, installed.headers, conditional or "CONDITIONAL" in target, span)
         if target["KIND"] not in ("interface", "object", "other", "imported"):
@@ -85,7 +85,7 @@ def installed_targets(run: Run) -> Iterator[Provided]:
                 yield from _built_files(run, installed, Properties(target, KIND=target["PERHAPS"]), unsure)
 
 
-def _built_files(run: Run, installed: InstalledTarget, target: Properties, unsure: bool) -> Iterator[Provided]:
+def _built_files(run: Run, installed: InstalledTarget, target: Properties, unsure: bool) -> Iterator[InstalledFile]:
     """Return the files of an installed target that builds some."""
     name, span, kind = installed.target, installed.span, target["KIND"]
     where = {"executable": installed.executables, "static": installed.archives}.get(kind, installed.libraries)
@@ -95,10 +95,10 @@ def _built_files(run: Run, installed: InstalledTarget, target: Properties, unsur
         run.opaques.setdefault(Opaque(facet, f"where the target {name} is installed is not known", span))
         return
     path = join_path(where, file)
-    yield Provided(path, "", kind == "executable", unsure, span, name)
+    yield InstalledFile(path, "", kind == "executable", unsure, span, name)
     if path.startswith(_PYTHON) and not file.startswith("lib"):
         run.python_packages[path[len(_PYTHON) :].partition(".")[0].replace("/", ".")] = None
     if kind == "shared":
         for number in {target.get("VERSION", ""), target.get("SOVERSION", "")} - {""}:
             if is_known(number):
-                yield Provided(join_path(where, f"{file}.{number}"), "", False, unsure, span, name)
+                yield InstalledFile(join_path(where, f"{file}.{number}"), "", False, unsure, span, name)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Final
 
-from ros_lint.base.text import raw
+from ros_lint.base.text import to_bytes
 from ros_lint.collectors.cmake.commands.string import ascii_lower, ascii_upper, genex_strip, replace_all, strip
 from ros_lint.collectors.cmake.evaluator.regex import RegexError, anywhere, forget, is_in, translated
 from ros_lint.collectors.cmake.evaluator.run import Handler, Run
@@ -110,7 +110,7 @@ def _sort(run: Run, name: str, args: list[str]) -> None:
         text = sure(item)[0]
         if kind == "FILE_BASENAME":
             text = text.rpartition("/")[2]
-        return raw(ascii_lower(text) if options.get("CASE") == "INSENSITIVE" else text)
+        return to_bytes(ascii_lower(text) if options.get("CASE") == "INSENSITIVE" else text)
 
     keys = [key(item) for item in items]
     if len(set(keys)) != len(set(items)):

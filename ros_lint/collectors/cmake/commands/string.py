@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 from typing import Final
 
-from ros_lint.base.text import raw
+from ros_lint.base.text import to_bytes
 from ros_lint.collectors.cmake.evaluator.regex import RegexError, anywhere, clear, every, find, forget, store
 from ros_lint.collectors.cmake.evaluator.run import Handler, Run
 from ros_lint.collectors.cmake.evaluator.values import (
@@ -101,7 +101,7 @@ def _known(function: Callable[..., str]) -> Callable[..., str]:
 
 
 def _find(text: str, wanted: str, reverse: str = "") -> str:
-    whole, part = raw(text), raw(wanted)
+    whole, part = to_bytes(text), to_bytes(wanted)
     return str(whole.rfind(part) if reverse == "REVERSE" else whole.find(part))
 
 
@@ -115,11 +115,11 @@ def _replace(old: str, new: str, *inputs: str) -> str:
 
 
 def _length(text: str) -> str:
-    return str(len(raw(text)))
+    return str(len(to_bytes(text)))
 
 
 def _substring(text: str, begin: str, length: str) -> str:
-    whole = raw(text)
+    whole = to_bytes(text)
     start, count = int(begin), int(length)
     if not 0 <= start <= len(whole) or count < -1:
         return HOLE
@@ -177,7 +177,7 @@ def _concat(*inputs: str) -> str:
 
 
 def _compare(how: str, left: str, right: str) -> str:
-    first, second = raw(left), raw(right)
+    first, second = to_bytes(left), to_bytes(right)
     answers = {
         "EQUAL": first == second,
         "NOTEQUAL": first != second,
@@ -195,11 +195,11 @@ def _ascii(*codes: str) -> str:
 
 
 def _hex(text: str) -> str:
-    return raw(text).hex()
+    return to_bytes(text).hex()
 
 
 def _identifier(text: str) -> str:
-    found = re.sub(rb"[^A-Za-z0-9_]", b"_", raw(text)).decode()
+    found = re.sub(rb"[^A-Za-z0-9_]", b"_", to_bytes(text)).decode()
     return f"_{found}" if found[:1].isdigit() else found
 
 
@@ -207,7 +207,7 @@ def _hash(name: str) -> Callable[..., str]:
     def hashed(text: str) -> str:
         import hashlib  # noqa: PLC0415  (no package needs it but by accident)
 
-        return hashlib.new(name, raw(text), usedforsecurity=False).hexdigest()
+        return hashlib.new(name, to_bytes(text), usedforsecurity=False).hexdigest()
 
     return _known(hashed)
 

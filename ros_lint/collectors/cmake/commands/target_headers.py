@@ -13,7 +13,7 @@ from ros_lint.collectors.cmake.evaluator.run import Run
 from ros_lint.collectors.cmake.evaluator.state import Properties
 from ros_lint.collectors.cmake.evaluator.values import elements, join, sure
 from ros_lint.collectors.cmake.released_macros import VISIBILITY
-from ros_lint.facts.build import Provided
+from ros_lint.facts.build import InstalledFile
 from ros_lint.facts.visibility import Facet, Opaque
 
 FILE_SET: Final = "FILE_SET "
@@ -41,7 +41,7 @@ def file_sets(run: Run, target: Properties, args: list[str]) -> list[str]:
 
 def installed_headers(
     run: Run, name: str, target: Properties, places: tuple[tuple[str, str | None], ...], unsure: bool, span: Span
-) -> Iterator[Provided]:
+) -> Iterator[InstalledFile]:
     """Return the headers that install() puts to some places, by artifact. Sets that nobody knows hide what there is."""
     for artifact, where in places:
         if artifact.startswith(FILE_SET):
@@ -58,4 +58,4 @@ def installed_headers(
             if file == "?" or where is None:
                 run.opaques.setdefault(Opaque(Facet.LIBRARIES, f"the headers of the target {name} are not known", span))
             else:
-                yield Provided(join_path(where, end), file, False, unsure, span, name)
+                yield InstalledFile(join_path(where, end), file, False, unsure, span, name)

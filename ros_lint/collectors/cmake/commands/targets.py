@@ -12,7 +12,7 @@ from ros_lint.collectors.cmake.evaluator.run import Handler, Run
 from ros_lint.collectors.cmake.evaluator.state import Properties
 from ros_lint.collectors.cmake.evaluator.truth import is_off
 from ros_lint.collectors.cmake.evaluator.values import HOLE, elements, is_fixed, is_known, join, sure
-from ros_lint.facts.cmake import Target
+from ros_lint.facts.cmake import BuildTarget
 from ros_lint.facts.visibility import Facet
 
 _LIBRARY_TYPES: Final = ("STATIC", "SHARED", "MODULE", "OBJECT", "INTERFACE", "UNKNOWN")
@@ -206,7 +206,7 @@ def output_name(target: Properties) -> str | None:
     return whole if is_known(whole) and "$<" not in whole else None
 
 
-def targets(run: Run) -> tuple[Target, ...]:
+def targets(run: Run) -> tuple[BuildTarget, ...]:
     """Return the targets that the package builds, in the order of their definition."""
     found = []
     anywhere = are_in_flags(run)
@@ -222,7 +222,9 @@ def targets(run: Run) -> tuple[Target, ...]:
         links = _links(run, name) if name in run.links else ()
         whole = len(named) == len(listed)
         headers = None if anywhere or not sources or "TEST" in target else reached(run, name, run.targets)
-        found.append(Target(name, _KINDS.get(kind, "library"), sources, "TEST" in target, span, links, optional, whole, headers))
+        found.append(
+            BuildTarget(name, _KINDS.get(kind, "library"), sources, "TEST" in target, span, links, optional, whole, headers)
+        )
     return tuple(dict.fromkeys(found)) if len(found) > 1 else tuple(found)
 
 

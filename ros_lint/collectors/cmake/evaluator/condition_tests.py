@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Final
 
-from ros_lint.base.text import raw
+from ros_lint.base.text import to_bytes
 from ros_lint.collectors.cmake.evaluator.truth import FALSE, LIKELY, NUMBER, TRUE, UNKNOWN, UNLIKELY, Token, Truth, number_of
 from ros_lint.collectors.cmake.evaluator.values import HOLE, TREE, certainly_set, effort, elements, is_fixed, is_known
 
@@ -226,10 +226,10 @@ def _newer(_run: Run, _left: Token, _right: Token) -> int:
 
 BINARY: Final[dict[str, Callable[[Run, Token, Token], int]]] = {
     "STREQUAL": _of_operands(_same),
-    "STRLESS": _comparison(lambda left, right: raw(left) < raw(right)),
-    "STRGREATER": _comparison(lambda left, right: raw(left) > raw(right)),
-    "STRLESS_EQUAL": _comparison(lambda left, right: raw(left) <= raw(right)),
-    "STRGREATER_EQUAL": _comparison(lambda left, right: raw(left) >= raw(right)),
+    "STRLESS": _comparison(lambda left, right: to_bytes(left) < to_bytes(right)),
+    "STRGREATER": _comparison(lambda left, right: to_bytes(left) > to_bytes(right)),
+    "STRLESS_EQUAL": _comparison(lambda left, right: to_bytes(left) <= to_bytes(right)),
+    "STRGREATER_EQUAL": _comparison(lambda left, right: to_bytes(left) >= to_bytes(right)),
     "EQUAL": _comparison(_numbers(lambda left, right: left == right)),
     "LESS": _comparison(_numbers(lambda left, right: left < right)),
     "GREATER": _comparison(_numbers(lambda left, right: left > right)),

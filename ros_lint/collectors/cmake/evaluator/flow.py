@@ -24,7 +24,7 @@ from ros_lint.collectors.cmake.evaluator.state import (
 )
 from ros_lint.collectors.cmake.evaluator.values import ELEMENT, HOLE, MAYBE, certainly_set, elements, join, maybe
 from ros_lint.collectors.cmake.syntax import QUOTED, Command
-from ros_lint.facts.visibility import ANYTHING
+from ros_lint.facts.visibility import ALL_FACETS
 
 HANDLERS: Final[dict[str, Handler]] = {}
 """What carries out each command of CMake. Filled by :mod:`ros_lint.collectors.cmake.evaluate`, as is BLOCKS."""
@@ -212,7 +212,7 @@ def run_file(run: Run, commands: Sequence[Command], frame: Frame) -> Exit:
             body = error.body
             if frame.own:
                 run.problem("cmake-syntax", str(error), error.command.place(frame.path))
-            run.hide(ANYTHING, str(error), error.command.place(frame.path) if frame.own else None)
+            run.hide(ALL_FACETS, str(error), error.command.place(frame.path) if frame.own else None)
         ended = run_body(run, body)
     finally:
         run.frames.pop()

@@ -8,7 +8,7 @@ from bisect import bisect_left
 from collections.abc import Sequence
 from functools import lru_cache
 
-from ros_lint.base.paths import is_outside, seen_from, towards, within
+from ros_lint.base.paths import is_outside, relative, resolve, strip_folder
 from ros_lint.base.paths import join as join_path
 from ros_lint.base.wildcards import LONGEST
 from ros_lint.collectors.cmake.evaluator.sources import AROUND, Sources
@@ -50,7 +50,7 @@ class Paths(State):
     def place(self, path: str) -> str:
         """Return where in the tree a path leads that is relative to the package."""
         if is_outside(path):
-            path = seen_from(self.sources.path, path)
+            path = resolve(self.sources.path, path)
             return "" if path == "." else path
         return join_path(self.sources.path, path) if path else self.sources.path
 
@@ -98,7 +98,7 @@ class Paths(State):
 
     def listed(self, path: str) -> str:
         """Return where a file lies, "" if it is none that the package has or that lies around it. What leads up may lead back."""
-        path = towards(self.sources.path, self.place(path)) if is_outside(path) else path
+        path = relative(self.sources.path, self.place(path)) if is_outside(path) else path
         return path if path in self.files or is_outside(path) else ""
 
     def is_folder(self, path: str) -> bool:
@@ -119,7 +119,7 @@ class Paths(State):
         """Return the files below a folder, sorted; of one around the package none where not all of them are in sight."""
         if is_outside(path):
             place = self.place(path)
-            return [f"{path}/{within(place, file)}" for file in self.sources.around.below(place)]
+            return [f"{path}/{strip_folder(place, file)}" for file in self.sources.around.below(place)]
         files = self.sources.files
         if not path:
             return files
@@ -176,7 +176,7 @@ def _seen(package: str, directory: str, value: str) -> str | None:
     path = posixpath.normpath(path)
     if is_outside(path) and package:
         return f"{'../' * (package.count('/') + 1)}{path}"
-    path = towards(package, path) if package and not path.startswith(f"{package}/") else within(package, path)
+    path = relative(package, path) if package and not path.startswith(f"{package}/") else strip_folder(package, path)
     return "" if path == "." else path
 
 

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from functools import lru_cache
 from typing import TYPE_CHECKING, Final
 
-from ros_lint.base.text import from_raw, octets
+from ros_lint.base.text import from_bytes, octets
 from ros_lint.collectors.cmake.evaluator.values import BINARY, HOLE, PREFIX, TREE, is_fixed, is_known, natural
 
 if TYPE_CHECKING:
@@ -41,7 +41,7 @@ def is_in(pattern: re.Pattern[str], text: str) -> bool:
 
 
 def _text(text: str) -> str:
-    return text if text.isascii() else from_raw(text.encode("latin-1"))
+    return text if text.isascii() else from_bytes(text.encode("latin-1"))
 
 
 _MOST_MATCHES: Final = 10_000

@@ -13,7 +13,7 @@ from ros_lint.collectors.cmake.evaluator.state import MISSING, Frame, InstalledT
 from ros_lint.collectors.cmake.evaluator.values import ATOM, HOLE, MAYBE, SLOW, effort, kept, split, wild
 from ros_lint.collectors.cmake.released_macros import SOFT_VARIABLES, UNKNOWN_VARIABLES
 from ros_lint.collectors.cmake.syntax import LITERAL, OPEN, PLAIN, QUOTED, UNQUOTED, Argument, Command, Parsed
-from ros_lint.facts.build import REPOSITORIES, Component, Provided
+from ros_lint.facts.build import REPOSITORIES, Component, InstalledFile
 from ros_lint.facts.environment import ROS_2
 from ros_lint.facts.sources import Mention, Purpose, Via
 from ros_lint.facts.visibility import Facet, Opaque, Problem
@@ -105,7 +105,7 @@ class Run(Paths):
         """For each of them the scope in which it is registered."""
         self.interfaces: dict[str, None] = {}
         self.python_packages: dict[str, None] = {}
-        self.installed: list[Provided] = []
+        self.installed: list[InstalledFile] = []
         """Installed files. Those with a source that is not there count if it is generated."""
         self.installed_targets: list[InstalledTarget] = []
         self.exported_sets: dict[str, None] = {}

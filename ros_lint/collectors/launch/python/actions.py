@@ -17,7 +17,7 @@ from ros_lint.collectors.launch.python.substitutions import SUBSTITUTIONS, is_te
 from ros_lint.collectors.launch.python.walker import Rule, Walker, place_of
 from ros_lint.collectors.python.interpreter.machine import Machine
 from ros_lint.collectors.python.interpreter.methods import items
-from ros_lint.collectors.python.interpreter.values import Conditions, Made, Source, Value, alternatives, plain
+from ros_lint.collectors.python.interpreter.values import Conditions, LaunchObject, Source, Value, alternatives, plain
 from ros_lint.collectors.symbolic_text import UNKNOWN
 from ros_lint.facts.launch import UNSCOPED, LaunchAction, LaunchValue
 
@@ -29,13 +29,13 @@ def walker(machine: Machine, source: Source) -> Walker:
     return Walker(machine, source, _RULES, _other)
 
 
-def _include(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+def _include(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
     given = made.get(0, "launch_description_source")
     node, where = made.written(0, "launch_description_source"), made.source
-    while isinstance(source := plain(given), Made) and source.name.endswith("LaunchDescriptionSource"):
+    while isinstance(source := plain(given), LaunchObject) and source.name.endswith("LaunchDescriptionSource"):
         node, where = source.written(0, "launch_file_path", "location", "launch_description"), source.source
         given = source.get(0, "launch_file_path", "location", "launch_description")
-    if isinstance(source, Made) and source.name == "LaunchDescription":
+    if isinstance(source, LaunchObject) and source.name == "LaunchDescription":
         return walker.actions(source, conditions)
     target = walker.text(source, node, where)
     passed = list(_pairs(walker, made.get(1, "launch_arguments"), made))
@@ -52,7 +52,7 @@ def _include(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchA
 
 def _given(include: LaunchAction, passed: Sequence[_Passed]) -> LaunchAction:
     """Return an include with what is passed to it: nothing that another branch passes to another file."""
-    together = [one for one in passed if launch_text.agree((*include.conditions, *one.conditions))]
+    together = [one for one in passed if launch_text.are_consistent((*include.conditions, *one.conditions))]
     return include._replace(
         arguments=tuple([(one.name, one.value) for one in together]),
         argument_spans=tuple([one.span for one in together]),
@@ -73,7 +73,7 @@ class _Passed(NamedTuple):
     """Whether nobody knows if it is passed."""
 
 
-def _pairs(walker: Walker, value: Value, made: Made) -> Iterator[_Passed]:
+def _pairs(walker: Walker, value: Value, made: LaunchObject) -> Iterator[_Passed]:
     node = made.written(1, "launch_arguments")
     given = plain(value)
     if isinstance(given, dict):
@@ -99,7 +99,7 @@ def _perhaps(passed: Sequence[_Passed]) -> tuple[str, ...]:
     return tuple([one.name for one in passed if one.perhaps and sides[one.name] == 1])
 
 
-def _declare(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+def _declare(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
     given = made.get(-1, "choices")
     # In a text, launch looks for the value as a part of it.
     choices = items(walker.machine, given) if given is not None and not isinstance(plain(given), str) else None
@@ -118,7 +118,7 @@ def _declare(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchA
 
 
 def _assigns(kind: str, *names: tuple[str, ...]) -> Rule:
-    def rule(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    def rule(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
         value = walker.value(made, 1, *names[1])
         target = walker.value(made, 0, *names[0])
         span = walker.package_span(value)
@@ -127,7 +127,7 @@ def _assigns(kind: str, *names: tuple[str, ...]) -> Rule:
     return rule
 
 
-def _append(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+def _append(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
     (action,) = _assigns("environment", ("name",), ("value",))(walker, made, conditions)
     first = made.get(2, "prepend")
     before = plain(first) is True or (isinstance(first, str) and means_true(first) is True)
@@ -141,14 +141,14 @@ def _append(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAc
 
 
 def _one_value(kind: str, *names: str) -> Rule:
-    def rule(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    def rule(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
         value = walker.value(made, 0, *names)
         return [LaunchAction(kind, place_of(made), value=value, package_span=walker.package_span(value), conditions=conditions)]
 
     return rule
 
 
-def _group(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+def _group(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
     children = walker.actions(made.get(0, "actions"), (), place_of(made))
     scoped = plain(made.get(-1, "scoped")) is not False
     passed = tuple(_group_configurations(walker, made))
@@ -156,14 +156,14 @@ def _group(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAct
     return [LaunchAction("group", place_of(made), name=name, arguments=passed, conditions=conditions, children=tuple(children))]
 
 
-def _group_configurations(walker: Walker, made: Made) -> Iterator[tuple[str, LaunchValue]]:
+def _group_configurations(walker: Walker, made: LaunchObject) -> Iterator[tuple[str, LaunchValue]]:
     given = plain(made.get(-1, "launch_configurations"))
     if isinstance(given, dict):
         for name, value in given.items():
             yield str(name), walker.text(value, made.written(-1, "launch_configurations"), made.source)
 
 
-def _other(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+def _other(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
     if "package" in made.keywords and ("executable" in made.keywords or "node_executable" in made.keywords):
         return started_node(walker, made, conditions)
     if made.name in SUBSTITUTIONS:
@@ -208,7 +208,7 @@ def _texts_in(value: Value) -> list[Value]:
     return found
 
 
-def _silent(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:  # noqa: ARG001
+def _silent(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:  # noqa: ARG001
     return []
 
 

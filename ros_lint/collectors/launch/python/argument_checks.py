@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from ros_lint.base.suggestions import is_meant, similar
+from ros_lint.base.suggestions import ask_if_meant, similar_names
 from ros_lint.collectors.launch.python.import_checks import is_from_launch
 from ros_lint.collectors.launch.python.substitution_misuse import are_unknown
 from ros_lint.collectors.launch.python.substitutions import texts
@@ -22,7 +22,7 @@ from ros_lint.collectors.symbolic_text import UNKNOWN
 from ros_lint.facts.visibility import Problem
 
 if TYPE_CHECKING:
-    from ros_lint.collectors.python.interpreter.values import Made, Source
+    from ros_lint.collectors.python.interpreter.values import LaunchObject, Source
 
 _TAKES: Mapping[str, tuple[int, frozenset[str]]] = {
     name: (int(words.split()[0]), frozenset(words.split()[1:]))
@@ -73,7 +73,7 @@ _READS: Mapping[str, tuple[str, ...]] = {
 """How files end that a source of launch descriptions cannot read."""
 
 
-def not_taken(tree: ast.Module, source: Source, made: Iterable[Made]) -> Iterator[Problem]:
+def not_taken(tree: ast.Module, source: Source, made: Iterable[LaunchObject]) -> Iterator[Problem]:
     """Yield the arguments that classes of the launch libraries are given and refuse."""
     found = [(node, problem) for one in made if one.source is source for node, problem in _refused(one)]
     caught = {inner for node in ast.walk(tree) if isinstance(node, ast.Try) for inner in tried(node)} if found else set()
@@ -82,7 +82,7 @@ def not_taken(tree: ast.Module, source: Source, made: Iterable[Made]) -> Iterato
             yield problem
 
 
-def _refused(made: Made) -> Iterator[tuple[ast.Call, Problem]]:
+def _refused(made: LaunchObject) -> Iterator[tuple[ast.Call, Problem]]:
     node = made.node
     if callee(node) != made.name or are_unknown(made.conditions):
         return
@@ -102,11 +102,11 @@ def _refused(made: Made) -> Iterator[tuple[ast.Call, Problem]]:
             yield node, Problem("other-format", message, span_of(made.written(0, "launch_file_path"), made.source))
 
 
-def _keyword(keyword: ast.keyword, name: str, known: frozenset[str], made: Made) -> Problem:
+def _keyword(keyword: ast.keyword, name: str, known: frozenset[str], made: LaunchObject) -> Problem:
     begun = sorted(other for other in known if other.startswith(f"{name}_"))
-    near = begun[:1] or similar(name, sorted(known), 1, 0.75)
+    near = begun[:1] or similar_names(name, sorted(known), 1, 0.75)
     kind = "misspelt-keyword" if near else "unexpected-keyword"
-    meant = is_meant([f"{one}=" for one in near])
+    meant = ask_if_meant([f"{one}=" for one in near])
     return Problem(kind, f"{made.name} has no keyword argument '{name}='{meant}", span_of(keyword, made.source))
 
 

@@ -13,15 +13,15 @@ from typing import TYPE_CHECKING
 from ros_lint.base.python_parser import compiled
 from ros_lint.base.text import Span, Text
 from ros_lint.collectors.launch.detect import entries
-from ros_lint.collectors.launch.presence_checks import asks_first
+from ros_lint.collectors.launch.presence_checks import is_guarded_by_presence
 from ros_lint.collectors.launch.python.actions import LAUNCHED, walker
 from ros_lint.collectors.launch.python.argument_checks import dropped, not_taken
 from ros_lint.collectors.launch.python.import_checks import strays
-from ros_lint.collectors.launch.python.runtime_errors import misused, no_conditions, no_texts, undefined
+from ros_lint.collectors.launch.python.runtime_errors import misused, not_condition, not_text, undefined
 from ros_lint.collectors.launch.python.substitutions import Within, texts
 from ros_lint.collectors.launch.references import References
 from ros_lint.collectors.python.interpreter.machine import Machine
-from ros_lint.collectors.python.interpreter.values import PERHAPS, Frame, Function, Modules, OutOfBudget, Raised, Source
+from ros_lint.collectors.python.interpreter.values import PERHAPS, BudgetExceeded, Frame, Function, Modules, ProgramRaised, Source
 from ros_lint.collectors.python.syntax import NotPythonError, read, refusal, span_of
 from ros_lint.collectors.symbolic_text import UNKNOWN
 from ros_lint.facts.launch import LaunchAction, LaunchFile
@@ -55,7 +55,7 @@ def collect(
     reading = _Reading(source, Machine(modules, files))
     try:
         reading.read(tree, helper)
-    except (OutOfBudget, RecursionError, MemoryError):
+    except (BudgetExceeded, RecursionError, MemoryError):
         reading.stopped("following the file takes too many steps")
     reading.problems.extend(reading.refused(tree))
     references = References(reading.actions, reading.places())
@@ -124,8 +124,8 @@ class _Reading:
     def refused(self, tree: ast.Module) -> Iterator[Problem]:
         yield from undefined(tree, self._source, self._machine.unbound)
         yield from misused(tree, self._source, self._machine.misused)
-        yield from no_texts(tree, self._source, self._machine.made)
-        yield from no_conditions(tree, self._source, self._machine.made)
+        yield from not_text(tree, self._source, self._machine.made)
+        yield from not_condition(tree, self._source, self._machine.made)
         yield from not_taken(tree, self._source, self._machine.made)
         yield from dropped(tree, self._source)
         yield from strays(tree, self._source)
@@ -151,7 +151,7 @@ class _Reading:
         ast.copy_location(call, function.node)
         try:
             return self._machine.call(function, [], {}, call, frame)
-        except Raised:
+        except ProgramRaised:
             self.stopped(f"{name}() raises an exception")
             return None
 
@@ -172,7 +172,7 @@ class _Reading:
         """What is looked up at once stops the file if it is missing, unless that is caught or asked for before."""
         asked = {package: True for package, *_ in self._machine.looked_up if package not in self._machine.lazily}
         for package, _, _, conditions in self._machine.looked_up:
-            if not asks_first(conditions):
+            if not is_guarded_by_presence(conditions):
                 asked.pop(package, None)
         references.spare(asked)
 
@@ -184,7 +184,7 @@ class _Reading:
         """Note that the file could not be followed to its end: anything that it makes may be launched."""
         self._blind.append(Opaque(Facet.USES, reason, self._source.text.span(0, 0)))
         self._machine.grant()
-        with suppress(OutOfBudget, RecursionError, MemoryError):
+        with suppress(BudgetExceeded, RecursionError, MemoryError):
             self._leftovers(everything=True)
 
     def _leftovers(self, everything: bool) -> None:

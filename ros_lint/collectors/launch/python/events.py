@@ -13,7 +13,7 @@ from ros_lint.collectors.python.interpreter.values import (
     Context,
     Function,
     Instance,
-    Made,
+    LaunchObject,
     Unknown,
     alternatives,
     plain,
@@ -22,24 +22,24 @@ from ros_lint.collectors.symbolic_text import UNKNOWN
 from ros_lint.facts.launch import LaunchAction
 
 
-def _timer(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+def _timer(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
     children = walker.actions(made.get(-1, "actions"), (), place_of(made))
     return [LaunchAction("later", place_of(made), conditions=conditions, children=tuple(children))]
 
 
-def _event(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+def _event(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
     """What a handler does when its event comes: actions, or what its function returns."""
     found: list[LaunchAction] = []
     for one in alternatives(made.get(0, "event_handler")):
         handler = one.value
         if isinstance(handler, Instance):
             handler = handler.made
-        if isinstance(handler, Made):
+        if isinstance(handler, LaunchObject):
             found += _handled(walker, handler)
     return [LaunchAction("later", place_of(made), conditions=conditions, children=tuple(found))] if found else []
 
 
-def _handled(walker: Walker, handler: Made) -> list[LaunchAction]:
+def _handled(walker: Walker, handler: LaunchObject) -> list[LaunchAction]:
     handler.seen = True
     found: list[LaunchAction] = []
     targets = {"target_action", "matcher", "handle_once", "target_lifecycle_node", "start_state", "goal_state", "transition"}
@@ -54,7 +54,7 @@ def _handled(walker: Walker, handler: Made) -> list[LaunchAction]:
     return found
 
 
-def later(walker: Walker, made: Made, *names: str) -> list[LaunchAction]:
+def later(walker: Walker, made: LaunchObject, *names: str) -> list[LaunchAction]:
     """Return what is done when something comes that arguments of these names wait for."""
     found: list[LaunchAction] = []
     for name in names:
@@ -67,7 +67,7 @@ def later(walker: Walker, made: Made, *names: str) -> list[LaunchAction]:
     return [LaunchAction("later", place_of(made), children=tuple(found))] if found else []
 
 
-def _opaque_function(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+def _opaque_function(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
     arguments = items(walker.machine, made.get(-1, "args")) if made.get(-1, "args") is not None else []
     keywords = plain(made.get(-1, "kwargs"))
     before, variables = walker.machine.conditions, walker.machine.variables
@@ -87,7 +87,7 @@ def _opaque_function(walker: Walker, made: Made, conditions: Conditions) -> list
     return [*found, *walker.actions(result, conditions, place_of(made))] if result is not None else found
 
 
-def _for_each(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+def _for_each(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
     """Return what a function makes that launch calls with keywords, once for each set of values; any keyword may be given."""
     function = plain(made.get(1, "function"))
     spec = function.node.args if isinstance(function, Function) else None

@@ -18,10 +18,10 @@ from ros_lint.collectors.python.interpreter.calls import Call, Rule, nothing, un
 from ros_lint.collectors.python.interpreter.methods import built_for, items
 from ros_lint.collectors.python.interpreter.operations import INSTALLED, text_of
 from ros_lint.collectors.python.interpreter.values import (
-    Api,
     FilePath,
     Guarded,
-    Made,
+    LaunchObject,
+    LibraryName,
     Method,
     Unknown,
     Value,
@@ -63,8 +63,8 @@ def call_library(
     return Unknown("" if what.partition(".")[0] in _STANDARD else f"{last}() cannot be followed")
 
 
-def _make(call: Call, name: str) -> Made:
-    made = Made(name, call.arguments, call.keywords, call.node, call.frame.source)
+def _make(call: Call, name: str) -> LaunchObject:
+    made = LaunchObject(name, call.arguments, call.keywords, call.node, call.frame.source)
     made.conditions = call.machine.conditions
     call.machine.made.append(made)
     if name == "LaunchDescription":
@@ -82,7 +82,7 @@ def _make(call: Call, name: str) -> Made:
     return made
 
 
-def _note_command(call: Call, made: Made) -> None:
+def _note_command(call: Call, made: LaunchObject) -> None:
     """Note where a command that belongs to a package is run first."""
     given, at = made.get(0, "command"), made.written(0, "command")
     if any(text.partition(" ")[0] == "xacro" for text in call.machine.texts(given)):
@@ -90,7 +90,7 @@ def _note_command(call: Call, made: Made) -> None:
         call.machine.named.setdefault("xacro", (first, call.frame.source))
 
 
-def _note_builder(call: Call, made: Made) -> None:
+def _note_builder(call: Call, made: LaunchObject) -> None:
     """MoveIt's builders look a package up at once (reference, section G2.7): one of them by the name of a robot, unless told."""
     position = 2 if made.name == "MoveItConfigsBuilder" else 0
     given = made.get(position, "package_name")
@@ -118,7 +118,7 @@ _READ_BY_BUILDERS: Mapping[str, int] = {
 """Which argument names the file that a method of MoveIt's builders reads; sensors_3d asks first if it is there."""
 
 
-def _note_built(call: Call, owner: Made) -> None:
+def _note_built(call: Call, owner: LaunchObject) -> None:
     """Note the file that MoveIt's builders read at once: its path is from the share folder of their package on."""
     position = _READ_BY_BUILDERS.get(call.name)
     if position is None or call.machine.guarded or owner.name not in ("MoveItConfigsBuilder", "ParameterBuilder"):
@@ -138,7 +138,7 @@ def _note(call: Call, package: Value, at: ast.expr, eager: bool) -> None:
         node, where = getattr(one.value, "node", at), getattr(one.value, "source", source)
         if isinstance(one.value, str):
             call.machine.look_up(str(one.value), node, where, eager, one.conditions)
-        elif isinstance(one.value, Made):
+        elif isinstance(one.value, LaunchObject):
             for text in call.machine.texts(one.value):
                 call.machine.named.setdefault(text, (at, source))
 
@@ -146,7 +146,7 @@ def _note(call: Call, package: Value, at: ast.expr, eager: bool) -> None:
 _ADDS = frozenset({"add_action", "add_entity", "append"})
 
 
-def _method(call: Call, owner: Made) -> Value:
+def _method(call: Call, owner: LaunchObject) -> Value:
     machine, name = call.machine, call.name
     if name in _ADDS and owner.name == "LaunchDescription":
         machine.spend(1)
@@ -281,12 +281,12 @@ def _runs(call: Call) -> Value:
 
 def subscript_library(machine: Machine, owner: Value, key: Value) -> Value:
     """Return an element of something that a library has."""
-    if isinstance(owner, Api):
+    if isinstance(owner, LibraryName):
         if owner.name == "os.environ":
             return union(machine.variable(name) for name in text_of(key))
         if owner.name == "context.launch_configurations":
             return union(launch_text.configuration(name) for name in text_of(key))
-    if isinstance(owner, (Unknown, Api)):
+    if isinstance(owner, (Unknown, LibraryName)):
         return Unknown("element of what is not known")
     machine.lose(owner)
     return Unknown("element of what is not known")
@@ -329,7 +329,7 @@ _BY_NAME: Mapping[str, Rule] = {
     "pathlib.Path.home": lambda call: FilePath(UNKNOWN),
     "context.launch_configurations.get": _configured,
     "context.perform_substitution": _perform(0),
-    f"{INSTALLED}.keys": lambda call: Api(INSTALLED),
+    f"{INSTALLED}.keys": lambda call: LibraryName(INSTALLED),
     f"{INSTALLED}.get": lambda call: _is_there(call.texts(0)),
     "xacro.process_file": _expanded,
     "xacro.process": _expanded,
@@ -343,9 +343,9 @@ _BY_LAST: Mapping[str, Rule] = {
     "get_package_share_directory": _share,
     "get_package_share_path": _share_path,
     "get_package_prefix": _prefix,
-    "get_packages_with_prefixes": lambda call: Api(INSTALLED),
-    "get_resources": lambda call: Api(INSTALLED),
-    "get_search_paths": lambda call: Api(INSTALLED),
+    "get_packages_with_prefixes": lambda call: LibraryName(INSTALLED),
+    "get_resources": lambda call: LibraryName(INSTALLED),
+    "get_search_paths": lambda call: LibraryName(INSTALLED),
     "has_resource": _has_resource,
     "perform_substitutions": _perform(1),
     "normalize_to_list_of_substitutions": _first,

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Collection, Mapping
 from typing import Literal
 
-from ros_lint.base.suggestions import is_meant, similar
+from ros_lint.base.suggestions import ask_if_meant, similar_names
 from ros_lint.collectors.launch.python.events import later
 from ros_lint.collectors.launch.python.substitutions import is_text, texts
 from ros_lint.collectors.launch.python.walker import Rule, Walker, place_of, span_of
@@ -16,7 +16,7 @@ from ros_lint.collectors.python.interpreter.values import (
     Conditions,
     FilePath,
     Guarded,
-    Made,
+    LaunchObject,
     Value,
     Written,
     alternatives,
@@ -51,7 +51,7 @@ _NODES = frozenset({"Node", "LifecycleNode", "ComposableNodeContainer"})
 _CLASSES = _NODES | {"ComposableNode"}
 
 
-def _note_refused(walker: Walker, made: Made, conditions: Conditions, known: Collection[str]) -> None:
+def _note_refused(walker: Walker, made: LaunchObject, conditions: Conditions, known: Collection[str]) -> None:
     """Note keywords that are gone or that never were, unless the file itself asks for the distribution before it comes here."""
     if any(_DISTRIBUTION in (named_in(text) or ()) for condition in conditions for text in condition.texts):
         return
@@ -69,15 +69,15 @@ def _note_refused(walker: Walker, made: Made, conditions: Conditions, known: Col
         elif itself:  # and not of a package, or of the file's own, that has keywords of its own
             near = _near(name, known)
             kind = "misspelt-keyword" if near else "unexpected-keyword"
-            meant = is_meant([f"{near}="]) if near else ""
+            meant = ask_if_meant([f"{near}="]) if near else ""
             walker.problems.append(Problem(kind, f"{made.name} has no keyword argument '{name}='{meant}", place))
 
 
 def _near(name: str, known: Collection[str]) -> str:
-    return next(iter(similar(name, sorted(known), 1, 0.75)), "")
+    return next(iter(similar_names(name, sorted(known), 1, 0.75)), "")
 
 
-def started_node(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+def started_node(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
     """Return a node with all that it is given, and what is done when it ends."""
     _note_refused(walker, made, conditions, _OF_PROCESSES)
     children: list[LaunchAction] = []
@@ -92,12 +92,14 @@ def started_node(walker: Walker, made: Made, conditions: Conditions) -> list[Lau
     return [*_apart("executable", walker, made, node), *later(walker, made, "on_exit")]
 
 
-def _component(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+def _component(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
     _note_refused(walker, made, conditions, _OF_COMPONENTS)
     return _apart("plugin", walker, made, _started("component", "plugin", walker, made, conditions))
 
 
-def _started(kind: Literal["node", "component"], target: str, walker: Walker, made: Made, conditions: Conditions) -> LaunchAction:
+def _started(
+    kind: Literal["node", "component"], target: str, walker: Walker, made: LaunchObject, conditions: Conditions
+) -> LaunchAction:
     """Return what nodes and components have in common, by the names of today and those of old."""
     return LaunchAction(
         kind,
@@ -118,18 +120,18 @@ def _is_handed(value: Value) -> bool:
     return all(isinstance(one.value, Written) and not one.value.source.lent for one in alternatives(value))
 
 
-def _apart(target: str, walker: Walker, made: Made, action: LaunchAction) -> list[LaunchAction]:
+def _apart(target: str, walker: Walker, made: LaunchObject, action: LaunchAction) -> list[LaunchAction]:
     return walker.apart(action, made.get(-1, target, f"node_{target}"), made.get(-1, "package"))
 
 
-def _load(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+def _load(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
     children = walker.actions(made.get(0, "composable_node_descriptions"), (), place_of(made))
     target = made.get(1, "target_container")
-    name = walker.value(made, 1, "target_container") if not isinstance(plain(target), Made) or is_text(target) else None
+    name = walker.value(made, 1, "target_container") if not isinstance(plain(target), LaunchObject) or is_text(target) else None
     return [LaunchAction("group", place_of(made), name=name, conditions=conditions, children=tuple(children))]
 
 
-def _process(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchAction]:
+def _process(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
     command = made.get(0, "cmd")
     words = items(walker.machine, command) if command is not None else None
     places = _elements(made.written(0, "cmd"), len(words or ()))
@@ -146,7 +148,7 @@ def _process(walker: Walker, made: Made, conditions: Conditions) -> list[LaunchA
     return [process, *later(walker, made, "on_exit")]
 
 
-def _given(walker: Walker, made: Made, *names: str) -> tuple[tuple[str, LaunchValue], ...]:
+def _given(walker: Walker, made: LaunchObject, *names: str) -> tuple[tuple[str, LaunchValue], ...]:
     """Return texts of arguments that are lists or dictionaries of texts, and of the two that are one text."""
     found: list[tuple[str, LaunchValue]] = []
     for name in names:
@@ -165,7 +167,7 @@ def _given(walker: Walker, made: Made, *names: str) -> tuple[tuple[str, LaunchVa
     return (*found, *whole)
 
 
-def _parameters(walker: Walker, made: Made) -> tuple[tuple[str, LaunchValue], ...]:
+def _parameters(walker: Walker, made: LaunchObject) -> tuple[tuple[str, LaunchValue], ...]:
     found: list[tuple[str, LaunchValue]] = []
     if "parameters" not in made.keywords:
         return ()
@@ -180,7 +182,7 @@ def _parameters(walker: Walker, made: Made) -> tuple[tuple[str, LaunchValue], ..
     return tuple(found)
 
 
-def _parameter(walker: Walker, value: Value, node: ast.expr, made: Made) -> list[tuple[str, LaunchValue]]:
+def _parameter(walker: Walker, value: Value, node: ast.expr, made: LaunchObject) -> list[tuple[str, LaunchValue]]:
     found: list[tuple[str, LaunchValue]] = []
     waiting = [("", value, node)]
     for _ in range(_MOST_PARAMETERS):
@@ -231,7 +233,7 @@ def _key(key: Value) -> str:
     return str(texts(key)[0]) or "?"
 
 
-def _remappings(walker: Walker, made: Made) -> tuple[tuple[LaunchValue, LaunchValue], ...]:
+def _remappings(walker: Walker, made: LaunchObject) -> tuple[tuple[LaunchValue, LaunchValue], ...]:
     found: list[tuple[LaunchValue, LaunchValue]] = []
     if "remappings" in made.keywords:
         node = made.written(-1, "remappings")
@@ -246,7 +248,7 @@ def _remappings(walker: Walker, made: Made) -> tuple[tuple[LaunchValue, LaunchVa
     return tuple(found)
 
 
-def nested(walker: Walker, made: Made) -> list[LaunchAction]:
+def nested(walker: Walker, made: LaunchObject) -> list[LaunchAction]:
     """Return the actions among the arguments of something that is not known."""
     found: list[LaunchAction] = []
     for value in (*made.arguments, *made.keywords.values()):
@@ -255,7 +257,7 @@ def nested(walker: Walker, made: Made) -> list[LaunchAction]:
             found += [
                 action
                 for each in inner
-                if isinstance(plain(each), Made) and not is_text(each)
+                if isinstance(plain(each), LaunchObject) and not is_text(each)
                 for action in walker.actions(each, (*one.conditions, PERHAPS), place_of(made))
             ]
     return found

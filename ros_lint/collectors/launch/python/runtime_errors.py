@@ -14,7 +14,7 @@ from ros_lint.collectors.launch.python.import_checks import ACTIONS
 from ros_lint.collectors.launch.python.substitution_misuse import are_unknown
 from ros_lint.collectors.launch.python.substitutions import is_text
 from ros_lint.collectors.launch.python.walker import span_of
-from ros_lint.collectors.python.interpreter.values import Function, Made
+from ros_lint.collectors.python.interpreter.values import Function, LaunchObject
 from ros_lint.collectors.python.string_values import callee
 from ros_lint.collectors.python.unbound_names import tried, unbound
 from ros_lint.facts.visibility import Problem
@@ -132,7 +132,7 @@ _WHERE: Mapping[str, tuple[tuple[int, str], ...]] = {
 """Where the launch libraries take texts and substitutions, and stop at anything else (``normalize_to_list_of_substitutions``)."""
 
 
-def no_texts(tree: ast.Module, source: Source, made: Iterable[Made]) -> Iterator[Problem]:
+def not_text(tree: ast.Module, source: Source, made: Iterable[LaunchObject]) -> Iterator[Problem]:
     """Yield where a number, a truth or an action is given for a text, and arguments that are a dictionary, not pairs."""
     found: list[tuple[str, ast.expr]] = []
     for one in made:
@@ -151,7 +151,7 @@ def no_texts(tree: ast.Module, source: Source, made: Iterable[Made]) -> Iterator
             yield Problem("no-text", message, span_of(node, source))
 
 
-def no_conditions(tree: ast.Module, source: Source, made: Iterable[Made]) -> Iterator[Problem]:
+def not_condition(tree: ast.Module, source: Source, made: Iterable[LaunchObject]) -> Iterator[Problem]:
     """Yield what actions are given for a condition and cannot be asked: launch calls evaluate() of it when it comes there."""
     found: list[tuple[str, ast.expr]] = []
     for one in made:
@@ -160,7 +160,7 @@ def no_conditions(tree: ast.Module, source: Source, made: Iterable[Made]) -> Ite
         given = one.get(-1, "condition")
         if isinstance(given, Function):
             found.append(("a function; use IfCondition(...) or Condition(predicate=...)", one.written(-1, "condition")))
-        elif isinstance(given, Made) and is_text(given):
+        elif isinstance(given, LaunchObject) and is_text(given):
             found.append((f"a {given.name}; use IfCondition(...)", one.written(-1, "condition")))
         elif isinstance(given, (bool, str)):
             found.append((f"{given!r}; use IfCondition('{given}')", one.written(-1, "condition")))
@@ -170,23 +170,23 @@ def no_conditions(tree: ast.Module, source: Source, made: Iterable[Made]) -> Ite
             yield Problem("no-condition", f"'condition' cannot be {message}", span_of(node, source))
 
 
-def _odd_in(value: Value) -> bool | int | float | Made | None:
+def _odd_in(value: Value) -> bool | int | float | LaunchObject | None:
     """Return a number or an action that is a value, or stands in the lists in it."""
     waiting = [value]
     for _ in range(_MOST_ITEMS):
         if not waiting:
             break
         one = waiting.pop()
-        if isinstance(one, (bool, int, float)) or (isinstance(one, Made) and one.name in ACTIONS):
+        if isinstance(one, (bool, int, float)) or (isinstance(one, LaunchObject) and one.name in ACTIONS):
             return one
         if isinstance(one, (list, tuple)):
             waiting += one
     return None
 
 
-def _instead(odd: bool | int | float | Made, taken: Made) -> str:
+def _instead(odd: bool | int | float | LaunchObject, taken: LaunchObject) -> str:
     """Return how a message goes on that says what something is given to that takes texts."""
-    if not isinstance(odd, Made):
+    if not isinstance(odd, LaunchObject):
         return f"; write '{odd}' instead of {odd}"
     name = odd.get(0, "name") if odd.name == "DeclareLaunchArgument" else None
     if not isinstance(name, str):

@@ -6,7 +6,7 @@ import ast
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from ros_lint.collectors.launch.python.substitutions import CONDITIONS, is_text
-from ros_lint.collectors.python.interpreter.values import Made, Value
+from ros_lint.collectors.python.interpreter.values import LaunchObject, Value
 from ros_lint.collectors.symbolic_text import UNKNOWN
 
 if TYPE_CHECKING:
@@ -20,14 +20,14 @@ class Misused(NamedTuple):
     """A place where a substitution is taken for a text."""
 
     how: How
-    made: Made
+    made: LaunchObject
     node: ast.expr
     source: Source
 
 
 def note(machine: Machine, value: Value, how: How, node: ast.expr, frame: Frame) -> None:
     """Note that something is done with a value, if that is a substitution and it is not unknown whether it comes to that."""
-    if not isinstance(value, Made):
+    if not isinstance(value, LaunchObject):
         return
     if how == "tested" and value.name in CONDITIONS:
         how = "combined"

@@ -13,7 +13,7 @@ from ros_lint.collectors.python.interpreter.values import (
     FilePath,
     Guarded,
     Instance,
-    Made,
+    LaunchObject,
     Union,
     Value,
     alternatives,
@@ -81,7 +81,7 @@ def _one(value: Value, within: Within) -> tuple[str, ...]:
         return joined([texts(part, within) for part in value], "".join)
     if isinstance(value, Instance):
         value = value.made
-    if isinstance(value, Made):
+    if isinstance(value, LaunchObject):
         rule = _RULES.get(value.name)
         if rule is not None:
             return rule(value, within)
@@ -90,54 +90,54 @@ def _one(value: Value, within: Within) -> tuple[str, ...]:
     return (UNKNOWN,)
 
 
-def _configuration(made: Made, within: Within) -> tuple[str, ...]:
+def _configuration(made: LaunchObject, within: Within) -> tuple[str, ...]:
     names = texts(made.get(0, "variable_name"), within)
     default = made.get(1, "default")
     defaults: tuple[str | None, ...] = (None,) if default is None else texts(default, within)
     return tuple(launch_text.configuration(name, one) for name in names for one in defaults)
 
 
-def _environment(made: Made, within: Within) -> tuple[str, ...]:
+def _environment(made: LaunchObject, within: Within) -> tuple[str, ...]:
     names = texts(made.get(0, "name"), within)
     default = made.get(1, "default_value")
     defaults: tuple[str | None, ...] = (None,) if default is None else texts(default, within)
     return tuple(environment(name, one) for name in names for one in defaults)
 
 
-def _path(made: Made, within: Within) -> tuple[str, ...]:
+def _path(made: LaunchObject, within: Within) -> tuple[str, ...]:
     parts = plain(made.get(0, "substitutions", "path"))
     if not isinstance(parts, (list, tuple)):
         return texts(parts, within)
     return joined([texts(part, within) for part in parts], lambda row: posixpath.join("", *row))
 
 
-def _share(made: Made, within: Within) -> tuple[str, ...]:
+def _share(made: LaunchObject, within: Within) -> tuple[str, ...]:
     return joined([texts(made.get(0, "package"), within)], lambda row: launch_text.share(row[0]))
 
 
-def _prefix(made: Made, within: Within) -> tuple[str, ...]:
+def _prefix(made: LaunchObject, within: Within) -> tuple[str, ...]:
     return joined([texts(made.get(0, "package"), within)], lambda row: launch_text.prefix(row[0]))
 
 
-def _in_package(made: Made, within: Within) -> tuple[str, ...]:
+def _in_package(made: LaunchObject, within: Within) -> tuple[str, ...]:
     names = texts(made.get(0, "executable"), within)
     packages = texts(made.get(1, "package"), within)
     return joined([packages, names], lambda row: f"{launch_text.prefix(row[0])}/lib/{row[0]}/{row[1]}")
 
 
-def _inner(*names: str) -> Callable[[Made, Within], tuple[str, ...]]:
+def _inner(*names: str) -> Callable[[LaunchObject, Within], tuple[str, ...]]:
     return lambda made, within: texts(made.get(0, *names), within)
 
 
-def _expression(made: Made, within: Within) -> tuple[str, ...]:
+def _expression(made: LaunchObject, within: Within) -> tuple[str, ...]:
     return joined([texts(made.get(0, "expression"), within)], lambda row: launch_text.expression(row[0]))
 
 
-def _command(made: Made, within: Within) -> tuple[str, ...]:
+def _command(made: LaunchObject, within: Within) -> tuple[str, ...]:
     return joined([texts(made.get(0, "command"), within)], lambda row: launch_text.command(row[0]))
 
 
-def _choice(made: Made, within: Within) -> tuple[str, ...]:
+def _choice(made: LaunchObject, within: Within) -> tuple[str, ...]:
     parts = (made.get(0, "condition"), made.get(1, "if_value") or "", made.get(2, "else_value") or "")
     return joined(
         [texts(part, within) for part in parts],
@@ -145,7 +145,7 @@ def _choice(made: Made, within: Within) -> tuple[str, ...]:
     )
 
 
-def _join(made: Made, within: Within) -> tuple[str, ...]:
+def _join(made: LaunchObject, within: Within) -> tuple[str, ...]:
     parts = plain(made.get(0, "substitutions"))
     delimiter = made.get(1, "delimiter")
     if not isinstance(parts, (list, tuple)):
@@ -154,10 +154,10 @@ def _join(made: Made, within: Within) -> tuple[str, ...]:
     return joined(rows, lambda row: row[0].join(row[1:]))
 
 
-def _logic(name: str) -> Callable[[Made, Within], tuple[str, ...]]:
+def _logic(name: str) -> Callable[[LaunchObject, Within], tuple[str, ...]]:
     """Substitutions that compare are written as expressions, which :mod:`launch_expression` evaluates."""
 
-    def rule(made: Made, within: Within) -> tuple[str, ...]:
+    def rule(made: LaunchObject, within: Within) -> tuple[str, ...]:
         parts: list[Any] = [*made.arguments, *made.keywords.values()]
         return joined(
             [texts(part, within) for part in parts],
@@ -167,7 +167,7 @@ def _logic(name: str) -> Callable[[Made, Within], tuple[str, ...]]:
     return rule
 
 
-_RULES: Mapping[str, Callable[[Made, Within], tuple[str, ...]]] = {
+_RULES: Mapping[str, Callable[[LaunchObject, Within], tuple[str, ...]]] = {
     "LaunchConfiguration": _configuration,
     "LaunchConfigAsBool": _configuration,
     "EnvironmentVariable": _environment,
@@ -205,7 +205,7 @@ SUBSTITUTIONS = frozenset(_RULES) | {"AnonName", "Parameter", "FileContent", "Lo
 def is_text(value: Value) -> bool:
     """Return whether a value is a substitution."""
     made = plain(value)
-    return isinstance(made, Made) and made.name in SUBSTITUTIONS
+    return isinstance(made, LaunchObject) and made.name in SUBSTITUTIONS
 
 
 _ASKING = frozenset({"IfCondition", "UnlessCondition"})
@@ -219,10 +219,10 @@ def conditions_of(value: Value, within: Within | None = None) -> Conditions:
     found: list[LaunchCondition] = []
     for one in alternatives(value):
         made = one.value
-        if isinstance(made, Made) and made.name in _ASKING:
+        if isinstance(made, LaunchObject) and made.name in _ASKING:
             asked = tuple(map(str, texts(made.get(0, "predicate_expression"), within)))
             found.append(LaunchCondition(asked, None, made.name == "IfCondition"))
-        elif isinstance(made, Made) and made.name in _COMPARING:
+        elif isinstance(made, LaunchObject) and made.name in _COMPARING:
             names = texts(made.get(0, "launch_configuration_name"), within)
             wanted = texts(made.get(1, "expected_value"), within)
             if len(names) != 1 or len(wanted) != 1:

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from ros_lint.base.text import Span, beginning
+from ros_lint.base.text import Span, file_start
 from ros_lint.collectors import symbolic_text as launch_text
 from ros_lint.collectors.launch.python.substitutions import Within, conditions_of, texts
 from ros_lint.collectors.python import syntax as python_syntax
@@ -17,8 +17,8 @@ from ros_lint.collectors.python.interpreter.values import (
     Function,
     Guarded,
     Instance,
-    Made,
-    Raised,
+    LaunchObject,
+    ProgramRaised,
     Union,
     Unknown,
     Value,
@@ -47,7 +47,7 @@ def span_of(node: python_syntax.Node, source: Source) -> Span:
     return Span(source.text.path, node.lineno, node.col_offset + 1, *end)
 
 
-def place_of(made: Made) -> Span:
+def place_of(made: LaunchObject) -> Span:
     """Return where an object is made."""
     return span_of(made.node, made.source)
 
@@ -89,7 +89,7 @@ class Walker:
     def _one(self, value: Value, conditions: Conditions, at: Span | None) -> list[LaunchAction]:
         if isinstance(value, Instance) and value.made is not None:
             value = value.made
-        if isinstance(value, Made):
+        if isinstance(value, LaunchObject):
             if id(value) in self._open:
                 return []
             value.seen = True
@@ -101,10 +101,10 @@ class Walker:
         if isinstance(value, (list, tuple)):
             return [action for one in value for action in self.actions(one, conditions, at)]
         if isinstance(value, Unknown) and value.reason:
-            self.blind.append((value.reason, at or beginning(self._source.text.path)))
+            self.blind.append((value.reason, at or file_start(self._source.text.path)))
         return []
 
-    def _made(self, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    def _made(self, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
         conditions = _merged(conditions, made.conditions)
         condition = made.get(-1, "condition")
         if condition is not None:
@@ -126,7 +126,7 @@ class Walker:
         found: list[LaunchAction] = []
         for text in targets:
             held = launch_text.conditions_of(text)
-            together = tuple(str(one) for one in packages if launch_text.agree((*held, *launch_text.conditions_of(one))))
+            together = tuple(str(one) for one in packages if launch_text.are_consistent((*held, *launch_text.conditions_of(one))))
             found.append(
                 action._replace(
                     target=LaunchValue((str(text),), action.target.span),
@@ -139,7 +139,7 @@ class Walker:
     def _alternatives(self, value: Value) -> tuple[str, ...]:
         return texts(value, Within(self.machine.spend)) if value is not None else ()
 
-    def _description(self, made: Made, conditions: Conditions) -> list[LaunchAction]:
+    def _description(self, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
         found: list[LaunchAction] = []
         index = 0
         # Functions that are called on the way may add to it.
@@ -155,9 +155,9 @@ class Walker:
         """Note once that not everything is followed."""
         if not self._stopped:
             self._stopped = True
-            self.blind.append((reason, at or beginning(self._source.text.path)))
+            self.blind.append((reason, at or file_start(self._source.text.path)))
 
-    def value(self, made: Made, position: int, *names: str) -> LaunchValue | None:
+    def value(self, made: LaunchObject, position: int, *names: str) -> LaunchValue | None:
         """Return an argument as a text, None when it is not there."""
         given = made.get(position, *names)
         return None if given is None else self.text(given, made.written(position, *names), made.source)
@@ -166,7 +166,7 @@ class Walker:
         """Return a value as a text with the place where it is written."""
         found = (str(given),) if isinstance(given, str) else _plain(texts(given, Within(self.machine.spend)))
         origin = plain(given)
-        while isinstance(origin, Made) and origin.name in ("TextSubstitution", "ParameterFile", "ParameterValue"):
+        while isinstance(origin, LaunchObject) and origin.name in ("TextSubstitution", "ParameterFile", "ParameterValue"):
             origin = plain(origin.get(0, "text", "param_file", "value"))
         if isinstance(origin, (list, tuple)) and len(origin) == 1:
             origin = plain(origin[0])
@@ -208,12 +208,12 @@ class Walker:
         node, source = self.machine.named[package]
         return self.text(package, node, source).span if isinstance(node, ast.Constant) else span_of(node, source)
 
-    def run(self, function: Value, arguments: Sequence[Value], keywords: Mapping[str, Value], made: Made) -> Value:
+    def run(self, function: Value, arguments: Sequence[Value], keywords: Mapping[str, Value], made: LaunchObject) -> Value:
         """Return what a function returns that launch calls."""
         frame = Frame(made.source, None, {})
         try:
             return self.machine.call(plain(function), list(arguments), dict(keywords), made.node, frame)
-        except Raised:
+        except ProgramRaised:
             return Unknown("a function that raises")
 
 
@@ -231,4 +231,4 @@ def _depends(text: str) -> bool:
     return bool(conditions) and not any(UNKNOWN in one for condition in conditions for one in condition.texts)
 
 
-Rule = Callable[[Walker, Made, Conditions], list[LaunchAction]]
+Rule = Callable[[Walker, LaunchObject, Conditions], list[LaunchAction]]

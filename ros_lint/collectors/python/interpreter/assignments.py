@@ -11,12 +11,12 @@ from ros_lint.collectors.python.interpreter.methods import items
 from ros_lint.collectors.python.interpreter.operations import hashable, may_have_more, operation
 from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
-    Api,
     Frame,
     Guarded,
     Instance,
-    Made,
-    Raised,
+    LaunchObject,
+    LibraryName,
+    ProgramRaised,
     Unknown,
     Value,
     Written,
@@ -72,7 +72,7 @@ def bind(machine: Machine, target: ast.expr, value: Value, frame: Frame) -> None
         for one in alternatives(machine.evaluate(target.value, frame)):
             if isinstance(one.value, Instance):
                 one.value.attributes[target.attr] = value
-            elif isinstance(one.value, Made):
+            elif isinstance(one.value, LaunchObject):
                 one.value.keywords[target.attr] = value
             else:
                 machine.lose(value)
@@ -111,7 +111,7 @@ def _store(machine: Machine, target: ast.Subscript, value: Value, frame: Frame) 
                 owner[name] = value
         elif isinstance(owner, list) and isinstance(key, int) and -len(owner) <= key < len(owner):
             owner[key] = value
-        elif isinstance(owner, Api) and owner.name == "os.environ":
+        elif isinstance(owner, LibraryName) and owner.name == "os.environ":
             _set_variable(machine, target, key, value, frame)
         else:
             machine.lose(value)
@@ -133,7 +133,7 @@ def _store_slice(machine: Machine, owner: list[Value], key: slice, value: Value)
     try:
         owner[key] = given
     except ValueError:
-        raise Raised("ValueError") from None
+        raise ProgramRaised("ValueError") from None
 
 
 def _set_variable(machine: Machine, target: ast.Subscript, name: Value, value: Value, frame: Frame) -> None:
@@ -147,9 +147,9 @@ def _import(machine: Machine, node: ast.Import, frame: Frame) -> None:
         found = machine.module(alias.name, frame.source, node)
         top = alias.name.partition(".")[0]
         if alias.asname:
-            frame.names[alias.asname] = found or Api(alias.name)
+            frame.names[alias.asname] = found or LibraryName(alias.name)
         elif found is None or "." not in alias.name:
-            frame.names[top] = found or Api(top)
+            frame.names[top] = found or LibraryName(top)
 
 
 def _import_from(machine: Machine, node: ast.ImportFrom, frame: Frame) -> None:
@@ -160,13 +160,13 @@ def _import_from(machine: Machine, node: ast.ImportFrom, frame: Frame) -> None:
             frame.names.update(found.names if found is not None else {})
             continue
         if alias.name in SUBSTITUTIONS:
-            frame.names[alias.asname or alias.name] = Api(f"{name}.{alias.name}")
+            frame.names[alias.asname or alias.name] = LibraryName(f"{name}.{alias.name}")
             continue
         inner = found.names.get(alias.name) if found is not None else None
         if inner is None:
             full = f"{name}.{alias.name}" if node.module else f"{name}{alias.name}"
             inner = machine.module(full, frame.source, node)
-        frame.names[alias.asname or alias.name] = inner if inner is not None else Api(f"{name}.{alias.name}")
+        frame.names[alias.asname or alias.name] = inner if inner is not None else LibraryName(f"{name}.{alias.name}")
 
 
 def _global(_machine: Machine, node: ast.Global, frame: Frame) -> None:
@@ -221,7 +221,7 @@ def _delete_element(machine: Machine, owner: Value, key: Value) -> None:
             owner[key] = Guarded(owner[key], (PERHAPS,))
     except (LookupError, TypeError) as error:
         if known:
-            raise Raised(type(error).__name__) from None
+            raise ProgramRaised(type(error).__name__) from None
 
 
 STATEMENTS: dict[type[ast.stmt], Callable[[Machine, Any, Frame], None]] = {

@@ -16,12 +16,12 @@ from ros_lint.collectors.python.interpreter.methods import items
 from ros_lint.collectors.python.interpreter.operations import opposite_of, truth
 from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
+    BudgetExceeded,
     Conditions,
     Exit,
     Frame,
     Guarded,
-    OutOfBudget,
-    Raised,
+    ProgramRaised,
     Unknown,
     Value,
     alternatives,
@@ -117,7 +117,7 @@ def _follow(
     machine.conditions, frame.names, known = (*before, taken), dict(start), len(frame.exits)
     try:
         signal = machine.execute(block, frame)
-    except Raised:
+    except ProgramRaised:
         signal = LEAVE
     exits = frame.exits[known:]
     del frame.exits[known:]
@@ -259,7 +259,7 @@ def follow_for(machine: Machine, node: ast.For | ast.AsyncFor, frame: Frame) -> 
     loop = _Loop(machine, frame)
     for turn, value in enumerate(values):
         if turn > _MOST_TURNS:
-            raise OutOfBudget
+            raise BudgetExceeded
         machine.spend(1)
         guards = next(alternatives(value)).conditions if isinstance(value, Guarded) else ()
         bind(machine, node.target, plain(value), frame)
@@ -283,7 +283,7 @@ def follow_while(machine: Machine, node: ast.While, frame: Frame) -> int:
             loop.ended = loop.ended or (isinstance(node.test, ast.Constant) and len(loop.exits) > _MOST_EXITS)
         if loop.ended or not answer:
             return loop.end(node.orelse)
-    raise OutOfBudget
+    raise BudgetExceeded
 
 
 def _perhaps(machine: Machine, body: Sequence[ast.stmt], frame: Frame) -> int:

@@ -17,14 +17,14 @@ from ros_lint.collectors.python.interpreter.calls import Call, Rule, nothing, un
 from ros_lint.collectors.python.interpreter.methods import call_method, of_instance
 from ros_lint.collectors.python.interpreter.operations import each, text_of, truth
 from ros_lint.collectors.python.interpreter.values import (
-    Api,
     Bound,
     Class,
     Guarded,
     Instance,
-    Made,
+    LaunchObject,
+    LibraryName,
     Method,
-    Raised,
+    ProgramRaised,
     Union,
     Unknown,
     Value,
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
 def _str(call: Call) -> Value:
     value = call.get(0)
-    if isinstance(value, Made):
+    if isinstance(value, LaunchObject):
         note(call.machine, value, "formatted", call.node, call.frame)
         return unknown_text(call)
     return call.result(text_of(value)) if value is not None or call.arguments else ""
@@ -51,7 +51,7 @@ def _number(kind: type) -> Rule:
             try:
                 return kind(*values)
             except (TypeError, ValueError, OverflowError) as error:
-                raise Raised(type(error).__name__) from None
+                raise ProgramRaised(type(error).__name__) from None
         return Unknown("a number")
 
     return rule
@@ -106,7 +106,7 @@ def _range_of(arguments: list[Value]) -> Value:
         try:
             return range(*values)
         except (TypeError, ValueError):
-            raise Raised from None
+            raise ProgramRaised from None
     return Unknown("a range")
 
 
@@ -132,12 +132,12 @@ def _keep(value: Value, function: Callable[[Value], Value]) -> Value:
 def _isinstance(call: Call) -> Value:
     value, kind = plain(call.get(0)), plain(call.get(1))
     kinds = kind if isinstance(kind, tuple) else (kind,)
-    names = {one.last for one in kinds if isinstance(one, Api)}
+    names = {one.last for one in kinds if isinstance(one, LibraryName)}
     if isinstance(value, (str, int, float, list, dict, tuple, type(None))) and len(names) == len(kinds):
         if isinstance(value, list) and any("set" in name.lower() for name in names):
             return Unknown("a kind")  # a set is kept as a list
         return any(_is_of(value, name) for name in names)
-    if isinstance(value, Made) and len(names) == len(kinds):
+    if isinstance(value, LaunchObject) and len(names) == len(kinds):
         return value.name in names or (Unknown("a kind") if names & {"Action", "Substitution", "Entity"} else False)
     if isinstance(value, Instance):
         return any(isinstance(one, Class) and value.cls is one for one in kinds) or Unknown("a kind")
@@ -205,7 +205,7 @@ def _content(machine: Machine, text: Value) -> Value:
     except YamlBoundError:
         return Unknown("the content of a file")
     except YamlError:
-        raise Raised from None
+        raise ProgramRaised from None
 
 
 def _partial(call: Call) -> Value:

@@ -28,11 +28,11 @@ from ros_lint.collectors.python.interpreter.operations import (
 from ros_lint.collectors.python.interpreter.ordering import unique
 from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
-    Api,
     Conditions,
     Frame,
     Guarded,
-    Raised,
+    LibraryName,
+    ProgramRaised,
     Union,
     Unknown,
     Value,
@@ -268,10 +268,10 @@ def _call(machine: Machine, node: ast.Call, frame: Frame) -> Value:
     # Each is called only where it is the one.
     found: list[Value] = []
     for one in alternatives(plain(function)):
-        with suppress(Raised), machine.under(*one.conditions):
+        with suppress(ProgramRaised), machine.under(*one.conditions):
             found.append(Guarded(machine.call(one.value, arguments, keywords, node, frame), one.conditions))
     if not found:
-        raise Raised
+        raise ProgramRaised
     return union(found)
 
 
@@ -292,7 +292,7 @@ def _comprehension(machine: Machine, node: ast.ListComp | ast.SetComp | ast.Gene
     found: list[Value] = []
     inner = _inside(node, frame)
     of = machine.evaluate(node.generators[0].iter, inner)
-    if isinstance(of, Api) and of.name == INSTALLED:
+    if isinstance(of, LibraryName) and of.name == INSTALLED:
         return of  # whatever is made of each: who asks what is in it asks what is installed
     _generate(machine, node.generators, of, inner, lambda: found.append(machine.guard(machine.evaluate(node.elt, inner))))
     return unique(found) if isinstance(node, ast.SetComp) else found

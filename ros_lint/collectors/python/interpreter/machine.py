@@ -21,24 +21,24 @@ from ros_lint.collectors.python.interpreter.builtins import BUILTINS
 from ros_lint.collectors.python.interpreter.expressions import EVALUATE
 from ros_lint.collectors.python.interpreter.methods import call_method
 from ros_lint.collectors.python.interpreter.operations import text_of
-from ros_lint.collectors.python.interpreter.recorder import Notes
+from ros_lint.collectors.python.interpreter.recorder import Recorder
 from ros_lint.collectors.python.interpreter.repeated_calls import UnderWay, begin
 from ros_lint.collectors.python.interpreter.statements import execute
 from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
-    Api,
     Bound,
+    BudgetExceeded,
     Class,
     FilePath,
     Frame,
     Function,
     Guarded,
     Instance,
-    Made,
+    LaunchObject,
+    LibraryName,
     Method,
     Modules,
-    OutOfBudget,
-    Raised,
+    ProgramRaised,
     Source,
     Unknown,
     Value,
@@ -76,7 +76,7 @@ lie around, and say less."""
 _Definition = ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
 
 
-class Machine(Notes):
+class Machine(Recorder):
     """Follows one launch file and the modules that it imports."""
 
     def __init__(self, modules: Modules, files: Callable[[str], Value]) -> None:
@@ -94,7 +94,7 @@ class Machine(Notes):
         """Count steps. Raises OutOfBudget."""
         self._left -= steps
         if self._left < 0:
-            raise OutOfBudget
+            raise BudgetExceeded
 
     def grant(self) -> None:
         """Allow some more steps: for what is left to do when the others were not enough."""
@@ -116,7 +116,7 @@ class Machine(Notes):
         """Follow the statements of a module."""
         frame = Frame(source, None, source.names)
         source.names.setdefault("__name__", "launch_file")
-        with suppress(Raised):
+        with suppress(ProgramRaised):
             execute(self, tree.body, frame)
         source.names = frame.names
         return frame
@@ -165,7 +165,7 @@ class Machine(Notes):
         """Return the value of an expression. Raises Raised and OutOfBudget."""
         self._left -= 1
         if self._left < 0:
-            raise OutOfBudget
+            raise BudgetExceeded
         return EVALUATE[type(node)](self, node, frame)
 
     def execute(self, body: Sequence[ast.stmt], frame: Frame) -> int:
@@ -188,24 +188,24 @@ class Machine(Notes):
         if node.id == "__file__":
             return BUILTINS["__file__"]
         if node.id in BUILTINS:
-            return Api(f"builtins.{node.id}")
+            return LibraryName(f"builtins.{node.id}")
         self.unbound.append((node, frame.source))
         # Python would stop here; what is meant is mostly plain.
-        return Api(node.id)
+        return LibraryName(node.id)
 
     def call(self, function: Value, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame) -> Value:
         """Return what calling a value returns."""
         self.spend(1)
-        if isinstance(function, Api):
+        if isinstance(function, LibraryName):
             return call_library(self, function.name, arguments, keywords, node, frame)
         if isinstance(function, Method):
-            if isinstance(function.owner, Made):
+            if isinstance(function.owner, LaunchObject):
                 return call_library(self, function, arguments, keywords, node, frame)
             return call_method(self, function, arguments, keywords, node, frame)
         if isinstance(function, Function):
             try:
                 return self._run_function(function, arguments, keywords, node, frame)
-            except Raised:
+            except ProgramRaised:
                 if function.frame.source is frame.source:
                     raise
                 # A helper is more likely to be misread than to fail.
@@ -227,7 +227,7 @@ class Machine(Notes):
         base = cls.library_base()
         if base is not None and base.last not in ("ABC", "object", "Enum", "NamedTuple", "Protocol"):
             result = call_library(self, base.name, arguments, keywords, node, frame)
-            made.made = result if isinstance(result, Made) else None
+            made.made = result if isinstance(result, LaunchObject) else None
         init = cls.find("__init__")
         if isinstance(init, Function):
             self._run_function(init, [made, *arguments], keywords, node, frame)
@@ -260,12 +260,12 @@ class Machine(Notes):
         allowed = self._left
         try:
             signal = execute(self, node.body, frame)
-        except OutOfBudget:
+        except BudgetExceeded:
             if left <= allowed:
                 raise
             self.lose([arguments, keywords])
             return Unknown("a call that takes too long")
-        except Raised:
+        except ProgramRaised:
             if not frame.returned:
                 raise
             signal = LEAVE  # this way out of several ends here
@@ -288,10 +288,10 @@ class Machine(Notes):
 
     def join_paths(self, left: Value, right: Sequence[Value], node: ast.expr, frame: Frame) -> Value:
         """Return what ``/`` or joinpath makes: a path of pathlib, or a substitution."""
-        if isinstance(left, Made) or any(isinstance(plain(one), Made) for one in right):
+        if isinstance(left, LaunchObject) or any(isinstance(plain(one), LaunchObject) for one in right):
             call = node if isinstance(node, ast.Call) else ast.Call(node, [], [])
             ast.copy_location(call, node)
-            return Made("PathJoinSubstitution", [[left, *right]], {}, call, frame.source)
+            return LaunchObject("PathJoinSubstitution", [[left, *right]], {}, call, frame.source)
         rows = [text_of(left), *[text_of(one) for one in right]]
         found = joined(rows, lambda row: posixpath.join("", *row))
         return union(guarded_text(text, FilePath(text)) for text in found)

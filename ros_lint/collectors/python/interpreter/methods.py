@@ -20,7 +20,6 @@ from ros_lint.collectors.python.interpreter.ordering import arranged, is_known, 
 from ros_lint.collectors.python.interpreter.path_functions import call_of_path, of_path
 from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
-    Api,
     Bound,
     Class,
     Context,
@@ -28,9 +27,10 @@ from ros_lint.collectors.python.interpreter.values import (
     Function,
     Guarded,
     Instance,
-    Made,
+    LaunchObject,
+    LibraryName,
     Method,
-    Raised,
+    ProgramRaised,
     Source,
     Union,
     Unknown,
@@ -84,7 +84,7 @@ def items(machine: Machine, value: Value) -> list[Value] | None:
         return list(value) if len(value) <= _MOST_ITEMS else None
     if isinstance(value, str) and is_plain(value):
         return list(value) if len(value) <= _MOST_ITEMS else None
-    if isinstance(value, Made) and value.name == "LaunchDescription":
+    if isinstance(value, LaunchObject) and value.name == "LaunchDescription":
         return list(value.entities)
     return None
 
@@ -92,11 +92,11 @@ def items(machine: Machine, value: Value) -> list[Value] | None:
 def attribute(machine: Machine, owner: Value, node: ast.Attribute, frame: Frame) -> Value:
     """Return an attribute of a value."""
     name = node.attr
-    if isinstance(owner, Api):
+    if isinstance(owner, LibraryName):
         full = f"{owner.name}.{name}"
         if full in CONSTANTS:
             return CONSTANTS[full]
-        return written(UNKNOWN, node, frame.source) if full == "sys.executable" else Api(full)
+        return written(UNKNOWN, node, frame.source) if full == "sys.executable" else LibraryName(full)
     if isinstance(owner, Instance):
         return of_instance(owner, name)
     if isinstance(owner, Class):
@@ -106,10 +106,10 @@ def attribute(machine: Machine, owner: Value, node: ast.Attribute, frame: Frame)
         return owner.names.get(name, Unknown(f"{name} of a module"))
     if isinstance(owner, FilePath):
         return of_path(owner, name)
-    if isinstance(owner, Made):
+    if isinstance(owner, LaunchObject):
         return _of_made(owner, name)
     if isinstance(owner, Context):
-        return Api(f"context.{name}")
+        return LibraryName(f"context.{name}")
     if isinstance(owner, (str, list, dict, tuple, set)):
         return Method(owner, name)
     machine.lose(owner)
@@ -132,7 +132,7 @@ def of_instance(owner: Instance, name: str) -> Value:
     return Unknown(f"attribute {name} of an object")
 
 
-def _of_made(owner: Made, name: str) -> Value:
+def _of_made(owner: LaunchObject, name: str) -> Value:
     match owner.name, name:
         case "LaunchDescription", "entities":
             return owner.entities
@@ -143,7 +143,7 @@ def _of_made(owner: Made, name: str) -> Value:
     return Method(owner, name)
 
 
-def built_for(builder: Made) -> str:
+def built_for(builder: LaunchObject) -> str:
     """Return the package that one of MoveIt's builders is for, "" if it is not known: by the name of a robot, unless told."""
     of_robots = builder.name == "MoveItConfigsBuilder"
     package, robot = builder.get(2 if of_robots else 0, "package_name"), builder.get(0, "robot_name")
@@ -205,7 +205,7 @@ def _of_text(
         try:
             result = getattr(str(owner), name)(*values)
         except (OverflowError, TypeError, ValueError):
-            raise Raised from None
+            raise ProgramRaised from None
         return result if not isinstance(result, str) or len(result) <= LONGEST else UNKNOWN
     if known and name in EVALUATED and len(owner) <= LONGEST and waits(owner) and not names_places(owner):
         later = expression(f"{quoted(owner)}.{name}({', '.join(map(repr, values))})")
@@ -230,7 +230,7 @@ def _formatted(owner: str, arguments: list[Value], keywords: dict[str, Value], n
     try:
         fields = list(string.Formatter().parse(owner))
     except ValueError:
-        raise Raised from None
+        raise ProgramRaised from None
     count = 0
     for literal, field, spec, conversion in fields:
         rows.append((literal,))
@@ -290,7 +290,7 @@ def _of_list(machine: Machine, owner: list[Value], name: str, arguments: list[Va
             if same_ones:
                 del owner[same_ones[0]]
             elif name == "remove" and all(map(is_known, (*owner, first))):
-                raise Raised("ValueError")
+                raise ProgramRaised("ValueError")
             return None
         case "union":
             return unique([*owner, *(one for argument in arguments for one in items(machine, argument) or [])])
@@ -304,7 +304,7 @@ def _popped(owner: list[Value], position: Value) -> Value:
     try:
         return plain(owner.pop(index))
     except IndexError:
-        raise Raised("IndexError") from None
+        raise ProgramRaised("IndexError") from None
 
 
 def _of_dict(machine: Machine, owner: dict[Any, Value], name: str, arguments: list[Value], keywords: dict[str, Value]) -> Value:
@@ -327,7 +327,7 @@ def _of_dict(machine: Machine, owner: dict[Any, Value], name: str, arguments: li
             if UNKNOWN in owner:
                 return union([owner[UNKNOWN], default])
             if name == "pop" and len(arguments) == 1 and key != UNKNOWN:
-                raise Raised("KeyError")
+                raise ProgramRaised("KeyError")
             if name == "setdefault":
                 owner[key] = default
             return default
@@ -336,7 +336,7 @@ def _of_dict(machine: Machine, owner: dict[Any, Value], name: str, arguments: li
             return None
         case "popitem" if UNKNOWN not in owner:
             if not owner:
-                raise Raised("KeyError")
+                raise ProgramRaised("KeyError")
             return owner.popitem()
         case "update":
             return _updated(machine, owner, arguments, keywords)

@@ -11,13 +11,13 @@ from ros_lint.collectors.launch.python.substitutions import texts
 from ros_lint.collectors.python.interpreter.ordering import MOST_COMPARED, is_known, is_small
 from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
-    Api,
     Conditions,
     FilePath,
     Frame,
     Guarded,
-    Made,
-    Raised,
+    LaunchObject,
+    LibraryName,
+    ProgramRaised,
     Union,
     Unknown,
     Value,
@@ -65,10 +65,10 @@ def each(value: Value, function: Callable[[Value], Value]) -> Value:
     for one in alternatives(value):
         try:
             found.append(Guarded(function(one.value), one.conditions))
-        except Raised:  # then this alternative is none
+        except ProgramRaised:  # then this alternative is none
             raised = True
     if raised and not found:
-        raise Raised
+        raise ProgramRaised
     return union(found)
 
 
@@ -85,7 +85,7 @@ def truth(machine: Machine, value: Value) -> tuple[bool | None, LaunchCondition]
         return None, LaunchCondition((str(value),), "", wanted=False)
     if value is None or isinstance(value, (*_NUMBERS, list, dict, tuple, set, frozenset, range)):
         return bool(value), PERHAPS
-    return (None if isinstance(value, Api) else True), PERHAPS
+    return (None if isinstance(value, LibraryName) else True), PERHAPS
 
 
 def _truth_of_several(machine: Machine, value: Union) -> tuple[bool | None, LaunchCondition]:
@@ -135,7 +135,7 @@ def _shown(value: Any) -> str:
 
 def hashable(key: Value) -> Any:
     """Return what a value is as a key: itself, or a text for what cannot be one."""
-    if isinstance(key, (list, tuple, Made)):
+    if isinstance(key, (list, tuple, LaunchObject)):
         found = texts(key)
         return found[0] if len(found) == 1 else UNKNOWN
     if isinstance(key, (str, *_NUMBERS)) or key is None:
@@ -173,7 +173,7 @@ def operation(machine: Machine, op: ast.operator, left: Value, right: Value, nod
     """Return what an operator makes of two values."""
     if isinstance(op, ast.Add):
         for one, other in ((left, right), (right, left)):
-            if isinstance(other, (str, list, tuple, Made)):
+            if isinstance(other, (str, list, tuple, LaunchObject)):
                 note(machine, one, "added", node, frame)
     elif isinstance(op, ast.Mod) and isinstance(left, str):
         for one in right if isinstance(right, tuple) else (right,):
@@ -196,7 +196,7 @@ def _single(machine: Machine, op: ast.operator, left: Value, right: Value, node:
             return [*left, right]
         if isinstance(left, Unknown) and isinstance(right, (list, tuple)):
             return [left, *right]
-    if isinstance(op, ast.Div) and (isinstance(left, (FilePath, Made)) or isinstance(right, FilePath)):
+    if isinstance(op, ast.Div) and (isinstance(left, (FilePath, LaunchObject)) or isinstance(right, FilePath)):
         return machine.join_paths(left, [right], node, frame)
     if isinstance(op, ast.Mod) and isinstance(left, str):
         return _percent(left, right, node, frame)
@@ -207,7 +207,7 @@ def _single(machine: Machine, op: ast.operator, left: Value, right: Value, node:
             if abs(left) < 1 << 64 and abs(right) < 1 << 64:
                 return _OPERATORS[type(op)](left, right)
         except (ArithmeticError, TypeError, ValueError):
-            raise Raised from None
+            raise ProgramRaised from None
     if isinstance(op, ast.Mult):
         if isinstance(left, int):
             left, right = right, left
@@ -229,7 +229,7 @@ def _percent(left: str, right: Value, node: ast.expr, frame: Frame) -> Value:
         try:
             return written(left % tuple(plain(value) for value in values), node, frame.source)
         except (OverflowError, TypeError, ValueError):
-            raise Raised from None
+            raise ProgramRaised from None
     return Unknown("text made with %")
 
 
@@ -259,7 +259,7 @@ def _one_compare(op: ast.cmpop, left: Value, right: Value) -> Value:
         return same is isinstance(op, ast.Is)
     if isinstance(op, (ast.In, ast.NotIn)):
         return _contained(op, left, right)
-    if isinstance(left, (Unknown, Api, Made)) or isinstance(right, (Unknown, Api, Made)):
+    if isinstance(left, (Unknown, LibraryName, LaunchObject)) or isinstance(right, (Unknown, LibraryName, LaunchObject)):
         return Unknown("comparison with what is not known")
     if isinstance(op, (ast.Eq, ast.NotEq)):
         if isinstance(left, FilePath) and isinstance(right, FilePath):
@@ -280,12 +280,12 @@ def _one_compare(op: ast.cmpop, left: Value, right: Value) -> Value:
     try:
         return bool(COMPARISONS[type(op)](left, right))
     except (TypeError, RecursionError):
-        raise Raised from None
+        raise ProgramRaised from None
 
 
 def _contained(op: ast.cmpop, left: Value, right: Value) -> Value:
     wanted = isinstance(op, ast.In)
-    if isinstance(right, Api) and right.name == INSTALLED:
+    if isinstance(right, LibraryName) and right.name == INSTALLED:
         return Unknown("whether a package is installed", LaunchCondition((presence(_str(left)),), None, wanted))
     if isinstance(right, str):
         if isinstance(left, str) and is_plain(left) and is_plain(right):
@@ -326,7 +326,7 @@ def sliced(owner: Value, parts: list[Value]) -> Value:
         try:
             return owner[slice(*parts)]
         except ValueError:
-            raise Raised from None
+            raise ProgramRaised from None
     if known and isinstance(owner, str) and waits(owner):
         return expression(f"{quoted(owner)}[{':'.join(['' if part is None else str(part) for part in parts])}]")
     return Unknown("part of what is not known")
@@ -370,19 +370,19 @@ def subscript(machine: Machine, owner: Value, key: Value) -> Value:
             return owner[name]
         if isinstance(key, Unknown) or UNKNOWN in owner:
             return union(owner.values()) if owner else Unknown("element of an empty dictionary")
-        raise Raised("KeyError")
+        raise ProgramRaised("KeyError")
     if isinstance(owner, (list, tuple)):
         if isinstance(key, int) and (-len(owner) <= key < len(owner) or not may_have_more(owner)):
             try:
                 return plain(owner[key])
             except IndexError:
-                raise Raised("IndexError") from None
+                raise ProgramRaised("IndexError") from None
         return union(owner) if owner else Unknown("element of an empty list")
     if isinstance(owner, str) and is_plain(owner) and isinstance(key, int):
         try:
             return owner[key]
         except IndexError:
-            raise Raised("IndexError") from None
+            raise ProgramRaised("IndexError") from None
     if isinstance(owner, str) and isinstance(key, int) and waits(owner):
         return expression(f"{quoted(owner)}[{key}]")
     return machine.subscript_of_library(owner, key)

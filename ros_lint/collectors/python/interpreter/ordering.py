@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from ros_lint.collectors.python.interpreter.values import Guarded, Raised, Unknown, Value, plain
+from ros_lint.collectors.python.interpreter.values import Guarded, ProgramRaised, Unknown, Value, plain
 from ros_lint.collectors.symbolic_text import UNKNOWN, is_plain
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ def extreme(function: Callable[..., int]) -> Rule:
             return Unknown("the least or the greatest of what is not known")
         if not values:
             if "default" not in call.keywords:
-                raise Raised
+                raise ProgramRaised
             return call.keywords["default"]
         keys = _keys(call.machine, values, call.keywords, call.node, call.frame)
         if keys is None:
@@ -83,7 +83,7 @@ def _ordered(keys: list[Any], *, reverse: bool = False) -> list[int]:
     try:
         return sorted(range(len(keys)), key=keys.__getitem__, reverse=reverse)
     except TypeError:
-        raise Raised from None
+        raise ProgramRaised from None
 
 
 def unique(values: Iterable[Value]) -> list[Value]:

@@ -11,7 +11,7 @@ from ros_lint.collectors.python.interpreter.values import (
     Conditions,
     Guarded,
     Instance,
-    Made,
+    LaunchObject,
     Source,
     Union,
     Unknown,
@@ -23,14 +23,14 @@ from ros_lint.collectors.symbolic_text import UNKNOWN
 from ros_lint.facts.launch import LaunchCondition
 
 
-class Notes:
+class Recorder:
     """What is found out about one launch file and the modules that it imports, and the conditions that hold just now."""
 
     def __init__(self) -> None:
         self._branches = 0
         self._variables: dict[str, Value] = {}
         self.conditions: Conditions = ()
-        self.made: list[Made] = []
+        self.made: list[LaunchObject] = []
         """Everything made of the classes of the launch libraries, in order."""
         self.looked_up: list[tuple[str, ast.expr, Source, Conditions]] = []
         """Packages looked up at once, where, and under which conditions."""
@@ -52,7 +52,7 @@ class Notes:
         """Packages that are looked up when something is launched."""
         self.named: dict[str, tuple[ast.expr, Source]] = {}
         """Where each package that is looked up is written first, by its name or, if it hangs on arguments, by its text."""
-        self.variables: list[Made] = []
+        self.variables: list[LaunchObject] = []
         """What sets environment variables of the process that launches, in order."""
 
     # --- conditions -----------------------------------------------------------------------------------------------
@@ -83,7 +83,7 @@ class Notes:
         while waiting and count < 1_000:
             one = waiting.pop()
             count += 1
-            if isinstance(one, Made):
+            if isinstance(one, LaunchObject):
                 if not one.lost:
                     one.lost = True
                     waiting += [*one.arguments, *one.keywords.values(), *one.entities]
@@ -119,7 +119,7 @@ class Notes:
 
     def set_variable(self, name: str, value: Value, at: ast.Call, source: Source) -> None:
         """Note that an environment variable is set for all that comes after it."""
-        made = Made("SetEnvironmentVariable", [name, value], {}, at, source)
+        made = LaunchObject("SetEnvironmentVariable", [name, value], {}, at, source)
         made.conditions = self.conditions
         self.variables.append(made)
         self._variables[name] = union([self.variable(name), self.guard(value)]) if self.conditions else value

@@ -12,13 +12,13 @@ from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 from ros_lint.collectors.python.interpreter.values import (
-    Api,
     FilePath,
     Frame,
     Function,
     Guarded,
     Instance,
-    Made,
+    LaunchObject,
+    LibraryName,
     Union,
     Unknown,
     Value,
@@ -121,10 +121,10 @@ class _Outliner:
                 return dict, frozenset((key, self.of(one, depth + 1)) for key, one in value.items())
             case Instance(cls=cls, attributes=attributes):
                 return cls, self.of(attributes, depth + 1)
-            case Made(node=node, arguments=arguments, keywords=keywords, entities=entities):
+            case LaunchObject(node=node, arguments=arguments, keywords=keywords, entities=entities):
                 return node, *(self.of(inner, depth + 1) for inner in (arguments, keywords, entities))
-            case Api(name=name):
-                return Api, name
+            case LibraryName(name=name):
+                return LibraryName, name
         return type(value), value
 
     def _text(self, text: str) -> Any:

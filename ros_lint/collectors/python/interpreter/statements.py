@@ -22,14 +22,14 @@ from ros_lint.collectors.python.interpreter.branches import (
 )
 from ros_lint.collectors.python.interpreter.operations import truth
 from ros_lint.collectors.python.interpreter.values import (
-    Api,
     Bound,
     Class,
     Conditions,
     Frame,
     Function,
     Guarded,
-    Raised,
+    LibraryName,
+    ProgramRaised,
     Unknown,
     Value,
     plain,
@@ -99,11 +99,11 @@ def _try(machine: Machine, node: ast.Try, frame: Frame) -> int:
         return _finally(machine, node, frame, before) or signal
     guarded = any(map(catches_missing_file, node.handlers))
     machine.guarded += guarded
-    raised: Raised | None = None
+    raised: ProgramRaised | None = None
     signal = NEXT
     try:
         signal = execute(machine, node.body, frame)
-    except Raised as error:
+    except ProgramRaised as error:
         raised = error
     finally:
         machine.guarded -= guarded
@@ -139,7 +139,7 @@ def _return(machine: Machine, node: ast.Return, frame: Frame) -> int:
 
 
 def _raise(_machine: Machine, node: ast.Raise, _frame: Frame) -> int:
-    raise Raised(kind_raised(node))
+    raise ProgramRaised(kind_raised(node))
 
 
 def _break(_machine: Machine, _node: ast.Break, _frame: Frame) -> int:
@@ -209,7 +209,7 @@ _LEAVING = frozenset({"abc", "builtins", "contextlib", "functools", "launch_test
 def _decorated(machine: Machine, function: Function, decorator: ast.expr, frame: Frame) -> Value:
     """Return what a decorator makes of a function; the function itself, marked as changed, if that is not followed."""
     name = machine.evaluate(decorator.func if isinstance(decorator, ast.Call) else decorator, frame)
-    if isinstance(name, Api) and name.name.partition(".")[0] in _LEAVING:
+    if isinstance(name, LibraryName) and name.name.partition(".")[0] in _LEAVING:
         return function
     by = machine.evaluate(decorator, frame) if isinstance(decorator, ast.Call) else name
     if isinstance(by, Function):

@@ -12,7 +12,7 @@ from pathlib import PurePosixPath
 from typing import Any, Final, NamedTuple
 
 from ros_lint.base.text import Text
-from ros_lint.collectors.symbolic_text import MOST, UNKNOWN, agree, conditional, conditions_of, configuration, is_plain
+from ros_lint.collectors.symbolic_text import MOST, UNKNOWN, are_consistent, conditional, conditions_of, configuration, is_plain
 from ros_lint.facts.launch import LaunchCondition
 
 Value = Any
@@ -105,7 +105,7 @@ class FilePath:
         self.text = str(PurePosixPath(text)) if is_plain(text) else text
 
 
-class Api:
+class LibraryName:
     """A name of a library: a module, a class, a function."""
 
     __slots__ = ("name",)
@@ -128,7 +128,7 @@ def argument_of(call: ast.Call, position: int, *names: str) -> ast.expr:
     return call.args[position]
 
 
-class Made:
+class LaunchObject:
     """What calling a class of the launch libraries makes: an action, a substitution, a description."""
 
     __slots__ = ("arguments", "conditions", "entities", "keywords", "lost", "name", "node", "seen", "source")
@@ -248,9 +248,9 @@ class Class:
         line = [one for one in self._line() if isinstance(one, Class)]
         return dict.fromkeys(name for one in reversed(line) for name in one.fields)
 
-    def library_base(self) -> Api | None:
+    def library_base(self) -> LibraryName | None:
         """Return the class of a library that it is made from."""
-        return next((one for one in self._line() if isinstance(one, Api)), None)
+        return next((one for one in self._line() if isinstance(one, LibraryName)), None)
 
     def _line(self) -> Iterator[Value]:
         """Yield the class and those above it, each once."""
@@ -273,7 +273,7 @@ class Instance:
     def __init__(self, cls: Class) -> None:
         self.cls = cls
         self.attributes: dict[str, Value] = {}
-        self.made: Made | None = None
+        self.made: LaunchObject | None = None
 
 
 class Context:
@@ -310,7 +310,7 @@ class Frame:
         self.yielded: list[Value] = []
 
 
-class Raised(Exception):  # noqa: N818  (it stands for any exception of the program)
+class ProgramRaised(Exception):  # noqa: N818  (it stands for any exception of the program)
     """The program raises an exception of the class ``kind``, "" if that is unknown."""
 
     def __init__(self, kind: str = "") -> None:
@@ -318,7 +318,7 @@ class Raised(Exception):  # noqa: N818  (it stands for any exception of the prog
         self.kind = kind
 
 
-class OutOfBudget(Exception):  # noqa: N818
+class BudgetExceeded(Exception):  # noqa: N818
     """The program takes too many steps, or too much memory."""
 
 
@@ -327,7 +327,7 @@ def union(values: Iterable[Value]) -> Value:
     found: list[Guarded] = []
     for value in values:
         for one in alternatives(value):
-            if len(one.conditions) > 1 and not agree(one.conditions):
+            if len(one.conditions) > 1 and not are_consistent(one.conditions):
                 continue
             if not any(same(one.value, other.value) and one.conditions == other.conditions for other in found):
                 found.append(one)
