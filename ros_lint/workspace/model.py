@@ -140,6 +140,30 @@ class Package(NamedTuple):
         """Return the tags that declare a name, conditions that may be false included."""
         return [declared for declared in self.declared if declared.depend.name == name]
 
+    @property
+    def cmake_lists(self) -> str:
+        """The path of the package's own CMakeLists.txt, relative to the base."""
+        return join(self.path, "CMakeLists.txt")
+
+    def calls(self, *names: str, anywhere: bool = False) -> Iterator[Call]:
+        """Yield the calls of CMake commands, in order: in the package's own CMakeLists.txt, or ``anywhere`` in its CMake files."""
+        if self.script is None:
+            return
+        calls = [call for call in self.script.written if call.name in names]
+        yield from calls if anywhere else [call for call in calls if call.path == self.cmake_lists]
+
+    def relative(self, path: str) -> str:
+        """Return a path relative to the package."""
+        return strip_folder(self.path, path)
+
+    def base_path(self, path: str) -> str:
+        """Return a path of the package relative to the base, as spans have it: the reverse of :meth:`relative`."""
+        return join(self.path, path)
+
+    def start_of(self, path: str) -> Span:
+        """Return the empty span at the start of a file of the package: for findings about the file as a whole."""
+        return file_start(join(self.path, path))
+
 
 class Workspace:
     """All packages, and the world they live in.
@@ -209,35 +233,3 @@ class Workspace:
                     if reference.kind == "component":
                         found[reference.package] = found.get(reference.package, frozenset()) | {reference.name}
         return found
-
-
-def top_file(package: Package) -> str:
-    """Return the path of the package's own CMakeLists.txt, relative to the base."""
-    return from_base(package, "CMakeLists.txt")
-
-
-def called(package: Package, *names: str, anywhere: bool = False) -> Iterator[Call]:
-    """Yield the calls of commands in the package's own CMakeLists.txt, or ``anywhere`` in its CMake files, in order."""
-    if package.script is None:
-        return
-    found = [call for call in package.script.written if call.name in names]
-    if anywhere or not found:
-        yield from found
-    else:
-        top = top_file(package)
-        yield from (call for call in found if call.path == top)
-
-
-def relative(package: Package, path: str) -> str:
-    """Return a path relative to the package."""
-    return strip_folder(package.path, path)
-
-
-def from_base(package: Package, path: str) -> str:
-    """Return a path of the package relative to the base, as places have it: the reverse of :func:`relative`."""
-    return join(package.path, path)
-
-
-def place_of(package: Package, path: str) -> Span:
-    """Return where to point when a file of the package as a whole is meant."""
-    return file_start(from_base(package, path))

@@ -30,7 +30,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import EXPORTING_PLUGINS, Finding, Package, Rule, Severity, Workspace, called
+from ros_lint.api import Finding, Package, Rule, Severity, Workspace, build
 
 _EXPORTS = {
     "nodelet": "convert the nodelet to a component",
@@ -41,7 +41,7 @@ _EXPORTS = {
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
     if package.builds_with not in ("ament_cmake", "ament_python") or package.manifest is None:
         return
-    for call in called(package, "find_package", "catkin_package"):
+    for call in package.calls("find_package", "catkin_package"):
         if call.blocks or call.test:
             continue
         if call.name == "catkin_package":
@@ -54,7 +54,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         return
     for element in exports:
         if element.tag in _EXPORTS and not element.get("condition"):
-            exported = EXPORTING_PLUGINS in package.built.calls
+            exported = build.EXPORTING_PLUGINS in package.built.calls
             remedy = "remove it" if exported else _EXPORTS[element.tag]
             yield Finding(
                 f"<{element.tag}> in <export> has no effect in ROS 2; {remedy}",

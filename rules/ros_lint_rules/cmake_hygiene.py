@@ -33,7 +33,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ros_lint.api import Call, Finding, Package, Related, Rule, Severity, Workspace, called, relative
+from ros_lint.api import Call, Finding, Package, Related, Rule, Severity, Workspace
 
 _OVERWRITTEN = ("CMAKE_BUILD_TYPE", "CMAKE_INSTALL_PREFIX", "CMAKE_PREFIX_PATH")
 _CMAKE_4 = ("lyrical", "rolling")
@@ -44,7 +44,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if script is None or package.builds_with != "ament_cmake":
         return
     first: dict[tuple[str, ...], Call] = {}
-    for call in called(package, "cmake_minimum_required", "find_package", "include", "link_directories", "set"):
+    for call in package.calls("cmake_minimum_required", "find_package", "include", "link_directories", "set"):
         if call.blocks or call.test or not call.args:
             continue
         name = call.texts[0]
@@ -65,7 +65,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 yield Finding(f"use find_package({name[4:]}) instead of include({name})", call.place, name[4:])
             case "link_directories":
                 message = "link_directories() affects every later target; link targets by name instead"
-                yield Finding(message, call.place, relative(package, call.path))
+                yield Finding(message, call.place, package.relative(call.path))
             case _:
                 pass
 

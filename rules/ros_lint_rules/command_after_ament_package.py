@@ -27,7 +27,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import ENDS, EXPORTING_PLUGINS, REGISTERING, Call, Finding, Package, Related, Rule, Severity, Workspace, called
+from ros_lint.api import Call, Finding, Package, Related, Rule, Severity, Workspace, build
 
 _STOP = (
     "ament_environment_hooks",
@@ -41,7 +41,7 @@ _STOP = (
     "ament_vendor",
     "rosidl_generate_interfaces",
 )
-_IGNORED = (EXPORTING_PLUGINS, *REGISTERING)
+_IGNORED = (build.EXPORTING_PLUGINS, *build.REGISTERING)
 
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
@@ -49,15 +49,15 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         return
     end: Call | None = None
     # A second find_package(ament_lint_auto) has no effect, and macros of other packages may contain the first one.
-    plain = any(call.texts[:1] in (("ament_cmake",), ("ament_cmake_auto",)) for call in called(package, "find_package"))
-    ends = [call for call in called(package, *ENDS) if not call.blocks]
-    for call in called(package, *ENDS, *_STOP, *_IGNORED, "find_package"):
+    plain = any(call.texts[:1] in (("ament_cmake",), ("ament_cmake_auto",)) for call in package.calls("find_package"))
+    ends = [call for call in package.calls(*build.ENDS) if not call.blocks]
+    for call in package.calls(*build.ENDS, *_STOP, *_IGNORED, "find_package"):
         if call.blocks and (set(call.blocks) != {"if"} or not call.test):
             continue
         if call.name == "find_package" and (end is None or not plain):
             plain = plain and call.texts[:1] != ("ament_lint_auto",)
             continue
-        if call.name in ENDS:
+        if call.name in build.ENDS:
             if ends[-1:] == [call]:  # duplicate-ament-package reports the earlier ones
                 end = call
         elif end is not None and (effect := _effect(call)):

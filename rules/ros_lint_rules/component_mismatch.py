@@ -42,7 +42,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from ros_lint.api import (
-    REGISTERING,
     BuildScript,
     Call,
     Component,
@@ -57,18 +56,12 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
-    called,
-    cmake_edits,
-    did_you_mean,
-    evaluated_name,
+    build,
+    dependencies,
+    edits,
+    files,
     first_related,
-    install_arguments,
-    is_auxiliary,
-    libraries_in_libexec,
-    library_registering,
-    names_searched,
-    relative,
-    similar_names,
+    names,
 )
 
 
@@ -76,18 +69,18 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_cmake" or package.hidden(Facet.COMPONENTS):
         return
-    calls = called(package, "rclcpp_components_register_nodes")
+    calls = package.calls("rclcpp_components_register_nodes")
     yield from (_confused(call, strays) for call in calls if (strays := _strays(call)))
     macros = [macro for macro in package.registrations if macro.kind == "component"]
-    macros = [macro for macro in macros if not is_auxiliary(relative(package, macro.span.path))]
-    names = {macro.name for macro in macros}
+    macros = [macro for macro in macros if not files.is_auxiliary(package.relative(macro.span.path))]
+    all_names = {macro.name for macro in macros}
     registered = {component.name.removeprefix("::") for component in script.components}
     unregistered = [macro for macro in macros if macro.name not in registered]
-    lacking = [component for component in script.components if component.name.removeprefix("::") not in names]
+    lacking = [component for component in script.components if component.name.removeprefix("::") not in all_names]
     if not macros and not _forgets_macro(package):
         lacking = []  # a macro of another package may expand to RCLCPP_COMPONENTS_REGISTER_NODE
     # One component without a macro and one compiled macro without a component belong together, whatever their names.
-    only = unregistered if len(lacking) == len(unregistered) == 1 and library_registering(package, unregistered[0]) else []
+    only = unregistered if len(lacking) == len(unregistered) == 1 and build.library_registering(package, unregistered[0]) else []
     for component in lacking:
         alike = only or _alike(component, unregistered)
         unregistered = [macro for macro in unregistered if macro not in alike]
@@ -122,7 +115,7 @@ def _confused(call: Call, strays: Sequence[tuple[int, int]]) -> Finding:
         "rclcpp_components_register_node()",
         call.span(strays[0][0]),
         call.texts[0],
-        fix=Fix(f"remove {words}", tuple([cmake_edits.drop(call, *stray) for stray in strays])),
+        fix=Fix(f"remove {words}", tuple([edits.cmake.drop(call, *stray) for stray in strays])),
         severity=Severity.WARNING,
     )
 
@@ -152,7 +145,7 @@ def _alike(component: Component, macros: list[Registration]) -> list[Registratio
     if alike:
         return alike
     plain = {_plain(macro.name.rpartition("::")[2]): macro for macro in macros}
-    near = similar_names(_plain(last), plain, 1, 0.8)
+    near = names.similar_names(_plain(last), plain, 1, 0.8)
     return [plain[near[0]]] if near else []
 
 
@@ -161,7 +154,7 @@ def _plain(name: str) -> str:
 
 
 def _without_macro(component: Component, alike: list[Registration]) -> Finding:
-    hint = did_you_mean([alike[0].name]) if alike else f"; add RCLCPP_COMPONENTS_REGISTER_NODE({component.name})"
+    hint = names.did_you_mean([alike[0].name]) if alike else f"; add RCLCPP_COMPONENTS_REGISTER_NODE({component.name})"
     place = component.span.inner(component.name) if len(alike) == 1 else None
     fix = Fix(f"write '{alike[0].name}'", (Edit(place, alike[0].name),)) if place else None
     related = first_related(Related("the source registers this class", macro.span) for macro in alike)
@@ -172,10 +165,10 @@ def _without_macro(component: Component, alike: list[Registration]) -> Finding:
 def _unregistered(package: Package, macro: Registration, *, loaded: bool) -> Finding:
     script = package.script
     assert script is not None
-    library = library_registering(package, macro)
+    library = build.library_registering(package, macro)
     command = f'rclcpp_components_register_nodes({library or "..."} "{macro.name}")'
-    usable = library and "rclcpp_components" in names_searched(package, script)
-    fix = Fix.of(f"register '{macro.name}'", cmake_edits.at_end(script, command), safe=False) if usable else None
+    usable = library and "rclcpp_components" in dependencies.names_searched(package, script)
+    fix = Fix.of(f"register '{macro.name}'", edits.cmake.at_end(script, command), safe=False) if usable else None
     return Finding(
         f"CMake does not register the component '{macro.name}'; add {command}",
         macro.span,
@@ -190,13 +183,13 @@ def _libraries(package: Package) -> Iterator[Finding]:
     """Yield the libraries with components that are not installed to lib."""
     script = package.script
     assert script is not None
-    files = {provided.path.rpartition("/")[2] for provided in script.provides}
-    listed = install_arguments(package).union(provided.target for provided in script.provides)
-    elsewhere = libraries_in_libexec(package, (".so",))
+    paths = {provided.path.rpartition("/")[2] for provided in script.provides}
+    listed = build.install_arguments(package).union(provided.target for provided in script.provides)
+    elsewhere = build.libraries_in_libexec(package, (".so",))
     targets = {target.name: target for target in reversed(script.targets)}
     reported: set[str] = set()
-    for call in called(package, *REGISTERING):
-        name = evaluated_name(package, call.texts[0]) if call.args else None
+    for call in package.calls(*build.REGISTERING):
+        name = build.evaluated_name(package, call.texts[0]) if call.args else None
         if name not in targets or name in reported or call.blocks:
             continue
         if place := elsewhere.get(name):
@@ -208,9 +201,9 @@ def _libraries(package: Package) -> Iterator[Finding]:
                 name,
                 (Related("its components are registered here", call.span(0)),),
             )
-        elif name not in listed and not any(file.startswith(f"lib{name}.") for file in files):
+        elif name not in listed and not any(file.startswith(f"lib{name}.") for file in paths):
             reported.add(name)
-            fix = Fix.of(f"install '{name}'", cmake_edits.install_library(script, name))
+            fix = Fix.of(f"install '{name}'", edits.cmake.install_library(script, name))
             message = f"the library '{name}' has components but is not installed; install it to lib"
             yield Finding(message, call.span(0), name, (Related("the library is built here", targets[name].span),), fix)
 

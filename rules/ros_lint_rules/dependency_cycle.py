@@ -30,30 +30,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import (
-    Confidence,
-    Cycle,
-    Edge,
-    Finding,
-    Graph,
-    Reason,
-    Related,
-    Rule,
-    Severity,
-    Workspace,
-    cycles,
-    dependency_graph,
-)
+from ros_lint.api import Confidence, Finding, Related, Rule, Severity, Workspace, graph
 
 _MOST_NAMES = 10
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
-    graph = dependency_graph(workspace)
-    for knot in cycles(graph):
+    package_graph = graph.dependency_graph(workspace)
+    for knot in graph.cycles(package_graph):
         edges = tuple(zip(knot.cycle, (*knot.cycle[1:], knot.cycle[0]), strict=True))
         anchor = next(edge for edge in edges if edge in knot.cut)
-        here, *rest = graph.reasons(anchor)
+        here, *rest = package_graph.reasons(anchor)
         cycle = " -> ".join((*knot.cycle, knot.cycle[0]))
         yield Finding(
             f"{'' if knot.certain else 'possible '}dependency cycle {cycle}{_others(knot)}; "
@@ -62,35 +49,35 @@ def check(workspace: Workspace) -> Iterator[Finding]:
             cycle,
             (
                 *(Related(f"remove this {_named(reason)}, too", reason.span) for reason in rest),
-                *(related for edge in edges if edge != anchor for related in _reasons(graph, edge, knot)),
-                *(related for edge in knot.cut if edge not in edges for related in _reasons(graph, edge, knot)),
+                *(related for edge in edges if edge != anchor for related in _reasons(package_graph, edge, knot)),
+                *(related for edge in knot.cut if edge not in edges for related in _reasons(package_graph, edge, knot)),
             ),
             confidence=Confidence.HIGH if knot.certain else Confidence.MEDIUM,
-            package=graph.places[anchor[0]][0].name,
+            package=package_graph.places[anchor[0]][0].name,
         )
 
 
-def _others(knot: Cycle) -> str:
+def _others(knot: graph.Cycle) -> str:
     if len(knot.names) == len(knot.cycle):
         return ""
     more = ", ..." if len(knot.names) > _MOST_NAMES else ""
     return f" ({len(knot.names)} packages depend on each other: {', '.join(knot.names[:_MOST_NAMES])}{more})"
 
 
-def _removal(knot: Cycle, anchor: Edge, reason: Reason) -> str:
+def _removal(knot: graph.Cycle, anchor: graph.Edge, reason: graph.Reason) -> str:
     more = len(knot.cut) - 1
     also = f" and {more} more dependenc{'ies' if more > 1 else 'y'} are" if more else " is"
     on = f"on '{anchor[1]}'" if reason.tag != "group_depend" else f"with its member '{anchor[1]}'"
     return f"this {_named(reason)} {on}{also}"
 
 
-def _reasons(graph: Graph, edge: Edge, knot: Cycle) -> Iterator[Related]:
+def _reasons(package_graph: graph.Graph, edge: graph.Edge, knot: graph.Cycle) -> Iterator[Related]:
     hint = "; remove this, too" if edge in knot.cut else ""
-    for reason in graph.reasons(edge):
+    for reason in package_graph.reasons(edge):
         yield Related(f"'{edge[0]}' depends on '{edge[1]}' by {_named(reason)}{hint}", reason.span)
 
 
-def _named(reason: Reason) -> str:
+def _named(reason: graph.Reason) -> str:
     return f"<{reason.tag}>" if "." not in reason.tag else f"dependency of {reason.tag}"
 
 

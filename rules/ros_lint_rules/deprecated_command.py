@@ -36,21 +36,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from ros_lint.api import (
-    Call,
-    Edit,
-    Finding,
-    Fix,
-    Package,
-    Problem,
-    Related,
-    Rule,
-    Severity,
-    Workspace,
-    called,
-    cmake_edits,
-    first_related,
-)
+from ros_lint.api import Call, Edit, Finding, Fix, Package, Problem, Related, Rule, Severity, Workspace, edits, first_related
 
 _ALWAYS = {
     "rosidl_target_interfaces": (
@@ -69,14 +55,14 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if package.builds_with == "ament_cmake":
         old = {**_ALWAYS, **(_SINCE_KILTED if workspace.target.distro == "kilted" else {})}
         for name, (successor, instead) in old.items():
-            replaced = any(_is_conditional(call) for call in called(package, successor, anywhere=True))
-            calls = [call for call in called(package, name, anywhere=True) if not (replaced and _is_conditional(call))]
+            replaced = any(_is_conditional(call) for call in package.calls(successor, anywhere=True))
+            calls = [call for call in package.calls(name, anywhere=True) if not (replaced and _is_conditional(call))]
             if not calls:
                 continue
             first, *others = calls
             fix = None
             if name == "ament_target_dependencies":
-                fix = Fix.of(cmake_edits.LINKED, *cmake_edits.link_to_targets(calls, workspace), safe=False)
+                fix = Fix.of(edits.cmake.LINKED, *edits.cmake.link_to_targets(calls, workspace), safe=False)
             elif name == "ament_export_interfaces":
                 fix = Fix("call ament_export_targets()", tuple(Edit(call.place, "ament_export_targets") for call in calls))
             related = first_related(Related("also called here", call.place) for call in others)

@@ -45,11 +45,9 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
+    files,
     first_related,
-    is_auxiliary,
-    is_launch_file,
-    relative,
-    used_files,
+    launch,
 )
 
 _LEADS_TO = re.compile(
@@ -64,19 +62,19 @@ _SOMEWHERE = "does not exist in every installation"
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     by_path: dict[str, list[MachinePath]] = {}
     for machine in package.machine_paths:
-        file = relative(package, machine.span.path)
-        if machine.distribution and not (is_auxiliary(file) or file.endswith(_BUILDING) or _is_of_ros_1(machine, package)):
+        file = package.relative(machine.span.path)
+        if machine.distribution and not (files.is_auxiliary(file) or file.endswith(_BUILDING) or _is_of_ros_1(machine, package)):
             by_path.setdefault(machine.path, []).append(machine)
     if not by_path:
         return
-    target, used = workspace.target, used_files(package)
+    target, used = workspace.target, launch.used_files(package)
     for path, (first, *others) in by_path.items():
         leads = _LEADS_TO.fullmatch(path)
         if leads is None:
             continue
         differs = target.told and first.distribution != target.distro
         where = f"exists only in {first.distribution}, but the target is {target.distro}" if differs else _SOMEWHERE
-        sure = differs and any(relative(package, place.span.path) in used for place in (first, *others))
+        sure = differs and any(package.relative(place.span.path) in used for place in (first, *others))
         yield Finding(
             f"'{path}' {where}; {_remedy(leads, first, package)}",
             first.span,
@@ -92,7 +90,7 @@ def _remedy(leads: re.Match[str], machine: MachinePath, package: Package) -> str
     if leads["program"]:
         return f"start it with ros2 run {leads['owner']} {leads['program']}, or as a node"
     name, rest, file = leads["package"], leads["file"], machine.span.path
-    if is_launch_file(package, machine.span.path) and not file.endswith(".py"):
+    if launch.is_launch_file(package, machine.span.path) and not file.endswith(".py"):
         return f"write $(find-pkg-share {name})/{rest}"
     if file.endswith(".xacro"):
         return f"write $(find {name})/{rest}"
@@ -106,7 +104,7 @@ def _remedy(leads: re.Match[str], machine: MachinePath, package: Package) -> str
 
 
 def _is_of_ros_1(machine: MachinePath, package: Package) -> bool:
-    return machine.span.path.endswith(".launch") and not is_launch_file(package, machine.span.path)
+    return machine.span.path.endswith(".launch") and not launch.is_launch_file(package, machine.span.path)
 
 
 RULE = Rule(

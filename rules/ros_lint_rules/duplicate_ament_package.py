@@ -20,13 +20,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import ENDS, Edit, Finding, Fix, Package, Related, Rule, Severity, Workspace, called
+from ros_lint.api import Edit, Finding, Fix, Package, Related, Rule, Severity, Workspace, build
 
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
     if package.builds_with != "ament_cmake":
         return
-    calls = [call for call in called(package, *ENDS) if not call.blocks]
+    calls = [call for call in package.calls(*build.ENDS) if not call.blocks]
     for call in calls[1:]:
         earlier = calls[0]
         fix = None

@@ -33,11 +33,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 
-from ros_lint.api import Confidence, Finding, Package, Related, Rule, Severity, Workspace, dependency_graph
+from ros_lint.api import Confidence, Finding, Package, Related, Rule, Severity, Workspace, graph
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
-    for name, same in dependency_graph(workspace).places.items():
+    for name, same in graph.dependency_graph(workspace).places.items():
         if len(same) < 2:
             continue
         first, *others = same

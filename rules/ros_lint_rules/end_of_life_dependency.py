@@ -31,30 +31,17 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ros_lint.api import (
-    Confidence,
-    Facet,
-    Finding,
-    Package,
-    Role,
-    Rule,
-    Severity,
-    UnresolvedDependency,
-    Workspace,
-    declared_names,
-    is_fully_visible,
-    unresolved,
-)
+from ros_lint.api import Confidence, Facet, Finding, Package, Role, Rule, Severity, Workspace, dependencies
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
     world = workspace.world
-    for name, packages in declared_names(workspace).items():
+    for name, packages in dependencies.declared_names(workspace).items():
         if world.standing(name) != "end-of-life":
             continue
         known_successor = world.successor(name)
         last = world.knowledge.names.end_of_life(name)[0]
-        for unresolved_dependency in unresolved(name, packages):
+        for unresolved_dependency in dependencies.unresolved(name, packages):
             successor = known_successor or _imported(unresolved_dependency, workspace)
             unused = not unresolved_dependency.called_so and _is_unused(unresolved_dependency.package, name, successor)
             remedy = _remedy(unresolved_dependency.package, successor, unused=unused)
@@ -67,7 +54,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
             )
 
 
-def _imported(unresolved_dependency: UnresolvedDependency, workspace: Workspace) -> str:
+def _imported(unresolved_dependency: dependencies.UnresolvedDependency, workspace: Workspace) -> str:
     """Return the rosdep key of a Python module with the declared name that the package imports, or ""."""
     uses = [use for use in unresolved_dependency.called_so if use.package != unresolved_dependency.name]
     if not unresolved_dependency.runs_python or not uses or any(use.via != "import" for use in uses):
@@ -77,7 +64,7 @@ def _imported(unresolved_dependency: UnresolvedDependency, workspace: Workspace)
 
 def _is_unused(package: Package, name: str, successor: str) -> bool:
     """Return whether a package that can be fully analysed uses neither a build dependency nor its successor."""
-    if not package.declares(name) & Role.BUILD or not is_fully_visible(package) or name in package.traces:
+    if not package.declares(name) & Role.BUILD or not dependencies.is_fully_visible(package) or name in package.traces:
         return False
     return not any(successor in use.providers for use in package.uses)
 

@@ -46,12 +46,10 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
+    edits,
     first_related,
-    nodes_started,
-    place_of,
-    relative,
-    setup_edits,
-    shorten_list,
+    launch,
+    names,
 )
 
 
@@ -62,9 +60,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     inside = {p.path.rpartition("/")[2] for p in script.provides if p.path.startswith(f"lib/{package.name}/")}
     yield from _without_symlinks_only(package, inside)
     outside = {p.path.rpartition("/")[2] for p in script.provides if p.path.startswith("bin/")} - inside
-    using = {relative(package, use.span.path) for use in package.uses if use.package == "rclpy"}
+    using = {package.relative(use.span.path) for use in package.uses if use.package == "rclpy"}
     modules = {module.name: module.path for module in script.modules}
-    started = nodes_started(workspace).get(package.name, {})
+    started = launch.nodes_started(workspace).get(package.name, {})
     nodes = [
         entry
         for entry in script.entry_points
@@ -76,17 +74,17 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     defining = {module.name for module in script.modules if _NODES.intersection(module.names)}
     sure = any(entry.name in started or entry.module in defining for entry in nodes)
-    config = place_of(package, "setup.cfg")
+    config = package.start_of("setup.cfg")
     exists = "setup.cfg" in package.files
-    edits = setup_edits.programs_to(script, package.name) if exists else (setup_edits.config(config, package.name),)
-    names = [entry.name for entry in nodes]
+    changes = edits.setup_py.programs_to(script, package.name) if exists else (edits.setup_py.config(config, package.name),)
+    all_names = [entry.name for entry in nodes]
     yield Finding(
-        f"{shorten_list(names)} {'are' if len(names) > 1 else 'is'} installed to bin/, where ros2 run does not look; "
+        f"{names.shorten_list(all_names)} {'are' if len(all_names) > 1 else 'is'} installed to bin/, where ros2 run does not look; "
         f"{'write' if exists else 'add a setup.cfg with'} install_scripts=$base/lib/{package.name}",
         config if exists else nodes[0].span,
         "setup.cfg",
         first_related(Related("this entry point", entry.span) for entry in nodes[0 if exists else 1 :]),
-        Fix.of(f"{'complete' if exists else 'add'} setup.cfg", *edits),
+        Fix.of(f"{'complete' if exists else 'add'} setup.cfg", *changes),
         Confidence.HIGH if sure else Confidence.MEDIUM,
     )
 
@@ -94,17 +92,17 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 def _without_symlinks_only(package: Package, inside: Container[str]) -> Iterator[Finding]:
     """Yield a finding if programs go to lib/<package> in a normal build, but to bin/ in one with --symlink-install."""
     script = package.built
-    folders = setup_edits.program_folders(script)
+    folders = edits.setup_py.program_folders(script)
     entries = [entry for entry in script.entry_points if entry.group == "console_scripts" and entry.name in inside]
     if entries and "install.install_scripts" in folders and "develop.script_dir" not in folders:
-        names = [entry.name for entry in entries]
+        all_names = [entry.name for entry in entries]
         yield Finding(
-            f"colcon build --symlink-install puts {shorten_list(names)} into bin/, where ros2 run does not look; "
+            f"colcon build --symlink-install puts {names.shorten_list(all_names)} into bin/, where ros2 run does not look; "
             f"write script_dir=$base/lib/{package.name} under [develop], too",
             folders["install.install_scripts"],
             "setup.cfg",
             first_related(Related("this entry point", entry.span) for entry in entries),
-            Fix.of("complete setup.cfg", *setup_edits.programs_to(script, package.name)),
+            Fix.of("complete setup.cfg", *edits.setup_py.programs_to(script, package.name)),
             severity=Severity.WARNING,
         )
 

@@ -34,22 +34,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
-from ros_lint.api import (
-    BuildScript,
-    Edit,
-    EntryPoint,
-    Facet,
-    Finding,
-    Fix,
-    Package,
-    Related,
-    Rule,
-    Severity,
-    Workspace,
-    ask_if_meant,
-    place_of,
-    similar_names,
-)
+from ros_lint.api import BuildScript, Edit, EntryPoint, Facet, Finding, Fix, Package, Related, Rule, Severity, Workspace, names
 
 _GLUED = re.compile(r"[:=].*=")
 _TARGET = re.compile(r"\s*([\w.]+)\s*(?::\s*([\w.]+)\s*)?(?:\[.*\])?\s*\Z")
@@ -117,13 +102,13 @@ def _lacking(
         return
     first = attribute.partition(".")[0]
     if not module.open and first not in module.names and f"{name}.{first}" not in script.python_packages:
-        near = similar_names(first, module.names, 1, 0.7)
-        hint = ask_if_meant(near) or "; define it, or remove the entry point"
+        near = names.similar_names(first, module.names, 1, 0.7)
+        hint = names.ask_if_meant(near) or "; define it, or remove the entry point"
         yield Finding(
             f"entry point '{entry.name}': {module.path} does not define '{first}'{hint}",
             entry.span,
             entry.name,
-            (Related("the module", place_of(package, module.path)),),
+            (Related("the module", package.start_of(module.path)),),
         )
 
 
@@ -143,15 +128,15 @@ def _no_module(package: Package, entry: EntryPoint, name: str, function: str, wo
     modules = [module for module in known if "." in module and taken.isdisjoint((module, f"{module}:{function}"))]
     # Modules in folders that are not Python packages are no suggestions, because setup.py does not install them.
     modules = [module for module in modules if _is_in_package(module, name, script, package.files)]
-    near = [module for module in similar_names(name, modules, 3, 0.9) if _is_slip(name, module)][:1]
-    if own not in tops and own != package.name and not similar_names(own, [*tops, package.name], 1, 0.85):
+    near = [module for module in names.similar_names(name, modules, 3, 0.9) if _is_slip(name, module)][:1]
+    if own not in tops and own != package.name and not names.similar_names(own, [*tops, package.name], 1, 0.85):
         # In a copied package, entry points may still have the old package name before an existing module.
         near = [module for module in modules if module.partition(".")[2] == name.partition(".")[2]]
         if not _lacks(workspace, own, name) and (not near or workspace.world.by_import(own).known):
             return
     if near:
-        hint = ask_if_meant(near)
-    elif unusable := similar_names(f"{name.replace('.', '/')}.py", not_importable, 1, 0.9):
+        hint = names.ask_if_meant(near)
+    elif unusable := names.similar_names(f"{name.replace('.', '/')}.py", not_importable, 1, 0.9):
         hint = f"; Python cannot import '{unusable[0]}' because of its name: rename it to {name.rpartition('.')[2]}.py"
     fix = _fix(entry, name, near[0] if near else "")
     yield Finding(f"entry point '{entry.name}': module '{name}' does not exist{hint}", entry.span, entry.name, fix=fix)
@@ -161,7 +146,7 @@ def _is_slip(name: str, module: str) -> bool:
     """Return whether ``name`` is a plausible typo of ``module``: their differing words resemble each other."""
     in_name, in_module = set(_WORDS.split(name)), set(_WORDS.split(module))
     only_in_name, only_in_module = " ".join(sorted(in_name - in_module)), " ".join(sorted(in_module - in_name))
-    return not only_in_name or not only_in_module or bool(similar_names(only_in_name, [only_in_module]))
+    return not only_in_name or not only_in_module or bool(names.similar_names(only_in_name, [only_in_module]))
 
 
 _WORDS = re.compile(r"[._]")

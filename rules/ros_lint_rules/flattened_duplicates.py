@@ -26,7 +26,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Finding, InstalledFile, Package, Related, Rule, Severity, Span, Workspace, first_related, shorten_list
+from ros_lint.api import Finding, InstalledFile, Package, Related, Rule, Severity, Span, Workspace, first_related, names
 
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
@@ -49,9 +49,9 @@ def _finding(paths: list[str], sources: dict[str, InstalledFile]) -> Finding:
     path, *more = paths
     *earlier, last = sources.values()
     both = " and ".join(f"'{source}'" for source in sources)
-    which = f"{both} are both" if len(sources) == 2 else f"{shorten_list(sources)} are all"
+    which = f"{both} are both" if len(sources) == 2 else f"{names.shorten_list(sources)} are all"
     places = {file.span: f"'{file.source}' is installed here" for file in reversed(earlier) if file.span != last.span}
-    also = f"; the same happens to {shorten_list(more)}" if more else ""
+    also = f"; the same happens to {names.shorten_list(more)}" if more else ""
     return Finding(
         f"{which} installed as {path}, so only the last one remains{also}",
         last.span,

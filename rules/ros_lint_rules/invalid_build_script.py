@@ -35,7 +35,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import islice
 
-from ros_lint.api import Finding, Package, Rule, Severity, Workspace, relative, too_new
+from ros_lint.api import Finding, Package, Rule, Severity, Workspace, too_new
 
 _KINDS = {
     "cmake-syntax": "CMake stops here: ",
@@ -55,10 +55,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     for problem in script.problems:
         if problem.kind in _KINDS and not (problem.kind == "no-interfaces" and package.unseen):
-            path = relative(package, problem.span.path)
+            path = package.relative(problem.span.path)
             yield Finding(f"{_KINDS[problem.kind]}{problem.message}", problem.span, path)
     for problem in islice(too_new(script.syntax, workspace.target), 1):
-        yield Finding(problem.message, problem.span, relative(package, problem.span.path))
+        yield Finding(problem.message, problem.span, package.relative(problem.span.path))
 
 
 RULE = Rule(

@@ -36,14 +36,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Edit, Finding, Fix, Package, Rule, Severity, Workspace, generated_from, interface_names, relative
+from ros_lint.api import Edit, Finding, Fix, Package, Rule, Severity, Workspace, build, names
 
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
-    sources = generated_from(package)
+    sources = build.generated_from(package)
     # A folder with its own project() generates under the name of that project.
     own = any(p.source in sources and p.path.startswith(f"share/{package.name}/") for p in package.built.provides)
-    if own and package.manifest and not interface_names.is_field(package.name):
+    if own and package.manifest and not names.interfaces.is_field(package.name):
         yield Finding(
             f"rosidl cannot generate interfaces for the package name '{package.name}'; "
             "use lower-case letters, digits and single underscores",
@@ -51,7 +51,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             package.name,
         )
     for file in package.interface_files:
-        path = relative(package, file.path)
+        path = package.relative(file.path)
         for problem in file.problems if path in sources else ():
             fix = None
             if problem.instead is not None:

@@ -72,32 +72,17 @@ from typing import NamedTuple
 from ros_lint.api import (
     STANDARD_LIBRARY,
     Confidence,
-    FailingExpression,
     Finding,
-    IncludeResolver,
-    IncludeTree,
     LaunchAction,
     LaunchFile,
-    PlacedInclude,
     Related,
     Rule,
-    ScopeLeaks,
     Severity,
     Span,
     Workspace,
-    configurations,
-    did_you_mean,
-    failing_expressions,
     first_related,
-    include_resolver,
-    includes,
-    is_plain,
-    package_launch_files,
-    read_sites,
-    required_configurations,
-    similar_names,
-    values_of_action,
-    walk_actions,
+    launch,
+    names,
 )
 
 _MOST_MISSING = 2
@@ -110,18 +95,18 @@ _DIGITS = re.compile(r"\d+")
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
-    links = include_resolver(workspace)
+    links = launch.include_resolver(workspace)
     files = [file for package in workspace.packages for file in package.launch]
-    families, left = IncludeTree(files, links), ScopeLeaks(files, links)
+    families, left = launch.IncludeTree(files, links), launch.ScopeLeaks(files, links)
     filled = frozenset(name for package in workspace.packages for file in package.parameter_files for name in file.asks)
     whole = not workspace.unread()
     for package in workspace.packages:
         required: dict[str, set[str]] = {}
         for file in package.launch:
             required.setdefault(_folder(file), set()).update(links.takes(file).required)
-        for launch in package_launch_files(package):
-            siblings = required[_folder(launch.file)]
-            for finding in _of_file(launch.file, links, families, left, filled, siblings, whole=whole):
+        for launch_file in launch.package_launch_files(package):
+            siblings = required[_folder(launch_file.file)]
+            for finding in _of_file(launch_file.file, links, families, left, filled, siblings, whole=whole):
                 yield finding._replace(package=package.name)
 
 
@@ -131,9 +116,9 @@ def _folder(file: LaunchFile) -> str:
 
 def _of_file(
     file: LaunchFile,
-    links: IncludeResolver,
-    families: IncludeTree,
-    left: ScopeLeaks,
+    links: launch.IncludeResolver,
+    families: launch.IncludeTree,
+    left: launch.ScopeLeaks,
     filled: frozenset[str],
     siblings: Collection[str],
     *,
@@ -143,33 +128,35 @@ def _of_file(
 
     ``whole``: all files that may include this one were read. ``siblings``: required arguments of the files of its folder.
     """
-    for include in includes(file):
+    for include in launch.includes(file):
         yield from _of_include(include, file, links, families, left, filled)
-    for action in walk_actions(file.actions):
+    for action in launch.walk_actions(file.actions):
         if action.kind == "argument":
             yield from _of_choices(action)
-    names, takes, above = families.names(file), links.takes(file), families.above(file)
+    all_names, takes, above = families.names(file), links.takes(file), families.above(file)
     passed = {name for configuration in above for name in configuration.made}
     if whole:
         yield from _too_early(file, links, passed.union(*(configuration.declared for configuration in above)))
-    yield from (_failing(broken, sure=whole and broken.argument not in passed) for broken in failing_expressions(file))
-    if not (whole and names.whole and takes.complete):
+    yield from (_failing(broken, sure=whole and broken.argument not in passed) for broken in launch.failing_expressions(file))
+    if not (whole and all_names.whole and takes.complete):
         return
-    known = {*names.declared, *names.made}.union(*([*configuration.declared, *configuration.made] for configuration in above))
+    known = {*all_names.declared, *all_names.made}.union(
+        *([*configuration.declared, *configuration.made] for configuration in above)
+    )
     inside = _known_inside(file, links)
-    unknown = names.asked - known - inside
-    missing = required_configurations(file, unknown) if unknown else {}
+    unknown = all_names.asked - known - inside
+    missing = launch.required_configurations(file, unknown) if unknown else {}
     for name, span in missing.items() if len(missing) <= _MOST_MISSING else ():
-        yield _undeclared(name, span, sorted(names.declared), sure=not above)
-    unused = names.declared.keys() - names.asked.union(inside, *(configuration.asked for configuration in above))
-    slips = dict(_slips(file, unknown - missing.keys() - families.made, names.declared))
+        yield _undeclared(name, span, sorted(all_names.declared), sure=not above)
+    unused = all_names.declared.keys() - all_names.asked.union(inside, *(configuration.asked for configuration in above))
+    slips = dict(_slips(file, unknown - missing.keys() - families.made, all_names.declared))
     for name, (meant, span) in slips.items():
         yield Finding(
             f"launch configuration '{name}' is read but never declared, so the default here always applies; "
             f"did you mean '{meant}', which is declared{' but not used' if meant in unused else ''}?",
             span,
             name,
-            (Related("declared here", names.declared[meant]),),
+            (Related("declared here", all_names.declared[meant]),),
             confidence=Confidence.HIGH if meant in unused else Confidence.MEDIUM,
         )
     if file.language == "python" and not (file.imports and all(_is_of_launch(name) for name, _ in file.imports)):
@@ -177,7 +164,7 @@ def _of_file(
     if families.fill(file) or all(action.kind in ("argument", "set") for action in file.actions):
         return
     excused = {name for name in _empty(file) if name in siblings}.union(meant for meant, _ in slips.values())
-    for name, span in names.declared.items():
+    for name, span in all_names.declared.items():
         if name in unused and name not in excused:
             yield Finding(
                 f"launch argument '{name}' is declared but never used; use it or remove it",
@@ -187,16 +174,16 @@ def _of_file(
             )
 
 
-def _slips(file: LaunchFile, names: frozenset[str], declared: Mapping[str, Span]) -> Iterator[tuple[str, tuple[str, Span]]]:
+def _slips(file: LaunchFile, all_names: frozenset[str], declared: Mapping[str, Span]) -> Iterator[tuple[str, tuple[str, Span]]]:
     """Yield the names that are read with a default, each with the declared argument of a similar name and its place."""
-    for (name, has_default), span in read_sites(file, names).items() if names else ():
+    for (name, has_default), span in launch.read_sites(file, all_names).items() if all_names else ():
         digits = _DIGITS.findall(name)
-        near = similar_names(name, [argument for argument in declared if _DIGITS.findall(argument) == digits], 1, 0.85)
+        near = names.similar_names(name, [argument for argument in declared if _DIGITS.findall(argument) == digits], 1, 0.85)
         if has_default and near:
             yield name, (near[0], span)
 
 
-def _too_early(file: LaunchFile, links: IncludeResolver, above: Collection[str]) -> Iterator[Finding]:
+def _too_early(file: LaunchFile, links: launch.IncludeResolver, above: Collection[str]) -> Iterator[Finding]:
     """Yield the arguments that are read before they are declared, because a launch file is processed in order.
 
     ``above``: names that files which include this one declare or set.
@@ -242,7 +229,7 @@ _OUTCOMES = {None: "the launch file stops", False: "the condition is never true"
 
 
 def _asked_early(
-    file: LaunchFile, links: IncludeResolver, declared: Mapping[str, int], above: Collection[str]
+    file: LaunchFile, links: launch.IncludeResolver, declared: Mapping[str, int], above: Collection[str]
 ) -> Iterator[_Early]:
     """Yield the configurations that are read before their declaration; ``declared``: the index of the declaring action."""
     known = set(above)
@@ -252,11 +239,11 @@ def _asked_early(
         if not late:
             return
         for text, span, conditional, holds in _questions(action) if action.kind != "later" else ():
-            for name, has_default, _ in configurations(text):
+            for name, has_default, _ in launch.configurations(text):
                 if name in late and not has_default:
                     late.remove(name)
                     yield _Early(name, span, not part and not conditional, holds)
-        for inner in walk_actions((action,)):
+        for inner in launch.walk_actions((action,)):
             if inner.kind == "include" and (target := links.target(inner.target, file)) is not None:
                 known |= links.takes(target.file).known
             elif inner.kind == "include":
@@ -273,7 +260,7 @@ def _questions(action: LaunchAction) -> Iterator[tuple[str, Span, bool, bool | N
     """
     asking = {text for condition in action.conditions if condition.equals is None for text in condition.texts}
     comparing = [condition for condition in action.conditions if condition.equals is not None]
-    for text, span in values_of_action(action):
+    for text, span in launch.values_of_action(action):
         if text in asking or not any(text in condition.texts for condition in comparing):
             yield text, span, bool(action.conditions) and text not in asking, None
     for condition in comparing:
@@ -283,7 +270,7 @@ def _questions(action: LaunchAction) -> Iterator[tuple[str, Span, bool, bool | N
 
 def _empty(file: LaunchFile) -> Iterator[str]:
     """Yield the arguments with an empty default."""
-    for action in walk_actions(file.actions):
+    for action in launch.walk_actions(file.actions):
         if action.kind == "argument" and action.target is not None and action.value is not None and action.value.texts == ("",):
             yield from action.target.texts
 
@@ -294,15 +281,15 @@ def _is_of_launch(module: str) -> bool:
     return top in _QUIET or top in STANDARD_LIBRARY
 
 
-def _known_inside(file: LaunchFile, links: IncludeResolver) -> frozenset[str]:
+def _known_inside(file: LaunchFile, links: launch.IncludeResolver) -> frozenset[str]:
     """Return the names that the included files declare, set or read."""
     return frozenset().union(*(links.takes(inner).known for inner in links.includes(file)))
 
 
 def _undeclared(name: str, span: Span, declared: list[str], *, sure: bool) -> Finding:
-    near = similar_names(name, declared, 1, 0.85)
+    near = names.similar_names(name, declared, 1, 0.85)
     return Finding(
-        f"launch configuration '{name}' is read, but nothing declares or sets it{did_you_mean(near)}",
+        f"launch configuration '{name}' is read, but nothing declares or sets it{names.did_you_mean(near)}",
         span,
         name,
         confidence=Confidence.HIGH if near and sure else Confidence.MEDIUM,
@@ -312,7 +299,7 @@ def _undeclared(name: str, span: Span, declared: list[str], *, sure: bool) -> Fi
 
 def _of_choices(action: LaunchAction) -> Iterator[Finding]:
     value = action.value
-    if value is None or not action.choices or not all(map(is_plain, (*action.choices, *value.texts))):
+    if value is None or not action.choices or not all(map(launch.is_plain, (*action.choices, *value.texts))):
         return
     if len(value.texts) == 1 and value.texts[0] not in action.choices:
         name = action.target.texts[0] if action.target is not None else ""
@@ -325,7 +312,7 @@ def _of_choices(action: LaunchAction) -> Iterator[Finding]:
         )
 
 
-def _failing(broken: FailingExpression, *, sure: bool) -> Finding:
+def _failing(broken: launch.FailingExpression, *, sure: bool) -> Finding:
     reason = "not a valid Python expression"
     if broken.name:
         remedy = f"write {broken.name.capitalize()}" if broken.name in ("true", "false") else "put it in quotes"
@@ -340,18 +327,18 @@ def _failing(broken: FailingExpression, *, sure: bool) -> Finding:
 
 
 def _of_include(
-    include: PlacedInclude,
+    include: launch.PlacedInclude,
     source: LaunchFile,
-    links: IncludeResolver,
-    families: IncludeTree,
-    left: ScopeLeaks,
+    links: launch.IncludeResolver,
+    families: launch.IncludeTree,
+    left: launch.ScopeLeaks,
     filled: frozenset[str],
 ) -> Iterator[Finding]:
     action = include.action
     target = links.target(action.target, source)
     places = action.argument_spans or [value.span for _, value in action.arguments]
     passed = {name: place for (name, _), place in zip(action.arguments, places, strict=True) if name}
-    if target is None or not all(is_plain(name) for name in passed):
+    if target is None or not all(launch.is_plain(name) for name in passed):
         return
     takes = links.takes(target.file)
     file = f"{target.package.name}/{target.path}"
@@ -380,9 +367,9 @@ def _useless(file: str, name: str, place: Span, not_passed: frozenset[str], *, s
 
     ``alone``: no file includes the passing file and later contains something that may read the argument.
     """
-    near = similar_names(name, not_passed, 1, 0.85)
+    near = names.similar_names(name, not_passed, 1, 0.85)
     return Finding(
-        f"'{file}' does not use the argument '{name}', so it has no effect{did_you_mean(near) or '; remove it'}",
+        f"'{file}' does not use the argument '{name}', so it has no effect{names.did_you_mean(near) or '; remove it'}",
         place,
         f"{file}:{name}",
         confidence=Confidence.HIGH if sure and (near or alone) else Confidence.MEDIUM,

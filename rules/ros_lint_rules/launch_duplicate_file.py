@@ -30,7 +30,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from ros_lint.api import (
-    LAUNCH_FILE_NAMES,
     Confidence,
     Finding,
     InstalledFile,
@@ -40,10 +39,8 @@ from ros_lint.api import (
     Severity,
     Workspace,
     cached_by_workspace,
-    file_start,
-    from_base,
-    include_resolver,
-    package_launch_files,
+    files,
+    launch,
 )
 
 
@@ -51,19 +48,19 @@ def check(workspace: Workspace) -> Iterator[Finding]:
     for package in workspace.packages:
         repeated = _installed_repeatedly(package)
         for name, places in repeated.items():
-            sources = [from_base(package, place.source) for place in places]
+            sources = [package.base_path(place.source) for place in places]
             if len(set(sources)) > 1 and (workspace.unread() or _included(workspace).issuperset(sources)):
                 continue
             paths = ", ".join(place.path.partition(f"share/{package.name}/")[2] for place in places)
             yield Finding(
                 f"'{package.name}' installs '{name}' more than once ({paths}), so ros2 launch {package.name} {name} fails; "
                 "rename one file, or install it only once",
-                file_start(sources[0]),
+                files.file_start(sources[0]),
                 name,
                 tuple(
                     Related("this installs it again", place.span)
                     if source == sources[0]
-                    else Related("the other file", file_start(source))
+                    else Related("the other file", files.file_start(source))
                     for place, source in zip(places[1:], sources[1:], strict=True)
                 ),
                 confidence=Confidence.MEDIUM if _is_set(repeated, places) else Confidence.HIGH,
@@ -85,11 +82,11 @@ def _folders(places: Iterable[InstalledFile]) -> set[str]:
 
 def _installed_repeatedly(package: Package) -> dict[str, list[InstalledFile]]:
     """Return the launch files that a package installs more than once, by name."""
-    files = {launch.path for launch in package_launch_files(package)}
+    file_paths = {launch_file.path for launch_file in launch.package_launch_files(package)}
     names: dict[str, dict[str, InstalledFile]] = {}
-    for provided in package.built.provides if files else ():
+    for provided in package.built.provides if file_paths else ():
         name = provided.path.rpartition("/")[2]
-        if provided.source not in files or provided.conditional or not name.endswith(LAUNCH_FILE_NAMES):
+        if provided.source not in file_paths or provided.conditional or not name.endswith(launch.LAUNCH_FILE_NAMES):
             continue
         if provided.path.startswith(f"share/{package.name}/"):
             names.setdefault(name, {}).setdefault(provided.path, provided)
@@ -99,8 +96,8 @@ def _installed_repeatedly(package: Package) -> dict[str, list[InstalledFile]]:
 @cached_by_workspace
 def _included(workspace: Workspace) -> frozenset[str]:
     """Return the paths of the launch files that other launch files include."""
-    files = (file for package in workspace.packages for file in package.launch)
-    return frozenset([inner.path for file in files for inner in include_resolver(workspace).includes(file)])
+    file_paths = (file for package in workspace.packages for file in package.launch)
+    return frozenset([inner.path for file in file_paths for inner in launch.include_resolver(workspace).includes(file)])
 
 
 RULE = Rule(

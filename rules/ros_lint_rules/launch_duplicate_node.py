@@ -27,27 +27,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from ros_lint.api import (
-    Finding,
-    LaunchCondition,
-    LaunchFile,
-    Related,
-    Rule,
-    Severity,
-    Span,
-    Workspace,
-    are_consistent,
-    assigned_configurations,
-    expand_defaults,
-    include_resolver,
-    is_node_renaming,
-    is_plain,
-    package_launch_files,
-    substitute,
-)
+from ros_lint.api import Finding, LaunchCondition, LaunchFile, Related, Rule, Severity, Span, Workspace, launch
 
 if TYPE_CHECKING:
-    from ros_lint.api import Started
+    from ros_lint.api import launch
 
 _SHORT = frozenset({"spawner", "spawner.py", "unspawner", "spawn_entity.py", "create", "load_controller"})
 """Executables that exit after their work."""
@@ -58,22 +41,24 @@ Conditions = tuple[LaunchCondition, ...]
 def check(workspace: Workspace) -> Iterator[Finding]:
     names = _Names(workspace)
     for package in workspace.packages:
-        for launch in package_launch_files(package):
-            for finding in _of(launch.file, names, workspace):
+        for launch_file in launch.package_launch_files(package):
+            for finding in _of(launch_file.file, names, workspace):
                 yield finding._replace(package=package.name)
 
 
 def _of(file: LaunchFile, names: _Names, workspace: Workspace) -> Iterator[Finding]:
     repeated = names.repeated(file)
     if repeated:
-        yield from _in_file(expand_defaults(file, workspace, lambda inner: not repeated.isdisjoint(names.of(inner))).started)
+        yield from _in_file(
+            launch.expand_defaults(file, workspace, lambda inner: not repeated.isdisjoint(names.of(inner))).started
+        )
 
 
 class _Names:
     """Possible names of nodes, regardless of conditions: a cheap test before launch files are followed through includes."""
 
     def __init__(self, workspace: Workspace) -> None:
-        self._links = include_resolver(workspace)
+        self._links = launch.include_resolver(workspace)
         self._known: dict[str, frozenset[str]] = {}
 
     def repeated(self, file: LaunchFile) -> set[str]:
@@ -86,7 +71,7 @@ class _Names:
         for names, conditions in self._parts(file, (), ()):
             for name in names - repeated:
                 earlier = seen.setdefault(name, [])
-                if any(are_consistent((*conditions, *others)) for others in earlier):
+                if any(launch.are_consistent((*conditions, *others)) for others in earlier):
                     repeated.add(name)
                 earlier.append(conditions)
         return repeated
@@ -98,13 +83,13 @@ class _Names:
     def _parts(
         self, file: LaunchFile, above: tuple[str, ...], conditions: Conditions
     ) -> Iterator[tuple[frozenset[str], Conditions]]:
-        defaults = assigned_configurations(file)
+        defaults = launch.assigned_configurations(file)
         waiting = [(action, conditions) for action in file.actions]
         while waiting:
             action, outer = waiting.pop()
             inner = (*outer, *action.conditions)
             if action.kind in ("node", "component"):
-                yield frozenset(substitute(action.name, defaults)), inner
+                yield frozenset(launch.substitute(action.name, defaults)), inner
             elif action.kind == "include":
                 target = self._links.target(action.target, file)
                 if target is not None and target.file.path not in above:
@@ -120,10 +105,10 @@ class _Names:
         return known
 
 
-def _in_file(everything: Sequence[Started]) -> Iterator[Finding]:
-    first: dict[str, tuple[Started, Started]] = {}
-    again: dict[Span, list[tuple[str, Started, Started, Started]]] = {}
-    include: Started | None = None
+def _in_file(everything: Sequence[launch.Started]) -> Iterator[Finding]:
+    first: dict[str, tuple[launch.Started, launch.Started]] = {}
+    again: dict[Span, list[tuple[str, launch.Started, launch.Started, launch.Started]]] = {}
+    include: launch.Started | None = None
     for started in everything:
         if started.kind == "include" and started.depth == 0:
             include = started
@@ -139,7 +124,7 @@ def _in_file(everything: Sequence[Started]) -> Iterator[Finding]:
         yield _finding(name, started, earlier, here, len(more))
 
 
-def _finding(name: str, started: Started, earlier: Started, here: Started, more: int) -> Finding:
+def _finding(name: str, started: launch.Started, earlier: launch.Started, here: launch.Started, more: int) -> Finding:
     what = f"'{started.target[0]}' of '{started.package[0]}'" if started.package else f"'{started.target[0]}'"
     related = [Related("the first node", earlier.span)] if earlier.span != started.span else []
     if here is started:
@@ -155,16 +140,16 @@ def _finding(name: str, started: Started, earlier: Started, here: Started, more:
     )
 
 
-def _full_name(started: Started) -> str:
+def _full_name(started: launch.Started) -> str:
     """Return the full name of a node that certainly starts at once and keeps running; "" for other nodes and unknown names."""
     if started.kind not in ("node", "component") or not started.certain or started.later:
         return ""
     if len(started.name) != 1 or len(started.namespace) != 1 or len(started.target) != 1:
         return ""
     name, namespace = started.name[0], started.namespace[0]
-    if not name or not is_plain(name) or not is_plain(namespace) or started.target[0] in _SHORT:
+    if not name or not launch.is_plain(name) or not launch.is_plain(namespace) or started.target[0] in _SHORT:
         return ""
-    if any(is_node_renaming(text) for texts in started.words for text in texts):
+    if any(launch.is_node_renaming(text) for texts in started.words for text in texts):
         return ""
     return f"/{namespace.strip('/')}/{name}".replace("//", "/")
 

@@ -71,7 +71,7 @@ from ros_lint.api import (
     TargetDistro,
     Workspace,
     first_related,
-    package_launch_files,
+    launch,
     too_new,
 )
 
@@ -81,20 +81,20 @@ _MAY_BE_NEWER = frozenset({"unknown-tag", "unexpected-attribute", "unexpected-ch
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    for launch in package_launch_files(package):
-        newer = (*_newer(launch.file.newer, workspace.target), *too_new(launch.file.syntax, workspace.target))
-        problems = (*launch.file.problems, *newer)
+    for launch_file in launch.package_launch_files(package):
+        newer = (*_newer(launch_file.file.newer, workspace.target), *too_new(launch_file.file.syntax, workspace.target))
+        problems = (*launch_file.file.problems, *newer)
         if not problems:
             continue
         first, *others = sorted(problems, key=lambda problem: problem.span)
         yield Finding(
             _message(first),
             first.span,
-            launch.path,
+            launch_file.path,
             first_related(Related(_also(first, other), other.span) for other in others),
-            confidence=max(_confidence(problem, launch.path, workspace) for problem in problems),
+            confidence=max(_confidence(problem, launch_file.path, workspace) for problem in problems),
             severity=Severity.WARNING if all(problem.kind == "substitution-as-text" for problem in problems) else None,
-            fix=_fix(launch.path, problems),
+            fix=_fix(launch_file.path, problems),
         )
 
 

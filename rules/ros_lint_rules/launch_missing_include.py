@@ -54,23 +54,15 @@ from ros_lint.api import (
     Finding,
     LaunchFile,
     Package,
-    PassedFile,
     Related,
     Rule,
     Severity,
     Span,
     Workspace,
-    did_you_mean,
-    files_looked_up,
+    files,
     first_related,
-    include_resolver,
-    is_auxiliary,
-    near_names,
-    package_launch_files,
-    passed_files,
-    references_by_name,
-    relative,
-    similar_names,
+    launch,
+    names,
 )
 
 _WRITTEN = (".yaml", ".yml", ".rviz", ".urdf", ".xacro", ".srdf", ".sdf", ".world", ".wbt", ".lua", ".launch", ".py", ".xml")
@@ -94,11 +86,11 @@ def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     share = f"share/{package.name}/"
     installed = {p.source: p.path.removeprefix(share) for p in package.built.provides if p.source and not p.conditional}
-    used = {look_up.path for look_up in files_looked_up(workspace).get(package.name, ())}
+    used = {look_up.path for look_up in launch.files_looked_up(workspace).get(package.name, ())}
     look_ups: dict[tuple[str, str], list[tuple[bool, Span]]] = {}
     for look_up in package.look_ups:
-        file, path = relative(package, look_up.span.path), look_up.path.lstrip("/")
-        if file.endswith(_MODELS) and file in installed and look_up.package in workspace.by_name and not is_auxiliary(file):
+        file, path = package.relative(look_up.span.path), look_up.path.lstrip("/")
+        if file.endswith(_MODELS) and file in installed and look_up.package in workspace.by_name and not files.is_auxiliary(file):
             look_ups.setdefault((look_up.package, path), []).append((installed[file] not in used, look_up.span))
     groups: dict[tuple[str, str, bool], list[tuple[str, str, Span, list[Span]]]] = {}
     for (owner, path), named in look_ups.items():
@@ -130,7 +122,7 @@ def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
     """Yield the missing files that launch files name themselves."""
-    for (owner, path), named in references_by_name(package, ("include", "file")).items():
+    for (owner, path), named in launch.references_by_name(package, ("include", "file")).items():
         references = [reference for reference in named if not (reference.optional or reference.asked)]
         if not references:
             continue
@@ -160,14 +152,16 @@ def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _passed(workspace: Workspace) -> Iterator[Finding]:
     """Yield the missing files that included launch files name with the arguments that they are passed."""
-    links = include_resolver(workspace)
-    files = [(package, launch.file) for package in workspace.packages for launch in package_launch_files(package)]
-    including = [(package, file) for package, file in files if links.includes(file)]
+    links = launch.include_resolver(workspace)
+    paths = [
+        (package, launch_file.file) for package in workspace.packages for launch_file in launch.package_launch_files(package)
+    ]
+    including = [(package, file) for package, file in paths if links.includes(file)]
     inner = {included.path for _, file in including for included in links.includes(file)}
     missing = _Missing(workspace)
     if not any(missing.passed_by(file) for _, file in including if file.path not in inner):
         return  # most workspaces have no such mistake, and following the included files as well would double the time
-    nearest: dict[_Key, tuple[PassedFile, Package, LaunchFile]] = {}
+    nearest: dict[_Key, tuple[launch.PassedFile, Package, LaunchFile]] = {}
     for package, file in including:
         for key, passed in missing.passed_by(file).items():
             if key not in nearest or passed.depth < nearest[key][0].depth:
@@ -191,21 +185,21 @@ class _Missing:
     def __init__(self, workspace: Workspace) -> None:
         self._workspace = workspace
         self._known: dict[tuple[str, str, str], bool] = {}
-        self._passed: dict[tuple[str, bool], dict[_Key, PassedFile]] = {}
+        self._passed: dict[tuple[str, bool], dict[_Key, launch.PassedFile]] = {}
 
-    def passed_by(self, file: LaunchFile, *, settled: bool = False) -> dict[_Key, PassedFile]:
+    def passed_by(self, file: LaunchFile, *, settled: bool = False) -> dict[_Key, launch.PassedFile]:
         """Return the files that are missing when ``file`` is launched, see :func:`passed_files`.
 
         Files that a launch file names without the help of arguments are left out.
         """
         key = file.path, settled
         if key not in self._passed:
-            self._passed[key] = self._among(passed_files(file, self._workspace, settled=settled))
+            self._passed[key] = self._among(launch.passed_files(file, self._workspace, settled=settled))
         return self._passed[key]
 
-    def _among(self, files: Iterable[PassedFile]) -> dict[_Key, PassedFile]:
-        missing: dict[_Key, PassedFile] = {}
-        for file in files:
+    def _among(self, paths: Iterable[launch.PassedFile]) -> dict[_Key, launch.PassedFile]:
+        missing: dict[_Key, launch.PassedFile] = {}
+        for file in paths:
             place = (file.package, file.path, file.kind)
             if place not in self._known:
                 self._known[place] = self._is_missing(file)
@@ -213,10 +207,10 @@ class _Missing:
                 missing.setdefault((file.span, file.package, file.path), file)
         return missing
 
-    def _is_missing(self, file: PassedFile) -> bool:
+    def _is_missing(self, file: launch.PassedFile) -> bool:
         if file.kind != "include" and not file.path.endswith(_WRITTEN):
             return False
-        if any(look_up.path == file.path for look_up in files_looked_up(self._workspace).get(file.package, ())):
+        if any(look_up.path == file.path for look_up in launch.files_looked_up(self._workspace).get(file.package, ())):
             return False
         return _files_without(file.package, file.path, file.kind, self._workspace) is not None
 
@@ -231,18 +225,18 @@ def _message(owner: str, path: str, more: int = 0) -> str:
     return f"'{path}' and {more} other file{'s' if more > 1 else ''} of this folder that are named here do not exist in '{owner}'"
 
 
-def _twin(path: str, names: tuple[str, ...]) -> str:
+def _twin(path: str, all_names: tuple[str, ...]) -> str:
     """Return an installed file of the same folder and suffix with a nearly equal name, or ""."""
     folder, _, base = path.rpartition("/")
-    siblings = [name.rpartition("/")[2] for name in names if _kind(name) == _kind(path)]
-    near = similar_names(base, siblings, 1, 0.8)
+    siblings = [name.rpartition("/")[2] for name in all_names if _kind(name) == _kind(path)]
+    near = names.similar_names(base, siblings, 1, 0.8)
     return f"{folder}/{near[0]}".lstrip("/") if near else ""
 
 
-def _is_misspelt(path: str, names: tuple[str, ...]) -> bool:
+def _is_misspelt(path: str, all_names: tuple[str, ...]) -> bool:
     """Return whether the suffix is that of an existing file with its letters in another order: x.yalm."""
     stem, _, suffix = path.rpartition(".")
-    return any(name.startswith(f"{stem}.") and sorted(name[len(stem) + 1 :]) == sorted(suffix) for name in names)
+    return any(name.startswith(f"{stem}.") and sorted(name[len(stem) + 1 :]) == sorted(suffix) for name in all_names)
 
 
 def _kind(path: str) -> tuple[str, str]:
@@ -251,10 +245,10 @@ def _kind(path: str) -> tuple[str, str]:
     return folder, base.rpartition(".")[2]
 
 
-def _is_left_over(file: str, owner: str, names: tuple[str, ...], workspace: Workspace) -> bool:
+def _is_left_over(file: str, owner: str, all_names: tuple[str, ...], workspace: Workspace) -> bool:
     """Return whether a file is not looked up, but others of its folder and suffix are: then the file is the one to suggest."""
-    wanted = {look_up.path for look_up in files_looked_up(workspace).get(owner, ())}
-    return file not in wanted and any(_kind(other) == _kind(file) for other in wanted.intersection(names))
+    wanted = {look_up.path for look_up in launch.files_looked_up(workspace).get(owner, ())}
+    return file not in wanted and any(_kind(other) == _kind(file) for other in wanted.intersection(all_names))
 
 
 def _is_made(owner: str, path: str, workspace: Workspace) -> bool:
@@ -274,22 +268,22 @@ def _files_without(owner: str, path: str, kind: str, workspace: Workspace) -> tu
         known = workspace.world.launch_files(owner)
         return known.possible if kind == "include" and known.ask(path) == "missing" else None
     share = f"share/{owner}/"
-    names: set[str] = set()
+    all_names: set[str] = set()
     for package in owners:
         if package.script is None or package.builds_with not in ("ament_cmake", "ament_python"):
             return None
         if package.hidden(Facet.SHARE, f"{share}{path}"):
             return None
-        names.update(p.path[len(share) :] for p in package.script.provides if p.path.startswith(share))
+        all_names.update(p.path[len(share) :] for p in package.script.provides if p.path.startswith(share))
         # Another rule reports a file of the sources that is not installed, also if the folders differ.
         installed = package.script.installed
         if any((file == path or file.endswith(f"/{path}")) and file not in installed for file in package.files):
             return None
         if any(path.startswith(f"{folder}/") for folder in (*package.unseen, *package.nested)):
             return None
-    if path in names or any(name.startswith(f"{path}/") for name in names):
+    if path in all_names or any(name.startswith(f"{path}/") for name in all_names):
         return None
-    return tuple(sorted(names))
+    return tuple(sorted(all_names))
 
 
 def _owner(package: Package, path: str, workspace: Workspace) -> str:
@@ -304,11 +298,13 @@ def _owner(package: Package, path: str, workspace: Workspace) -> str:
     return f"; '{owners.pop()}' has it" if len(owners) == 1 else ""
 
 
-def _hint(path: str, names: tuple[str, ...]) -> str:
+def _hint(path: str, all_names: tuple[str, ...]) -> str:
     base = path.rpartition("/")[2]
-    same = [name for name in names if name.rpartition("/")[2] == base]
-    near = [name for name in near_names(path, names, 3, 0.8) if near_names(base, [name.rpartition("/")[2]], 1, 0.6)]
-    return did_you_mean(similar_names(path, same, 1, 0) or near[:1])
+    same = [name for name in all_names if name.rpartition("/")[2] == base]
+    near = [
+        name for name in names.near_names(path, all_names, 3, 0.8) if names.near_names(base, [name.rpartition("/")[2]], 1, 0.6)
+    ]
+    return names.did_you_mean(names.similar_names(path, same, 1, 0) or near[:1])
 
 
 RULE = Rule(

@@ -55,17 +55,10 @@ from ros_lint.api import (
     Severity,
     Span,
     Workspace,
-    declared_closure,
-    exists_in_any_distro,
+    dependencies,
+    files,
     first_related,
-    is_auxiliary,
-    is_part_of_launch,
-    may_provide,
-    needs,
-    package_launch_files,
-    provided_in_other_distros,
-    remedy,
-    undeclared,
+    launch,
 )
 
 _AT_RUN_TIME = Role.EXEC | Role.EXPORT
@@ -86,16 +79,16 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     lacking = tuple(_lacking(package, workspace))
     if not lacking:
         return
-    unknown = declared_closure(package, workspace, _AT_RUN_TIME).unknown
+    unknown = dependencies.declared_closure(package, workspace, _AT_RUN_TIME).unknown
     readable = not workspace.unread(package)  # an unreadable file may be the script that runs these launch files as tests
     for name, references in lacking:
         best, *others = sorted(references, key=lambda r: (r.package_by_default, r.conditional, _ORDER.index(r.kind), r.span))
         what = f"'{name}'" if best.name in ("", name) else f"'{best.name}' of '{name}'"
         how = " under a condition" if best.conditional else ""
         how = " by the default of an argument" if best.package_by_default else how
-        proposal = remedy(package, workspace, name, Role.EXEC)
+        proposal = dependencies.remedy(package, workspace, name, Role.EXEC)
         needed = best.kind != "program" or not best.conditional
-        certain = readable and needed and proposal.certain and not may_provide(unknown, name, workspace)
+        certain = readable and needed and proposal.certain and not dependencies.may_provide(unknown, name, workspace)
         yield Finding(
             f"{what} is {_DONE[best.kind]} here{how}, but '{package.name}' {_declares(package, name)}{proposal.ending}",
             best.package_span,
@@ -120,12 +113,14 @@ def _lacking(package: Package, workspace: Workspace) -> Iterator[tuple[str, list
     named = _named(package, workspace)
     if not named:
         return
-    closure = declared_closure(package, workspace, _AT_RUN_TIME)
-    reported = {need.name for need, sure in undeclared(package, workspace) if sure} | _in_wrong_tags(package, workspace)
+    closure = dependencies.declared_closure(package, workspace, _AT_RUN_TIME)
+    reported = {need.name for need, sure in dependencies.undeclared(package, workspace) if sure} | _in_wrong_tags(
+        package, workspace
+    )
     for name, references in named.items():
         if name in closure or name in reported:
             continue
-        if workspace.world.is_package(name) or not provided_in_other_distros(package, workspace, name):
+        if workspace.world.is_package(name) or not dependencies.provided_in_other_distros(package, workspace, name):
             yield name, references
 
 
@@ -135,10 +130,10 @@ def _in_wrong_tags(package: Package, workspace: Workspace) -> frozenset[str]:
     These are uses at run time other than starting and including, and uses in what the package exports.
     """
     names: set[str] = set()
-    for need in needs(package, workspace):
+    for need in dependencies.needs(package, workspace):
         uses = [use for use in need.uses if use.sure and use.via in ("import", "package") and use.role & Role.EXEC]
         exported = any(use.sure and use.role & Role.EXPORT for use in need.uses)
-        if need.declared and (exported or (uses and not is_part_of_launch(package, uses))):
+        if need.declared and (exported or (uses and not dependencies.is_part_of_launch(package, uses))):
             names.update(need.declared)
     return frozenset(names)
 
@@ -146,7 +141,7 @@ def _in_wrong_tags(package: Package, workspace: Workspace) -> frozenset[str]:
 def _needs(workspace: Workspace, name: str, package: Package) -> bool:
     """Return whether ``name`` needs ``package`` without declaring it: only one of the two can declare the other."""
     for candidate in workspace.by_name.get(name, ()):
-        if any(need.name == package.name and sure for need, sure in undeclared(candidate, workspace)):
+        if any(need.name == package.name and sure for need, sure in dependencies.undeclared(candidate, workspace)):
             return True
         if any(lacking == package.name for lacking, _ in _lacking(candidate, workspace)):
             return True
@@ -165,14 +160,18 @@ def _elsewhere(best: Span, others: Sequence[LaunchReference]) -> Iterator[Span]:
 def _named(package: Package, workspace: Workspace) -> Mapping[str, list[LaunchReference]]:
     hidden = bool(package.hidden(Facet.SHARE))
     by_package: dict[str, list[LaunchReference]] = {}
-    for launch in package_launch_files(package):
-        if not (launch.installed or hidden):
+    for launch_file in launch.package_launch_files(package):
+        if not (launch_file.installed or hidden):
             continue
-        for reference in launch.file.references:
+        for reference in launch_file.file.references:
             name = reference.package
-            if is_auxiliary(launch.path) and package.declares(name) & Role.TEST:
+            if files.is_auxiliary(launch_file.path) and package.declares(name) & Role.TEST:
                 continue
-            exists = workspace.world.is_key(name) if reference.kind == "program" else exists_in_any_distro(name, workspace)
+            exists = (
+                workspace.world.is_key(name)
+                if reference.kind == "program"
+                else dependencies.exists_in_any_distro(name, workspace)
+            )
             if name != package.name and not reference.optional and exists:
                 by_package.setdefault(name, []).append(reference)
     return by_package

@@ -29,16 +29,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Facet, Finding, Package, Rule, Severity, Workspace, package_launch_files
+from ros_lint.api import Facet, Finding, Package, Rule, Severity, Workspace, launch
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if package.hidden(Facet.PYTHON):
         return
     files = frozenset(package.files)
-    for launch in package_launch_files(package):
-        folder = launch.path.rpartition("/")[0]
-        for name, span in launch.file.imports:
+    for launch_file in launch.package_launch_files(package):
+        folder = launch_file.path.rpartition("/")[0]
+        for name, span in launch_file.file.imports:
             if name.startswith("."):
                 yield Finding(
                     f"'{name}' is imported relative to the launch file, which ros2 launch loads without a package; "

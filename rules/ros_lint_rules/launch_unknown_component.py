@@ -32,38 +32,27 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import (
-    Confidence,
-    Facet,
-    Finding,
-    Package,
-    Related,
-    Rule,
-    Severity,
-    Workspace,
-    did_you_mean,
-    first_related,
-    references_by_name,
-    rename_fix,
-    shorten_list,
-    similar_names,
-)
+from ros_lint.api import Confidence, Facet, Finding, Package, Related, Rule, Severity, Workspace, first_related, launch, names
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    for (owner, name), references in references_by_name(package, ("component",)).items():
-        names = _names_without(owner, name, workspace)
-        if names is None:
+    for (owner, name), references in launch.references_by_name(package, ("component",)).items():
+        all_names = _names_without(owner, name, workspace)
+        if all_names is None:
             continue
         best, *others = sorted(references, key=lambda reference: (reference.by_default, reference.span))
-        meant = [other for other in names if other.lower() == name.lower()]
+        meant = [other for other in all_names if other.lower() == name.lower()]
         near = (
             meant
-            or [other for other in similar_names(name, names, 4, 0.75) if similar_names(_class(name), [_class(other)], 1, 0.75)][
-                :2
-            ]
+            or [
+                other
+                for other in names.similar_names(name, all_names, 4, 0.75)
+                if names.similar_names(_class(name), [_class(other)], 1, 0.75)
+            ][:2]
         )
-        hint = did_you_mean(near) or (f"; it registers {shorten_list(names)}" if names else "; it registers no components")
+        hint = names.did_you_mean(near) or (
+            f"; it registers {names.shorten_list(all_names)}" if all_names else "; it registers no components"
+        )
         only = meant[0] if len(meant) == 1 else ""
         sure = workspace.surely_lacks(owner, "components", name)
         yield Finding(
@@ -71,7 +60,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             best.span,
             f"{owner}/{name}",
             first_related(Related("also loaded here", other.span) for other in others),
-            rename_fix(f"load '{only}'", only, [(reference.span, reference.exact) for reference in references]),
+            launch.rename_fix(f"load '{only}'", only, [(reference.span, reference.exact) for reference in references]),
             Confidence.HIGH if sure and not best.by_default else Confidence.MEDIUM,
         )
 
@@ -87,14 +76,14 @@ def _names_without(owner: str, name: str, workspace: Workspace) -> tuple[str, ..
     if not owners:
         known = workspace.world.components(owner)
         return known.possible if known.ask(name) == "missing" else None
-    names: set[str] = set()
+    all_names: set[str] = set()
     for package in owners:
         if package.script is None or package.hidden(Facet.COMPONENTS):
             return None
-        names.update(component.name for component in package.script.components)
+        all_names.update(component.name for component in package.script.components)
         # component-mismatch reports classes that the sources export but CMake does not register.
-        names.update(registration.name for registration in package.registrations if registration.kind == "component")
-    return None if name in names else tuple(sorted(names))
+        all_names.update(registration.name for registration in package.registrations if registration.kind == "component")
+    return None if name in all_names else tuple(sorted(all_names))
 
 
 RULE = Rule(

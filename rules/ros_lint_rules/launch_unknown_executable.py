@@ -43,30 +43,14 @@ import re
 from collections.abc import Collection, Iterator
 from typing import NamedTuple
 
-from ros_lint.api import (
-    Confidence,
-    Finding,
-    Package,
-    Related,
-    Rule,
-    Severity,
-    Workspace,
-    ask_if_meant,
-    did_you_mean,
-    first_related,
-    installed_programs,
-    installed_to_bin_only,
-    near_names,
-    package_launch_files,
-    place_of,
-    references_by_name,
-    rename_fix,
-)
+from ros_lint.api import Confidence, Finding, Package, Related, Rule, Severity, Workspace, build, first_related, launch, names
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    idle = frozenset(launch.file.path for launch in package_launch_files(package, apart=True) if not launch.run)
-    started = references_by_name(package, ("node",), apart=True)
+    idle = frozenset(
+        launch_file.file.path for launch_file in launch.package_launch_files(package, apart=True) if not launch_file.run
+    )
+    started = launch.references_by_name(package, ("node",), apart=True)
     for (owner, name), references in started.items():
         if "/" in name:
             continue
@@ -86,7 +70,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             best.span,
             name,
             (*missing.related, *first_related(Related("also started here", reference.span) for reference in others)),
-            rename_fix(
+            launch.rename_fix(
                 f"start '{missing.meant}'",
                 missing.meant,
                 [(reference.span, reference.exact) for reference in references],
@@ -120,25 +104,25 @@ def _missing(owner: str, name: str, workspace: Workspace) -> _Missing | None:
             (),
             Confidence.HIGH if sure else Confidence.MEDIUM,
         )
-    names: set[str] = set()
+    all_names: set[str] = set()
     for package in owners:
-        installed = installed_programs(package)
-        if installed is None or name in installed.names or installed_to_bin_only(package, name) or _is_lost(package, name):
+        installed = launch.installed_programs(package)
+        if installed is None or name in installed.names or build.installed_to_bin_only(package, name) or _is_lost(package, name):
             return None
         if name in installed.elsewhere:
             path = installed.elsewhere[name]
             where = tuple(Related("installed here", p.span) for p in package.built.provides if p.path == path)
             hint = f" in lib/{owner}; it is installed as {path}, where launch does not look; install it to lib/{owner}"
             return _Missing(hint, "", where)
-        names |= installed.names
+        all_names |= installed.names
         if left_out := _uninstalled_script(package, name) or _uninstalled_target(package, name):
             return left_out
-    meant = _meant(name, tuple(sorted(names)))
-    if not meant and (by_module := next(filter(None, (_named_by_module(package, name, names) for package in owners)), None)):
+    meant = _meant(name, tuple(sorted(all_names)))
+    if not meant and (by_module := next(filter(None, (_named_by_module(package, name, all_names) for package in owners)), None)):
         return by_module
     scripts = [package.script for package in owners]
     related = tuple(Related(f"build script of '{owner}'", script.end) for script in scripts if script and script.end)
-    return _Missing(_hint(name, meant, tuple(sorted(names))), meant, related[:1])
+    return _Missing(_hint(name, meant, tuple(sorted(all_names))), meant, related[:1])
 
 
 def _is_lost(package: Package, name: str) -> bool:
@@ -157,10 +141,10 @@ def _uninstalled_target(package: Package, name: str) -> _Missing | None:
     return _Missing(hint, "", (Related("built here", target.span),))
 
 
-def _named_by_module(package: Package, name: str, names: Collection[str]) -> _Missing | None:
+def _named_by_module(package: Package, name: str, all_names: Collection[str]) -> _Missing | None:
     """Return the hint for the name of a Python file where that of its executable is required."""
     script, stem = package.built, name.removesuffix(".py")
-    entries = [entry for entry in script.entry_points if entry.name in names and entry.module.rpartition(".")[2] == stem]
+    entries = [entry for entry in script.entry_points if entry.name in all_names and entry.module.rpartition(".")[2] == stem]
     if entries:
         quoted = " or ".join(f"'{entry.name}'" for entry in entries[:3])
         return _Missing(
@@ -185,17 +169,17 @@ def _uninstalled_script(package: Package, name: str) -> _Missing | None:
     if not uninstalled:
         return None
     elsewhere = any(provided.source == uninstalled for provided in script.provides)
-    file = Related("this file", place_of(package, uninstalled))
+    file = Related("this file", package.start_of(uninstalled))
     return _Missing(f"; '{uninstalled}' is not installed{f' to {own[:-1]}' if elsewhere else ''}; install it", "", (file,))
 
 
-def _hint(name: str, meant: str, names: tuple[str, ...]) -> str:
+def _hint(name: str, meant: str, all_names: tuple[str, ...]) -> str:
     if meant:
-        return ask_if_meant([meant])
-    near = near_names(name, names, 3, 0.6)
+        return names.ask_if_meant([meant])
+    near = names.near_names(name, all_names, 3, 0.6)
     if near:
-        return did_you_mean(near)
-    executables = [other for other in names if not other.endswith(_LIBRARY)]
+        return names.did_you_mean(near)
+    executables = [other for other in all_names if not other.endswith(_LIBRARY)]
     if not executables:
         return "; it installs no executables"
     listed = ", ".join(f"'{executable}'" for executable in executables[:5])
@@ -209,14 +193,14 @@ _LIBRARY = (".a", ".so")
 _SUFFIX = re.compile(r"(?:\.py|\.sh|_?node|_?exe|_?main)+$")
 
 
-def _meant(name: str, names: tuple[str, ...]) -> str:
+def _meant(name: str, all_names: tuple[str, ...]) -> str:
     """Return the only executable that differs in nothing but its suffix, dashes and underscores, or capitals, or ""."""
 
     def plain(text: str) -> str:
         text = text.lower().replace("-", "_")
         return (_SUFFIX.sub("", text) or text).replace("_", "")
 
-    same = [other for other in names if plain(other) == plain(name)]
+    same = [other for other in all_names if plain(other) == plain(name)]
     return same[0] if len(same) == 1 else ""
 
 

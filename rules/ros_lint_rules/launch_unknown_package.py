@@ -63,17 +63,10 @@ from ros_lint.api import (
     Severity,
     Span,
     Workspace,
-    ask_if_meant,
-    declared_closure,
-    did_you_mean,
+    dependencies,
     first_related,
-    installed_programs,
-    may_be_package,
-    may_provide,
-    package_launch_files,
-    rename_fix,
-    shorten_list,
-    tag_for,
+    launch,
+    names,
 )
 
 
@@ -100,7 +93,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             best.reference.package_span,
             name,
             first_related(Related("also named here", span) for span in spans[1:]),
-            rename_fix(
+            launch.rename_fix(
                 f"write '{verdict.meant}' instead of '{name}'",
                 verdict.meant,
                 [(place.reference.package_span, place.reference.package_exact) for place in places],
@@ -125,7 +118,7 @@ class _Place(NamedTuple):
 
 def _hint_to_declare(name: str, package: Package, workspace: Workspace) -> str:
     """Return the end of the message about an undeclared package that may be available elsewhere."""
-    tag = tag_for(package, workspace, name, Role.EXEC)
+    tag = dependencies.tag_for(package, workspace, name, Role.EXEC)
     return f"; if it is available elsewhere, add <{tag}>{name}</{tag}>"
 
 
@@ -137,9 +130,9 @@ def _never_comes(name: str, package: Package, workspace: Workspace) -> bool:
     manifest = package.manifest
     if manifest is None or manifest.problems or package.tags(name):
         return False
-    closure = declared_closure(package, workspace, Role.EXEC | Role.EXPORT)
+    closure = dependencies.declared_closure(package, workspace, Role.EXEC | Role.EXPORT)
     replaced = bool(workspace.world.successor(name))
-    return name not in closure and (replaced or not may_provide(closure.unknown, name, workspace))
+    return name not in closure and (replaced or not dependencies.may_provide(closure.unknown, name, workspace))
 
 
 class _Verdict(NamedTuple):
@@ -155,17 +148,17 @@ class _Verdict(NamedTuple):
 def _unknown(package: Package, workspace: Workspace) -> Iterator[tuple[str, list[_Place]]]:
     """Yield unknown package names with their places; those that start executables of this package are grouped separately."""
     unknown: dict[tuple[str, bool], list[_Place]] = {}
-    own = installed_programs(package)
+    own = launch.installed_programs(package)
     hidden = bool(package.hidden(Facet.SHARE))
-    for launch in package_launch_files(package, apart=True):
-        idle = not (launch.installed or hidden)
-        for reference in launch.file.references:
+    for launch_file in launch.package_launch_files(package, apart=True):
+        idle = not (launch_file.installed or hidden)
+        for reference in launch_file.file.references:
             name = reference.package
             unknowable = workspace.world.standing(name) == "unknowable" or name in workspace.world.awaited.uncloned
             if "$" in name or reference.kind == "program" or unknowable:
                 continue  # a template, a program without a package, or a submodule that is not cloned
             if not workspace.world.is_package(name) and name != package.name and not reference.optional:
-                place = _Place(not launch.run, reference.by_default, idle, reference.conditional, reference.span, reference)
+                place = _Place(not launch_file.run, reference.by_default, idle, reference.conditional, reference.span, reference)
                 is_own = own is not None and reference.kind == "node" and reference.name in own.names
                 unknown.setdefault((name, is_own), []).append(place)
     yield from ((name, places) for (name, _), places in unknown.items())
@@ -175,7 +168,7 @@ def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: W
     world = workspace.world
     meant = world.meant(name)
     if meant is not None and world.is_package(meant.name):
-        return _Verdict(ask_if_meant([meant.name]), Confidence.HIGH, meant.name)
+        return _Verdict(names.ask_if_meant([meant.name]), Confidence.HIGH, meant.name)
     renamed = [other for other in workspace.by_name if other.endswith(f"_{name}")]
     if len(renamed) == 1 and _may_have(renamed[0], places, workspace, all):
         return _Verdict(f"; the workspace has '{renamed[0]}'", Confidence.HIGH, renamed[0])
@@ -187,13 +180,13 @@ def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: W
         return _Verdict(
             f" in {distro}, only in {', '.join(elsewhere)} (package index of {date})", Confidence.MEDIUM, resembles=False
         )
-    own = installed_programs(package)
+    own = launch.installed_programs(package)
     wanted = dict.fromkeys(place.reference.name for place in places)
     if own and own.names.issuperset(wanted) and places[0].reference.kind == "node":
-        return _Verdict(f"; '{package.name}' itself installs {shorten_list(list(wanted))}", Confidence.HIGH, package.name)
+        return _Verdict(f"; '{package.name}' itself installs {names.shorten_list(list(wanted))}", Confidence.HIGH, package.name)
     family = f"{package.name.partition('_')[0]}_{name}"
     if "_" in name and world.is_package(family) and _may_have(family, places, workspace, all):
-        return _Verdict(ask_if_meant([family]), Confidence.HIGH, family)
+        return _Verdict(names.ask_if_meant([family]), Confidence.HIGH, family)
     ended = world.knowledge.names.end_of_life(name)
     if ended:
         successor = world.successor(name)
@@ -205,8 +198,8 @@ def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: W
     reordered = [] if near else [other for other in _reordered(name, workspace) if _may_have(other, places, workspace)]
     nowhere = f" in the workspace, the underlays or {distro} (package index of {date})"
     # The same confidence as unknown-dependency has for a name in package.xml.
-    invalid = package.declares(name) and not may_be_package(name)
-    hint = f"{nowhere}{did_you_mean(near or reordered)}"
+    invalid = package.declares(name) and not names.may_be_package(name)
+    hint = f"{nowhere}{names.did_you_mean(near or reordered)}"
     confidence = Confidence.HIGH if invalid else Confidence.MEDIUM
     return _Verdict(hint, confidence, resembles=bool(known or reordered), known=bool(reordered))
 
@@ -238,7 +231,7 @@ def _may_offer(other: str, reference: LaunchReference, workspace: Workspace) -> 
 
 
 def _may_start(package: Package, name: str) -> bool:
-    installed = installed_programs(package)
+    installed = launch.installed_programs(package)
     return installed is None or _has_like(name, (*installed.names, *installed.elsewhere))
 
 

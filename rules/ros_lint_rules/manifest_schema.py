@@ -33,7 +33,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ros_lint.api import Depend, Element, Finding, Fix, Manifest, Package, Rule, Severity, Span, Workspace, manifest_edits
+from ros_lint.api import Depend, Element, Finding, Fix, Manifest, Package, Rule, Severity, Span, Workspace, edits
 
 _NAME = re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)*")
 _VERSION = re.compile(r"(0|[1-9][0-9]*)(\.(0|[1-9][0-9]*)){2}")
@@ -61,8 +61,8 @@ def _order(manifest: Manifest) -> Iterator[Finding]:
     children: list[Element | Depend] = sorted((*manifest.elements, *manifest.depends), key=lambda child: child.span)
     highest = children[0]
     for child in children:
-        if manifest_edits.schema_rank(child.tag) < manifest_edits.schema_rank(highest.tag):
-            fix = Fix.of("sort the elements", *manifest_edits.sort(manifest))
+        if edits.manifest.schema_rank(child.tag) < edits.manifest.schema_rank(highest.tag):
+            fix = Fix.of("sort the elements", *edits.manifest.sort(manifest))
             message = f"<{child.tag}> after <{highest.tag}> violates the schema; move it before <{highest.tag}>"
             yield _finding(message, child.span, "order")._replace(fix=fix)
             return

@@ -25,46 +25,31 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import (
-    ALL_FACETS,
-    ENDS,
-    Edit,
-    Finding,
-    Fix,
-    Package,
-    Rule,
-    Severity,
-    Workspace,
-    called,
-    config_names,
-    file_start,
-    stops_early,
-    top_file,
-)
+from ros_lint.api import ALL_FACETS, Edit, Finding, Fix, Package, Rule, Severity, Workspace, build, files
 
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
     script = package.script
-    if package.builds_with != "ament_cmake" or script is None or stops_early(script):
+    if package.builds_with != "ament_cmake" or script is None or build.stops_early(script):
         return
     if script.is_empty:
         yield Finding(
             "CMakeLists.txt contains no command, so nothing is built or installed and the package will not be found; write "
             "project(), the targets and ament_package()",
-            file_start(script.path),
+            files.file_start(script.path),
             "ament_package()",
         )
     if "project" not in script.calls:
         return
-    if any(name in script.calls for name in ENDS) or any(call.name in ENDS for call in script.written):
+    if any(name in script.calls for name in build.ENDS) or any(call.name in build.ENDS for call in script.written):
         return
     if any(opaque.span.path.endswith((".txt", ".cmake")) for opaque in package.hidden(ALL_FACETS)):
         return
-    if any(provided.path.rpartition("/")[2] in config_names(package.name) for provided in script.provides):
+    if any(provided.path.rpartition("/")[2] in build.config_names(package.name) for provided in script.provides):
         return
     yield Finding(
         "ament_package() is never called, so the installed package will not be found; call it at the end",
-        next((call.place for call in called(package, "project")), file_start(script.path)),
+        next((call.place for call in package.calls("project")), files.file_start(script.path)),
         "ament_package()",
         fix=_fix(package),
     )
@@ -72,7 +57,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
 
 def _fix(package: Package) -> Fix | None:
     script = package.script
-    calls = [call for call in script.written if call.path == top_file(package)] if script else []
+    calls = [call for call in script.written if call.path == package.cmake_lists] if script else []
     last = calls[-1] if calls else None
     if last is None or last.blocks:
         return None

@@ -29,21 +29,23 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import ENDS, Finding, Fix, Package, Rule, Severity, Workspace, conditions, manifest_edits
+from ros_lint.api import Finding, Fix, Package, Rule, Severity, Workspace, build, dependencies, edits
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     manifest = package.manifest
     if manifest is None or manifest.problems or not package.type.startswith("ros."):
         return
-    if conditions.build_types(manifest, workspace.target.context) or any(d.name == "catkin" for d in manifest.depends):
+    if dependencies.conditions.build_types(manifest, workspace.target.context) or any(
+        d.name == "catkin" for d in manifest.depends
+    ):
         return
     needed = _needed(package)
     if not needed:
         return
     present = [export for export in manifest.exports if export.tag == "build_type"]
     what = f"no <build_type> applies to {workspace.target.distro}" if present else "<build_type> is missing"
-    fix = None if present else Fix(f"write <build_type>{needed}</build_type>", (manifest_edits.set_build_type(manifest, needed),))
+    fix = None if present else Fix(f"write <build_type>{needed}</build_type>", (edits.manifest.set_build_type(manifest, needed),))
     yield Finding(
         f"{what}, so colcon builds the package with catkin; write <build_type>{needed}</build_type> in <export>",
         present[0].span if present else manifest.name_span,
@@ -55,7 +57,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 def _needed(package: Package) -> str:
     """Return the build type that the build scripts of the package need, or "" if that is unclear."""
     if "CMakeLists.txt" in package.files:
-        return "ament_cmake" if not set(ENDS).isdisjoint(package.built.calls) else ""
+        return "ament_cmake" if not set(build.ENDS).isdisjoint(package.built.calls) else ""
     return "ament_python" if "setup.py" in package.files else ""
 
 

@@ -41,20 +41,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import (
-    Call,
-    Confidence,
-    Finding,
-    Package,
-    Problem,
-    Rule,
-    Severity,
-    Workspace,
-    ask_if_meant,
-    called,
-    evaluated_name,
-    similar_names,
-)
+from ros_lint.api import Call, Confidence, Finding, Package, Problem, Rule, Severity, Workspace, build, names
 
 _KINDS = ("missing-file", "missing-folder", "missing-script", "file-is-directory")
 _KINDS_OF_INSTALL = ("DIRECTORY", "FILES", "PROGRAMS", "TARGETS")
@@ -107,7 +94,7 @@ def _makes_files(package: Package) -> bool:
     makers = _MAKES_FILES.intersection(package.built.calls)
     if not makers.issubset(_RUNS):
         return True
-    calls = list(called(package, *_RUNS, anywhere=True))
+    calls = list(package.calls(*_RUNS, anywhere=True))
     return bool(makers) and not (calls and all(_only_prints(call) for call in calls))
 
 
@@ -123,12 +110,12 @@ def _only_prints(call: Call) -> bool:
 
 def _is_installed(package: Package, problem: Problem) -> bool:
     """Return whether the file is needed by install(), not while CMake configures."""
-    return any(call.whole.covers(problem.span) for call in called(package, "install", anywhere=True))
+    return any(call.whole.covers(problem.span) for call in package.calls("install", anywhere=True))
 
 
 def _builds_in_sources(package: Package) -> bool:
     """Return whether a custom command or target names the source folder in its command, arguments or working directory."""
-    for call in called(package, "add_custom_command", "add_custom_target", anywhere=True):
+    for call in package.calls("add_custom_command", "add_custom_target", anywhere=True):
         word = ""
         for text in call.texts:
             if text.isupper() and "$" not in text:
@@ -145,14 +132,14 @@ def _hint(package: Package, path: str) -> str:
     folder, _, name = path.rpartition("/")
     same = [file for file in package.files if file.rpartition("/")[2] == name]
     if len(same) == 1:
-        return ask_if_meant(same)
+        return names.ask_if_meant(same)
     siblings = [file.rpartition("/")[2] for file in package.files if file.rpartition("/")[0] == folder]
-    return ask_if_meant([f"{folder}/{near}".lstrip("/") for near in similar_names(name, siblings, 1, 0.8)])
+    return names.ask_if_meant([f"{folder}/{near}".lstrip("/") for near in names.similar_names(name, siblings, 1, 0.8)])
 
 
 def _python_packages(package: Package) -> Iterator[Finding]:
-    for call in called(package, "ament_python_install_package"):
-        name = evaluated_name(package, call.texts[0]) if call.args else None
+    for call in package.calls("ament_python_install_package"):
+        name = build.evaluated_name(package, call.texts[0]) if call.args else None
         if call.blocks or name is None or _has_option(call):
             continue
         folder = name.replace(".", "/")

@@ -39,7 +39,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from ros_lint.api import (
-    VENDOR,
     Call,
     Confidence,
     Facet,
@@ -51,18 +50,11 @@ from ros_lint.api import (
     Severity,
     Use,
     Workspace,
-    ask_if_meant,
-    called,
-    cmake_edits,
-    config_names,
-    find_package_closure,
+    build,
+    dependencies,
+    edits,
     first_related,
-    misspelled_names,
-    names_searched,
-    relative,
-    shorten_list,
-    similar_names,
-    stops_early,
+    names,
 )
 
 _NO_EVIDENCE = ("export", "plugins", "helper")
@@ -76,11 +68,11 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     wrong = (problem for problem in script.refused if problem.kind == "no-package")
     yield from (Finding(problem.message, problem.span, problem.subject) for problem in wrong)
-    if stops_early(script) or script.hides(Facet.USES):
+    if build.stops_early(script) or script.hides(Facet.USES):
         return
-    found = names_searched(package, script)
+    found = dependencies.names_searched(package, script)
     spelt = {name.lower() for name in found}  # namespaces of targets may differ in case: RTABMap, rtabmap::core
-    along = find_package_closure(workspace, found)
+    along = dependencies.find_package_closure(workspace, found)
     yield from _no_packages(package, found, workspace)
     missing: dict[str, list[tuple[str, Related]]] = {}
     probable: set[str] = set()
@@ -114,14 +106,14 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _gives_commands(name: str) -> bool:
     """Return whether the name is that of a package which only provides commands and comes with the build tool."""
-    return "cmake" in name or name.startswith(("ament_", "rosidl_")) or name.endswith(VENDOR)
+    return "cmake" in name or name.startswith(("ament_", "rosidl_")) or name.endswith(names.VENDOR)
 
 
 def _included(package: Package, along: frozenset[str] | None, workspace: Workspace) -> Iterator[Finding]:
     """Yield the declared packages whose headers compiled sources include, but for which there is certainly no find_package()."""
     if along is None:
         return
-    folders = (text for call in called(package, *_INCLUDING, anywhere=True) for text in call.texts)
+    folders = (text for call in package.calls(*_INCLUDING, anywhere=True) for text in call.texts)
     if any(text.startswith("/") or ".." in text for text in folders):
         return  # the headers may be in the sources or install folder of another package
     world = workspace.world
@@ -129,7 +121,7 @@ def _included(package: Package, along: frozenset[str] | None, workspace: Workspa
     compiled = {source for target in targets for source in target.sources if source not in target.optional}
     places: dict[str, list[Use]] = {}
     for use in package.uses:
-        if use.via == "include" and not use.optional and relative(package, use.span.path) in compiled:
+        if use.via == "include" and not use.optional and package.relative(use.span.path) in compiled:
             places.setdefault(use.package, []).append(use)
     for name, uses in places.items():
         providers = {provider for use in uses for provider in use.providers}
@@ -154,8 +146,10 @@ def _no_packages(package: Package, found: frozenset[str], workspace: Workspace) 
     assert script is not None
     world = workspace.world
     targets = {target.name for target in script.targets}
-    spelt = {name.lower() for name in found}.union(name.lower() for name in misspelled_names(package, workspace).values())
-    for call in called(package, *_TARGET_COMMANDS, anywhere=True):
+    spelt = {name.lower() for name in found}.union(
+        name.lower() for name in dependencies.misspelled_names(package, workspace).values()
+    )
+    for call in package.calls(*_TARGET_COMMANDS, anywhere=True):
         if _REPEATED.intersection(call.blocks):
             continue
         arguments = {name: index for index, name in enumerate(call.texts) if index or call.name == _EXPORTS}
@@ -164,13 +158,17 @@ def _no_packages(package: Package, found: frozenset[str], workspace: Workspace) 
             unknown = {name: at for name, at in unknown.items() if not _is_findable(package, name, workspace)}
         yield from _targets(call, {name: index for name, index in unknown.items() if name in targets})
         for name, index in unknown.items():
-            if name not in targets and (names := _suggested(name, found)):
-                hint = f"; did you mean '{names[0]}' and '{names[1]}'?" if len(names) > 1 else ask_if_meant(names)
+            if name not in targets and (all_names := _suggested(name, found)):
+                hint = (
+                    f"; did you mean '{all_names[0]}' and '{all_names[1]}'?"
+                    if len(all_names) > 1
+                    else names.ask_if_meant(all_names)
+                )
                 yield Finding(
                     f"{call.name}() expects packages, but there is no find_package({name}){hint}",
                     call.span(index),
                     name,
-                    fix=Fix.of(f"write '{' '.join(names)}'", cmake_edits.write(call, index, " ".join(names)), safe=False),
+                    fix=Fix.of(f"write '{' '.join(all_names)}'", edits.cmake.write(call, index, " ".join(all_names)), safe=False),
                 )
             elif name not in targets and call.name == _EXPORTS and _is_plain(name):
                 yield Finding(
@@ -187,7 +185,7 @@ def _is_findable(package: Package, name: str, workspace: Workspace) -> bool:
     if "::" in name:
         return True  # reported when the command is evaluated
     world = workspace.world
-    modules = (f"Find{name}.cmake", *config_names(name))
+    modules = (f"Find{name}.cmake", *build.config_names(name))
     if package.declares(name) or any(file.endswith(modules) for file in package.files):
         return True
     return world.standing(name) != "unknown" or world.by_cmake(name).known
@@ -203,17 +201,17 @@ def _suggested(name: str, found: frozenset[str]) -> tuple[str, ...]:
     for end in range(1, len(name)):
         if name[:end] in found and name[end:] in found:
             return name[:end], name[end:]
-    return tuple(similar_names(name, sorted(found), 1, 0.9))
+    return tuple(names.similar_names(name, sorted(found), 1, 0.9))
 
 
-def _targets(call: Call, names: Mapping[str, int]) -> Iterator[Finding]:
+def _targets(call: Call, all_names: Mapping[str, int]) -> Iterator[Finding]:
     """Yield one finding for all arguments of a call that are targets of this package."""
-    if names:
-        (name, at), *others = names.items()
+    if all_names:
+        (name, at), *others = all_names.items()
         are, it = ("are targets", "them") if others else ("is a target", "it")
         verb = "export" if call.name == _EXPORTS else "link"
         yield Finding(
-            f"{call.name}() expects packages, but {shorten_list(names)} {are} of this package; {verb} {it} with "
+            f"{call.name}() expects packages, but {names.shorten_list(all_names)} {are} of this package; {verb} {it} with "
             f"{_TARGET_COMMANDS[call.name]}()",
             call.span(at),
             name,

@@ -48,16 +48,10 @@ from ros_lint.api import (
     Severity,
     Span,
     Workspace,
-    add_dependency,
-    called,
-    find_package_closure,
-    folders_of,
-    interface_names,
-    macro_packages,
-    manifest_edits,
-    naming_fix,
-    relative,
-    undeclared,
+    dependencies,
+    edits,
+    files,
+    names,
 )
 
 _RUNTIME = "rosidl_default_runtime"
@@ -74,15 +68,15 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if place is None or not script.interfaces or not _is_installed(package):
         return
     sure = Confidence.MEDIUM if place.optional or place.test else Confidence.HIGH
-    inside = folders_of(relative(package, place.span.path))
+    inside = files.folders_of(package.relative(place.span.path))
     if not any(f"{folder}/package.xml" in package.files for folder in inside):  # CMake would read that one
-        if interface_names.GROUP not in package.groups and not _skips_check(package, place.span):
+        if names.interfaces.GROUP not in package.groups and not _skips_check(package, place.span):
             yield Finding(
-                f"{_GENERATE}() fails without <member_of_group>{interface_names.GROUP}</member_of_group> in package.xml",
+                f"{_GENERATE}() fails without <member_of_group>{names.interfaces.GROUP}</member_of_group> in package.xml",
                 place.span,
-                interface_names.GROUP,
+                names.interfaces.GROUP,
                 (),
-                Fix(f"join the group '{interface_names.GROUP}'", _join(manifest)),
+                Fix(f"join the group '{names.interfaces.GROUP}'", _join(manifest)),
                 sure,
             )
         yield from _runtime(package, workspace, place.span, sure)
@@ -91,7 +85,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _skips_check(package: Package, place: Span) -> bool:
-    calls = called(package, _GENERATE, anywhere=True)
+    calls = package.calls(_GENERATE, anywhere=True)
     return any(call.place == place and "SKIP_GROUP_MEMBERSHIP_CHECK" in call.texts for call in calls)
 
 
@@ -102,13 +96,13 @@ def _is_installed(package: Package) -> bool:
 
 
 def _join(manifest: Manifest) -> tuple[Edit, ...]:
-    edits = (manifest_edits.add(manifest, "member_of_group", interface_names.GROUP),)
-    return edits if manifest.format >= 3 else (manifest_edits.raise_format(manifest, 3), *edits)
+    changes = (edits.manifest.add(manifest, "member_of_group", names.interfaces.GROUP),)
+    return changes if manifest.format >= 3 else (edits.manifest.raise_format(manifest, 3), *changes)
 
 
 def _runtime(package: Package, workspace: Workspace, place: Span, sure: Confidence) -> Iterator[Finding]:
     starts = [declared.name for declared in package.declared if declared.role & (Role.EXEC | Role.EXPORT)]
-    reported = {need.name for need, certain in undeclared(package, workspace) if certain}
+    reported = {need.name for need, certain in dependencies.undeclared(package, workspace) if certain}
     if not {_RUNTIME, _CORE}.isdisjoint(starts) or _RUNTIME in reported:
         return
     closure = workspace.world.closure(starts)
@@ -121,7 +115,9 @@ def _runtime(package: Package, workspace: Workspace, place: Span, sure: Confiden
         place,
         _RUNTIME,
         (),
-        naming_fix(workspace, _RUNTIME, f"declare '{_RUNTIME}' as <{tag}>", *add_dependency(package, tag, _RUNTIME)),
+        dependencies.naming_fix(
+            workspace, _RUNTIME, f"declare '{_RUNTIME}' as <{tag}>", *dependencies.add_dependency(package, tag, _RUNTIME)
+        ),
         Confidence.MEDIUM if provided else sure,
         Severity.INFO if provided else None,
     )
@@ -130,13 +126,18 @@ def _runtime(package: Package, workspace: Workspace, place: Span, sure: Confiden
 def _fields(package: Package, workspace: Workspace, place: Span, sure: Confidence) -> Iterator[Finding]:
     script = package.script
     assert script is not None
-    listed = frozenset(mention.name for mention in macro_packages(script, "interfaces"))
-    along = find_package_closure(workspace, listed)
+    listed = frozenset(mention.name for mention in dependencies.macro_packages(script, "interfaces"))
+    along = dependencies.find_package_closure(workspace, listed)
     if along is None:
         return
     reported = set()
     for use in package.uses:
-        if use.via != "interface" or use.package in along | interface_names.UNDERLYING or use.package in reported or not use.sure:
+        if (
+            use.via != "interface"
+            or use.package in along | names.interfaces.UNDERLYING
+            or use.package in reported
+            or not use.sure
+        ):
             continue
         if not use.span.path.endswith((".msg", ".srv", ".action")):
             continue

@@ -30,7 +30,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import EditableList, Facet, Finding, Fix, Package, Rule, Severity, Workspace, setup_edits
+from ros_lint.api import EditableList, Facet, Finding, Fix, Package, Rule, Severity, Workspace, edits
 
 _MARKERS = "share/ament_index/resource_index/packages"
 
@@ -41,16 +41,16 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         return
     if "setup.py" not in package.files:
         return
-    slot = setup_edits.slot(script, "data_files")
+    slot = edits.setup_py.slot(script, "data_files")
     paths = {provided.path for provided in script.provides}
-    place = setup_edits.place(script)
+    place = edits.setup_py.place(script)
     source_missing = any(problem.kind == "missing-file" and "resource/" in problem.subject for problem in script.problems)
     if not source_missing and not any(path.startswith(f"{_MARKERS}/") for path in paths):
         marker = f"resource/{package.name}"
         fix = None
         if slot and marker in package.files:
-            element = setup_edits.joined(slot, package.name, "resource/")
-            fix = _add(slot, f"({setup_edits.quoted(slot, _MARKERS)}, [{element}])")
+            element = edits.setup_py.joined(slot, package.name, "resource/")
+            fix = _add(slot, f"({edits.setup_py.quoted(slot, _MARKERS)}, [{element}])")
         misplaced = next((provided for provided in script.provides if provided.source == marker), None)
         where = f"installed to {misplaced.path.rpartition('/')[0]}" if misplaced else "not installed"
         adds = f"add {marker}" if marker in package.files else f"create an empty file {marker} and add it"
@@ -71,11 +71,11 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
 
 
 def _manifest(slot: EditableList, package: str) -> str:
-    return f"({setup_edits.joined(slot, package, 'share/')}, [{setup_edits.quoted(slot, 'package.xml')}])"
+    return f"({edits.setup_py.joined(slot, package, 'share/')}, [{edits.setup_py.quoted(slot, 'package.xml')}])"
 
 
 def _add(slot: EditableList, element: str) -> Fix:
-    return Fix(f"add {element} to data_files", (setup_edits.add(slot, element),))
+    return Fix(f"add {element} to data_files", (edits.setup_py.add(slot, element),))
 
 
 RULE = Rule(

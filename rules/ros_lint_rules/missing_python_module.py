@@ -71,10 +71,9 @@ from ros_lint.api import (
     Span,
     UninstalledImport,
     Workspace,
-    cmake_edits,
-    file_start,
+    edits,
+    files,
     first_related,
-    setup_edits,
 )
 
 _FIND = "find_package(ament_cmake_python REQUIRED)"
@@ -87,7 +86,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_python" or package.hidden(Facet.PYTHON):
         return
-    slot = setup_edits.slot(script, "packages")
+    slot = edits.setup_py.slot(script, "packages")
     as_data = {provided.source.rpartition("/")[0] for provided in script.provides if provided.source.endswith(".py")}
     reported: set[str] = set()
     imports = _uninstalled_imports(package, workspace)
@@ -117,7 +116,7 @@ class _Lack(NamedTuple):
 def _unlisted(package: Package, script: BuildScript, slot: EditableList | None, as_data: Container[str]) -> Iterator[_Lack]:
     """Yield the sub-packages of installed packages that are not installed, except folders that data_files installs."""
     installed = script.python_packages
-    place = slot.end if slot else (script.name_span or file_start(script.path))
+    place = slot.end if slot else (script.name_span or files.file_start(script.path))
     for name, folder in _packages(package):
         inside = name.rpartition(".")[0] in installed and f"{folder}/__init__.py" in package.files
         if inside and name not in installed and folder not in as_data:
@@ -189,10 +188,10 @@ def _of_cmake(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     if script.interfaces or any(module.partition(".")[0] == package.name for module in script.python_packages):
         return  # the module of this name is generated or built
-    files = frozenset(package.files)
-    folder = next((f for f in (package.name, f"src/{package.name}") if f"{f}/__init__.py" in files), "")
+    paths = frozenset(package.files)
+    folder = next((f for f in (package.name, f"src/{package.name}") if f"{f}/__init__.py" in paths), "")
     modules = [file for file in package.files if file.startswith(f"{folder}/") and file.endswith(".py")] if folder else []
-    if len(modules) < 2 or not files.isdisjoint(p.source for p in script.provides if p.source.startswith(f"{folder}/")):
+    if len(modules) < 2 or not paths.isdisjoint(p.source for p in script.provides if p.source.startswith(f"{folder}/")):
         return
     users = [
         (other, use)
@@ -208,8 +207,8 @@ def _of_cmake(package: Package, workspace: Workspace) -> Iterator[Finding]:
         script.end,
         folder,
         first_related(Related("imported here", use.span) for _, use in users),
-        Fix.of(f"install '{folder}/'", cmake_edits.at_end(script, f"{_FIND}\n{call}"), safe=False),
-        Confidence.HIGH if users or f"{folder}/setup.cfg" in files else Confidence.MEDIUM,
+        Fix.of(f"install '{folder}/'", edits.cmake.at_end(script, f"{_FIND}\n{call}"), safe=False),
+        Confidence.HIGH if users or f"{folder}/setup.cfg" in paths else Confidence.MEDIUM,
         None if users else Severity.WARNING,
     )
 
@@ -227,8 +226,10 @@ def _fix(slot: EditableList | None, name: str, package: str) -> Fix | None:
     if slot is None:
         return None
     inside = name.startswith(f"{package}.")
-    element = setup_edits.joined(slot, package, "", name.removeprefix(package)) if inside else setup_edits.quoted(slot, name)
-    return Fix(f"add '{name}' to packages", (setup_edits.add(slot, element),))
+    element = (
+        edits.setup_py.joined(slot, package, "", name.removeprefix(package)) if inside else edits.setup_py.quoted(slot, name)
+    )
+    return Fix(f"add '{name}' to packages", (edits.setup_py.add(slot, element),))
 
 
 RULE = Rule(

@@ -52,9 +52,8 @@ from ros_lint.api import (
     Severity,
     Span,
     Workspace,
-    called,
-    evaluated_name,
-    setup_edits,
+    build,
+    edits,
 )
 
 _MARKERS = "share/ament_index/resource_index/packages/"
@@ -84,7 +83,7 @@ def _mismatches(package: Package, manifest: Manifest, script: BuildScript) -> It
 def _is_called(package: Package, name: str) -> bool:
     """Return whether a project() of the package has this name: a superbuild has more than one project()."""
     return name == package.built.name or any(
-        evaluated_name(package, call.texts[0]) == name for call in called(package, "project") if call.args
+        build.evaluated_name(package, call.texts[0]) == name for call in package.calls("project") if call.args
     )
 
 
@@ -105,7 +104,7 @@ def _python(manifest: Manifest, script: BuildScript) -> Iterator[Finding]:
             places.append(Related(message, provided.span))
     entries = {entry.span for entry in script.entry_points}
     # setup.py lists the programs, and setup.cfg sets their folder.
-    scripts = setup_edits.program_folders(script).get("install.install_scripts")
+    scripts = edits.setup_py.program_folders(script).get("install.install_scripts")
     for places in wrong.values():
         first, *others = [place._replace(span=scripts) if scripts and place.span in entries else place for place in places]
         message = f"{first.message}, but package.xml names the package '{manifest.name}'; use one name"
@@ -139,8 +138,8 @@ def _finding(message: str, manifest: Manifest, script: BuildScript, span: Span) 
     if span == script.name_span and (place := span.inner(script.name)):
         # In setup.py the same variable may name folders and files, which the fix does not rename.
         fix = Fix(f"write '{manifest.name}'", (Edit(place, manifest.name),), safe=not script.path.endswith(".py"))
-    if span in setup_edits.program_folders(script).values():
-        fix = Fix(f"write '$base/lib/{manifest.name}'", setup_edits.programs_to(script, manifest.name))
+    if span in edits.setup_py.program_folders(script).values():
+        fix = Fix(f"write '$base/lib/{manifest.name}'", edits.setup_py.programs_to(script, manifest.name))
     return Finding(message, span, manifest.name, fix=fix)
 
 

@@ -39,19 +39,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ros_lint.api import (
-    Confidence,
-    Finding,
-    Manifest,
-    Package,
-    Related,
-    Rule,
-    Severity,
-    Workspace,
-    first_related,
-    is_auxiliary,
-    shorten_list,
-)
+from ros_lint.api import Confidence, Finding, Manifest, Package, Related, Rule, Severity, Workspace, files, first_related, names
 
 _DATA = re.compile(
     r"\..*|tests?|testing|fixtures|data|resources?|templates?|examples?|demos?|docs?|vendor|third_?party|3rdparty|external|contrib",
@@ -78,9 +66,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _all_hidden(package: Package, lost: list[Manifest]) -> Finding:
     """Return the finding for several packages below a folder that is one plain package because of its build script."""
-    names = shorten_list(nested.name for nested in lost)
+    all_names = names.shorten_list(nested.name for nested in lost)
     return Finding(
-        f"colcon ignores {names}, because they are inside {_outer(package)}; {_remedy(package, lost, 'them')}",
+        f"colcon ignores {all_names}, because they are inside {_outer(package)}; {_remedy(package, lost, 'them')}",
         package.place,
         package.name,
         first_related(Related("an ignored package", nested.name_span) for nested in lost),
@@ -89,7 +77,7 @@ def _all_hidden(package: Package, lost: list[Manifest]) -> Finding:
 
 def _is_lost(package: Package, nested: Manifest) -> bool:
     """Return whether a nested manifest is probably a package to be built, neither data nor of ROS 1."""
-    data = any(_DATA.fullmatch(folder) or is_auxiliary(f"{folder}/") for folder in _between(package, nested))
+    data = any(_DATA.fullmatch(folder) or files.is_auxiliary(f"{folder}/") for folder in _between(package, nested))
     return not (data or _is_installed(package, nested) or package.builds_with == "catkin" or _is_of_ros_1(nested))
 
 

@@ -35,32 +35,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import (
-    Finding,
-    NodeParameterFile,
-    Package,
-    ParameterFiles,
-    Related,
-    Rule,
-    Severity,
-    Workspace,
-    first_related,
-    is_node_renaming,
-    is_plain,
-    package_launch_files,
-    shorten_list,
-)
+from ros_lint.api import Finding, Package, Related, Rule, Severity, Workspace, first_related, launch, names
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
-    files = ParameterFiles(workspace)
-    unmatched: list[tuple[Package, list[NodeParameterFile]]] = []
+    files = launch.ParameterFiles(workspace)
+    unmatched: list[tuple[Package, list[launch.NodeParameterFile]]] = []
     used: set[str] = set()
     for package in workspace.packages:
-        for launch in package_launch_files(package):
-            rewrites = any(_rewrites(name) for name, _ in launch.file.imports)
-            by_file: dict[str, list[NodeParameterFile]] = {}
-            for passed in files.given(launch.file):
+        for launch_file in launch.package_launch_files(package):
+            rewrites = any(_rewrites(name) for name, _ in launch_file.file.imports)
+            by_file: dict[str, list[launch.NodeParameterFile]] = {}
+            for passed in files.given(launch_file.file):
                 by_file.setdefault(passed.file.path, []).append(passed)
             for path, uses in by_file.items():
                 if uses[0].file.nodes and any(_may_be_of(passed, rewrites) for passed in uses):
@@ -80,7 +66,7 @@ def _rewrites(module: str) -> bool:
     return module.startswith("nav2_common") or module.rpartition(".")[2] == "rewritten_yaml"
 
 
-def _flat(uses: list[NodeParameterFile]) -> Iterator[Finding]:
+def _flat(uses: list[launch.NodeParameterFile]) -> Iterator[Finding]:
     nodes = [passed for passed in uses if passed.action.kind == "node"]
     if nodes:
         yield Finding(
@@ -93,11 +79,11 @@ def _flat(uses: list[NodeParameterFile]) -> Iterator[Finding]:
         )
 
 
-def _of_others(uses: list[NodeParameterFile]) -> Finding:
+def _of_others(uses: list[launch.NodeParameterFile]) -> Finding:
     first = uses[0]
-    names = shorten_list(dict.fromkeys(name for name, _ in first.file.nodes))
+    all_names = names.shorten_list(dict.fromkeys(name for name, _ in first.file.nodes))
     return Finding(
-        f"'{_name(first)}' has parameters for {names}, but none for the node '{_full_name(first)}', which receives it here; "
+        f"'{_name(first)}' has parameters for {all_names}, but none for the node '{_full_name(first)}', which receives it here; "
         "correct the name or write /**",
         first.value.span,
         first.file.path,
@@ -105,36 +91,41 @@ def _of_others(uses: list[NodeParameterFile]) -> Finding:
     )
 
 
-def _more(uses: list[NodeParameterFile]) -> tuple[Related, ...]:
+def _more(uses: list[launch.NodeParameterFile]) -> tuple[Related, ...]:
     return first_related(Related("also passed here", passed.value.span) for passed in uses[1:])
 
 
-def _name(passed: NodeParameterFile) -> str:
+def _name(passed: launch.NodeParameterFile) -> str:
     return passed.file.path.rpartition("/")[2]
 
 
-def _full_name(passed: NodeParameterFile) -> str:
+def _full_name(passed: launch.NodeParameterFile) -> str:
     namespace = passed.namespaces[0].strip("/")
     return f"/{namespace}/{passed.names[0]}" if namespace else f"/{passed.names[0]}"
 
 
-def _may_be_of(passed: NodeParameterFile, rewrites: bool) -> bool:
+def _may_be_of(passed: launch.NodeParameterFile, rewrites: bool) -> bool:
     """Return whether a file may have parameters for the node that receives it (``rclcpp::parameter_map_from``)."""
     words = (text for _, value in passed.action.arguments for text in value.texts)
-    if passed.action.children or _is_container(passed) or any(map(is_node_renaming, words)):
+    if passed.action.children or _is_container(passed) or any(map(launch.is_node_renaming, words)):
         return True
-    if len(passed.names) != 1 or not passed.names[0] or not is_plain(passed.names[0]):
+    if len(passed.names) != 1 or not passed.names[0] or not launch.is_plain(passed.names[0]):
         return True
     same = [name for name, _ in passed.file.nodes if name.rpartition("/")[2] in (passed.names[0], "*", "**")]
     if not same:
         return False
-    if rewrites or len(passed.namespaces) != 1 or not is_plain(passed.namespaces[0]) or not passed.namespaces[0].strip("/"):
+    if (
+        rewrites
+        or len(passed.namespaces) != 1
+        or not launch.is_plain(passed.namespaces[0])
+        or not passed.namespaces[0].strip("/")
+    ):
         return True
     # A name without a namespace never matches a node in one; a name with a namespace or "*" may.
     return any("*" in name or name.count("/") > 1 for name in same)
 
 
-def _is_container(passed: NodeParameterFile) -> bool:
+def _is_container(passed: launch.NodeParameterFile) -> bool:
     """Return whether a node is a component container: its command line applies to all components that it loads."""
     package = passed.action.package
     return package is not None and "rclcpp_components" in package.texts

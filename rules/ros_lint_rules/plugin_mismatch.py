@@ -49,7 +49,6 @@ import re
 from collections.abc import Collection, Iterator
 
 from ros_lint.api import (
-    EXPORTING_PLUGINS,
     Call,
     Confidence,
     Facet,
@@ -65,18 +64,12 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
-    ask_if_meant,
+    build,
     cached_by_workspace,
-    called,
-    cmake_edits,
+    edits,
+    files,
     first_related,
-    is_auxiliary,
-    is_declared_shared,
-    library_registering,
-    opaque_except_undefined_targets,
-    relative,
-    shorten_list,
-    similar_names,
+    names,
 )
 
 _SEEN = Facet.LIBRARIES | Facet.SHARE | Facet.COMPONENTS
@@ -84,18 +77,20 @@ _SEEN = Facet.LIBRARIES | Facet.SHARE | Facet.COMPONENTS
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
-    if script is None or package.builds_with != "ament_cmake" or opaque_except_undefined_targets(package, _SEEN):
+    if script is None or package.builds_with != "ament_cmake" or build.opaque_except_undefined_targets(package, _SEEN):
         return
     all_macros = [macro for macro in package.registrations if macro.kind == "plugin"]
-    registered = [macro for macro in all_macros if not (is_auxiliary(relative(package, macro.span.path)) or _is_no_plugin(macro))]
-    names = {macro.name for macro in registered}
+    registered = [
+        macro for macro in all_macros if not (files.is_auxiliary(package.relative(macro.span.path)) or _is_no_plugin(macro))
+    ]
+    all_names = {macro.name for macro in registered}
     installed = script.installed
-    exported = list(called(package, EXPORTING_PLUGINS, anywhere=True))
-    if EXPORTING_PLUGINS not in script.calls and not exported:
+    exported = list(package.calls(build.EXPORTING_PLUGINS, anywhere=True))
+    if build.EXPORTING_PLUGINS not in script.calls and not exported:
         yield from _unexported(package, workspace, registered)
         # A description that is not exported has no effect, and many remain from ROS 1.
         for plugin in script.plugins:
-            if plugin.path in installed and not is_auxiliary(plugin.path):
+            if plugin.path in installed and not files.is_auxiliary(plugin.path):
                 for finding in _libraries(package, workspace, plugin, all_macros):
                     yield finding._replace(confidence=Confidence.MEDIUM)
         return
@@ -109,15 +104,15 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         for entry in library.classes
     }
     for plugin in script.plugins:
-        if is_auxiliary(plugin.path):
+        if files.is_auxiliary(plugin.path):
             continue
         if plugin.path in installed:
             yield from _libraries(package, workspace, plugin, all_macros)
         elif any(plugin.path in call.texts for call in exported):
             continue  # only under a condition
-        elif exported and any(entry.type in names - described for library in plugin.libraries for entry in library.classes):
+        elif exported and any(entry.type in all_names - described for library in plugin.libraries for entry in library.classes):
             yield Finding(
-                f"'{plugin.path}' is not exported, so its plugins are not found; add {EXPORTING_PLUGINS}(... {plugin.path})",
+                f"'{plugin.path}' is not exported, so its plugins are not found; add {build.EXPORTING_PLUGINS}(... {plugin.path})",
                 plugin.span,
                 plugin.path,
                 fix=_export(package, plugin),
@@ -127,16 +122,16 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 def _undescribed(package: Package, registered: list[Registration]) -> Iterator[Finding]:
     """Yield findings for registered classes that no description lists, if all descriptions can be read."""
     descriptions = {plugin.path: plugin for plugin in package.built.plugins}
-    calls = list(called(package, EXPORTING_PLUGINS, anywhere=True))
+    calls = list(package.calls(build.EXPORTING_PLUGINS, anywhere=True))
     if _reads_manifest(package) or not all(len(call.texts) > 1 and call.texts[1] in descriptions for call in calls):
         return
     classes = [entry for plugin in descriptions.values() for library in plugin.libraries for entry in library.classes]
     known = {name.rpartition("::")[2] for entry in classes for name in (entry.type, entry.name.replace("/", "::"))}
     # A class next to a described one, or in a library that others link, may be a base class or a copy.
-    needed = {library_registering(package, macro) for macro in registered if macro.name.rpartition("::")[2] in known}
+    needed = {build.library_registering(package, macro) for macro in registered if macro.name.rpartition("::")[2] in known}
     needed.update(name for target in package.built.targets for name, _ in target.links)
     for macro in registered:
-        library = library_registering(package, macro)
+        library = build.library_registering(package, macro)
         if library and library not in needed:
             yield Finding(
                 f"'{macro.name}' is registered, but no exported plugin description lists it, so loaders do not find it",
@@ -175,7 +170,7 @@ def _wrongly_exported(package: Package, workspace: Workspace) -> Iterator[Findin
     script = package.script
     assert script is not None
     described = {plugin.path: plugin for plugin in script.plugins}
-    for call in called(package, EXPORTING_PLUGINS, anywhere=True):
+    for call in package.calls(build.EXPORTING_PLUGINS, anywhere=True):
         if len(call.texts) < 2 or "$" in call.texts[0] or call.texts[1] not in described:
             continue
         exported_for, path = call.texts[:2]
@@ -185,9 +180,9 @@ def _wrongly_exported(package: Package, workspace: Workspace) -> Iterator[Findin
         if exported_for == package.name and exported_for not in asked:
             yield from _for_itself(package, call, bases, workspace)
         if loaders and exported_for not in asked and not workspace.world.is_package(exported_for):
-            fix = Fix(f"export it for '{asked[0]}'", (cmake_edits.write(call, 0, asked[0]),), safe=False)
+            fix = Fix(f"export it for '{asked[0]}'", (edits.cmake.write(call, 0, asked[0]),), safe=False)
             yield Finding(
-                f"'{path}' is exported for '{exported_for}', which is not a package; the loader searches for {shorten_list(asked)}",
+                f"'{path}' is exported for '{exported_for}', which is not a package; the loader searches for {names.shorten_list(asked)}",
                 call.span(0),
                 path,
                 first_related(Related("loaded here", loader.span) for loader in loaders),
@@ -211,7 +206,7 @@ def _for_itself(package: Package, call: Call, bases: Collection[str], workspace:
             f"'{owner}', which has the base class",
             call.span(0),
             call.texts[1],
-            fix=Fix(f"export it for '{owner}'", (cmake_edits.write(call, 0, owner),), safe=False),
+            fix=Fix(f"export it for '{owner}'", (edits.cmake.write(call, 0, owner),), safe=False),
         )
 
 
@@ -235,8 +230,8 @@ def _unexported(package: Package, workspace: Workspace, registered: list[Registr
     if not registered:
         return
     first, *others = registered
-    names = {macro.name for macro in registered}
-    plugin = next((p for p in script.plugins if any(c.type in names for lib in p.libraries for c in lib.classes)), None)
+    all_names = {macro.name for macro in registered}
+    plugin = next((p for p in script.plugins if any(c.type in all_names for lib in p.libraries for c in lib.classes)), None)
     if _reads_manifest(package):
         return
     if plugin is None and (base := _unloaded_base(registered, workspace)):
@@ -248,7 +243,9 @@ def _unexported(package: Package, workspace: Workspace, registered: list[Registr
             severity=Severity.INFO,
         )
         return
-    remedy = f"{EXPORTING_PLUGINS}(... {plugin.path})" if plugin else f"a plugin description and {EXPORTING_PLUGINS}()"
+    remedy = (
+        f"{build.EXPORTING_PLUGINS}(... {plugin.path})" if plugin else f"a plugin description and {build.EXPORTING_PLUGINS}()"
+    )
     yield Finding(
         f"'{first.name}' is registered, but no plugin description is exported, so loaders do not find it; add {remedy}",
         first.span,
@@ -258,7 +255,7 @@ def _unexported(package: Package, workspace: Workspace, registered: list[Registr
         _export(package, plugin) if plugin else None,
         # A source that is not compiled may be unused; in a package without libraries, the library is yet to be added.
         confidence=Confidence.HIGH
-        if library_registering(package, first) or not _builds_libraries(package)
+        if build.library_registering(package, first) or not _builds_libraries(package)
         else Confidence.MEDIUM,
     )
 
@@ -279,7 +276,9 @@ def _export(package: Package, plugin: PluginFile) -> Fix | None:
     base = bases.pop()
     if not package.declares(base) and base != package.name:
         return None
-    return Fix.of(f"export '{plugin.path}'", cmake_edits.at_end(script, f"{EXPORTING_PLUGINS}({base} {plugin.path})"), safe=False)
+    return Fix.of(
+        f"export '{plugin.path}'", edits.cmake.at_end(script, f"{build.EXPORTING_PLUGINS}({base} {plugin.path})"), safe=False
+    )
 
 
 def _libraries(package: Package, workspace: Workspace, plugin: PluginFile, registered: list[Registration]) -> Iterator[Finding]:
@@ -309,10 +308,10 @@ def _library(package: Package, plugin: PluginFile, library: PluginLibrary) -> It
     if name in built:
         message = f"the library '{name}' is built, but not installed to lib/"
         # The library may be static, or its file may have another name.
-        sure = Confidence.HIGH if is_declared_shared(package, name) and library.classes else Confidence.MEDIUM
+        sure = Confidence.HIGH if build.is_declared_shared(package, name) and library.classes else Confidence.MEDIUM
     else:
-        near = similar_names(name, sorted(installed | built), 1, 0.8)
-        message = f"the package does not build a library '{name}'{ask_if_meant(near)}"
+        near = names.similar_names(name, sorted(installed | built), 1, 0.8)
+        message = f"the package does not build a library '{name}'{names.ask_if_meant(near)}"
         sure = Confidence.HIGH if library.classes else Confidence.MEDIUM  # without classes nothing is loaded
     yield Finding(message, library.span, f"{plugin.path}#{library.path.rpartition('/')[2]}", confidence=sure)
 

@@ -28,7 +28,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Depend, Finding, Fix, Package, Related, Rule, Severity, Workspace, manifest_edits
+from ros_lint.api import Depend, Finding, Fix, Package, Related, Rule, Severity, Workspace, edits
 
 _IN_DEPEND = ("build_depend", "build_export_depend", "exec_depend")
 
@@ -54,7 +54,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             depend.span,
             depend.name,
             (Related("also declared here", kept.span),),
-            Fix(f"remove <{depend.tag}>{depend.name}</{depend.tag}>", (manifest_edits.remove(manifest, depend),)),
+            Fix(f"remove <{depend.tag}>{depend.name}</{depend.tag}>", (edits.manifest.remove(manifest, depend),)),
         )
 
 

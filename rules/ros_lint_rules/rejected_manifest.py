@@ -41,18 +41,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ros_lint.api import (
-    Depend,
-    Edit,
-    Finding,
-    Fix,
-    Manifest,
-    Problem,
-    Rule,
-    Severity,
-    Workspace,
-    manifest_edits,
-)
+from ros_lint.api import Depend, Edit, Finding, Fix, Manifest, Problem, Rule, Severity, Workspace, edits
 
 _SHORT_VERSION = re.compile(r"v?(\d+)(?:\.(\d+))?(?:\.(\d+))?")
 _OF_FORMAT_1 = frozenset(("build_depend", "buildtool_depend", "test_depend", "conflict", "replace", "run_depend", "exec_depend"))
@@ -81,7 +70,7 @@ def _depend_at(manifest: Manifest, problem: Problem) -> Depend | None:
 
 def _fix(manifest: Manifest, problem: Problem, depend: Depend | None) -> Fix | None:
     if problem.kind in ("duplicate-dependency", "self-dependency") and depend:
-        return Fix(f"remove <{depend.tag}>{depend.name}</{depend.tag}>", (manifest_edits.remove(manifest, depend),))
+        return Fix(f"remove <{depend.tag}>{depend.name}</{depend.tag}>", (edits.manifest.remove(manifest, depend),))
     if problem.kind == "unknown-tag":
         return _other_tag(manifest, problem, depend) if depend else None
     if problem.kind == "unknown-attribute":
@@ -97,10 +86,10 @@ def _other_tag(manifest: Manifest, problem: Problem, depend: Depend) -> Fix | No
     """Return the fix for a dependency tag of another format."""
     if depend.tag == "run_depend":
         if any(_equal(depend, other) for other in manifest.depends if other.tag in ("depend", "exec_depend")):
-            return Fix(f"remove <run_depend>{depend.name}</run_depend>", (manifest_edits.remove(manifest, depend),))
-        return Fix("replace <run_depend> by <exec_depend>", manifest_edits.change_tag(depend, "exec_depend"))
+            return Fix(f"remove <run_depend>{depend.name}</run_depend>", (edits.manifest.remove(manifest, depend),))
+        return Fix("replace <run_depend> by <exec_depend>", edits.manifest.change_tag(depend, "exec_depend"))
     if depend.tag == "exec_depend" and all(other.tag in _OF_FORMAT_1 for other in manifest.depends):
-        return Fix("replace <exec_depend> by <run_depend>", manifest_edits.change_tag(depend, "run_depend"))
+        return Fix("replace <exec_depend> by <run_depend>", edits.manifest.change_tag(depend, "run_depend"))
     return _raised(manifest, problem)
 
 
@@ -113,7 +102,7 @@ def _raised(manifest: Manifest, problem: Problem) -> Fix | None:
     form = problem.subject
     if not form or (manifest.format == 1 and any(depend.tag == "run_depend" for depend in manifest.depends)):
         return None
-    return Fix(f"raise the format to {form}", (manifest_edits.raise_format(manifest, int(form)),), safe=False)
+    return Fix(f"raise the format to {form}", (edits.manifest.raise_format(manifest, int(form)),), safe=False)
 
 
 def _whole_version(manifest: Manifest, problem: Problem) -> Fix | None:

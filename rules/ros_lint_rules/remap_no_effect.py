@@ -24,24 +24,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import (
-    Confidence,
-    Finding,
-    LaunchValue,
-    Package,
-    Rule,
-    Severity,
-    Span,
-    Workspace,
-    is_plain,
-    package_launch_files,
-    walk_actions,
-)
+from ros_lint.api import Confidence, Finding, LaunchValue, Package, Rule, Severity, Span, Workspace, launch
 
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
-    for launch in package_launch_files(package):
-        actions = list(walk_actions(launch.file.actions))
+    for launch_file in launch.package_launch_files(package):
+        actions = list(launch.walk_actions(launch_file.file.actions))
         declarations = [action.target for action in actions if action.kind == "argument" and action.target is not None]
         arguments = {name for target in declarations for name in target.texts}
         findings: dict[Span, Finding] = {}  # a function that creates nodes may be called several times
@@ -57,7 +45,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
 
 def _of_pair(before: LaunchValue, after: LaunchValue, arguments: set[str]) -> Iterator[Finding]:
     for side, value in (("from", before), ("to", after)):
-        if len(value.texts) == 1 and is_plain(value.texts[0]) and _is_invalid(value.texts[0]):
+        if len(value.texts) == 1 and launch.is_plain(value.texts[0]) and _is_invalid(value.texts[0]):
             yield Finding(
                 f"a remapping {side} {value.texts[0]!r}, which is not a valid name, stops the node; correct or remove it",
                 value.span,

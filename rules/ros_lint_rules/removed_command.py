@@ -38,20 +38,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import (
-    Confidence,
-    Finding,
-    Fix,
-    Package,
-    Related,
-    Rule,
-    Severity,
-    Workspace,
-    called,
-    cmake_edits,
-    first_related,
-    names_searched,
-)
+from ros_lint.api import Confidence, Finding, Fix, Package, Related, Rule, Severity, Workspace, dependencies, edits, first_related
 
 _REMOVED = {"ament_target_dependencies": ("ament_cmake_target_dependencies", frozenset({"lyrical", "rolling"}))}
 _MODULE = "ament_python"
@@ -81,9 +68,9 @@ def _commands(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None:
         return
-    found = names_searched(package, script)
+    found = dependencies.names_searched(package, script)
     for name, (provider, distros) in _REMOVED.items():
-        calls = [call for call in called(package, name, anywhere=True) if not call.blocks or call.test]
+        calls = [call for call in package.calls(name, anywhere=True) if not call.blocks or call.test]
         if not calls or workspace.target.distro not in distros or provider in found:
             continue
         first, *others = calls
@@ -93,7 +80,7 @@ def _commands(package: Package, workspace: Workspace) -> Iterator[Finding]:
             first.place,
             name,
             related,
-            Fix.of(cmake_edits.LINKED, *cmake_edits.link_to_targets(calls, workspace), safe=False),
+            Fix.of(edits.cmake.LINKED, *edits.cmake.link_to_targets(calls, workspace), safe=False),
             Confidence.HIGH if workspace.target.told else Confidence.MEDIUM,
         )
 

@@ -54,13 +54,10 @@ from ros_lint.api import (
     Severity,
     Span,
     Workspace,
-    called,
-    cmake_edits,
+    edits,
     first_related,
-    nodes_started,
-    place_of,
-    relative,
-    shorten_list,
+    launch,
+    names,
 )
 
 _ENDINGS = (".py", ".sh", ".bash", ".rb", ".pl")
@@ -71,7 +68,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if script is None or package.builds_with not in ("ament_cmake", "ament_python"):
         return
     files = {file.path: file for file in script.files}
-    started = nodes_started(workspace).get(package.name, {})
+    started = launch.nodes_started(workspace).get(package.name, {})
     runs = {provided.path for provided in script.provides if provided.program}
     any_executable = any(
         provided.program and provided.source in files and files[provided.source].executable for provided in script.provides
@@ -97,7 +94,7 @@ def _line(package: Package, file: ScriptFile, name: str, started: bool, any_exec
 
     ``any_executable``: an installed script of the package has the bit. If not, the file system may not support the bit.
     """
-    place = place_of(package, file.path)
+    place = package.start_of(file.path)
     if file.carriage_return:
         message = f"the first line of '{file.path}' ends with a carriage return, so the interpreter is not found; save it with LF"
         yield Finding(message, place, file.path)
@@ -115,26 +112,26 @@ def _line(package: Package, file: ScriptFile, name: str, started: bool, any_exec
 
 
 def _no_bit(package: Package, span: Span, scripts: list[InstalledFile], files: dict[str, ScriptFile]) -> Finding:
-    names = sorted(dict.fromkeys(script.path.rpartition("/")[2] for script in scripts))
-    named = shorten_list(names)
-    installs = (call for call in called(package, "install", anywhere=True) if call.args)
+    all_names = sorted(dict.fromkeys(script.path.rpartition("/")[2] for script in scripts))
+    named = names.shorten_list(all_names)
+    installs = (call for call in package.calls("install", anywhere=True) if call.args)
     call = next((call for call in installs if call.whole.covers(span)), None)
     remedy, fix = "install(PROGRAMS)", None
     if call is not None and call.texts[0] == "DIRECTORY":
         remedy = "USE_SOURCE_PERMISSIONS or install(PROGRAMS)"
         if all(files[script.source].executable for script in scripts):
-            fix = Fix("add USE_SOURCE_PERMISSIONS", (cmake_edits.keep_permissions(call),))
+            fix = Fix("add USE_SOURCE_PERMISSIONS", (edits.cmake.keep_permissions(call),))
     elif call is not None and call.texts[0] == "FILES":
-        fix = Fix("replace FILES by PROGRAMS", (cmake_edits.write(call, 0, "PROGRAMS"),), safe=False)
+        fix = Fix("replace FILES by PROGRAMS", (edits.cmake.write(call, 0, "PROGRAMS"),), safe=False)
     elif not span.path.endswith((".txt", ".cmake")):
         remedy = "chmod +x or entry_points"
-    it = "them" if len(names) > 1 else "it"
+    it = "them" if len(all_names) > 1 else "it"
     return Finding(
-        f"{named} {'are' if len(names) > 1 else 'is'} installed without the executable bit, so ros2 run does not find {it}; "
+        f"{named} {'are' if len(all_names) > 1 else 'is'} installed without the executable bit, so ros2 run does not find {it}; "
         f"use {remedy}",
         span,
-        relative(package, scripts[0].source),
-        first_related(Related("this script", place_of(package, script.source)) for script in scripts),
+        package.relative(scripts[0].source),
+        first_related(Related("this script", package.start_of(script.source)) for script in scripts),
         fix,
         _confidence(package, call),
     )

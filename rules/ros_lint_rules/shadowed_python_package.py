@@ -26,17 +26,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Finding, Package, Related, Rule, Severity, Workspace, called, evaluated_name
+from ros_lint.api import Finding, Package, Related, Rule, Severity, Workspace, build
 
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
     if package.builds_with != "ament_cmake":
         return
     generating = [
-        call for call in called(package, "rosidl_generate_interfaces") if not call.blocks and "SKIP_INSTALL" not in call.texts
+        call for call in package.calls("rosidl_generate_interfaces") if not call.blocks and "SKIP_INSTALL" not in call.texts
     ]
-    for call in called(package, "ament_python_install_package"):
-        name = evaluated_name(package, call.texts[0]) if call.args else None
+    for call in package.calls("ament_python_install_package"):
+        name = build.evaluated_name(package, call.texts[0]) if call.args else None
         if generating and not call.blocks and name == package.name:
             yield Finding(
                 f"the Python package '{name}' has the same name as the generated one, so one hides the other; rename it",

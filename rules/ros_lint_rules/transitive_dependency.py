@@ -42,58 +42,43 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from ros_lint.api import (
-    Confidence,
-    Finding,
-    Need,
-    Package,
-    Related,
-    Rule,
-    Severity,
-    Workspace,
-    first_related,
-    intended_names,
-    is_part_of_launch,
-    manifest_is_complete,
-    needs,
-    optional_needs,
-    remedy,
-    unused_find_packages,
-)
+from ros_lint.api import Confidence, Finding, Package, Related, Rule, Severity, Workspace, dependencies, first_related
 
 _LAUNCHER = "ros2launch"
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    if not manifest_is_complete(package):
+    if not dependencies.manifest_is_complete(package):
         return
     declared = tuple(dict.fromkeys(declared.name for declared in package.declared))
-    unused = {mention.name for mention in unused_find_packages(package, workspace)}
-    misnamed = intended_names(package, workspace)
-    for need in needs(package, workspace):
+    unused = {mention.name for mention in dependencies.unused_find_packages(package, workspace)}
+    misnamed = dependencies.intended_names(package, workspace)
+    for need in dependencies.needs(package, workspace):
         if need.declared or not need.brought or need.name in unused or _is_command(need):
             continue
         if any(misnamed.intersection(use.providers) for use in need.uses):
             continue
-        if not (_LAUNCHER in declared and is_part_of_launch(package, need.uses)):
+        if not (_LAUNCHER in declared and dependencies.is_part_of_launch(package, need.uses)):
             yield _finding(package, workspace, declared, need, Confidence.HIGH if need.sure else Confidence.MEDIUM)
-    for wish in optional_needs(package, workspace):
+    for wish in dependencies.optional_needs(package, workspace):
         if wish.brought and not _is_command(wish):
             yield _finding(package, workspace, declared, wish, Confidence.LOW)._replace(fix=None)
 
 
-def _is_command(need: Need) -> bool:
+def _is_command(need: dependencies.Need) -> bool:
     return all(use.via == "macro" for use in need.uses)
 
 
-def _finding(package: Package, workspace: Workspace, declared: Sequence[str], need: Need, confidence: Confidence) -> Finding:
+def _finding(
+    package: Package, workspace: Workspace, declared: Sequence[str], need: dependencies.Need, confidence: Confidence
+) -> Finding:
     """Return the finding for a need. The confidence is at most medium if colcon rejects the manifest, or for a cycle."""
     best, *others = need.uses
     paths = (workspace.world.path(declared, name) for name in best.providers)
     path = next((path for path in paths if path), (need.name,))
     name = path[-1]
     between = " > ".join(f"'{package_between}'" for package_between in path[:-1])
-    proposal = remedy(package, workspace, name, need.role)
+    proposal = dependencies.remedy(package, workspace, name, need.role)
     return Finding(
         f"'{name}' is used here, but is only available through {between}{proposal.ending}",
         best.span,

@@ -28,7 +28,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Confidence, Finding, Manifest, Rule, Severity, Workspace, conditions
+from ros_lint.api import Confidence, Finding, Manifest, Rule, Severity, Workspace, dependencies
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
@@ -36,7 +36,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
         manifest = package.manifest
         if manifest is None:
             continue
-        broken = conditions.problems(manifest)
+        broken = dependencies.conditions.problems(manifest)
         for problem in broken:
             message = f"colcon cannot use this package.xml: {problem.message}"
             yield Finding(message, problem.span, problem.kind, package=package.name)
@@ -48,11 +48,11 @@ def check(workspace: Workspace) -> Iterator[Finding]:
 def _unknown(manifest: Manifest, workspace: Workspace) -> Iterator[Finding]:
     context = workspace.target.context
     conditional = [(depend.condition, depend.name, depend.span) for depend in manifest.depends]
-    conditional += [(conditions.of(export), export.text or export.tag, export.span) for export in manifest.exports]
+    conditional += [(dependencies.conditions.of(export), export.text or export.tag, export.span) for export in manifest.exports]
     for text, name, span in conditional:
-        if conditions.truth(text, context) is not None:
+        if dependencies.conditions.truth(text, context) is not None:
             continue
-        unknown = sorted(conditions.variables(conditions.parse(text)) - context.keys())
+        unknown = sorted(dependencies.conditions.variables(dependencies.conditions.parse(text)) - context.keys())
         yield Finding(
             f"the condition of '{name}' uses {' and '.join(unknown)}, which the build farm does not set; "
             "use ROS_VERSION or ROS_DISTRO",

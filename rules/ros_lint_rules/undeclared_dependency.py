@@ -73,51 +73,44 @@ from collections.abc import Iterator
 from ros_lint.api import (
     Confidence,
     Finding,
-    Need,
     Package,
     Related,
     Role,
     Rule,
     Severity,
     Workspace,
-    exists_in_any_distro,
+    build,
+    dependencies,
     first_related,
-    is_declared_misspelled,
-    is_part_of_launch,
-    manifest_is_complete,
-    optional_needs,
-    remedy,
-    undeclared,
-    unguarded_tests,
 )
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    if not manifest_is_complete(package):
+    if not dependencies.manifest_is_complete(package):
         return
-    undeclared_needs = undeclared(package, workspace)
-    with_launch = {need.name for need, _ in undeclared_needs if is_part_of_launch(package, need.uses)}
+    undeclared_needs = dependencies.undeclared(package, workspace)
+    with_launch = {need.name for need, _ in undeclared_needs if dependencies.is_part_of_launch(package, need.uses)}
     for need, sure in undeclared_needs:
         certain = sure and not (need.name == "launch" and "launch_ros" in with_launch)  # launch_ros provides launch
         problem = "is used here, but package.xml does not declare it"
         severity = Severity.INFO if need.name in with_launch else None
         finding = _finding(package, workspace, need, problem, Confidence.HIGH if certain else Confidence.MEDIUM)
-        if is_declared_misspelled(package, workspace, need):  # another rule fixes the name
+        if dependencies.is_declared_misspelled(package, workspace, need):  # another rule fixes the name
             message = f"'{need.name}' is used here, but package.xml declares it under a wrong name"
             finding = finding._replace(message=message, fix=None)
         yield finding._replace(severity=severity)
-    for wish in optional_needs(package, workspace):
+    for wish in dependencies.optional_needs(package, workspace):
         if not wish.brought:
             problem = "is used here if it is available, but package.xml does not declare it"
             yield _finding(package, workspace, wish, problem, Confidence.LOW)._replace(fix=None)
 
 
-def _finding(package: Package, workspace: Workspace, need: Need, problem: str, confidence: Confidence) -> Finding:
+def _finding(package: Package, workspace: Workspace, need: dependencies.Need, problem: str, confidence: Confidence) -> Finding:
     """Return the finding for a need. The confidence is at most medium if colcon rejects the manifest, or for a cycle."""
     best, *others = need.uses
     name = need.name
-    role = Role.TEST if name in unguarded_tests(package) else need.role  # unguarded-test asks to move it to the tests
-    proposal = remedy(package, workspace, name, role)
+    role = Role.TEST if name in build.unguarded_tests(package) else need.role  # unguarded-test asks to move it to the tests
+    proposal = dependencies.remedy(package, workspace, name, role)
     elsewhere = _elsewhere(name, workspace)
     condition, suggestion = _condition(package, name), _suggestion(name, workspace)
     if proposal.circular:
@@ -167,7 +160,7 @@ def _condition(package: Package, name: str) -> str:
 def _needs_back(name: str, package: Package, workspace: Workspace) -> bool:
     """Return whether ``name`` is a package of the workspace that certainly needs ``package`` without declaring it."""
     others = workspace.by_name.get(name, ())
-    return any(need.name == package.name and sure for other in others for need, sure in undeclared(other, workspace))
+    return any(need.name == package.name and sure for other in others for need, sure in dependencies.undeclared(other, workspace))
 
 
 def _elsewhere(name: str, workspace: Workspace) -> str:
@@ -176,7 +169,7 @@ def _elsewhere(name: str, workspace: Workspace) -> str:
     If no distribution is set, packages of all distributions are available.
     """
     world = workspace.world
-    if world.is_key(name) or exists_in_any_distro(name, workspace):
+    if world.is_key(name) or dependencies.exists_in_any_distro(name, workspace):
         return ""
     # A package that another one declares may be available as source.
     ended = () if world.is_declared(name) else world.knowledge.names.end_of_life(name)

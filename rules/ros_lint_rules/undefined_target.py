@@ -55,19 +55,11 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
-    ask_if_meant,
-    called,
-    cmake_edits,
-    config_names,
-    did_you_mean,
-    evaluated_name,
+    build,
+    dependencies,
+    edits,
     first_related,
-    has_extras,
-    installed_targets,
-    names_searched,
-    opaque_except_undefined_targets,
-    shorten_list,
-    similar_names,
+    names,
 )
 
 _USERS = (
@@ -86,30 +78,30 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with not in ("ament_cmake", "cmake"):
         return
-    names = sorted({target.name for target in script.targets})
-    if opaque_except_undefined_targets(package, ALL_FACETS):
+    all_names = sorted({target.name for target in script.targets})
+    if build.opaque_except_undefined_targets(package, ALL_FACETS):
         return
-    defined = set(names)
-    for call in called(package, *_DEFINING, anywhere=True):
+    defined = set(all_names)
+    for call in package.calls(*_DEFINING, anywhere=True):
         defined.update(call.texts[:1])
-        defined.add((evaluated_name(package, call.texts[0]) if call.args else None) or "")
+        defined.add((build.evaluated_name(package, call.texts[0]) if call.args else None) or "")
     wrong: dict[str, list[tuple[Call, int]]] = {}
     finds_unknown = _finds_unknown(package, workspace)
-    for call in called(package, *_USERS, "install"):
-        for index in installed_targets(call) if call.name == "install" else range(len(call.args[:1])):
-            name = evaluated_name(package, call.texts[index])
+    for call in package.calls(*_USERS, "install"):
+        for index in build.installed_targets(call) if call.name == "install" else range(len(call.args[:1])):
+            name = build.evaluated_name(package, call.texts[index])
             if name is None or call.blocks or name in defined or "::" in name:
                 continue
-            if call.name == "install" or not finds_unknown or similar_names(name, names, 1, 0.8):
+            if call.name == "install" or not finds_unknown or names.similar_names(name, all_names, 1, 0.8):
                 wrong.setdefault(name, []).append((call, index))
     for name, places in wrong.items():
-        yield _finding(f"{places[0][0].name}() fails because '{name}' is not a target", name, names, places)
+        yield _finding(f"{places[0][0].name}() fails because '{name}' is not a target", name, all_names, places)
     for problem in script.refused:  # these include computed names
         name = problem.subject
         if problem.kind == "undefined-target" and name not in defined and name not in wrong:
-            near = similar_names(name, names, 1, 0.8)
+            near = names.similar_names(name, all_names, 1, 0.8)
             if near or not finds_unknown or workspace.world.is_package(name):  # targets do not have the plain name of a package
-                yield Finding(problem.message + ask_if_meant(near), problem.span, name)
+                yield Finding(problem.message + names.ask_if_meant(near), problem.span, name)
     yield from _unfilled(package)
     yield from _of_others(package, script, workspace)
     yield from _no_libraries(package, defined)
@@ -117,18 +109,18 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _finds_unknown(package: Package, workspace: Workspace) -> bool:
     """Return whether the script finds an unknown package, which may define targets."""
-    written = {call.texts[0] for call in called(package, "find_package", anywhere=True) if call.args}
-    names = {name for name in written if "$" not in name}
-    names.update(mention.name for mention in package.built.mentions if mention.via == "cmake")
-    return not all(workspace.world.by_cmake(name.partition("/")[0]).known for name in names)
+    written = {call.texts[0] for call in package.calls("find_package", anywhere=True) if call.args}
+    all_names = {name for name in written if "$" not in name}
+    all_names.update(mention.name for mention in package.built.mentions if mention.via == "cmake")
+    return not all(workspace.world.by_cmake(name.partition("/")[0]).known for name in all_names)
 
 
 def _unfilled(package: Package) -> Iterator[Finding]:
     """Yield findings for exported sets without targets: CMake stops at the install(EXPORT) of such a set."""
     filled = list(dict.fromkeys([exported.into for exported in package.built.exported]))
-    for call in called(package, "ament_export_targets", "ament_export_interfaces"):
+    for call in package.calls("ament_export_targets", "ament_export_interfaces"):
         for index, text in enumerate(call.texts):
-            name = evaluated_name(package, text)
+            name = build.evaluated_name(package, text)
             if text == "NAMESPACE":
                 break
             if text == "HAS_LIBRARY_TARGET" or name is None or call.blocks or "__rosidl" in name or name in filled:
@@ -139,7 +131,7 @@ def _unfilled(package: Package) -> Iterator[Finding]:
 
 def _of_others(package: Package, script: BuildScript, workspace: Workspace) -> Iterator[Finding]:
     """Yield findings for targets of other packages of the workspace that these packages do not export."""
-    found = names_searched(package, script)
+    found = dependencies.names_searched(package, script)
     wrong: dict[str, list[Mention]] = {}
     for mention in script.mentions:
         owner, colons, target = mention.name.partition("::")
@@ -148,18 +140,24 @@ def _of_others(package: Package, script: BuildScript, workspace: Workspace) -> I
             if others and not any(_may_export(other, target) for other in others):
                 wrong.setdefault(owner, []).append(mention)
     for owner, mentions in wrong.items():
-        names = list(dict.fromkeys(mention.name.partition("::")[2] for mention in mentions))
+        all_names = list(dict.fromkeys(mention.name.partition("::")[2] for mention in mentions))
         exported = sorted({target.target for other in workspace.by_name[owner] for target in other.built.exported})
-        near = similar_names(names[0], exported, 3, 0.6) if len(names) == 1 else []
-        hint = did_you_mean(near) if near else f"; it exports {shorten_list(exported)}" if exported else "; it exports no targets"
+        near = names.similar_names(all_names[0], exported, 3, 0.6) if len(all_names) == 1 else []
+        hint = (
+            names.did_you_mean(near)
+            if near
+            else f"; it exports {names.shorten_list(exported)}"
+            if exported
+            else "; it exports no targets"
+        )
         first, *more = [mention.span for mention in mentions]
         related = [
             *first_related(Related("also linked here", span) for span in more),
-            *_definitions(workspace.by_name[owner], names),
+            *_definitions(workspace.by_name[owner], all_names),
         ]
-        targets = "a target" if len(names) == 1 else "targets"
-        message = f"'{owner}' does not export {targets} {shorten_list(names)}{hint}"
-        yield Finding(message, first, f"{owner}::{names[0]}", tuple(related))
+        targets = "a target" if len(all_names) == 1 else "targets"
+        message = f"'{owner}' does not export {targets} {names.shorten_list(all_names)}{hint}"
+        yield Finding(message, first, f"{owner}::{all_names[0]}", tuple(related))
 
 
 def _may_export(package: Package, target: str) -> bool:
@@ -168,51 +166,51 @@ def _may_export(package: Package, target: str) -> bool:
         script is None
         or package.builds_with != "ament_cmake"
         or script.interfaces
-        or opaque_except_undefined_targets(package, ALL_FACETS)
+        or build.opaque_except_undefined_targets(package, ALL_FACETS)
     ):
         return True
-    if has_extras(package):
+    if build.has_extras(package):
         return True
     return any(exported.target == target for exported in package.built.exported) or _may_rename_targets(package)
 
 
 def _may_rename_targets(package: Package) -> bool:
     """Return whether exported targets may have other names, or the package installs its own CMake configuration file."""
-    calls = called(package, "ament_export_targets", "install", "export", "set_target_properties", "set_property", anywhere=True)
+    calls = package.calls("ament_export_targets", "install", "export", "set_target_properties", "set_property", anywhere=True)
     if any("NAMESPACE" in call.texts or "EXPORT_NAME" in call.texts for call in calls):
         return True
-    names = config_names(package.name)
-    return any(file.source and file.path.rpartition("/")[2] in names for file in package.built.provides)
+    all_names = build.config_names(package.name)
+    return any(file.source and file.path.rpartition("/")[2] in all_names for file in package.built.provides)
 
 
-def _definitions(owners: Sequence[Package], names: Collection[str]) -> Iterator[Related]:
+def _definitions(owners: Sequence[Package], all_names: Collection[str]) -> Iterator[Related]:
     """Yield the places where the owners define targets without exporting them."""
     for owner in owners:
         for target in owner.built.targets:
-            if target.name in names:
+            if target.name in all_names:
                 yield Related("defined here, but not exported", target.span)
 
 
 def _no_libraries(package: Package, defined: Collection[str]) -> Iterator[Finding]:
     """Yield findings for exported libraries that are not built. Names unlike those of this package may be system libraries."""
     libraries = sorted(target.name for target in package.built.targets if target.kind == "library")
-    for call in called(package, "ament_export_libraries"):
+    for call in package.calls("ament_export_libraries"):
         for index, text in enumerate(call.texts):
-            name = evaluated_name(package, text)
+            name = build.evaluated_name(package, text)
             if name is None or call.blocks or name in defined:
                 continue
-            if name == evaluated_name(package, "${PROJECT_NAME}") or similar_names(name, libraries, 1, 0.9):
+            if name == build.evaluated_name(package, "${PROJECT_NAME}") or names.similar_names(name, libraries, 1, 0.9):
                 message = f"ament_export_libraries() exports '{name}', which is not a library of this package"
                 yield _finding(message, name, libraries, [(call, index)])._replace(severity=Severity.WARNING)
 
 
-def _finding(message: str, name: str, names: Sequence[str], places: list[tuple[Call, int]]) -> Finding:
-    near = similar_names(name, names, 1, 0.8)
+def _finding(message: str, name: str, all_names: Sequence[str], places: list[tuple[Call, int]]) -> Finding:
+    near = names.similar_names(name, all_names, 1, 0.8)
     fix = None
     if near:
-        message += ask_if_meant(near)
+        message += names.ask_if_meant(near)
         if all(call.texts[index] == name for call, index in places):
-            fix = Fix(f"write '{near[0]}'", tuple(cmake_edits.write(call, index, near[0]) for call, index in places), safe=False)
+            fix = Fix(f"write '{near[0]}'", tuple(edits.cmake.write(call, index, near[0]) for call, index in places), safe=False)
     first, *others = [call.span(index) for call, index in places]
     return Finding(message, first, name, first_related(Related("also here", span) for span in others), fix)
 

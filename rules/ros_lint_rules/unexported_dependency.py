@@ -57,8 +57,6 @@ import re
 from collections.abc import Container, Iterable, Iterator
 
 from ros_lint.api import (
-    HEADERS,
-    VENDOR,
     BuildScript,
     Confidence,
     Facet,
@@ -72,19 +70,12 @@ from ros_lint.api import (
     Span,
     Use,
     Workspace,
-    called,
-    cmake_edits,
-    evaluated_name,
+    build,
+    dependencies,
+    edits,
+    files,
     first_related,
-    has_extras,
-    macro_packages,
-    may_provide,
-    names_searched,
-    partial_closure,
-    relative,
-    shorten_list,
-    stem,
-    stops_early,
+    names,
 )
 
 _EXPORTS = frozenset({"ament_export_include_directories", "ament_export_targets", "ament_export_interfaces"})
@@ -96,26 +87,28 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     included = list(_included(package, workspace))
     all_findings = [*included, *_linked(package, workspace, {finding.subject for _, finding in included})]
     sure = list(
-        dict.fromkeys([name for names, finding in all_findings if finding.confidence is Confidence.HIGH for name in names])
+        dict.fromkeys(
+            [name for all_names, finding in all_findings if finding.confidence is Confidence.HIGH for name in all_names]
+        )
     )
-    for names, finding in all_findings:
-        together = sure if finding.confidence is Confidence.HIGH else names
-        edit = cmake_edits.export_dependencies(package, " ".join(names), together) if names else None
-        yield finding._replace(fix=Fix.of(f"export {shorten_list(names)}", edit, safe=False))
+    for all_names, finding in all_findings:
+        together = sure if finding.confidence is Confidence.HIGH else all_names
+        edit = edits.cmake.export_dependencies(package, " ".join(all_names), together) if all_names else None
+        yield finding._replace(fix=Fix.of(f"export {names.shorten_list(all_names)}", edit, safe=False))
     yield from _without_components(package, workspace)
 
 
 def _is_seen(package: Package) -> bool:
     """Return whether the exports of a package are known completely and are written in its script."""
     script = package.script
-    if script is None or stops_early(script) or package.builds_with != "ament_cmake":
+    if script is None or build.stops_early(script) or package.builds_with != "ament_cmake":
         return False
     return not (script.hides(Facet.USES) or _EXPORTS_ALL.intersection(script.calls))
 
 
 def _exported(script: BuildScript) -> set[str]:
     """Return the packages that find_package() of this package also finds, by their CMake names."""
-    exported = {mention.name for mention in macro_packages(script, "export", "interfaces")}
+    exported = {mention.name for mention in dependencies.macro_packages(script, "export", "interfaces")}
     return exported.union(mention.name for mention, _ in script.handed_on)
 
 
@@ -127,21 +120,21 @@ def _linked(package: Package, workspace: Workspace, reported: Container[str]) ->
     script = package.script
     if script is None or not _is_seen(package):
         return
-    found = names_searched(package, script)
-    closure = partial_closure(workspace, _exported(script))
+    found = dependencies.names_searched(package, script)
+    closure = dependencies.partial_closure(workspace, _exported(script))
     places: dict[str, list[Span]] = {}
     for name, span in _linked_publicly(package, workspace):
         if name in found and name not in reported and workspace.world.is_package(name):
             places.setdefault(name, []).append(span)
-    names = [name for name in places if name not in closure]
-    sure = [name for name in names if closure.complete or not may_provide(closure.unknown, name, workspace)]
+    all_names = [name for name in places if name not in closure]
+    sure = [name for name in all_names if closure.complete or not dependencies.may_provide(closure.unknown, name, workspace)]
     usable = Confidence.HIGH if _has_headers(script) else Confidence.MEDIUM
-    for group, confidence in ((sure, usable), ([name for name in names if name not in sure], Confidence.MEDIUM)):
+    for group, confidence in ((sure, usable), ([name for name in all_names if name not in sure], Confidence.MEDIUM)):
         if not group:
             continue
         first, *others = [span for name in group for span in places[name]]
         message = (
-            f"an exported library links targets of {shorten_list(group)}, but packages that use this one do not find them; "
+            f"an exported library links targets of {names.shorten_list(group)}, but packages that use this one do not find them; "
             f"add ament_export_dependencies({' '.join(group)})"
         )
         related = first_related(Related("also linked publicly", span) for span in others)
@@ -151,10 +144,10 @@ def _linked(package: Package, workspace: Workspace, reported: Container[str]) ->
 def _without_components(package: Package, workspace: Workspace) -> Iterator[Finding]:
     """Yield findings for exported packages that cannot be found without components, which the call cannot pass."""
     script = package.script
-    if script is None or not _is_seen(package) or has_extras(package):
+    if script is None or not _is_seen(package) or build.has_extras(package):
         return
     before: list[str] = []
-    for call in called(package, "ament_export_dependencies", anywhere=True):
+    for call in package.calls("ament_export_dependencies", anywhere=True):
         if call.blocks:
             return
         for index, name in enumerate(call.texts):
@@ -169,9 +162,9 @@ def _without_components(package: Package, workspace: Workspace) -> Iterator[Find
             before.append(name)
 
 
-def _is_without(workspace: Workspace, names: Iterable[str], keys: re.Pattern[str]) -> bool:
+def _is_without(workspace: Workspace, all_names: Iterable[str], keys: re.Pattern[str]) -> bool:
     """Return whether the dependencies of the packages that CMake finds are known and contain no library of Qt."""
-    packages = [provider for name in names for provider in workspace.world.by_cmake(name).names or (name,)]
+    packages = [provider for name in all_names for provider in workspace.world.by_cmake(name).names or (name,)]
     closure = workspace.world.closure(packages)
     return closure.complete and not any(keys.match(key) for key in closure)
 
@@ -185,7 +178,9 @@ def _has_headers(script: BuildScript) -> bool:
 
     Generated headers, such as the parameters of a plugin, do not count: they are for the package itself.
     """
-    return script.hides(Facet.SHARE) or any(provided.path.endswith(HEADERS) and provided.source for provided in script.provides)
+    return script.hides(Facet.SHARE) or any(
+        provided.path.endswith(files.HEADERS) and provided.source for provided in script.provides
+    )
 
 
 def _exported_targets(script: BuildScript) -> frozenset[str]:
@@ -198,8 +193,8 @@ def _linked_publicly(package: Package, workspace: Workspace) -> Iterator[tuple[s
     exported = _exported_targets(package.built)
     kinds = ("library", "interface")
     libraries = {target.name for target in package.built.targets if target.name in exported and target.kind in kinds}
-    for call in called(package, "target_link_libraries"):
-        if not call.args or call.blocks or evaluated_name(package, call.texts[0]) not in libraries:
+    for call in package.calls("target_link_libraries"):
+        if not call.args or call.blocks or build.evaluated_name(package, call.texts[0]) not in libraries:
             continue
         public = True
         for index, word in enumerate(call.texts[1:], 1):
@@ -207,11 +202,16 @@ def _linked_publicly(package: Package, workspace: Workspace) -> Iterator[tuple[s
                 public = word != "PRIVATE"
             elif public and (match := _TARGET.match(word)):
                 yield match[1] or match[2], call.span(index)
-    for call in called(package, "ament_target_dependencies"):
-        if not call.args or call.blocks or evaluated_name(package, call.texts[0]) not in libraries or "PRIVATE" in call.texts:
+    for call in package.calls("ament_target_dependencies"):
+        if (
+            not call.args
+            or call.blocks
+            or build.evaluated_name(package, call.texts[0]) not in libraries
+            or "PRIVATE" in call.texts
+        ):
             continue
         for index, word in enumerate(call.texts[1:], 1):
-            if cmake_edits.exports_targets(word, workspace):
+            if edits.cmake.exports_targets(word, workspace):
                 yield word, call.span(index)
 
 
@@ -229,16 +229,18 @@ def _included(package: Package, workspace: Workspace) -> Iterator[tuple[tuple[st
     by_cmake = workspace.world.by_cmake
     exported = _exported(script)
     exported_packages = exported.union(*(by_cmake(name).names for name in exported))
-    finds = sorted(names_searched(package, script))
+    finds = sorted(dependencies.names_searched(package, script))
     usable = _compilable_elsewhere(package, workspace, script)
     for name, uses in _public_includes(package, workspace, script).items():
         found = [cmake for cmake in finds if cmake == name or name in by_cmake(cmake).names[:1]]
         if name in exported_packages or not (found or _can_be_found(package, workspace, name)):
             continue
-        compiled = [use for use in uses if relative(package, use.span.path) in usable]
+        compiled = [use for use in uses if package.relative(use.span.path) in usable]
         first, *others = compiled or uses
         # A vendor package mostly provides only the folder in which CMake finds the wrapped library.
-        cmake_name = next((cmake for cmake in found if cmake != name), name) if not found or name.endswith(VENDOR) else found[0]
+        cmake_name = (
+            next((cmake for cmake in found if cmake != name), name) if not found or name.endswith(names.VENDOR) else found[0]
+        )
         remedy = f"add {'' if found else f'find_package({cmake_name} REQUIRED) and '}ament_export_dependencies({cmake_name})"
         if not compiled:
             remedy += ", or do not install the header, because other packages cannot compile it"
@@ -267,10 +269,10 @@ def _can_be_found(package: Package, workspace: Workspace, name: str) -> bool:
 def _confidence(package: Package, workspace: Workspace, name: str, exported: set[str], uses: list[Use]) -> Confidence:
     script = package.script
     assert script is not None
-    closure = partial_closure(workspace, exported)
-    if name in closure or (not closure.complete and may_provide(closure.unknown, name, workspace)):
+    closure = dependencies.partial_closure(workspace, exported)
+    if name in closure or (not closure.complete and dependencies.may_provide(closure.unknown, name, workspace)):
         return Confidence.MEDIUM
-    if _internal_sources(package, script).issuperset([stem(use.span.path) for use in uses]):
+    if _internal_sources(package, script).issuperset([build.stem(use.span.path) for use in uses]):
         return Confidence.MEDIUM
     sure = _EXPORTS.intersection(script.calls) and not _is_written_out(package, workspace, name)
     return Confidence.HIGH if sure else Confidence.MEDIUM
@@ -282,25 +284,25 @@ def _internal_sources(package: Package, script: BuildScript) -> frozenset[str]:
     Empty if an exported library has sources. Excludes programs of a single source, whose headers may be for other packages.
     """
     built = [target for target in script.targets if not target.test]
-    words = [text for call in called(package, "ament_export_libraries", anywhere=True) for text in call.texts]
-    exported_names = {*_exported_targets(script), *(evaluated_name(package, word) for word in words)}
+    words = [text for call in package.calls("ament_export_libraries", anywhere=True) for text in call.texts]
+    exported_names = {*_exported_targets(script), *(build.evaluated_name(package, word) for word in words)}
     if None in exported_names:
         return frozenset()
     inner = [target for target in built if target.kind == "executable" or target.name not in exported_names]
     outer = [target for target in built if target not in inner]
     if any(target.sources for target in outer) or not all(target.whole for target in built):
         return frozenset()
-    names: set[str] = set()
+    all_names: set[str] = set()
     for target in inner:
-        sources = [source for source in target.sources if not source.endswith(HEADERS)]
+        sources = [source for source in target.sources if not source.endswith(files.HEADERS)]
         if len(sources) > 1 or target.kind == "library":
-            names.update(map(stem, sources))
-    return frozenset(names)
+            all_names.update(map(build.stem, sources))
+    return frozenset(all_names)
 
 
 def _is_written_out(package: Package, workspace: Workspace, name: str) -> bool:
     """Return whether the include directories of a package are exported by the variable of that package."""
-    calls = called(package, "target_include_directories", "ament_export_include_directories", anywhere=True)
+    calls = package.calls("target_include_directories", "ament_export_include_directories", anywhere=True)
     words = [word for call in calls if "PRIVATE" not in call.texts for word in call.texts]
     cmake_names = [match[1] for word in words if (match := _DIRECTORIES.fullmatch(word))]
     return any(cmake.lower() == name.lower() or name in workspace.world.by_cmake(cmake).names for cmake in cmake_names)
@@ -313,13 +315,13 @@ def _public_includes(package: Package, workspace: Workspace, script: BuildScript
     """Return the ROS packages, and libraries with vendor packages, that installed headers include, with the uses."""
     is_package = workspace.world.is_package
     installed = _installed(script)
-    finds = names_searched(package, script)
+    finds = dependencies.names_searched(package, script)
     uses: dict[str, list[Use]] = {}
     for use in _includes(package):
-        known = any(is_package(name) for name in use.providers if name == use.package or name.endswith(VENDOR))
+        known = any(is_package(name) for name in use.providers if name == use.package or name.endswith(names.VENDOR))
         known = known or (use.package in finds and _is_unavailable(package, workspace, use))
         tool = any(name.startswith(_TOOL_PREFIX) for name in use.providers)
-        if use.sure and known and not tool and relative(package, use.span.path) in installed:
+        if use.sure and known and not tool and package.relative(use.span.path) in installed:
             uses.setdefault(use.package, []).append(use)
     return uses
 
@@ -336,7 +338,7 @@ def _is_unavailable(package: Package, workspace: Workspace, use: Use) -> bool:
 def _compilable_elsewhere(package: Package, workspace: Workspace, script: BuildScript) -> set[str]:
     """Return the installed headers that other packages can compile."""
     standing = workspace.world.standing
-    old = {relative(package, use.span.path) for use in _includes(package) if standing(use.package) == "end-of-life"}
+    old = {package.relative(use.span.path) for use in _includes(package) if standing(use.package) == "end-of-life"}
     return _installed(script).difference(package.unusable_headers, old)
 
 

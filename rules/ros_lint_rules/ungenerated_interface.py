@@ -70,22 +70,16 @@ from ros_lint.api import (
     Severity,
     Span,
     Workspace,
+    build,
     cached_by_package,
-    called,
-    did_you_mean,
     first_related,
-    generated_from,
-    interface_names,
-    place_of,
-    relative,
-    shorten_list,
-    similar_names,
+    names,
 )
 
 _GENERATE = "rosidl_generate_interfaces"
 _KINDS = {"msg": ("msg", "idl"), "srv": ("srv", "idl"), "action": ("action", "idl")}
 """File name suffixes of interfaces by folder."""
-_DECLARE_INTERFACES = (interface_names.GROUP, "rosidl_default_generators")
+_DECLARE_INTERFACES = (names.interfaces.GROUP, "rosidl_default_generators")
 _HEADER = re.compile(r"(?P<maker>\w+)/(?P<kind>msg|srv|action)/(?P<name>(?!rosidl_)(?!\w*__)\w+)(?P<end>\.h(?:pp)?)")
 """The main header of an interface, not its detail headers."""
 _USUAL = ("std_msgs", "geometry_msgs", "sensor_msgs", "builtin_interfaces", "nav_msgs")
@@ -99,7 +93,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     yield from _missing(package, workspace)
     if script is None or package.builds_with != "ament_cmake" or package.hidden(Facet.INTERFACES):
         return
-    calls = list(called(package, _GENERATE, anywhere=True))
+    calls = list(package.calls(_GENERATE, anywhere=True))
     if not calls or not script.interfaces:
         return
     plain: dict[str, list[str]] = {}
@@ -108,7 +102,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         kind, _, name = interface.partition("/")
         if interface in script.interfaces or not name.isidentifier():
             continue
-        required = "" if file.endswith(".idl") or interface_names.is_message(name) else interface_names.camel(name)
+        required = "" if file.endswith(".idl") or names.interfaces.is_message(name) else names.interfaces.camel(name)
         rejection = next(iter(_rejections(package, file)), "")
         commented_out = interface in script.set_aside
         if required or rejection or commented_out:
@@ -178,7 +172,7 @@ def _missing(package: Package, workspace: Workspace) -> Iterator[Finding]:
             places = [place for (name, *_), same in places_by_use.items() if name == used.maker for place in same]  # noqa: PLW2901
         if used.bare:
             wrong = _qualified(used, package, workspace) or wrong
-        generating = next(called(maker, _GENERATE, anywhere=True), None) if maker else None
+        generating = next(maker.calls(_GENERATE, anywhere=True), None) if maker else None
         related = [Related("the interfaces are generated here", generating.place)] if generating else []
         related += [Related("also used here", place) for place in places[1:]]
         yield Finding(
@@ -205,9 +199,9 @@ def _used(package: Package) -> Iterator[_Used]:
         maker, kind, name = imported.name.split("/")
         if modules.get(imported.module) == maker and name[0].isupper():
             yield _Used(maker, kind, name, "", False, imported.span)
-    generated = generated_from(package) if package.interface_files else ()
+    generated = build.generated_from(package) if package.interface_files else ()
     for file in package.interface_files:
-        for type_, span in file.types if relative(package, file.path) in generated else ():
+        for type_, span in file.types if package.relative(file.path) in generated else ():
             maker, _, name = type_.rpartition("/")
             if maker in ("", package.name):
                 yield _Used(package.name, "msg", name, "", not maker, span)
@@ -233,7 +227,7 @@ def _wrong_without_interfaces(used: _Used, maker: Package, workspace: Workspace)
     """Return the message about a use of a package that generates nothing; None as in _wrong()."""
     kind = used.kind or "msg"
     interface, file = f"{kind}/{used.name}", f"{kind}/{used.name}.{kind}"
-    if maker.script is None or next(called(maker, _GENERATE, anywhere=True), None):
+    if maker.script is None or next(maker.calls(_GENERATE, anywhere=True), None):
         return None
     if file in maker.files:
         return f"'{used.maker}' does not generate code for '{file}'; add it to {_GENERATE}()"
@@ -250,7 +244,7 @@ def _wrong_released(used: _Used, workspace: Workspace) -> str | None:
     available = _names(known, used.kind, bool(used.header))
     if not known or _is_among(used, available):
         return None
-    if used.name not in _names(known, "", bool(used.header)) and not similar_names(used.name, available, 1, 0.88):
+    if used.name not in _names(known, "", bool(used.header)) and not names.similar_names(used.name, available, 1, 0.88):
         return None  # not a typo: a newer version may have the interface
     return _message(used, sorted(known), available, "have", "; correct the name")
 
@@ -268,24 +262,24 @@ def _message(used: _Used, interfaces: Sequence[str], available: Collection[str],
     elsewhere = next((f"{kind}/{form(name)}{used.header}" for kind, name in parts if form(name) == used.name), "")
     if elsewhere:
         return f"'{used.maker}' does not {verb} '{named}'; it has '{elsewhere}'"
-    near = similar_names(used.name, sorted(available))
-    suggestion = did_you_mean([f"{name}{used.header}" for name in near])
+    near = names.similar_names(used.name, sorted(available))
+    suggestion = names.did_you_mean([f"{name}{used.header}" for name in near])
     return f"'{used.maker}' does not {verb} '{named}'{suggestion or remedy}"
 
 
 def _qualified(used: _Used, package: Package, workspace: Workspace) -> str:
     """Return the message about a type without a package name that another package has; "" if no package has it."""
-    names = dict.fromkeys([*(declared.name for declared in package.declared), *_USUAL])
+    all_names = dict.fromkeys([*(declared.name for declared in package.declared), *_USUAL])
     world, everywhere = workspace.world, not workspace.target.told
     owners = [
         f"{name}/{used.name}"
-        for name in names
+        for name in all_names
         if f"{used.kind}/{used.name}" in (world.interfaces(name, everywhere=everywhere) or _generated(name, workspace))
     ]
     if not owners:
         return ""
     message = f"'{used.maker}' does not generate '{used.name}', and a type without a package name belongs to the same package"
-    return message + did_you_mean(owners[:2])
+    return message + names.did_you_mean(owners[:2])
 
 
 def _generated(name: str, workspace: Workspace) -> tuple[str, ...]:
@@ -314,7 +308,7 @@ def _names(interfaces: frozenset[str], kind: str, header: bool) -> frozenset[str
 
 def _form(header: object) -> Callable[[str], str]:
     """Return the function that spells the name of an interface as in headers, or as elsewhere."""
-    return interface_names.snake if header else str
+    return names.interfaces.snake if header else str
 
 
 def _interface(file: str) -> str:
@@ -326,12 +320,12 @@ def _interface(file: str) -> str:
 
 
 def _here(package: Package, file: str) -> Related:
-    return Related("this file", place_of(package, file))
+    return Related("this file", package.start_of(file))
 
 
 def _rejections(package: Package, file: str) -> list[str]:
     """Return the reasons why rosidl rejects a file."""
-    parsed = [interface for interface in package.interface_files if relative(package, interface.path) == file]
+    parsed = [interface for interface in package.interface_files if package.relative(interface.path) == file]
     return [problem.message for interface in parsed for problem in interface.problems]
 
 
@@ -383,7 +377,7 @@ def _fix(calls: list[Call], files: list[str]) -> Fix | None:
             quote = '"' if span.end_column - span.column == len(call.texts[at]) + 2 else ""
             gap = " " if at and span.line == call.span(at - 1).line else "\n" + " " * (span.column - 1)
             added = "".join(f"{gap}{quote}{file}{quote}" for file in files)
-            return Fix(f"generate {shorten_list(files)}", (Edit(span.end(), added),), safe=False)
+            return Fix(f"generate {names.shorten_list(files)}", (Edit(span.end(), added),), safe=False)
     return None
 
 

@@ -27,12 +27,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Finding, Package, Rule, Severity, Workspace, undeclared, unguarded_tests
+from ros_lint.api import Finding, Package, Rule, Severity, Workspace, build, dependencies
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    unguarded = unguarded_tests(package)
-    undeclared_names = {need.name for need, _ in undeclared(package, workspace)} if unguarded else set()
+    unguarded = build.unguarded_tests(package)
+    undeclared_names = {need.name for need, _ in dependencies.undeclared(package, workspace)} if unguarded else set()
     for provider, call in unguarded.items():
         if not package.declares(provider) and provider not in undeclared_names:
             continue  # a dependency that is declared for every build provides it

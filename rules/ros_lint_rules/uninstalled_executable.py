@@ -54,20 +54,10 @@ from ros_lint.api import (
     Severity,
     Span,
     Workspace,
-    called,
-    cmake_edits,
-    evaluated_name,
-    files_using_client_library,
+    build,
+    edits,
     first_related,
-    installed_targets,
-    never_installed_nodes,
-    node_references,
-    node_targets,
-    nodes_started,
-    opaque_except_undefined_targets,
-    package_launch_files,
-    partly_installed_nodes,
-    programs_built,
+    launch,
 )
 
 _BIN = ("bin", "${CMAKE_INSTALL_BINDIR}", "lib", "${CMAKE_INSTALL_LIBDIR}")
@@ -77,19 +67,19 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_cmake":
         return
-    unseen, own = opaque_except_undefined_targets(package, Facet.EXECUTABLES), f"lib/{package.name}"
-    if any("INSTALL_TO_PATH" in call.texts for call in called(package, "ament_auto_package", anywhere=True)):
+    unseen, own = build.opaque_except_undefined_targets(package, Facet.EXECUTABLES), f"lib/{package.name}"
+    if any("INSTALL_TO_PATH" in call.texts for call in package.calls("ament_auto_package", anywhere=True)):
         return
     places: dict[str, list[tuple[str, str, Span]]] = {}
     for provided in script.provides:
         if provided.target:
             folder, _, name = provided.path.rpartition("/")
             places.setdefault(provided.target, []).append((folder, name, provided.span))
-    nodes = node_targets(package)
-    forgotten = never_installed_nodes(package)
-    left_out = partly_installed_nodes(package)
-    by_launch_files = nodes_started(workspace).get(package.name, {})
-    for target in programs_built(script):
+    nodes = build.node_targets(package)
+    forgotten = build.never_installed_nodes(package)
+    left_out = build.partly_installed_nodes(package)
+    by_launch_files = launch.nodes_started(workspace).get(package.name, {})
+    for target in build.programs_built(script):
         installed = places.get(target.name, [])
         if not all(_is_outside_packages(folder) for folder, _, _ in installed):
             continue
@@ -101,7 +91,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             sure = sure or all(
                 folder != "lib" or _installs_executables_only(package, span, script.targets) for folder, _, span in installed
             )
-        if installed and (sure or nowhere or any(file.startswith("include/") for file in files_using_client_library(package))):
+        if installed and (
+            sure or nowhere or any(file.startswith("include/") for file in build.files_using_client_library(package))
+        ):
             folder, _, span = installed[0]
             finders = "ros2 run, launch and the shell" if nowhere else "ros2 run and launch"
             yield Finding(
@@ -131,42 +123,52 @@ def _is_outside_packages(folder: str) -> bool:
 
 def _kept_back(package: Package, name: str, launched: Sequence[LaunchReference], workspace: Workspace) -> bool:
     """Return whether only launch files that are not installed start the program, one of them excluded on purpose."""
-    if name not in node_references([package], kept_back=True).get(package.name, {}):
+    if name not in launch.node_references([package], kept_back=True).get(package.name, {}):
         return False
     paths = {reference.span.path for reference in launched}
     files = (
-        (launch for owner in workspace.packages for launch in package_launch_files(owner) if launch.installed) if paths else ()
+        (
+            launch_file
+            for owner in workspace.packages
+            for launch_file in launch.package_launch_files(owner)
+            if launch_file.installed
+        )
+        if paths
+        else ()
     )
-    return not any(launch.file.path in paths for launch in files)
+    return not any(launch_file.file.path in paths for launch_file in files)
 
 
 def _uninstalled(package: Package, script: BuildScript, target: BuildTarget, state: str) -> Finding:
-    fix = Fix.of(f"install '{target.name}'", cmake_edits.install_program(script, "TARGETS", target.name))
+    fix = Fix.of(f"install '{target.name}'", edits.cmake.install_program(script, "TARGETS", target.name))
     return Finding(f"'{target.name}' is built{state}; install it to lib/{package.name}", target.span, target.name, fix=fix)
 
 
 def _installs_executables_only(package: Package, span: Span, targets: tuple[BuildTarget, ...]) -> bool:
     """Return whether the install() at a place installs nothing but executables."""
     kinds = {target.name: target.kind for target in targets}
-    for call in called(package, "install"):
+    for call in package.calls("install"):
         if call.whole.covers(span):
-            return all(kinds.get(evaluated_name(package, call.texts[at]) or "") == "executable" for at in installed_targets(call))
+            return all(
+                kinds.get(build.evaluated_name(package, call.texts[at]) or "") == "executable"
+                for at in build.installed_targets(call)
+            )
     return False
 
 
 def _move(package: Package, span: Span, targets: tuple[BuildTarget, ...]) -> Fix | None:
     """Return the fix of the destination, if the install() has one for executables only."""
     kinds = {target.name: target.kind for target in targets}
-    for call in called(package, "install"):
+    for call in package.calls("install"):
         if call.texts[:1] != ("TARGETS",) or not call.whole.covers(span):
             continue
         texts = call.texts
         at = texts.index("RUNTIME") + 2 if "RUNTIME" in texts[:-2] else 0
-        executables_only = all(kinds.get(texts[index]) == "executable" for index in installed_targets(call))
+        executables_only = all(kinds.get(texts[index]) == "executable" for index in build.installed_targets(call))
         if not at and executables_only and "DESTINATION" in texts[:-1]:
             at = texts.index("DESTINATION") + 1
         if at and texts[at - 1] == "DESTINATION" and texts[at] in _BIN:
-            return Fix("install it to lib/${PROJECT_NAME}", (cmake_edits.write(call, at, "lib/${PROJECT_NAME}"),), safe=False)
+            return Fix("install it to lib/${PROJECT_NAME}", (edits.cmake.write(call, at, "lib/${PROJECT_NAME}"),), safe=False)
     return None
 
 

@@ -49,9 +49,6 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 
 from ros_lint.api import (
-    EXPORTING_PLUGINS,
-    HEADERS,
-    REGISTERING,
     BuildScript,
     Call,
     Confidence,
@@ -65,16 +62,12 @@ from ros_lint.api import (
     Severity,
     Use,
     Workspace,
+    build,
     cached_by_workspace,
-    called,
-    cmake_edits,
-    evaluated_name,
+    dependencies,
+    edits,
+    files,
     first_related,
-    has_extras,
-    is_auxiliary,
-    names_searched,
-    opaque_except_undefined_targets,
-    relative,
 )
 
 _LINKED = ("ament_export_interfaces", "ament_export_libraries", "ament_export_targets")
@@ -88,15 +81,16 @@ _EXPORTS = (
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
-    if script is None or package.builds_with != "ament_cmake" or opaque_except_undefined_targets(package, Facet.LIBRARIES):
+    if script is None or package.builds_with != "ament_cmake" or build.opaque_except_undefined_targets(package, Facet.LIBRARIES):
         return
-    headers = [file for file in package.files if file.startswith("include/") and file.endswith(HEADERS)]
+    headers = [file for file in package.files if file.startswith("include/") and file.endswith(files.HEADERS)]
     places = [provided.path for provided in script.provides]
     if not headers or script.end is None:
         return
     names = {_name(file) for file in headers}
     installed = any(
-        provided.path.endswith(HEADERS) and (provided.source or _name(provided.path) in names) for provided in script.provides
+        provided.path.endswith(files.HEADERS) and (provided.source or _name(provided.path) in names)
+        for provided in script.provides
     )
     includes = _includes(workspace).get(package.name, ())
     wanted = [(other, use) for other, use in includes if any(file.endswith(f"/{use.name}") for file in headers)]
@@ -111,7 +105,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     exports = _exports(package)
     library = any(path.startswith("lib/lib") for path in places)
     loaded = _is_loaded(package, script)
-    linked = library and not loaded and any(not call.blocks for call in called(package, *_LINKED))
+    linked = library and not loaded and any(not call.blocks for call in package.calls(*_LINKED))
     if exports and not wanted and script.targets and all(target.kind == "executable" for target in script.targets):
         yield from _export_without_library(headers, exports)
         return
@@ -136,9 +130,9 @@ _GAZEBO = re.compile(r"(?:gazebo|gz|ignition)(?!.*_msgs$)", re.IGNORECASE)
 
 def _is_loaded(package: Package, script: BuildScript) -> bool:
     """Return whether a library of the package may be loaded at run time instead of linked."""
-    if any(True for _ in called(package, EXPORTING_PLUGINS, *REGISTERING, anywhere=True)):
+    if any(True for _ in package.calls(build.EXPORTING_PLUGINS, *build.REGISTERING, anywhere=True)):
         return True
-    return any(_GAZEBO.match(name) for name in names_searched(package, script))
+    return any(_GAZEBO.match(name) for name in dependencies.names_searched(package, script))
 
 
 def _name(path: str) -> str:
@@ -147,7 +141,7 @@ def _name(path: str) -> str:
 
 def _misplaced(package: Package, wanted: list[tuple[Package, Use]]) -> Iterator[Finding]:
     """Yield the headers that other packages include by a folder which is missing where they are installed."""
-    installed = [file for file in package.built.provides if file.source.endswith(HEADERS) and not file.conditional]
+    installed = [file for file in package.built.provides if file.source.endswith(files.HEADERS) and not file.conditional]
     provided = {file.source: file for file in installed}
     paths = [file.path for file in package.built.provides]
     lost = [
@@ -170,20 +164,20 @@ def _misplaced(package: Package, wanted: list[tuple[Package, Use]]) -> Iterator[
 
 def _doubled(package: Package, script: BuildScript, wanted: list[tuple[Package, Use]]) -> Iterator[Finding]:
     """Yield the headers that are installed with their folder include/, below the folder that compilers search."""
-    own = [file for file in script.provides if file.source.startswith("include/") and file.source.endswith(HEADERS)]
+    own = [file for file in script.provides if file.source.startswith("include/") and file.source.endswith(files.HEADERS)]
     first = next((file for file in own if file.path.startswith("include/")), None)
-    if first is None or has_extras(package) or not all(_is_doubled(file) for file in own):
+    if first is None or build.has_extras(package) or not all(_is_doubled(file) for file in own):
         return
     folder = first.path.removesuffix(first.source.removeprefix("include")).removeprefix("/")
     words = (re.sub(r"\$\{\w*PROJECT_NAME\}", script.name, text) for call in script.written for text in call.texts)
     if any(folder in word for word in words):
         return  # the script names it, probably as an include directory
     library = any(file.path.startswith("lib/lib") for file in script.provides)
-    exported = library and bool(_exports(package) or any(True for _ in called(package, *_LINKED)))
+    exported = library and bool(_exports(package) or any(True for _ in package.calls(*_LINKED)))
     needed = bool(wanted) or (exported and not _is_loaded(package, script))
-    places = ((call, at) for call in called(package, "install", anywhere=True) for at in range(len(call.args)))
+    places = ((call, at) for call in package.calls("install", anywhere=True) for at in range(len(call.args)))
     call, at = next(((call, at) for call, at in places if call.span(at) == first.span), (None, 0))
-    fix = Fix.of("install the contents of the folder", cmake_edits.write(call, at, f"{call.texts[at]}/")) if call else None
+    fix = Fix.of("install the contents of the folder", edits.cmake.write(call, at, f"{call.texts[at]}/")) if call else None
     yield Finding(
         f"the headers in include/ ({_name(first.source)} ...) are installed to {folder}, where compilers do not find them; "
         "write include/ with a slash at the end",
@@ -216,9 +210,11 @@ def _export_without_library(headers: Sequence[str], exports: Sequence[Call]) -> 
 
 def _unexported(package: Package, wanted: list[tuple[Package, Use]]) -> Iterator[Finding]:
     """Yield the missing export of headers that a package includes which finds this one."""
-    includes = [(other, use) for other, use in wanted if other.script and package.name in names_searched(other, other.script)]
+    includes = [
+        (other, use) for other, use in wanted if other.script and package.name in dependencies.names_searched(other, other.script)
+    ]
     if includes and package.script and package.script.end:
-        libraries = "" if any(True for _ in called(package, "ament_export_libraries")) else " and ament_export_libraries()"
+        libraries = "" if any(True for _ in package.calls("ament_export_libraries")) else " and ament_export_libraries()"
         what = "no include directories" if any(name.startswith("ament_export_") for name in package.script.calls) else "nothing"
         yield Finding(
             f"'{package.name}' exports {what}, although '{includes[0][0].name}' includes its headers; add "
@@ -232,14 +228,14 @@ def _unexported(package: Package, wanted: list[tuple[Package, Use]]) -> Iterator
 def _may_export(package: Package) -> bool:
     """Return whether the package may export the folder of its headers."""
     script = package.script
-    if script is None or has_extras(package) or package.opaque or any(name.startswith(_EXPORTS) for name in script.calls):
+    if script is None or build.has_extras(package) or package.opaque or any(name.startswith(_EXPORTS) for name in script.calls):
         return True
-    return any(call.texts[:1] == ("EXPORT",) and _is_read(package, call) for call in called(package, "install", anywhere=True))
+    return any(call.texts[:1] == ("EXPORT",) and _is_read(package, call) for call in package.calls("install", anywhere=True))
 
 
 def _is_read(package: Package, call: Call) -> bool:
     """Return whether a command can be part of the build: not in a CMakeLists.txt that no add_subdirectory() reads."""
-    folder, _, name = relative(package, call.path).rpartition("/")
+    folder, _, name = package.relative(call.path).rpartition("/")
     return not folder or name != "CMakeLists.txt" or folder in package.built.entered
 
 
@@ -256,22 +252,22 @@ def _includes(workspace: Workspace) -> Mapping[str, list[tuple[Package, Use]]]:
             continue
         for use in package.uses:
             others = workspace.by_name.get(use.package, ()) if use.via == "include" and use.sure and not use.optional else ()
-            if others and use.package != package.name and not is_auxiliary(relative(package, use.span.path)):
+            if others and use.package != package.name and not files.is_auxiliary(package.relative(use.span.path)):
                 includes.setdefault(use.package, []).append((package, use))
     return includes
 
 
 def _searches_outside(package: Package) -> bool:
     """Return whether an include directory of the package is a path that leads outside of it."""
-    calls = called(package, *_FOLDERS, anywhere=True)
+    calls = package.calls(*_FOLDERS, anywhere=True)
     return any("../" in text or text.startswith("/") or "ENV{" in text for call in calls for text in call.texts)
 
 
 def _exports(package: Package) -> list[Call]:
     return [
         call
-        for call in called(package, "ament_export_include_directories", anywhere=True)
-        if not call.blocks and any((evaluated_name(package, text) or "").startswith("include") for text in call.texts)
+        for call in package.calls("ament_export_include_directories", anywhere=True)
+        if not call.blocks and any((build.evaluated_name(package, text) or "").startswith("include") for text in call.texts)
     ]
 
 
@@ -284,7 +280,7 @@ def _fix(package: Package, exports: list[Call]) -> Fix | None:
     script = package.script
     assert script is not None
     line = f"install(DIRECTORY include/ DESTINATION {_place(exports)})"
-    return Fix.of("install the headers", cmake_edits.at_end(script, line), safe=bool(exports))
+    return Fix.of("install the headers", edits.cmake.at_end(script, line), safe=bool(exports))
 
 
 RULE = Rule(

@@ -42,16 +42,11 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
-    cmake_edits,
+    edits,
+    files,
     first_related,
-    folders_of,
-    is_excluded_from_install,
-    is_for_tests,
-    launch_suffix,
-    package_launch_files,
-    place_of,
-    setup_edits,
-    shorten_list,
+    launch,
+    names,
 )
 
 
@@ -59,21 +54,23 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or script.is_empty or package.builds_with not in ("ament_cmake", "ament_python"):
         return
-    if package.hidden(Facet.SHARE) or workspace.unread(package) or is_for_tests(package.name):
+    if package.hidden(Facet.SHARE) or workspace.unread(package) or files.is_for_tests(package.name):
         return
     missing: dict[str, list[str]] = {}
     kept: set[str] = set()
-    names = {provided.path.rpartition("/")[2] for provided in script.provides}
-    for launch in package_launch_files(package):
-        folder, _, name = launch.path.rpartition("/")
-        if launch.installed:
-            kept.update(folders_of(launch.path))
-        elif name not in names:
-            missing.setdefault(folder, []).append(launch.path)
+    all_names = {provided.path.rpartition("/")[2] for provided in script.provides}
+    for launch_file in launch.package_launch_files(package):
+        folder, _, name = launch_file.path.rpartition("/")
+        if launch_file.installed:
+            kept.update(files.folders_of(launch_file.path))
+        elif name not in all_names:
+            missing.setdefault(folder, []).append(launch_file.path)
     for folder, paths in _grouped(missing, kept).items():
         whole = folder not in kept and folder != ""
         uninstalled = (
-            paths if whole else [path for path in paths if launch_suffix(path) and not is_excluded_from_install(package, path)]
+            paths
+            if whole
+            else [path for path in paths if launch.launch_suffix(path) and not launch.is_excluded_from_install(package, path)]
         )
         if uninstalled:
             yield _finding(package, folder, uninstalled, whole=whole)
@@ -83,7 +80,7 @@ def _grouped(missing: Mapping[str, list[str]], kept: set[str]) -> dict[str, list
     """Return the files by folder; those of a subfolder join an outer folder of which nothing is installed."""
     groups: dict[str, list[str]] = {}
     for folder in sorted(missing):
-        outer = next((above for above in folders_of(f"{folder}/") if above in groups and above not in kept), folder)
+        outer = next((above for above in files.folders_of(f"{folder}/") if above in groups and above not in kept), folder)
         groups.setdefault(outer, []).extend(missing[folder])
     return groups
 
@@ -92,7 +89,7 @@ def _finding(package: Package, folder: str, paths: Iterable[str], whole: bool) -
     script = package.script
     assert script is not None
     paths = sorted(paths)
-    named = shorten_list(path.rpartition("/")[2] for path in paths)
+    named = names.shorten_list(path.rpartition("/")[2] for path in paths)
     it = "it" if len(paths) == 1 else "them"
     if whole:
         what = f"'{folder}/' contains launch files ({named}), but is not installed"
@@ -100,9 +97,9 @@ def _finding(package: Package, folder: str, paths: Iterable[str], whole: bool) -
         what = f"{named} {'is' if len(paths) == 1 else 'are'} not installed"
     return Finding(
         f"{what}, so ros2 launch will not find {it}; install {'it' if whole else it} to share/{package.name}",
-        setup_edits.place(script),
+        edits.setup_py.place(script),
         folder or paths[0],
-        first_related(Related("this launch file", place_of(package, path)) for path in paths),
+        first_related(Related("this launch file", package.start_of(path)) for path in paths),
         _fix(package, folder, paths, whole),
     )
 
@@ -114,17 +111,17 @@ def _fix(package: Package, folder: str, paths: Sequence[str], whole: bool) -> Fi
     if script is None:
         return None
     if whole:
-        return Fix.of(f"install '{folder}/'", cmake_edits.install_folder(package, folder))
+        return Fix.of(f"install '{folder}/'", edits.cmake.install_folder(package, folder))
     # In the same place as installed files of the folder, if there are any.
     inner = folder.rpartition("/")[2] or "launch"
-    return Fix.of(f"install {_list(paths)}", cmake_edits.install_files(script, paths, inner))
+    return Fix.of(f"install {_list(paths)}", edits.cmake.install_files(script, paths, inner))
 
 
 def _fix_of_setup(package: Package, folder: str, paths: Iterable[str], whole: bool) -> Fix | None:
-    slot = setup_edits.slot(package.built, "data_files")
+    slot = edits.setup_py.slot(package.built, "data_files")
     if slot is None or not all("/" in path for path in paths):  # a launch file next to setup.py
         return None
-    edit = setup_edits.add_files(slot, package.name, paths, package.files)
+    edit = edits.setup_py.add_files(slot, package.name, paths, package.files)
     return Fix(f"install {_list([f'{folder}/'] if whole else sorted(paths))}", (edit,))
 
 

@@ -41,9 +41,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros_lint.api import (
-    EXPORTING_PLUGINS,
-    HEADERS,
-    REGISTERING,
     BuildScript,
     BuildTarget,
     Confidence,
@@ -56,39 +53,30 @@ from ros_lint.api import (
     Severity,
     Span,
     Workspace,
-    called,
-    cmake_edits,
-    evaluated_name,
+    build,
+    dependencies,
+    edits,
+    files,
     first_related,
-    has_header,
-    install_arguments,
-    installs_built,
-    is_declared_shared,
-    is_optional_target,
-    libraries_in_libexec,
-    library_calls,
-    names_searched,
-    opaque_except_undefined_targets,
-    relative,
 )
 
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
     script = package.script
-    if script is None or package.builds_with != "ament_cmake" or opaque_except_undefined_targets(package, Facet.LIBRARIES):
+    if script is None or package.builds_with != "ament_cmake" or build.opaque_except_undefined_targets(package, Facet.LIBRARIES):
         return
     installed = {provided.target for provided in script.provides}
-    listed = install_arguments(package)
-    components = {name for call in called(package, *REGISTERING, anywhere=True) for name in _names(package, call.texts[:1])}
+    listed = build.install_arguments(package)
+    components = {name for call in package.calls(*build.REGISTERING, anywhere=True) for name in _names(package, call.texts[:1])}
     yield from _in_package_folder(package)
     for target in script.targets:
         if target.kind != "library" or target.test or not target.sources or target.name in installed | listed | components:
             continue
-        if any("OBJECT" in call.texts[1:2] for call in library_calls(package, target.name)):
+        if any("OBJECT" in call.texts[1:2] for call in build.library_calls(package, target.name)):
             continue
         shared = _is_shared(package, target.name)
-        loaded = any(relative(package, made.span.path) in target.sources for made in package.registrations)
-        headers_only = all(source.endswith(HEADERS) for source in target.sources)
+        loaded = any(package.relative(made.span.path) in target.sources for made in package.registrations)
+        headers_only = all(source.endswith(files.HEADERS) for source in target.sources)
         for_others = not headers_only and _is_for_others(package, target, loaded=loaded)
         users = [(name, span) for name, span in _linked_by(script, target.name) if name in installed]
         users = users if shared and not headers_only else []
@@ -102,7 +90,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             target.span,
             target.name,
             related,
-            Fix.of(f"install '{target.name}'", cmake_edits.install_library(script, target.name)),
+            Fix.of(f"install '{target.name}'", edits.cmake.install_library(script, target.name)),
             Confidence.HIGH if reason or for_others else Confidence.MEDIUM if shared else Confidence.LOW,
             None if reason else Severity.WARNING,
         )
@@ -110,8 +98,8 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
 
 def _in_package_folder(package: Package) -> Iterator[Finding]:
     """Yield the exported libraries that are installed where ament_cmake_export_libraries does not look for them."""
-    loaded = EXPORTING_PLUGINS in package.built.calls
-    for name, place in libraries_in_libexec(package, (".so", ".a")).items():
+    loaded = build.EXPORTING_PLUGINS in package.built.calls
+    for name, place in build.libraries_in_libexec(package, (".so", ".a")).items():
         if exported := _exported(package, name):
             yield Finding(
                 f"the library '{name}' is exported, but installed to lib/{package.name}, where find_package() does not look; "
@@ -124,13 +112,13 @@ def _in_package_folder(package: Package) -> Iterator[Finding]:
 
 
 def _names(package: Package, texts: tuple[str, ...]) -> Iterator[str]:
-    yield from (name for text in texts if (name := evaluated_name(package, text)))
+    yield from (name for text in texts if (name := build.evaluated_name(package, text)))
 
 
 def _is_shared(package: Package, name: str) -> bool:
     """Return whether the library is certainly shared."""
-    packages = names_searched(package, package.built)
-    for call in library_calls(package, name):
+    packages = dependencies.names_searched(package, package.built)
+    for call in build.library_calls(package, name):
         kinds = {"STATIC", "OBJECT", "INTERFACE"}.intersection(call.texts)
         return "SHARED" in call.texts or (not kinds and "ament_cmake_ros" in packages)
     return False
@@ -144,14 +132,14 @@ def _is_for_others(package: Package, library: BuildTarget, *, loaded: bool) -> b
     """
     script = package.script
     assert script is not None
-    if is_optional_target(package, library) or not is_declared_shared(package, library.name):
+    if build.is_optional_target(package, library) or not build.is_declared_shared(package, library.name):
         return False
     installed = {provided.target for provided in script.provides if provided.target}
     uninstalled = {target.name for target in script.targets if target.kind == "executable" and target.name not in installed}
-    if not installs_built(script):
+    if not build.installs_built(script):
         uninstalled.clear()
     tests = {target.name for target in script.targets if target.test}
-    public = has_header(library, [provided.path for provided in script.provides])
+    public = build.has_header(library, [provided.path for provided in script.provides])
     uninstalled = uninstalled - tests if public else uninstalled | tests
     return loaded or not any(
         linked == library.name for target in script.targets if target.name in uninstalled for linked, _ in target.links
@@ -164,7 +152,7 @@ def _linked_by(script: BuildScript, library: str) -> Iterator[tuple[str, Span]]:
 
 
 def _exported(package: Package, library: str) -> Span | None:
-    for call in called(package, "ament_export_libraries", anywhere=True):
+    for call in package.calls("ament_export_libraries", anywhere=True):
         if library in _names(package, call.texts) and not call.blocks:
             return call.place
     return None

@@ -53,7 +53,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from ros_lint.api import (
-    LAUNCH_FILE_NAMES,
     BuildScript,
     Confidence,
     Facet,
@@ -65,17 +64,12 @@ from ros_lint.api import (
     Severity,
     Span,
     Workspace,
-    cmake_edits,
-    files_looked_up,
+    build,
+    edits,
+    files,
     first_related,
-    folders_of,
-    from_base,
-    is_auxiliary,
-    package_launch_files,
-    relative,
-    setup_edits,
-    shorten_list,
-    uninstalled_resources,
+    launch,
+    names,
 )
 
 _PLAIN = frozenset({"py", "sh", "txt", "md"})
@@ -98,14 +92,14 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     kept = _with_folders(script.installed)
     missing: dict[str, list[tuple[str, Span]]] = {}
     looked_into: dict[str, Span] = {}
-    files = frozenset(package.files)
+    file_paths = frozenset(package.files)
     folders = frozenset(file.partition("/")[0] for file in package.files if _is_resource(file))
-    for look_up in files_looked_up(workspace).get(package.name, ()):
+    for look_up in launch.files_looked_up(workspace).get(package.name, ()):
         path, span = look_up.path.rstrip("/"), look_up.span
         place = f"share/{package.name}/{path}"
-        if place in installed or path.endswith(LAUNCH_FILE_NAMES):
+        if place in installed or path.endswith(launch.LAUNCH_FILE_NAMES):
             continue
-        if not (path in files or path in folders):
+        if not (path in file_paths or path in folders):
             if not workspace.is_made(package, path):  # else it is generated where it is needed
                 looked_into.setdefault(path.partition("/")[0], span)
             continue
@@ -120,12 +114,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _with_folders(paths: Iterable[str]) -> set[str]:
     unique = set(paths)
-    return unique.union(*[folders_of(path) for path in unique])
+    return unique.union(*[files.folders_of(path) for path in unique])
 
 
 def _is_resource(path: str) -> bool:
     """Return whether a file is in a folder that a launch file or program may look up as a whole."""
-    return "/" in path and path.lower().endswith(_RUN_TIME) and not is_auxiliary(path)
+    return "/" in path and path.lower().endswith(_RUN_TIME) and not files.is_auxiliary(path)
 
 
 def _unit(path: str, kept: set[str]) -> str:
@@ -138,12 +132,12 @@ def _unit(path: str, kept: set[str]) -> str:
 
 def _looked_up(package: Package, script: BuildScript, unit: str, look_ups: list[tuple[str, Span]]) -> Finding:
     paths = sorted({path for path, _ in look_ups} - {unit.rstrip("/")})
-    names = list(dict.fromkeys(map(_name, paths)))
-    inside = f"{shorten_list(names)} {'is' if len(names) == 1 else 'are'} looked up in it"
+    all_names = list(dict.fromkeys(map(_name, paths)))
+    inside = f"{names.shorten_list(all_names)} {'is' if len(all_names) == 1 else 'are'} looked up in it"
     reason = inside if unit.endswith("/") and paths else "it is looked up at run time"
     return Finding(
         f"'{unit}' is not installed, but {reason}; install it to share/{package.name}",
-        setup_edits.place(script),
+        edits.setup_py.place(script),
         unit,
         first_related(Related("looked up here", span) for _, span in look_ups),
         _fix(package, script, unit),
@@ -161,21 +155,21 @@ def _folders(
 
     ``reported``: top folders with findings already. ``looked_into``: folders in which a file is looked up that does not exist.
     """
-    launches = {launch.path for launch in package_launch_files(package)}
+    launches = {launch_file.path for launch_file in launch.package_launch_files(package)}
     places = dict(script.named)
     # A file that is installed from an unknown place, such as one of several folders, may be any file of that name.
     chosen = frozenset([_name(provided.path) for provided in script.provides if not provided.source])
     modules = frozenset(script.python_packages)
     findings = _FolderFindings(package, script, places, looked_into)
-    for folder, uninstalled in uninstalled_resources(package.files, kept).items():
-        files = [file for file in uninstalled if file not in launches and file not in script.inputs]
+    for folder, uninstalled in build.uninstalled_resources(package.files, kept).items():
+        file_paths = [file for file in uninstalled if file not in launches and file not in script.inputs]
         top = folder.partition("/")[0]
-        if top in reported or folder in modules or any(_name(file) in chosen for file in files):
+        if top in reported or folder in modules or any(_name(file) in chosen for file in file_paths):
             continue
-        if top in _PICTURES and not any(file in places for file in files):
-            files = [file for file in files if not file.lower().endswith(_PICTURE)]
-        if files and (folder == "controllers" or not all(file.rpartition(".")[2] in _PLAIN for file in files)):
-            yield findings.finding(folder, files)
+        if top in _PICTURES and not any(file in places for file in file_paths):
+            file_paths = [file for file in file_paths if not file.lower().endswith(_PICTURE)]
+        if file_paths and (folder == "controllers" or not all(file.rpartition(".")[2] in _PLAIN for file in file_paths)):
+            yield findings.finding(folder, file_paths)
 
 
 class _FolderFindings:
@@ -198,17 +192,17 @@ class _FolderFindings:
         self._node_parameters = _node_parameters(package, script)
         self._elsewhere = _looked_up_elsewhere(package)
 
-    def finding(self, folder: str, files: Sequence[str]) -> Finding:
+    def finding(self, folder: str, file_paths: Sequence[str]) -> Finding:
         package, script, places = self._package, self._script, self._places
         # A file of the folder that names another one does not show that the first one is used.
-        below = from_base(package, f"{folder}/")
-        named = [file for file in files if file in places and not places[file].path.startswith(below)]
+        below = package.base_path(f"{folder}/")
+        named = [file for file in file_paths if file in places and not places[file].path.startswith(below)]
         looked_up = [file for file in named if (places[file].path, _name(file)) not in self._elsewhere]
-        examples = shorten_list(_name(file) for file in (*named, *(file for file in files if file not in places)))
+        examples = names.shorten_list(_name(file) for file in (*named, *(file for file in file_paths if file not in places)))
         return Finding(
             f"'{folder}/' (contains {examples}) is not installed, so it will not be found at run time; "
             f"install it to share/{package.name}",
-            setup_edits.place(script),
+            edits.setup_py.place(script),
             f"{folder}/",
             first_related(
                 [Related(f"'{_name(file)}' is named here", places[file]) for file in looked_up]
@@ -219,21 +213,21 @@ class _FolderFindings:
                 ]
             ),
             fix=_fix(package, script, f"{folder}/") if "/" not in folder else None,
-            confidence=Confidence.HIGH if looked_up or folder in self._looked_into else self._unnamed(folder, files),
+            confidence=Confidence.HIGH if looked_up or folder in self._looked_into else self._unnamed(folder, file_paths),
             severity=Severity.WARNING,
         )
 
-    def _unnamed(self, folder: str, files: Sequence[str]) -> Confidence:
+    def _unnamed(self, folder: str, file_paths: Sequence[str]) -> Confidence:
         """Return the confidence that a folder which nothing in the package names should be installed."""
         if folder.partition("/")[0] in _DOCUMENTS:
             return Confidence.LOW
-        copied = not {name for _, name in self._elsewhere}.isdisjoint([_name(file) for file in files])
-        files = [file for file in files if not any(word in file for word in _TO_COPY)]
+        copied = not {name for _, name in self._elsewhere}.isdisjoint([_name(file) for file in file_paths])
+        file_paths = [file for file in file_paths if not any(word in file for word in _TO_COPY)]
         in_sources = f"{folder}/" in self._script.inputs
-        if any(file in self._node_parameters for file in files) and not in_sources:
+        if any(file in self._node_parameters for file in file_paths) and not in_sources:
             return Confidence.HIGH
-        for_run_time = any(file.lower().endswith(_RUN_TIME) or "/textures/" in file for file in files)
-        lost = self._lacks_models and any(file.lower().endswith(_OF_MODELS) for file in files)
+        for_run_time = any(file.lower().endswith(_RUN_TIME) or "/textures/" in file for file in file_paths)
+        lost = self._lacks_models and any(file.lower().endswith(_OF_MODELS) for file in file_paths)
         needed = "/" in folder or self._resources_only or lost
         return Confidence.HIGH if needed and for_run_time and not copied and not in_sources else Confidence.MEDIUM
 
@@ -244,9 +238,9 @@ _TO_COPY = ("example", "sample", "template")
 
 def _looked_up_elsewhere(package: Package) -> frozenset[tuple[str, str]]:
     """Return pairs of a launch file and the name of a file that it looks up in other packages, but not in this one."""
-    files = [file for launch in package.launch for file in launch.references if file.kind in ("file", "include")]
-    own = {(file.span.path, _name(file.name)) for file in files if file.package == package.name}
-    return frozenset([(file.span.path, _name(file.name)) for file in files]) - own
+    file_paths = [file for launch_file in package.launch for file in launch_file.references if file.kind in ("file", "include")]
+    own = {(file.span.path, _name(file.name)) for file in file_paths if file.package == package.name}
+    return frozenset([(file.span.path, _name(file.name)) for file in file_paths]) - own
 
 
 def _makes_nothing(package: Package, script: BuildScript) -> bool:
@@ -254,7 +248,7 @@ def _makes_nothing(package: Package, script: BuildScript) -> bool:
 
     Packages named after tests or examples may use their files in the sources.
     """
-    return script.makes_nothing and not is_auxiliary(f"{package.name.replace('_', '/')}/")
+    return script.makes_nothing and not files.is_auxiliary(f"{package.name.replace('_', '/')}/")
 
 
 def _only_files(package: Package, script: BuildScript) -> bool:
@@ -270,7 +264,7 @@ def _node_parameters(package: Package, script: BuildScript) -> frozenset[str]:
     installs = runs or _only_files(package, script)
     if not installs or "example" in package.name:
         return frozenset()
-    return frozenset(relative(package, file.path) for file in package.parameter_files if file.nodes)
+    return frozenset(package.relative(file.path) for file in package.parameter_files if file.nodes)
 
 
 _MOST_LISTED = 12
@@ -281,10 +275,10 @@ def _fix(package: Package, script: BuildScript, unit: str) -> Fix | None:
     folder, _, name = unit.rpartition("/")
     edit = None
     if script.of_cmake:
-        edit = cmake_edits.install_files(script, [unit], folder) if name else cmake_edits.install_folder(package, folder)
-    elif slot := setup_edits.slot(script, "data_files"):
+        edit = edits.cmake.install_files(script, [unit], folder) if name else edits.cmake.install_folder(package, folder)
+    elif slot := edits.setup_py.slot(script, "data_files"):
         paths = [unit] if name else [file for file in package.files if file.startswith(unit)]
-        edit = setup_edits.add_files(slot, package.name, paths, package.files) if len(paths) <= _MOST_LISTED else None
+        edit = edits.setup_py.add_files(slot, package.name, paths, package.files) if len(paths) <= _MOST_LISTED else None
     return Fix.of(f"install '{unit}'", edit)
 
 

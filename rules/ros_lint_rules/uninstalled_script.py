@@ -40,40 +40,25 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 
-from ros_lint.api import (
-    Confidence,
-    Facet,
-    Finding,
-    Fix,
-    Package,
-    Related,
-    Rule,
-    Severity,
-    Workspace,
-    cmake_edits,
-    is_auxiliary,
-    opaque_except_undefined_targets,
-    place_of,
-    relative,
-)
+from ros_lint.api import Confidence, Facet, Finding, Fix, Package, Related, Rule, Severity, Workspace, build, edits, files
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
-    if script is None or opaque_except_undefined_targets(package, Facet.EXECUTABLES | Facet.SHARE):
+    if script is None or build.opaque_except_undefined_targets(package, Facet.EXECUTABLES | Facet.SHARE):
         return
     if package.builds_with == "ament_python":
         yield from _of_setup(package)
     if package.builds_with != "ament_cmake":
         return
     installed = script.installed
-    nodes = {relative(package, use.span.path) for use in package.uses if use.via == "import" and use.package == "rclpy"}
+    nodes = {package.relative(use.span.path) for use in package.uses if use.via == "import" and use.package == "rclpy"}
     standing = workspace.world.standing
     excluded = installed.union(script.inputs)
-    excluded |= {relative(package, use.span.path) for use in package.uses if standing(use.package) == "end-of-life"}
+    excluded |= {package.relative(use.span.path) for use in package.uses if standing(use.package) == "end-of-life"}
     with_nodes = Counter([file.rpartition("/")[0] for file in nodes & installed])
     candidates = [file for file in script.files if file.path not in excluded and file.shebang and file.main]
-    uninstalled = [file for file in candidates if not is_auxiliary(file.path)]
+    uninstalled = [file for file in candidates if not files.is_auxiliary(file.path)]
     left_out = Counter([file.path.rpartition("/")[0] for file in uninstalled if file.executable and file.path in nodes])
     for file in uninstalled:
         folder = file.path.rpartition("/")[0]
@@ -81,10 +66,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         sure = file.run is not None or (forgotten and file.executable and left_out[folder] <= with_nodes[folder])
         yield Finding(
             f"the script '{file.path}' is not installed, so ros2 run does not find it; install it to lib/{package.name}",
-            place_of(package, file.path),
+            package.start_of(file.path),
             file.path,
             (Related("started here", file.run),) if file.run else (),
-            Fix.of(f"install '{file.path}'", cmake_edits.install_program(script, "PROGRAMS", file.path)),
+            Fix.of(f"install '{file.path}'", edits.cmake.install_program(script, "PROGRAMS", file.path)),
             Confidence.HIGH if sure else Confidence.MEDIUM if forgotten or file.executable else Confidence.LOW,
         )
 
@@ -96,7 +81,7 @@ def _of_setup(package: Package) -> Iterator[Finding]:
             yield Finding(
                 f"setup.py does not install an executable for the program '{file.path}', so ros2 run does not find it; "
                 "add an entry point",
-                place_of(package, file.path),
+                package.start_of(file.path),
                 file.path,
                 (Related("started here", file.run),),
             )

@@ -47,29 +47,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import (
-    Confidence,
-    Edit,
-    Finding,
-    Fix,
-    Package,
-    Rule,
-    Severity,
-    UnresolvedDependency,
-    Workspace,
-    availability_remark,
-    called,
-    declared_names,
-    did_you_mean,
-    installed_programs,
-    is_used_in_sources,
-    may_be_package,
-    naming_fix,
-    remove_dependency,
-    resembles_ament_package,
-    undeclared_match,
-    unresolved,
-)
+from ros_lint.api import Confidence, Edit, Finding, Fix, Package, Rule, Severity, Workspace, dependencies, launch, names
 
 _CALLED_SO_BY = {"cmake": "find_package", "header": "#include", "python": "Python", "system": "the system's package manager"}
 _PYTHON_BUILD = "ament_python"
@@ -79,10 +57,10 @@ _FINDS_DECLARED = "ament_auto_find_build_dependencies"
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
-    renamed: dict[tuple[str, str], UnresolvedDependency] = {}
-    for name, packages in declared_names(workspace).items():
+    renamed: dict[tuple[str, str], dependencies.UnresolvedDependency] = {}
+    for name, packages in dependencies.declared_names(workspace).items():
         if workspace.world.standing(name) == "unknown":
-            for stranger in unresolved(name, packages):
+            for stranger in dependencies.unresolved(name, packages):
                 if not name:
                     yield _needless(stranger, f"an empty <{stranger.declared.depend.tag}> declares nothing and makes rosdep fail")
                 elif name == _PYTHON_BUILD:
@@ -98,31 +76,31 @@ def check(workspace: Workspace) -> Iterator[Finding]:
                     yield _unknown(stranger, workspace, renamed)
 
 
-def _build_type(stranger: UnresolvedDependency, workspace: Workspace) -> Finding:
+def _build_type(stranger: dependencies.UnresolvedDependency, workspace: Workspace) -> Finding:
     package, name = stranger.package, stranger.name
     why = f"'{name}' is a build type, not a package, so rosdep cannot resolve it"
     if package.builds_with != "ament_cmake" or "ament_python_install_package" not in package.built.calls:
         return _needless(stranger, why)
     remedy = f"write '{_PYTHON_IN_CMAKE}'"
-    fix = naming_fix(workspace, _PYTHON_IN_CMAKE, remedy, *_rename(stranger, _PYTHON_IN_CMAKE))
+    fix = dependencies.naming_fix(workspace, _PYTHON_IN_CMAKE, remedy, *_rename(stranger, _PYTHON_IN_CMAKE))
     return Finding(f"{why}; {remedy}", stranger.declared.depend.span, name, fix=fix, package=package.name)
 
 
-def _needless(stranger: UnresolvedDependency, why: str) -> Finding:
+def _needless(stranger: dependencies.UnresolvedDependency, why: str) -> Finding:
     package, depend = stranger.package, stranger.declared.depend
     title = f"remove the dependency on '{stranger.name}'" if stranger.name else "remove the empty tag"
     fix = Fix(title, _removal(stranger))
     return Finding(f"{why}; remove the tag", depend.span, stranger.name or depend.tag, fix=fix, package=package.name)
 
 
-def _own(stranger: UnresolvedDependency) -> str:
+def _own(stranger: dependencies.UnresolvedDependency) -> str:
     """Return "program" or "module" if the package has one of that name and refers to no package of that name, else ""."""
     package, name = stranger.package, stranger.name
     if any(mention.name == name for mention in package.built.mentions):
         return ""
-    if any(reference.package == name for launch in package.launch for reference in launch.references):
+    if any(reference.package == name for launch_file in package.launch for reference in launch_file.references):
         return ""
-    own = installed_programs(package)
+    own = launch.installed_programs(package)
     if own is not None and name in own.names:
         return "program"
     folders = [module.replace(".", "/") for module in package.built.python_packages]
@@ -130,7 +108,9 @@ def _own(stranger: UnresolvedDependency) -> str:
 
 
 def _unknown(
-    stranger: UnresolvedDependency, workspace: Workspace, renamed: dict[tuple[str, str], UnresolvedDependency]
+    stranger: dependencies.UnresolvedDependency,
+    workspace: Workspace,
+    renamed: dict[tuple[str, str], dependencies.UnresolvedDependency],
 ) -> Finding:
     """Return the finding for an unknown name with a suggestion.
 
@@ -141,7 +121,7 @@ def _unknown(
     what = f"'{name}' is neither a package nor a rosdep key ({known})"
     meant = world.meant(name, python=stranger.runs_python)
     other_library = ""
-    if meant and meant.by == "slip" and not world.is_package(meant.name) and is_used_in_sources(stranger):
+    if meant and meant.by == "slip" and not world.is_package(meant.name) and dependencies.is_used_in_sources(stranger):
         other_library, meant = meant.name, None  # the code uses the name as well, so it is not a typo of another library
     if (meant is None or meant.by == "slip") and (inside := _in_folder(name, workspace)):
         return _of_folder(stranger, workspace, f"{what}, only the folder of '{inside}'", inside)
@@ -154,11 +134,13 @@ def _unknown(
         message = f"{what}, only the name that {_caller('system', installing[0])} uses; write {keys}"
     elif meant is None:
         near = [other for other in world.suggest(name, python=stranger.runs_python) if other != other_library]
-        hint = did_you_mean(near, "") or "correct it, or add the package to the workspace"
-        if lacking := undeclared_match(stranger, workspace):
-            hint = f"write '{lacking}', which is used but not declared{availability_remark(workspace, lacking)}"
+        hint = names.did_you_mean(near, "") or "correct it, or add the package to the workspace"
+        if lacking := dependencies.undeclared_match(stranger, workspace):
+            hint = f"write '{lacking}', which is used but not declared{dependencies.availability_remark(workspace, lacking)}"
             sure = Confidence.HIGH
-            fix = naming_fix(workspace, lacking, f"write '{lacking}' instead of '{name}'", *_rename(stranger, lacking))
+            fix = dependencies.naming_fix(
+                workspace, lacking, f"write '{lacking}' instead of '{name}'", *_rename(stranger, lacking)
+            )
         message = f"{what}; {hint}"
     else:
         # A name that looks like a rosdep key is not the name in another system.
@@ -169,7 +151,7 @@ def _unknown(
         if stranger.package.declares(meant.name):
             duplicate = f"'{meant.name}'"
         remedy = f"remove it, because {duplicate} is declared as well" if duplicate else f"write '{meant.name}'"
-        message = f"{what}{why}; {remedy}{'' if duplicate else availability_remark(workspace, meant.name)}"
+        message = f"{what}{why}; {remedy}{'' if duplicate else dependencies.availability_remark(workspace, meant.name)}"
         alone = meant.by == "cmake" and _is_found_as_declared(stranger.package, name)
         if alone:
             message += f" and add find_package({name}), because only {_FINDS_DECLARED}() finds it so far"
@@ -177,7 +159,7 @@ def _unknown(
         if duplicate:
             fix = Fix.of(f"remove '{name}'", *edits, safe=safe)
         else:
-            fix = naming_fix(workspace, meant.name, f"write '{meant.name}' instead of '{name}'", *edits, safe=safe)
+            fix = dependencies.naming_fix(workspace, meant.name, f"write '{meant.name}' instead of '{name}'", *edits, safe=safe)
         if fix and fix.safe:
             renamed.setdefault((stranger.package.name, meant.name), stranger)
     return Finding(
@@ -192,11 +174,11 @@ def _unknown(
 
 def _in_folder(name: str, workspace: Workspace) -> str:
     """Return the only package in a folder of that name, "" if there is none or several."""
-    names = {package.name for package in workspace.packages if package.path.rpartition("/")[2] == name}
-    return names.pop() if len(names) == 1 else ""
+    all_names = {package.name for package in workspace.packages if package.path.rpartition("/")[2] == name}
+    return all_names.pop() if len(all_names) == 1 else ""
 
 
-def _of_folder(stranger: UnresolvedDependency, workspace: Workspace, what: str, meant: str) -> Finding:
+def _of_folder(stranger: dependencies.UnresolvedDependency, workspace: Workspace, what: str, meant: str) -> Finding:
     package = stranger.package
     own = meant == package.name
     remedy, title = f"write '{meant}'", f"write '{meant}' instead of '{stranger.name}'"
@@ -206,7 +188,11 @@ def _of_folder(stranger: UnresolvedDependency, workspace: Workspace, what: str, 
     edits = _removal(stranger) if own else _rename(stranger, meant)
     place = stranger.declared.depend.name_span
     return Finding(
-        f"{what}; {remedy}", place, stranger.name, fix=naming_fix(workspace, meant, title, *edits), package=package.name
+        f"{what}; {remedy}",
+        place,
+        stranger.name,
+        fix=dependencies.naming_fix(workspace, meant, title, *edits),
+        package=package.name,
     )
 
 
@@ -219,24 +205,26 @@ def _is_found_as_declared(package: Package, name: str) -> bool:
     """Return whether CMake finds a package only because it is declared under exactly this name."""
     if _FINDS_DECLARED not in package.built.calls:
         return False
-    return not any(name in call.texts[:1] for call in called(package, "find_package", anywhere=True))
+    return not any(name in call.texts[:1] for call in package.calls("find_package", anywhere=True))
 
 
-def _confidence(stranger: UnresolvedDependency, by: str, workspace: Workspace) -> Confidence:
+def _confidence(stranger: dependencies.UnresolvedDependency, by: str, workspace: Workspace) -> Confidence:
     if not by:
         # Valid package names (REP 144) may belong to unreleased packages; all rosdep keys are known.
-        exists = may_be_package(stranger.name) and not resembles_ament_package(stranger.name, workspace)
+        exists = names.may_be_package(stranger.name) and not dependencies.resembles_ament_package(stranger.name, workspace)
         return Confidence.MEDIUM if exists else Confidence.HIGH
     # A library may be wrapped in a package of the same name whose sources are in another repository.
     elsewhere = bool(workspace.source_lists) and by in _CALLED_SO_BY
-    return Confidence.MEDIUM if elsewhere and may_be_package(stranger.name) else Confidence.HIGH
+    return Confidence.MEDIUM if elsewhere and names.may_be_package(stranger.name) else Confidence.HIGH
 
 
-def _removal(stranger: UnresolvedDependency) -> tuple[Edit, ...]:
-    return tuple(edit for tag in stranger.tags for edit in remove_dependency(stranger.package, tag))
+def _removal(stranger: dependencies.UnresolvedDependency) -> tuple[Edit, ...]:
+    return tuple(edit for tag in stranger.tags for edit in dependencies.remove_dependency(stranger.package, tag))
 
 
-def _rename(stranger: UnresolvedDependency, name: str, twin: UnresolvedDependency | None = None) -> tuple[Edit, ...]:
+def _rename(
+    stranger: dependencies.UnresolvedDependency, name: str, twin: dependencies.UnresolvedDependency | None = None
+) -> tuple[Edit, ...]:
     """Return the edits that write another name into every tag, () if tags would be duplicated.
 
     ``twin``: another dependency of the package that is renamed to the same name.

@@ -25,7 +25,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ros_lint.api import Finding, Rule, Severity, did_you_mean
+from ros_lint.api import Finding, Rule, Severity, names
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -37,7 +37,7 @@ def check(use: SuppressionUse) -> Iterator[Finding]:
     for suppression in use.malformed:
         yield Finding(suppression.problem, suppression.span, ", ".join(name.text for name in suppression.names))
     for _, name, suggestion in use.unknown:
-        hint = did_you_mean([suggestion] if suggestion else []) or "; `ros-lint rules` lists all rules"
+        hint = names.did_you_mean([suggestion] if suggestion else []) or "; `ros-lint rules` lists all rules"
         yield Finding(f"there is no rule '{name.text}'{hint}", name.span, name.text)
 
 

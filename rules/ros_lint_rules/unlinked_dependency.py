@@ -39,7 +39,6 @@ import re
 from collections.abc import Iterator
 
 from ros_lint.api import (
-    VENDOR,
     BuildTarget,
     Confidence,
     Edit,
@@ -52,15 +51,10 @@ from ros_lint.api import (
     Severity,
     Use,
     Workspace,
-    called,
-    cmake_edits,
-    evaluated_name,
-    finds_declared,
-    macro_packages,
-    may_provide,
-    names_searched,
-    partial_closure,
-    relative,
+    build,
+    dependencies,
+    edits,
+    names,
 )
 
 
@@ -68,13 +62,13 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or script.problems or script.reaches_out or package.builds_with != "ament_cmake":
         return
-    if script.hides(Facet.USES) or finds_declared(package):
+    if script.hides(Facet.USES) or dependencies.finds_declared(package):
         return
-    names = names_searched(package, script)
-    if any(other.hidden(Facet.USES) for name in names for other in workspace.by_name.get(name, ())):
+    all_names = dependencies.names_searched(package, script)
+    if any(other.hidden(Facet.USES) for name in all_names for other in workspace.by_name.get(name, ())):
         return  # its effect on packages that find it is unknown
-    interfaces = [mention.name for mention in macro_packages(script, "interfaces")]
-    packages = [name for name in names if workspace.world.is_package(name) and not name.endswith(VENDOR)]
+    interfaces = [mention.name for mention in dependencies.macro_packages(script, "interfaces")]
+    packages = [name for name in all_names if workspace.world.is_package(name) and not name.endswith(names.VENDOR)]
     uses = _includes(package, frozenset(packages))
     for target in script.targets:
         if target.headers is None or target.kind == "interface":
@@ -95,7 +89,7 @@ def _includes(package: Package, wanted: frozenset[str]) -> dict[str, list[Use]]:
     for use in package.uses:
         compiled = use.via == "include" and use.sure and not use.optional
         if compiled and use.package in wanted and wanted.isdisjoint(use.providers[1:]):
-            includes.setdefault(relative(package, use.span.path), []).append(use)
+            includes.setdefault(package.relative(use.span.path), []).append(use)
     return includes
 
 
@@ -103,10 +97,10 @@ def _unlinked(
     package: Package, workspace: Workspace, target: BuildTarget, linked: list[str], needed: dict[str, list[Use]]
 ) -> Iterator[Finding]:
     """Yield the packages that the sources of a target include, but that the target does not link."""
-    closure = partial_closure(workspace, linked)
+    closure = dependencies.partial_closure(workspace, linked)
     alone = not any(name in closure for name in workspace.by_name)
     for name, uses in needed.items():
-        if name in closure or (not closure.complete and may_provide(closure.unknown, name, workspace)):
+        if name in closure or (not closure.complete and dependencies.may_provide(closure.unknown, name, workspace)):
             continue
         first, *others = dict.fromkeys(uses)
         has_own_folder = _GENERATED.match(first.name) or (alone and name in workspace.by_name)
@@ -130,12 +124,12 @@ _GENERATED = re.compile(r"\w+/(?:msg|srv|action)/\w+\.h(?:pp)?\Z")
 def _remedy(package: Package, workspace: Workspace, target: BuildTarget, name: str) -> tuple[str, Edit | None]:
     """Return the command that links a package to a target, and the edit that adds it to an existing call."""
     commands = [("ament_target_dependencies", name)]
-    if cmake_edits.exports_targets(name, workspace):
+    if edits.cmake.exports_targets(name, workspace):
         commands.append(("target_link_libraries", f"${{{name}_TARGETS}}"))
     for command, word in commands:
-        for call in called(package, command):
-            if len(call.args) > 1 and not call.blocks and evaluated_name(package, call.texts[0]) == target.name:
-                return f"{command}({target.name} {word})", cmake_edits.add_argument(call, word)
+        for call in package.calls(command):
+            if len(call.args) > 1 and not call.blocks and build.evaluated_name(package, call.texts[0]) == target.name:
+                return f"{command}({target.name} {word})", edits.cmake.add_argument(call, word)
     command, word = commands[0] if commands[0][0] in package.built.calls else commands[-1]
     return f"{command}({target.name} {word})", None
 

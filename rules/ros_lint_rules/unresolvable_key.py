@@ -27,32 +27,22 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import (
-    Confidence,
-    Finding,
-    Rule,
-    Severity,
-    UnresolvedDependency,
-    Workspace,
-    declared_names,
-    is_unresolvable_key,
-    unresolved,
-)
+from ros_lint.api import Confidence, Finding, Rule, Severity, Workspace, dependencies
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
     world = workspace.world
-    for name, packages in declared_names(workspace).items():
+    for name, packages in dependencies.declared_names(workspace).items():
         if world.is_package(name):
             continue
         if world.is_key(name):
-            if is_unresolvable_key(workspace, name):
-                yield from (_key(stranger, workspace) for stranger in unresolved(name, packages))
+            if dependencies.is_unresolvable_key(workspace, name):
+                yield from (_key(stranger, workspace) for stranger in dependencies.unresolved(name, packages))
         elif workspace.target.told and world.standing(name) == "elsewhere":
-            yield from (_package(stranger, workspace) for stranger in unresolved(name, packages))
+            yield from (_package(stranger, workspace) for stranger in dependencies.unresolved(name, packages))
 
 
-def _key(stranger: UnresolvedDependency, workspace: Workspace) -> Finding:
+def _key(stranger: dependencies.UnresolvedDependency, workspace: Workspace) -> Finding:
     name, knowledge, distro = stranger.name, workspace.world.knowledge, workspace.target.distro
     anywhere = knowledge.resolving(name)
     meant = workspace.world.meant(name, python=stranger.runs_python)
@@ -66,7 +56,7 @@ def _key(stranger: UnresolvedDependency, workspace: Workspace) -> Finding:
     )
 
 
-def _package(stranger: UnresolvedDependency, workspace: Workspace) -> Finding:
+def _package(stranger: dependencies.UnresolvedDependency, workspace: Workspace) -> Finding:
     name, world, distro = stranger.name, workspace.world, workspace.target.distro
     others = ", ".join(world.where_else(name))
     return Finding(

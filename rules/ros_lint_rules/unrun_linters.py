@@ -33,19 +33,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ros_lint.api import (
-    FINDS_TESTS,
-    LINTERS,
-    BuildScript,
-    Facet,
-    Finding,
-    Package,
-    Rule,
-    Severity,
-    Workspace,
-    called,
-    names_searched,
-)
+from ros_lint.api import BuildScript, Facet, Finding, Package, Rule, Severity, Workspace, build, dependencies
 
 _AUTO = "ament_lint_auto"
 _ALL = "ament_lint_common"
@@ -61,17 +49,17 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     if _checks_what_it_generates(package):
         return
-    if FINDS_TESTS.intersection(script.calls):
+    if build.FINDS_TESTS.intersection(script.calls):
         yield from _none_to_run(package, script)
         return
-    if any(call.blocks.count("if") > call.test for call in called(package, _RUN, anywhere=True)):
+    if any(call.blocks.count("if") > call.test for call in package.calls(_RUN, anywhere=True)):
         return  # an option enables them
-    declared = [declared.depend for declared in package.declared if declared.name in (_AUTO, _ALL, *LINTERS)]
+    declared = [declared.depend for declared in package.declared if declared.name in (_AUTO, _ALL, *build.LINTERS)]
     for_others = {depend.name for depend in declared if depend.tag != "test_depend"}
     own = [depend for depend in declared if depend.name not in for_others]
     called_by_name = _called_by_name(package, script)
     mentioned = _mentioned(package, script)
-    idle = [depend for depend in own if depend.name not in mentioned and LINTERS.get(depend.name) not in called_by_name]
+    idle = [depend for depend in own if depend.name not in mentioned and build.LINTERS.get(depend.name) not in called_by_name]
     if called_by_name:
         for depend in idle:
             if depend.name != _ALL:  # it provides the called linters
@@ -92,7 +80,7 @@ def _none_to_run(package: Package, script: BuildScript) -> Iterator[Finding]:
     for_tests = [declared.depend for declared in package.declared if declared.depend.tag == "test_depend"]
     if _RUN not in script.calls or {depend.name for depend in for_tests} != {_AUTO}:
         return
-    packages = names_searched(package, script).union(_looked_for(package)) - _BRING_NONE
+    packages = dependencies.names_searched(package, script).union(_looked_for(package)) - _BRING_NONE
     if not any(map(_MAY_BRING.search, packages)):
         yield Finding(
             f"'{_AUTO}' runs the linters among the test dependencies, but package.xml declares none; add "
@@ -103,13 +91,13 @@ def _none_to_run(package: Package, script: BuildScript) -> Iterator[Finding]:
 
 
 def _checks_what_it_generates(package: Package) -> bool:
-    return any("ADD_LINTER_TESTS" in call.texts for call in called(package, "rosidl_generate_interfaces", anywhere=True))
+    return any("ADD_LINTER_TESTS" in call.texts for call in package.calls("rosidl_generate_interfaces", anywhere=True))
 
 
 def _called_by_name(package: Package, script: BuildScript) -> list[str]:
     """Return the linter commands that the CMake files call, also under a condition."""
-    written = {call.name for call in called(package, *LINTERS.values(), anywhere=True)}
-    return sorted(written.union(set(LINTERS.values()).intersection(script.calls)))
+    written = {call.name for call in package.calls(*build.LINTERS.values(), anywhere=True)}
+    return sorted(written.union(set(build.LINTERS.values()).intersection(script.calls)))
 
 
 def _mentioned(package: Package, script: BuildScript) -> set[str]:
@@ -118,7 +106,7 @@ def _mentioned(package: Package, script: BuildScript) -> set[str]:
 
 
 def _looked_for(package: Package) -> set[str]:
-    return {call.texts[0] for call in called(package, "find_package", anywhere=True) if call.args}
+    return {call.texts[0] for call in package.calls("find_package", anywhere=True) if call.args}
 
 
 def _list(commands: list[str]) -> str:

@@ -46,10 +46,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros_lint.api import (
-    FINDS_TESTS,
-    INTERFACES,
-    LINTERS,
-    PYTHON_LIKE,
     BuildScript,
     Confidence,
     Declared,
@@ -57,40 +53,26 @@ from ros_lint.api import (
     Facet,
     Finding,
     Fix,
-    LostProvision,
     Package,
     Role,
     Rule,
     Severity,
     Workspace,
-    called,
-    conditions,
-    has_programs,
-    interface_names,
-    is_build_visible,
-    is_fully_visible,
-    is_library,
-    is_mostly_runtime,
-    is_traceless_by_name,
-    may_be_used_without_trace,
-    misspelled_names,
-    name_suggests_no_trace,
-    needed_transitively,
-    remove_dependency,
-    satisfying,
-    usage_is_visible,
-    used_names,
+    build,
+    dependencies,
+    files,
+    names,
 )
 
 _TAGS = ("depend", "build_depend")
 _HANDED_ON = Role.EXEC | Role.EXPORT
-_NO_TEST = FINDS_TESTS | {"enable_testing"}
+_NO_TEST = build.FINDS_TESTS | {"enable_testing"}
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     yield from _no_member(package)
     unused = list(_unused(package, workspace))
-    carried = needed_transitively(package, workspace, [declared for declared, _, _ in unused]) if unused else {}
+    carried = dependencies.needed_transitively(package, workspace, [declared for declared, _, _ in unused]) if unused else {}
     for declared, reason, confidence in unused:
         depend = declared.depend
         name, sure = depend.name, confidence is Confidence.HIGH
@@ -105,7 +87,11 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"'{name}' is declared, but {reason}; remove {written}",
             depend.span,
             name,
-            fix=Fix(f"remove {written}", tuple(edit for tag in tags for edit in remove_dependency(package, tag)), safe=sure),
+            fix=Fix(
+                f"remove {written}",
+                tuple(edit for tag in tags for edit in dependencies.remove_dependency(package, tag)),
+                safe=sure,
+            ),
             confidence=confidence,
         )
 
@@ -113,23 +99,27 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 def _no_member(package: Package) -> Iterator[Finding]:
     """Yield the membership in the group of interface packages, if the package has no interfaces."""
     manifest, script = package.manifest, package.script
-    if manifest is None or script is None or script.problems or interface_names.GROUP not in package.groups:
+    if manifest is None or script is None or script.problems or names.interfaces.GROUP not in package.groups:
         return
     if package.builds_with not in ("ament_cmake", "ament_python") or script.hides(Facet.INTERFACES | Facet.USES):
         return
-    generated = script.interfaces or any(True for _ in called(package, "rosidl_generate_interfaces", anywhere=True))
-    if generated or any(file.endswith(INTERFACES) for file in package.files):
+    generated = script.interfaces or any(True for _ in package.calls("rosidl_generate_interfaces", anywhere=True))
+    if generated or any(file.endswith(files.INTERFACES) for file in package.files):
         return
     for depend in manifest.depends:
-        if depend.tag == "member_of_group" and depend.name == interface_names.GROUP and conditions.always(depend.condition):
-            written = f"<{depend.tag}>{interface_names.GROUP}</{depend.tag}>"
-            fix = Fix(f"remove {written}", tuple(remove_dependency(package, depend)))
+        if (
+            depend.tag == "member_of_group"
+            and depend.name == names.interfaces.GROUP
+            and dependencies.conditions.always(depend.condition)
+        ):
+            written = f"<{depend.tag}>{names.interfaces.GROUP}</{depend.tag}>"
+            fix = Fix(f"remove {written}", tuple(dependencies.remove_dependency(package, depend)))
             yield Finding(
-                f"'{package.name}' generates no interfaces; remove {written}", depend.span, interface_names.GROUP, fix=fix
+                f"'{package.name}' generates no interfaces; remove {written}", depend.span, names.interfaces.GROUP, fix=fix
             )
 
 
-def _message_if_carrying(package: Package, name: str, carried: LostProvision) -> str:
+def _message_if_carrying(package: Package, name: str, carried: dependencies.LostProvision) -> str:
     """Return the message for an unused dependency that is the only source of a package that is used without a declaration."""
     if carried.package == package.name:
         return f"'{name}' is unused itself; the package uses '{carried.name}' through it; declare '{carried.name}' instead"
@@ -145,7 +135,7 @@ def _needless_tags(package: Package, workspace: Workspace, depend: Depend) -> It
     """Yield the <build_export_depend> and <exec_depend> tags that an unused <build_depend> leaves without purpose."""
     for other in package.tags(depend.name) if depend.tag == "build_depend" else ():
         tag = other.depend.tag
-        to_run = tag == "exec_depend" and not has_programs(workspace.world, depend.name)
+        to_run = tag == "exec_depend" and not dependencies.has_programs(workspace.world, depend.name)
         if (tag == "build_export_depend" or to_run) and other.always:
             yield other.depend
 
@@ -153,28 +143,30 @@ def _needless_tags(package: Package, workspace: Workspace, depend: Depend) -> It
 def _unused(package: Package, workspace: Workspace) -> Iterator[tuple[Declared, str, Confidence]]:
     """Yield the tags of dependencies that nothing in the package uses, with the reason and the confidence."""
     script = package.script
-    if script is None or not is_build_visible(package):
+    if script is None or not dependencies.is_build_visible(package):
         return
-    whole = is_fully_visible(package)
+    whole = dependencies.is_fully_visible(package)
     unsure = workspace.unread() or _lacks_programs(package, script)
     world = workspace.world
     built = [declared.name for declared in package.declared if declared.depend.tag in _TAGS and declared.always]
-    used = used_names(built, package.uses)
-    libraries = satisfying(package.uses)
-    wrong = misspelled_names(package, workspace)
+    used = dependencies.used_names(built, package.uses)
+    libraries = dependencies.satisfying(package.uses)
+    wrong = dependencies.misspelled_names(package, workspace)
     for declared in package.declared:
         depend = declared.depend
         name = depend.name
-        if not declared.always or name in used or name in wrong or name_suggests_no_trace(world, name):
+        if not declared.always or name in used or name in wrong or dependencies.name_suggests_no_trace(world, name):
             continue
-        if not (whole or is_library(world, name)):
+        if not (whole or dependencies.is_library(world, name)):
             continue
-        unknown = is_traceless_by_name(world, name)
-        mostly_run = depend.tag in _TAGS and not unknown and is_mostly_runtime(workspace, name)
+        unknown = dependencies.is_traceless_by_name(world, name)
+        mostly_run = depend.tag in _TAGS and not unknown and dependencies.is_mostly_runtime(workspace, name)
         if depend.tag in _TAGS:
-            if name in package.traces or (name in libraries if unknown else may_be_used_without_trace(package, workspace, name)):
+            if name in package.traces or (
+                name in libraries if unknown else dependencies.may_be_used_without_trace(package, workspace, name)
+            ):
                 continue
-            if mostly_run and not usage_is_visible(package, workspace, name):
+            if mostly_run and not dependencies.usage_is_visible(package, workspace, name):
                 continue
             reason = "nothing in the package uses it"
         elif depend.tag == "test_depend" and not (
@@ -186,7 +178,9 @@ def _unused(package: Package, workspace: Workspace) -> Iterator[tuple[Declared, 
         else:
             continue
         # Headers of other packages may need a library, but it is available without the tag if a used package depends on it.
-        doubted = unknown and not (depend.tag in _TAGS and is_library(world, name) and name in world.closure(sorted(used)))
+        doubted = unknown and not (
+            depend.tag in _TAGS and dependencies.is_library(world, name) and name in world.closure(sorted(used))
+        )
         yield declared, reason, Confidence.MEDIUM if doubted or mostly_run or unsure else Confidence.HIGH
 
 
@@ -205,7 +199,7 @@ def _is_used(package: Package, name: str) -> bool:
 def _brings_linters(script: BuildScript, workspace: Workspace, name: str) -> bool:
     """Return whether the test dependency is a package of the workspace that depends on linters which the build script runs."""
     handed_on = (depend for package in workspace.by_name.get(name, ()) for depend in package.declared if depend.role & _HANDED_ON)
-    return not FINDS_TESTS.isdisjoint(script.calls) and any(depend.name in LINTERS for depend in handed_on)
+    return not build.FINDS_TESTS.isdisjoint(script.calls) and any(depend.name in build.LINTERS for depend in handed_on)
 
 
 def _can_test_with(package: Package, script: BuildScript, workspace: Workspace, name: str) -> bool:
@@ -216,7 +210,7 @@ def _can_test_with(package: Package, script: BuildScript, workspace: Workspace, 
         return False
     released = workspace.world.released(name)
     python = bool(released and released.build_type == "ament_python") and name not in workspace.by_name
-    return not python or any(file.endswith(PYTHON_LIKE) for file in package.files)
+    return not python or any(file.endswith(dependencies.PYTHON_LIKE) for file in package.files)
 
 
 RULE = Rule(

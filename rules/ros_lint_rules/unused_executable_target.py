@@ -26,23 +26,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import (
-    Facet,
-    Finding,
-    Fix,
-    Package,
-    Rule,
-    Severity,
-    Workspace,
-    cmake_edits,
-    install_arguments,
-    is_optional_target,
-    may_run_built,
-    never_installed_nodes,
-    nodes_started,
-    opaque_except_undefined_targets,
-    partly_installed_nodes,
-)
+from ros_lint.api import Facet, Finding, Fix, Package, Rule, Severity, Workspace, build, edits, launch
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -50,19 +34,21 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if (
         script is None
         or package.builds_with != "ament_cmake"
-        or opaque_except_undefined_targets(package, Facet.EXECUTABLES)
-        or may_run_built(script)
+        or build.opaque_except_undefined_targets(package, Facet.EXECUTABLES)
+        or build.may_run_built(script)
     ):
         return
-    excluded = {provided.target for provided in script.provides} | install_arguments(package)
-    excluded |= never_installed_nodes(package) | partly_installed_nodes(package)  # uninstalled-executable reports them
-    excluded.update(nodes_started(workspace).get(package.name, {}))
+    excluded = {provided.target for provided in script.provides} | build.install_arguments(package)
+    excluded |= build.never_installed_nodes(package) | build.partly_installed_nodes(
+        package
+    )  # uninstalled-executable reports them
+    excluded.update(launch.nodes_started(workspace).get(package.name, {}))
     for target in script.targets:
         if target.kind != "executable" or target.test or target.name in excluded:
             continue
-        if is_optional_target(package, target):
+        if build.is_optional_target(package, target):
             continue
-        fix = Fix.of(f"install '{target.name}'", cmake_edits.install_program(script, "TARGETS", target.name), safe=False)
+        fix = Fix.of(f"install '{target.name}'", edits.cmake.install_program(script, "TARGETS", target.name), safe=False)
         message = f"'{target.name}' is built, but neither installed nor a test; install it, or build it only on request"
         yield Finding(message, target.span, target.name, fix=fix)
 

@@ -29,11 +29,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Finding, Mention, Package, Related, Rule, Severity, Workspace, first_related, unused_find_packages
+from ros_lint.api import Finding, Mention, Package, Related, Rule, Severity, Workspace, dependencies, first_related
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    for mention in unused_find_packages(package, workspace):
+    for mention in dependencies.unused_find_packages(package, workspace):
         name = mention.name
         others = _also_named(package, mention)
         what = f"find_package({name})" + (f" and the other uses of '{name}' in the build script" if others else "")

@@ -40,9 +40,8 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
-    conditions,
-    place_of,
-    similar_names,
+    dependencies,
+    names,
 )
 
 _TYPES = ("ament_cmake", "ament_python", "cmake", "catkin", "ament_cargo", "ament_gradle")
@@ -74,11 +73,13 @@ def check(workspace: Workspace) -> Iterator[Finding]:
 def _of_package(package: Package, manifest: Manifest, workspace: Workspace) -> Iterator[Finding]:
     context = workspace.target.context
     active = [
-        export for export in manifest.exports if export.tag == "build_type" and conditions.truth(conditions.of(export), context)
+        export
+        for export in manifest.exports
+        if export.tag == "build_type" and dependencies.conditions.truth(dependencies.conditions.of(export), context)
     ]
     if len(active) > 1:
-        names = " and ".join(f"'{export.text}'" if export.text else "an empty one" for export in active)
-        message = f"{len(active)} build types apply to {workspace.target.distro}: {names}; keep one, or give each a condition"
+        all_names = " and ".join(f"'{export.text}'" if export.text else "an empty one" for export in active)
+        message = f"{len(active)} build types apply to {workspace.target.distro}: {all_names}; keep one, or give each a condition"
         related = tuple(Related("this build type also applies", export.span) for export in active[:-1])
         yield Finding(message, active[-1].span, "build_type", related)
     for export in active:
@@ -92,7 +93,7 @@ def _of_package(package: Package, manifest: Manifest, workspace: Workspace) -> I
 
 def _unknown(export: Element) -> Finding:
     name = export.text
-    close = [_MISTAKES[name]] if name in _MISTAKES else similar_names(name, _TYPES, 1, 0.8)
+    close = [_MISTAKES[name]] if name in _MISTAKES else names.similar_names(name, _TYPES, 1, 0.8)
     if not close:
         message = f"colcon itself has no build type '{name}'; write {_KNOWN}, or another type that it supports"
         return Finding(message, export.text_span, name, confidence=Confidence.MEDIUM)
@@ -110,10 +111,10 @@ def _without_script(package: Package, export: Element) -> Iterator[Finding]:
         fix = Fix(f"write '{other}'", (Edit(export.text_span, other),), safe=False)
         yield Finding(message, export.text_span, export.text, fix=fix)
     else:
-        near = similar_names(script.lower(), [file.lower() for file in package.files if "/" not in file], 1, 0.85)
+        near = names.similar_names(script.lower(), [file.lower() for file in package.files if "/" not in file], 1, 0.85)
         meant = next((file for file in package.files if near and file.lower() == near[0]), "")
         remedy = f"but the package has a '{meant}'; rename it to {script}" if meant else "which does not exist; add it"
-        related = (Related("this file", place_of(package, meant)),) if meant else ()
+        related = (Related("this file", package.start_of(meant)),) if meant else ()
         yield Finding(f"'{export.text}' needs a {script}, {remedy}", export.text_span, export.text, related)
 
 

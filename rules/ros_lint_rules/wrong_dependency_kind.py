@@ -60,7 +60,6 @@ from ros_lint.api import (
     Facet,
     Finding,
     Fix,
-    Need,
     Package,
     Related,
     Role,
@@ -68,16 +67,10 @@ from ros_lint.api import (
     Severity,
     Use,
     Workspace,
-    change_dependency,
+    build,
+    dependencies,
+    files,
     first_related,
-    is_for_tests,
-    is_part_of_launch,
-    is_traceless_by_name,
-    needs,
-    provided_transitively,
-    relative,
-    tag_for,
-    unguarded_tests,
 )
 
 _OF_TESTS = frozenset({
@@ -117,7 +110,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             wrong.depends[0].span,
             name,
             first_related(Related(f"used here: {use.what}", use.span) for use in wrong.uses),
-            Fix(f"declare '{name}' as <{tag}>", change_dependency(package, wrong.depends, tag, same_tag)),
+            Fix(f"declare '{name}' as <{tag}>", dependencies.change_dependency(package, wrong.depends, tag, same_tag)),
             wrong.confidence,
         )
 
@@ -126,20 +119,20 @@ def _wrong(package: Package, workspace: Workspace) -> Iterator[_Wrong]:
     manifest = package.manifest
     if manifest is None or manifest.problems or manifest.format == 1:
         return
-    if is_for_tests(package.name):
+    if files.is_for_tests(package.name):
         return
-    unguarded = unguarded_tests(package)
+    unguarded = build.unguarded_tests(package)
     reported: set[str] = set()
     by_name: dict[str, list[Declared]] = {}
     for declared in package.declared:
         by_name.setdefault(declared.name, []).append(declared)
-    for need in needs(package, workspace):
+    for need in dependencies.needs(package, workspace):
         if not need.declared or any(_is_for_all(declared) for name in need.declared for declared in by_name[name]):
             continue
         # A key for building and another one for running complement each other.
         names = dict.fromkeys((*need.declared, *(name for use in need.uses for name in use.providers if name in by_name)))
         tags = [declared for name in names for declared in by_name[name]]
-        if any(map(_is_for_all, tags)) or is_part_of_launch(package, need.uses):
+        if any(map(_is_for_all, tags)) or dependencies.is_part_of_launch(package, need.uses):
             continue
         exported = need._replace(uses=tuple(_exported_uses(package, need, assume_installed=False)))
         lacking = _lacks(package, workspace, exported, tags)
@@ -154,7 +147,7 @@ def _wrong(package: Package, workspace: Workspace) -> Iterator[_Wrong]:
             continue  # unguarded-test reports the tests
         reported.add(name)
         depends = [declared.depend for declared in tags if declared.name == name]
-        tag = tag_for(package, workspace, name, exported.role | (_given(tags, name) & ~_TEST))
+        tag = dependencies.tag_for(package, workspace, name, exported.role | (_given(tags, name) & ~_TEST))
         yield _Wrong(name, depends, tag, lacking.why, uses, lacking.confidence)
 
 
@@ -163,7 +156,7 @@ def _is_for_all(declared: Declared) -> bool:
     return declared.depend.tag == "depend" or not declared.always
 
 
-def _exported_uses(package: Package, need: Need, *, assume_installed: bool) -> Iterator[Use]:
+def _exported_uses(package: Package, need: dependencies.Need, *, assume_installed: bool) -> Iterator[Use]:
     """Yield the uses of a need; only headers that are installed in every build count as exported.
 
     ``assume_installed``: also count headers that no build installs.
@@ -176,7 +169,7 @@ def _exported_uses(package: Package, need: Need, *, assume_installed: bool) -> I
             continue
         if installed is None:
             installed = _installed_headers(package)
-        always = installed.get(relative(package, use.span.path))
+        always = installed.get(package.relative(use.span.path))
         if always is None:
             yield use if assume_installed else use._replace(role=use.role & ~Role.EXPORT)
         elif always and not _OF_TESTS.issuperset(need.declared):
@@ -217,7 +210,7 @@ def _given(tags: Sequence[Declared], name: str = "") -> Role:
     return role
 
 
-def _lacks(package: Package, workspace: Workspace, need: Need, tags: Sequence[Declared]) -> _Lack | None:
+def _lacks(package: Package, workspace: Workspace, need: dependencies.Need, tags: Sequence[Declared]) -> _Lack | None:
     """Return the first use that neither the tags of a need nor another dependency cover."""
     given = _given(tags)
 
@@ -225,7 +218,7 @@ def _lacks(package: Package, workspace: Workspace, need: Need, tags: Sequence[De
         return any(use.sure and _is_about(use, role) for use in need.uses)
 
     def is_provided(enough: Role, *, surely: bool = False) -> bool:
-        return provided_transitively(
+        return dependencies.provided_transitively(
             package, workspace, {name for use in need.uses for name in use.providers}, enough, surely=surely
         )
 
@@ -249,7 +242,7 @@ def _lacks(package: Package, workspace: Workspace, need: Need, tags: Sequence[De
         return _Lack(Role.BUILD, why, Confidence.MEDIUM if handed_on else Confidence.HIGH)
     world = workspace.world
     packages = [name for name in need.declared if world.is_package(name)]
-    if any(is_traceless_by_name(world, name) for name in packages):
+    if any(dependencies.is_traceless_by_name(world, name) for name in packages):
         return None
     if packages and missing(Role.EXEC, _AFTERWARDS):
         return _Lack(Role.EXEC, "but it is needed at run time")

@@ -9,7 +9,7 @@ from ros_lint.base.edit import Edit
 from ros_lint.base.paths import join
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.cmake import Call
-from ros_lint.workspace.model import Package, Workspace, called
+from ros_lint.workspace.model import Package, Workspace
 
 _LIBRARY = """\
 install(TARGETS {}
@@ -62,7 +62,7 @@ def export_dependencies(package: Package, name: str, all_names: Sequence[str]) -
 
     So the edit is one and the same for all of them. None when there is no place for a new call.
     """
-    call = next((call for call in called(package, "ament_export_dependencies") if call.args and not call.blocks), None)
+    call = next((call for call in package.calls("ament_export_dependencies") if call.args and not call.blocks), None)
     if call is not None:
         return add_argument(call, name)
     return at_end(package.built, f"ament_export_dependencies({' '.join(all_names)})")
@@ -112,7 +112,7 @@ def _append(call: Call, last: int, text: str) -> Edit:
 
 def _beside(package: Package) -> Call | None:
     """Return a rule that installs folders to share/<package> as they are, and does nothing else."""
-    for call in called(package, "install"):
+    for call in package.calls("install"):
         texts = call.texts
         if texts[:1] != ("DIRECTORY",) or call.blocks or texts[-2:-1] != ("DESTINATION",):
             continue

@@ -9,7 +9,7 @@ from ros_lint.facts.build import BuildScript
 from ros_lint.facts.cmake import Call
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.visibility import Facet, Opaque
-from ros_lint.workspace.model import Package, called
+from ros_lint.workspace.model import Package
 
 FINDS_TESTS = frozenset({
     "ament_lint_auto_find_test_dependencies", "ament_auto_find_test_dependencies", "autoware_package",
@@ -44,7 +44,7 @@ def has_extras(package: Package) -> bool:
     """Whether code of a package runs where it is found: files that ament_package(CONFIG_EXTRAS) is given, known or not."""
     if package.built.extras:
         return True
-    return any("CONFIG_EXTRAS" in text for call in called(package, *ENDS, anywhere=True) for text in call.texts)
+    return any("CONFIG_EXTRAS" in text for call in package.calls(*ENDS, anywhere=True) for text in call.texts)
 
 
 def installed_targets(call: Call) -> tuple[int, ...]:
@@ -99,7 +99,7 @@ def unguarded_tests(package: Package) -> dict[str, Call]:
     found: dict[str, Call] = {}
     if package.builds_with != "ament_cmake":
         return found
-    for call in called(package, "find_package", *_TEST_COMMANDS):
+    for call in package.calls("find_package", *_TEST_COMMANDS):
         provider = _TEST_COMMANDS.get(call.name) or (call.texts[0] if call.args else "")
         stops = call.name != "find_package" or "REQUIRED" in call.texts
         always = stops and not call.test and not call.blocks

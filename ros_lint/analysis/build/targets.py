@@ -12,7 +12,7 @@ from ros_lint.facts.build import BuildScript, InstalledFile
 from ros_lint.facts.cmake import BuildTarget, Call
 from ros_lint.facts.sources import Registration
 from ros_lint.facts.visibility import Facet
-from ros_lint.workspace.model import Package, called, relative
+from ros_lint.workspace.model import Package
 
 
 def programs_built(script: BuildScript) -> Iterator[BuildTarget]:
@@ -25,7 +25,7 @@ def programs_built(script: BuildScript) -> Iterator[BuildTarget]:
 def is_optional_target(package: Package, target: BuildTarget) -> bool:
     """Whether some builds leave out all that a target is made of, or it is an example."""
     wanted = bool(target.sources) and set(target.sources) == set(target.optional)
-    return wanted or is_auxiliary(relative(package, target.span.path))
+    return wanted or is_auxiliary(package.relative(target.span.path))
 
 
 def installed_to_bin_only(package: Package, name: str) -> bool:
@@ -55,7 +55,7 @@ def may_run_built(script: BuildScript) -> bool:
 
 def files_using_client_library(package: Package) -> frozenset[str]:
     """Return the C++ files that include a client library, relative to the package."""
-    return frozenset(relative(package, use.span.path) for use in package.uses if use.via == "include" and use.package in _CLIENTS)
+    return frozenset(package.relative(use.span.path) for use in package.uses if use.via == "include" and use.package in _CLIENTS)
 
 
 def node_targets(package: Package) -> frozenset[str]:
@@ -81,7 +81,7 @@ def stem(path: str) -> str:
 
 def library_calls(package: Package, name: str) -> Iterator[Call]:
     """Yield the commands that make a library of some name, in order."""
-    for call in called(package, "add_library", "ament_auto_add_library", anywhere=True):
+    for call in package.calls("add_library", "ament_auto_add_library", anywhere=True):
         if call.args and evaluated_name(package, call.texts[0]) == name:
             yield call
 
@@ -94,7 +94,7 @@ def is_declared_shared(package: Package, name: str) -> bool:
 
 def library_registering(package: Package, made: Registration) -> str:
     """Return the library, tests aside, of which a source makes a class loadable; "" if there is none."""
-    path = relative(package, made.span.path)
+    path = package.relative(made.span.path)
     for target in package.built.targets:
         if target.kind == "library" and not target.test and path in target.sources:
             return target.name
@@ -116,7 +116,7 @@ _GENERATED = "__rosidl_"
 
 def install_arguments(package: Package) -> frozenset[str]:
     """Return every name among the arguments of install(): what stands there may be installed, whether or not it is seen."""
-    texts = {text for call in called(package, "install", anywhere=True) for text in call.texts}
+    texts = {text for call in package.calls("install", anywhere=True) for text in call.texts}
     return frozenset([name for text in texts if (name := evaluated_name(package, text))])
 
 

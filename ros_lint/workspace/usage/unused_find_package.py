@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from ros_lint.collectors.interfaces import naming as interface_names
 from ros_lint.facts.sources import Mention
 from ros_lint.facts.visibility import Facet
-from ros_lint.workspace.model import Package, relative
+from ros_lint.workspace.model import Package
 
 
 def unused_in_sight(package: Package) -> Iterator[Mention]:
@@ -41,7 +41,7 @@ _BY_SCRIPT = ("cmake", "target")
 def _reads_interfaces(package: Package) -> bool:
     """Whether all interface files are read that code is generated from, so that it is known what their fields are made of."""
     given = generated_from(package)
-    read = {relative(package, file.path) for file in package.interface_files if not file.problems}
+    read = {package.relative(file.path) for file in package.interface_files if not file.problems}
     return len(given) == len(package.built.interfaces) and given <= read and not package.hidden(Facet.INTERFACES)
 
 

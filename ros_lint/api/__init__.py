@@ -1,0 +1,90 @@
+"""Everything a rule may import: what a rule is and reports, the model that it reads, and seven namespaces of questions."""
+
+from ros_lint.analysis.finding import Confidence, Finding, Fix, Related, Severity
+from ros_lint.analysis.memo import cached_by_package, cached_by_workspace
+from ros_lint.analysis.rule import Rule
+from ros_lint.analysis.wording import first_related
+from ros_lint.api import build, dependencies, edits, files, graph, launch, names
+from ros_lint.base.edit import Edit
+from ros_lint.base.text import Span
+from ros_lint.collectors.python.versions import STANDARD_LIBRARY, too_new
+from ros_lint.facts.build import (
+    BuildScript,
+    Component,
+    InstalledFile,
+    PluginClass,
+    PluginFile,
+    PluginLibrary,
+    ScriptFile,
+    UninstalledImport,
+)
+from ros_lint.facts.cmake import BuildTarget, Call
+from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchFile, LaunchReference, LaunchValue
+from ros_lint.facts.manifest import Depend, Element, Manifest, Role
+from ros_lint.facts.setup_py import EditableList, EntryPoint, PythonModule
+from ros_lint.facts.sources import MachinePath, Mention, PluginLoader, Registration, Use
+from ros_lint.facts.suppressions import SuppressionUse
+from ros_lint.facts.visibility import ALL_FACETS, Facet, Opaque, Problem
+from ros_lint.knowledge.providers import Suggestion
+from ros_lint.workspace.model import Declared, Package, Workspace
+from ros_lint.workspace.target import TargetDistro
+
+__all__ = [
+    "ALL_FACETS",
+    "STANDARD_LIBRARY",
+    "BuildScript",
+    "BuildTarget",
+    "Call",
+    "Component",
+    "Confidence",
+    "Declared",
+    "Depend",
+    "Edit",
+    "EditableList",
+    "Element",
+    "EntryPoint",
+    "Facet",
+    "Finding",
+    "Fix",
+    "InstalledFile",
+    "LaunchAction",
+    "LaunchCondition",
+    "LaunchFile",
+    "LaunchReference",
+    "LaunchValue",
+    "MachinePath",
+    "Manifest",
+    "Mention",
+    "Opaque",
+    "Package",
+    "PluginClass",
+    "PluginFile",
+    "PluginLibrary",
+    "PluginLoader",
+    "Problem",
+    "PythonModule",
+    "Registration",
+    "Related",
+    "Role",
+    "Rule",
+    "ScriptFile",
+    "Severity",
+    "Span",
+    "Suggestion",
+    "SuppressionUse",
+    "TargetDistro",
+    "UninstalledImport",
+    "Use",
+    "Workspace",
+    "build",
+    "cached_by_package",
+    "cached_by_workspace",
+    "dependencies",
+    "edits",
+    "files",
+    "first_related",
+    "graph",
+    "launch",
+    "names",
+    "too_new",
+]

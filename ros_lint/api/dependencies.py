@@ -1,0 +1,97 @@
+"""Dependencies: what a package needs, what it declares, and the edits that repair the manifest."""
+
+from ros_lint.analysis.dependencies.declared_closure import declared_closure, provided_transitively
+from ros_lint.analysis.dependencies.find_package import (
+    find_package_closure,
+    finds_declared,
+    macro_packages,
+    names_searched,
+    partial_closure,
+)
+from ros_lint.analysis.dependencies.load_bearing import LostProvision, needed_transitively, unused_find_packages
+from ros_lint.analysis.dependencies.needs import Need, needs, optional_needs
+from ros_lint.analysis.dependencies.remedy import Remedy, availability_remark, is_unresolvable_key, naming_fix, remedy
+from ros_lint.analysis.dependencies.tags import add_dependency, change_dependency, remove_dependency, tag_for
+from ros_lint.analysis.dependencies.traceless import (
+    PYTHON_LIKE,
+    has_programs,
+    is_library,
+    is_mostly_runtime,
+    may_be_used_without_trace,
+    usage_is_visible,
+)
+from ros_lint.analysis.dependencies.undeclared import (
+    exists_in_any_distro,
+    is_declared_misspelled,
+    is_part_of_launch,
+    manifest_is_complete,
+    provided_in_other_distros,
+    undeclared,
+)
+from ros_lint.analysis.dependencies.unknown_closure import may_provide
+from ros_lint.analysis.dependencies.unresolved import (
+    UnresolvedDependency,
+    declared_names,
+    intended_names,
+    is_used_in_sources,
+    misspelled_names,
+    resembles_ament_package,
+    undeclared_match,
+    unresolved,
+)
+from ros_lint.collectors.manifest import conditions
+from ros_lint.workspace.usage.resolve import satisfying, used_names
+from ros_lint.workspace.usage.visibility import is_build_visible, is_fully_visible, is_traceless_by_name, name_suggests_no_trace
+
+__all__ = [
+    "PYTHON_LIKE",
+    "LostProvision",
+    "Need",
+    "Remedy",
+    "UnresolvedDependency",
+    "add_dependency",
+    "availability_remark",
+    "change_dependency",
+    "conditions",
+    "declared_closure",
+    "declared_names",
+    "exists_in_any_distro",
+    "find_package_closure",
+    "finds_declared",
+    "has_programs",
+    "intended_names",
+    "is_build_visible",
+    "is_declared_misspelled",
+    "is_fully_visible",
+    "is_library",
+    "is_mostly_runtime",
+    "is_part_of_launch",
+    "is_traceless_by_name",
+    "is_unresolvable_key",
+    "is_used_in_sources",
+    "macro_packages",
+    "manifest_is_complete",
+    "may_be_used_without_trace",
+    "may_provide",
+    "misspelled_names",
+    "name_suggests_no_trace",
+    "names_searched",
+    "naming_fix",
+    "needed_transitively",
+    "needs",
+    "optional_needs",
+    "partial_closure",
+    "provided_in_other_distros",
+    "provided_transitively",
+    "remedy",
+    "remove_dependency",
+    "resembles_ament_package",
+    "satisfying",
+    "tag_for",
+    "undeclared",
+    "undeclared_match",
+    "unresolved",
+    "unused_find_packages",
+    "usage_is_visible",
+    "used_names",
+]

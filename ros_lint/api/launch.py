@@ -1,0 +1,70 @@
+"""Launch files: what they start, include and set."""
+
+from typing import TYPE_CHECKING
+
+from ros_lint.analysis.launch.configurations import IncludeTree, read_sites, required_configurations
+from ros_lint.analysis.launch.files import (
+    InstalledPrograms,
+    PackageLaunchFile,
+    files_looked_up,
+    installed_programs,
+    is_excluded_from_install,
+    is_launch_file,
+    launch_suffix,
+    node_references,
+    nodes_started,
+    package_launch_files,
+    references_by_name,
+    rename_fix,
+    used_files,
+)
+from ros_lint.analysis.launch.includes import IncludeResolver, assigned_configurations, include_resolver, substitute
+from ros_lint.analysis.launch.parameter_files import NodeParameterFile, ParameterFiles
+from ros_lint.analysis.launch.runs import FailingExpression, PassedFile, expand_defaults, failing_expressions, passed_files
+from ros_lint.analysis.launch.scopes import PlacedInclude, ScopeLeaks, includes
+from ros_lint.collectors.launch.detect import LAUNCH_FILE_NAMES
+from ros_lint.collectors.symbolic_text import are_consistent, configurations, is_node_renaming, is_plain
+from ros_lint.facts.launch import values_of_action, walk_actions
+
+if TYPE_CHECKING:
+    from ros_lint.collectors.launch.expand import Started as Started  # noqa: PLC0414
+
+__all__ = [
+    "LAUNCH_FILE_NAMES",
+    "FailingExpression",
+    "IncludeResolver",
+    "IncludeTree",
+    "InstalledPrograms",
+    "NodeParameterFile",
+    "PackageLaunchFile",
+    "ParameterFiles",
+    "PassedFile",
+    "PlacedInclude",
+    "ScopeLeaks",
+    "are_consistent",
+    "assigned_configurations",
+    "configurations",
+    "expand_defaults",
+    "failing_expressions",
+    "files_looked_up",
+    "include_resolver",
+    "includes",
+    "installed_programs",
+    "is_excluded_from_install",
+    "is_launch_file",
+    "is_node_renaming",
+    "is_plain",
+    "launch_suffix",
+    "node_references",
+    "nodes_started",
+    "package_launch_files",
+    "passed_files",
+    "read_sites",
+    "references_by_name",
+    "rename_fix",
+    "required_configurations",
+    "substitute",
+    "used_files",
+    "values_of_action",
+    "walk_actions",
+]

@@ -1,0 +1,16 @@
+"""Names: similar names, and the words of a suggestion."""
+
+from ros_lint.base.suggestions import ask_if_meant, did_you_mean, shorten_list, similar_names
+from ros_lint.collectors.interfaces import naming as interfaces
+from ros_lint.knowledge.spelling import VENDOR, may_be_package, near_names
+
+__all__ = [
+    "VENDOR",
+    "ask_if_meant",
+    "did_you_mean",
+    "interfaces",
+    "may_be_package",
+    "near_names",
+    "shorten_list",
+    "similar_names",
+]
